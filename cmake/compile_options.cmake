@@ -1,0 +1,39 @@
+# What every target of the project is compiled with.
+#
+# -ffp-contract=off: a label must not depend on whether the compiler fused a multiplication with an addition, so that
+# the scalar evaluator, every SIMD width and the generated GLSL agree bit for bit.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_C_STANDARD 99)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_C_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+    set(CMAKE_BUILD_TYPE Release CACHE STRING "Release, Debug, RelWithDebInfo" FORCE)
+endif()
+
+option(PHASETREE_WERROR "Treat warnings as errors" ${PROJECT_IS_TOP_LEVEL})
+set(PHASETREE_SANITIZE "" CACHE STRING "Sanitizers to build with: address;undefined or thread")
+
+find_program(PHASETREE_CCACHE ccache)
+if(PHASETREE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+    set(CMAKE_CXX_COMPILER_LAUNCHER "${PHASETREE_CCACHE}")
+    set(CMAKE_C_COMPILER_LAUNCHER "${PHASETREE_CCACHE}")
+endif()
+
+add_library(phasetree_options INTERFACE)
+target_compile_options(phasetree_options INTERFACE
+    -ffp-contract=off
+    $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wshadow>
+    $<$<BOOL:${PHASETREE_WERROR}>:-Werror>)
+
+if(PHASETREE_SANITIZE)
+    list(JOIN PHASETREE_SANITIZE "," sanitizers)
+    add_compile_options(-fsanitize=${sanitizers} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+    add_link_options(-fsanitize=${sanitizers})
+endif()
