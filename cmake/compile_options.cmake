@@ -27,7 +27,14 @@ if(PHASETREE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 
 add_library(phasetree_options INTERFACE)
+# GCC 12 sees overlapping copies in std::string that are not there (its bug 105651).
+set(quiet "")
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    set(quiet $<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict>)
+endif()
+
 target_compile_options(phasetree_options INTERFACE
+    ${quiet}
     -ffp-contract=off
     $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wshadow>
     $<$<BOOL:${PHASETREE_WERROR}>:-Werror>)

@@ -1,0 +1,144 @@
+# shellcheck shell=bash
+# What the build needs of the system, and how it gets there. Sourced by tracer/quickstart.sh and tests/run.sh.
+#
+# On Debian and Ubuntu missing packages are installed with apt, through sudo when not root. Where that is impossible
+# the scripts go on with what is there: libraries built by hand are as good, and CMake is the judge of that. Only when
+# CMake does not find them does the message name the packages.
+
+# The repository.
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
+
+packages_to_build=(g++ cmake ninja-build pkg-config ccache libembree-dev libopenimageio-dev openimageio-tools
+    libopencolorio-dev libtbb-dev libglm-dev libhwy-dev nlohmann-json3-dev libcli11-dev libfmt-dev)
+# shellcheck disable=SC2034 # the scripts use it
+packages_to_test=("${packages_to_build[@]}" doctest-dev)
+
+# Why packages could not be installed, and which; empty when all are there.
+packages_problem=
+packages_absent=()
+
+say() { printf '%s\n' "$*" >&2; }
+
+# as_root COMMAND…: sudo drops the environment, so what apt needs of it is set behind sudo.
+as_root() {
+    local sudo=()
+    [ "$(id -u)" -eq 0 ] || sudo=(sudo)
+    "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive NEEDRESTART_MODE=a "$@"
+}
+
+# twice COMMAND…: a mirror that is being updated, or a dropped connection, is well a few seconds later.
+twice() { "$@" || { sleep 5 && "$@"; }; }
+
+# missing_packages NAME…: those of them that are not installed, one a line.
+missing_packages() {
+    local name
+    for name in "$@"; do
+        [ "$(dpkg-query -W -f '${db:Status-Status}' "$name" 2>/dev/null)" = installed ] || printf '%s\n' "$name"
+    done
+}
+
+# install_packages LOG NAME…: asks apt for nothing when all of them are there. Never fails: see packages_problem.
+install_packages() {
+    local log=$1 missing
+    shift
+    if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+        packages_absent=("$@")
+        packages_problem="This system has no apt: please install them, or the same libraries from elsewhere, another way."
+        return
+    fi
+    mapfile -t missing < <(missing_packages "$@")
+    [ ${#missing[@]} -gt 0 ] || return 0
+    packages_absent=("${missing[@]}")
+    if [ "$(id -u)" -ne 0 ] && ! command -v sudo >/dev/null; then
+        packages_problem="Installing them takes root, and there is no sudo."
+        return
+    fi
+    say "Installing ${missing[*]} …"
+    mkdir -p "$(dirname "$log")"
+    # A fresh machine may be busy with its own upgrade: wait for it instead of failing. A source list that cannot be
+    # fetched is not the end: the packages may come from another.
+    local apt=(apt-get -qq -o DPkg::Lock::Timeout=600)
+    twice as_root "${apt[@]}" update >"$log" 2>&1 || true
+    if ! twice as_root "${apt[@]}" install -y --no-install-recommends "${missing[@]}" >>"$log" 2>&1; then
+        tail -n 15 "$log" >&2
+        packages_problem="apt could not install them: see above, and the whole of it in $log."
+        if grep -q 'Unable to locate package' "$log" && grep -qi '^ID=ubuntu' /etc/os-release 2>/dev/null; then
+            packages_problem+=" They are in Ubuntu's \"universe\": sudo add-apt-repository universe"
+        fi
+    fi
+}
+
+# configure PRESET: runs CMake's configure step; on failure shows what CMake said and, if packages are missing, which.
+# Libraries from elsewhere are named as CMake wants it: CMAKE_PREFIX_PATH=/opt/embree bash tests/run.sh.
+configure() {
+    local preset=$1 directory="$root/build/$1" log="$root/build/$1/configure.log" generator=()
+    mkdir -p "$directory"
+    if ! command -v cmake >/dev/null; then
+        say "cmake is not installed."
+        name_packages
+        return 1
+    fi
+    if ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$directory/CMakeCache.txt" 2>/dev/null; then
+        # There is none, or the repository was moved or is mounted elsewhere and CMake would refuse the old cache.
+        rm -rf "$directory/CMakeCache.txt" "$directory/CMakeFiles"
+        # Ninja is quicker when little has changed; where it is not installed CMake takes make.
+        ! command -v ninja >/dev/null || generator=(-G Ninja)
+    fi
+    if ! (cd "$root" && cmake --preset "$preset" "${generator[@]}") >"$log" 2>&1; then
+        cat "$log" >&2
+        name_packages
+        return 1
+    fi
+}
+
+name_packages() {
+    [ -n "$packages_problem" ] || return 0
+    say
+    say "These packages are not installed (they are named as on Debian and Ubuntu):"
+    say "    ${packages_absent[*]}"
+    say "$packages_problem"
+}
+
+# How many compilers at a time: one a core, and 2 GB of free memory for each.
+build_jobs() {
+    local cores memory
+    cores=$(nproc 2>/dev/null || getconf _NPROCESSORS_ONLN)
+    memory=$(awk '/^MemAvailable:/ { print int($2 / 2097152) }' /proc/meminfo 2>/dev/null)
+    memory=${memory:-$cores}
+    [ "$memory" -ge 1 ] || memory=1
+    echo $((memory < cores ? memory : cores))
+}
+
+# build PRESET [TARGET]: a line of progress on the terminal (every ten per cent elsewhere), the rest in the log, and of a
+# failed build what the compiler said.
+build() {
+    local preset=$1 log="$root/build/$1/build.log" target=()
+    [ $# -lt 2 ] || target=(--target "$2")
+    if (cd "$root" && NINJA_STATUS='[%p] ' cmake --build --preset "$preset" --parallel "$(build_jobs)" "${target[@]}") 2>&1 |
+        tee "$log" | show_percent; then
+        return 0
+    fi
+    awk '/^FAILED:|error:|Error [0-9]/ { found = 1 } found' "$log" | head -n 60 >&2
+    say "The build failed; all of its output is in $log"
+    return 1
+}
+
+# Reads ninja's (NINJA_STATUS above) and make's "[ 15%] …" lines.
+show_percent() {
+    local line last=-1 terminal=
+    [ ! -t 2 ] || terminal=yes
+    while IFS= read -r line; do
+        [[ $line =~ ^\[\ *([0-9]+)%\] ]] || continue
+        local percent=${BASH_REMATCH[1]}
+        if [ "$terminal" ] && [ "$percent" -ne "$last" ]; then
+            printf '\rBuilding %3d%%' "$percent" >&2
+            last=$percent
+        elif [ ! "$terminal" ] && [ $((percent / 10)) -ne $((last / 10)) ]; then
+            say "Building $percent%"
+            last=$percent
+        fi
+    done
+    if [ "$terminal" ] && [ "$last" -ge 0 ]; then
+        printf '\r             \r' >&2
+    fi
+}

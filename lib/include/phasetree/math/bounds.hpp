@@ -1,0 +1,70 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
+
+namespace phasetree {
+
+/// An axis-aligned box, closed; empty when low > high on some axis, and possibly infinite.
+struct Bounds {
+    static constexpr float infinity = std::numeric_limits<float>::infinity();
+
+    glm::vec3 low{infinity};
+    glm::vec3 high{-infinity};
+
+    static Bounds everything() { return {glm::vec3(-infinity), glm::vec3(infinity)}; }
+    /// The box of half extents h about the origin; empty for a negative extent.
+    static Bounds centred(const glm::vec3& h) { return {-h, h}; }
+
+    bool empty() const { return !(low.x <= high.x && low.y <= high.y && low.z <= high.z); }
+    bool finite() const {
+        for (int i = 0; i < 3; ++i)
+            if (!std::isfinite(low[i]) || !std::isfinite(high[i])) return false;
+        return true;
+    }
+    glm::vec3 centre() const { return (low + high) * 0.5f; }
+    glm::vec3 extent() const { return high - low; }
+    float diagonal() const { return glm::length(extent()); }
+    bool contains(const glm::vec3& p) const {
+        return p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x <= high.x && p.y <= high.y && p.z <= high.z;
+    }
+    /// Grown by d on every side; an empty box stays empty.
+    Bounds inflated(float d) const {
+        if (empty()) return {};
+        return {low - d, high + d};
+    }
+    glm::vec3 corner(int i) const {
+        return {(i & 1) ? high.x : low.x, (i & 2) ? high.y : low.y, (i & 4) ? high.z : low.z};
+    }
+};
+
+inline Bounds unite(const Bounds& a, const Bounds& b) {
+    if (a.empty()) return b;
+    if (b.empty()) return a;
+    return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
+}
+
+inline Bounds intersect(const Bounds& a, const Bounds& b) {
+    const Bounds c{glm::max(a.low, b.low), glm::min(a.high, b.high)};
+    return c.empty() ? Bounds{} : c;
+}
+
+/// The box of a box under a map that takes boxes' corners to the image's extremes (any affine map).
+template <class Map>
+Bounds image_of_corners(const Bounds& box, Map&& map) {
+    if (box.empty()) return {};
+    if (!box.finite()) return Bounds::everything();
+    Bounds result;
+    for (int i = 0; i < 8; ++i) {
+        const glm::vec3 p = map(box.corner(i));
+        result = unite(result, {p, p});
+    }
+    return result;
+}
+
+}  // namespace phasetree

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "phasetree/math/number.hpp"
+
+namespace phasetree {
+
+/// A point or direction over any number type. The order of operations is fixed, see number.hpp.
+template <class T>
+struct Vec3 {
+    T x, y, z;
+};
+
+template <class T>
+Vec3<T> operator+(const Vec3<T>& a, const Vec3<T>& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class T>
+Vec3<T> operator-(const Vec3<T>& a, const Vec3<T>& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class T>
+Vec3<T> operator+(const Vec3<T>& a, const glm::vec3& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class T>
+Vec3<T> operator-(const Vec3<T>& a, const glm::vec3& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class T>
+Vec3<T> operator*(const Vec3<T>& a, float k) {
+    return {a.x * k, a.y * k, a.z * k};
+}
+template <class T>
+T dot(const Vec3<T>& a, const Vec3<T>& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class T>
+T dot(const Vec3<T>& a, const glm::vec3& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class T>
+T length(const Vec3<T>& a) {
+    return sqrt(dot(a, a));
+}
+/// Length of the vector (x, y).
+template <class T>
+T length(const T& x, const T& y) {
+    return sqrt(x * x + y * y);
+}
+
+}  // namespace phasetree

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <type_traits>
+
+#include "phasetree/model/handle.hpp"
+
+namespace phasetree {
+
+/// A list of types, the form in which the nodes are enumerated.
+template <class... Ts>
+struct TypeList {
+    static constexpr std::size_t size = sizeof...(Ts);
+};
+
+/// A primitive is a plain struct of floats with a distance template; the program evaluates it as one instruction.
+template <class N>
+concept Primitive = std::is_trivially_copyable_v<N> && requires(const N& n, const Vec3<float>& p) {
+    { n.distance(p) } -> std::same_as<float>;
+};
+
+/// A map of space: a plain struct of floats, p ↦ ω⁻¹(p), one instruction.
+template <class M>
+concept PointMap = std::is_trivially_copyable_v<M> && requires(const M& m, const Vec3<float>& p) {
+    { m(p) } -> std::same_as<Vec3<float>>;
+};
+
+/// Calls `n.prepare()` if the node has something to derive from its parameters.
+template <class N>
+void prepare(N& n) {
+    if constexpr (requires { n.prepare(); }) n.prepare();
+}
+
+}  // namespace phasetree

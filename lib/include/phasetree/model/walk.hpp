@@ -1,0 +1,36 @@
+#pragma once
+
+#include "phasetree/nodes/node.hpp"
+
+namespace phasetree {
+
+/// Evaluates a tree by walking it, over any number type: the definition of what a tree means.
+template <class T>
+struct Walk {
+    using Scalar = T;
+    using Point = Vec3<T>;
+
+    T field(const Field& f, const Point& p) const {
+        return std::visit(
+            [&](const auto& n) {
+                if constexpr (requires { n.distance(p); })
+                    return n.distance(p);
+                else
+                    return n.evaluate(*this, p);
+            },
+            f.node()->node);
+    }
+    Phases<T> phases(const Phased& a, const Point& p) const {
+        return std::visit([&](const auto& n) { return n.evaluate(*this, p); }, a.node()->node);
+    }
+    template <Primitive P>
+    T primitive(const P& primitive, const Point& p) const {
+        return primitive.distance(p);
+    }
+    template <PointMap M>
+    Point map(const M& m, const Point& p, float /*lipschitz*/) const {
+        return m(p);
+    }
+};
+
+}  // namespace phasetree

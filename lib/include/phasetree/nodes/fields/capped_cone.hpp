@@ -1,0 +1,56 @@
+#pragma once
+
+#include "phasetree/model/concepts.hpp"
+
+namespace phasetree {
+
+/// The profile is a trapezium in (ρ, z), ρ = |pxy|. Outside and inside, the distance is that to the nearer of its
+/// two edges that bound the solid: the cap (a disk) and the slanted side (a segment); the sign is that of the
+/// larger of the two half-space values.
+struct CappedCone {
+    static constexpr bool is_field_node = true;
+    static constexpr NodeInfo info{"capped_cone", "", "± min(distance to the caps, distance to the slanted side)",
+                                   "A truncated cone about the z axis, centred at the origin; exact."};
+    float radius_bottom = 1;
+    float radius_top = 0;
+    float height = 2;
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&CappedCone::radius_bottom,
+          Parameter{"radius_bottom", "m", "Radius at z = −height/2.", limits::non_negative});
+        v(&CappedCone::radius_top, Parameter{"radius_top", "m", "Radius at z = height/2.", limits::non_negative});
+        v(&CappedCone::height, Parameter{"height", "m", "Whole height.", limits::positive});
+    }
+    void prepare() const {
+        if (radius_bottom == 0 && radius_top == 0) throw ModelError("capped_cone: both radii are zero");
+    }
+    template <class T>
+    T distance(const Vec3<T>& p) const {
+        const T zero(0.f);
+        const float h = height * 0.5f;
+        const T rho = length(p.x, p.y);
+        // To the nearer cap: a disk of its own radius.
+        const T cap_radius = select(less(p.z, zero), T(radius_bottom), T(radius_top));
+        const T cap_out = max(rho - cap_radius, zero);
+        const T cap_z = abs(p.z) - h;
+        const T to_cap = cap_out * cap_out + cap_z * cap_z;
+        // To the side: the segment from (radius_top, h) to (radius_bottom, −h).
+        const float ex = radius_bottom - radius_top, ez = -height;
+        const float inverse = 1.f / (ex * ex + ez * ez);
+        const T qx = rho - radius_top, qz = p.z - h;
+        const T s = clamp((qx * ex + qz * ez) * inverse, zero, T(1.f));
+        const T sx = qx - s * ex, sz = qz - s * ez;
+        const T to_side = sx * sx + sz * sz;
+        // Inside iff within the slab and on the axis' side of the slanted line.
+        const T side = max(cap_z, qx * -ez + qz * ex);
+        const T d = sqrt(min(to_cap, to_side));
+        return select(less(side, zero), -d, d);
+    }
+    Bounds bounds(BoundsQuery&, float level) const {
+        const float r = std::max(radius_bottom, radius_top) + level;
+        return Bounds::centred({r, r, height * 0.5f + level});
+    }
+};
+
+}  // namespace phasetree

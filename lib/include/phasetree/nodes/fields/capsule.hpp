@@ -1,0 +1,35 @@
+#pragma once
+
+#include "phasetree/model/concepts.hpp"
+
+namespace phasetree {
+
+struct Capsule {
+    static constexpr bool is_field_node = true;
+    static constexpr NodeInfo info{"capsule", "", "|p − nearest point of the segment| − r",
+                                   "All points within r of a segment; exact."};
+    glm::vec3 from{0, 0, -1};
+    glm::vec3 to{0, 0, 1};
+    float radius = 0.5f;
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&Capsule::from, Parameter{"from", "m", "One end of the segment."});
+        v(&Capsule::to, Parameter{"to", "m", "The other end."});
+        v(&Capsule::radius, Parameter{"radius", "m", "Radius.", limits::positive});
+    }
+    template <class T>
+    T distance(const Vec3<T>& p) const {
+        const glm::vec3 axis = to - from;
+        const float squared = glm::dot(axis, axis);
+        const Vec3<T> q = p - from;
+        const T s = clamp(dot(q, axis) * (squared > 0 ? 1.f / squared : 0.f), T(0.f), T(1.f));
+        return length(Vec3<T>{q.x - s * axis.x, q.y - s * axis.y, q.z - s * axis.z}) - radius;
+    }
+    Bounds bounds(BoundsQuery&, float level) const {
+        if (radius + level < 0) return {};
+        return Bounds{glm::min(from, to), glm::max(from, to)}.inflated(radius + level);
+    }
+};
+
+}  // namespace phasetree

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "phasetree/model/concepts.hpp"
+
+namespace phasetree {
+
+struct Plane {
+    static constexpr bool is_field_node = true;
+    static constexpr NodeInfo info{"plane", "", "p·n − d",
+                                   "The half-space below a plane: the solid is where p·n < d; exact."};
+    glm::vec3 normal{0, 0, 1};
+    float offset = 0;
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&Plane::normal,
+          Parameter{"normal", "", "Direction that points out of the solid; any length but zero.", limits::any, true});
+        v(&Plane::offset,
+          Parameter{"offset", "m", "Distance of the plane from the origin along the normal.", limits::any, true});
+    }
+    void prepare() {
+        const float l = glm::length(normal);
+        if (!(l > 0)) throw ModelError("plane: the normal has no direction");
+        if (std::abs(l - 1) > 1e-6f) normal /= l;
+    }
+    template <class T>
+    T distance(const Vec3<T>& p) const {
+        return dot(p, normal) - offset;
+    }
+    /// Infinite, but for the side that an axis-parallel plane bounds.
+    Bounds bounds(BoundsQuery&, float level) const {
+        Bounds b = Bounds::everything();
+        for (int i = 0; i < 3; ++i) {
+            if (normal[i] == 1.f) b.high[i] = offset + level;
+            if (normal[i] == -1.f) b.low[i] = -(offset + level);
+        }
+        return b;
+    }
+};
+
+}  // namespace phasetree

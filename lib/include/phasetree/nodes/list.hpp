@@ -1,0 +1,105 @@
+#pragma once
+
+/// The one list of nodes. A new node is its own file, an #include and an entry here; the evaluators, the program, the
+/// scene format, the node reference and the tests over all nodes follow.
+
+#include <variant>
+
+#include "phasetree/nodes/fields/box.hpp"
+#include "phasetree/nodes/fields/capped_cone.hpp"
+#include "phasetree/nodes/fields/capsule.hpp"
+#include "phasetree/nodes/fields/cylinder.hpp"
+#include "phasetree/nodes/fields/difference.hpp"
+#include "phasetree/nodes/fields/intersection.hpp"
+#include "phasetree/nodes/fields/merge.hpp"
+#include "phasetree/nodes/fields/offset.hpp"
+#include "phasetree/nodes/fields/plane.hpp"
+#include "phasetree/nodes/fields/rounded_box.hpp"
+#include "phasetree/nodes/fields/shell.hpp"
+#include "phasetree/nodes/fields/smooth_difference.hpp"
+#include "phasetree/nodes/fields/smooth_intersection.hpp"
+#include "phasetree/nodes/fields/smooth_union.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/fields/torus.hpp"
+#include "phasetree/nodes/fields/union.hpp"
+#include "phasetree/nodes/phased/change.hpp"
+#include "phasetree/nodes/phased/intersect_shape.hpp"
+#include "phasetree/nodes/phased/layered.hpp"
+#include "phasetree/nodes/phased/over.hpp"
+#include "phasetree/nodes/phased/remove.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/nodes/phased/subtract_shape.hpp"
+#include "phasetree/nodes/phased/thin_shell.hpp"
+#include "phasetree/nodes/phased/under.hpp"
+#include "phasetree/nodes/warps/rotate.hpp"
+#include "phasetree/nodes/warps/scale.hpp"
+#include "phasetree/nodes/warps/translate.hpp"
+#include "phasetree/nodes/warps/twist.hpp"
+
+namespace phasetree {
+
+using Warps = TypeList<Translate, Rotate, Scale, Twist>;
+
+using PlainFields = TypeList<Sphere, Box, RoundedBox, Cylinder, CappedCone, Capsule, Torus, Plane, Union, Intersection,
+                             Difference, SmoothUnion, SmoothIntersection, SmoothDifference, Offset, Shell, Merge>;
+
+using Objects = TypeList<Set, ThinShell, Under, Over, Layered, IntersectShape, SubtractShape, Change, Remove>;
+
+// What follows is derived.
+
+namespace detail {
+template <class... Lists>
+struct Concat;
+template <class... As>
+struct Concat<TypeList<As...>> {
+    using type = TypeList<As...>;
+};
+template <class... As, class... Bs, class... Rest>
+struct Concat<TypeList<As...>, TypeList<Bs...>, Rest...> : Concat<TypeList<As..., Bs...>, Rest...> {};
+
+template <template <class> class Wrap, class List>
+struct Map;
+template <template <class> class Wrap, class... Ts>
+struct Map<Wrap, TypeList<Ts...>> {
+    using type = TypeList<Wrap<Ts>...>;
+};
+
+template <class List>
+struct OnlyPrimitives;
+template <class... Ts>
+struct OnlyPrimitives<TypeList<Ts...>>
+    : Concat<TypeList<>, std::conditional_t<Primitive<Ts>, TypeList<Ts>, TypeList<>>...> {};
+
+template <class List>
+struct Variant;
+template <class... Ts>
+struct Variant<TypeList<Ts...>> {
+    using type = std::variant<Ts...>;
+};
+
+template <class W>
+using MapOf = typename W::Map;
+}  // namespace detail
+
+using FieldNodes = detail::Concat<PlainFields, detail::Map<WarpedField, Warps>::type>::type;
+using PhasedNodes = detail::Concat<Objects, detail::Map<WarpedPhased, Warps>::type>::type;
+
+/// The primitives, each one instruction of the program; a local warp's bound is one too.
+using Primitives = detail::Concat<TypeList<BoundingBox>, detail::OnlyPrimitives<PlainFields>::type>::type;
+/// The maps of space, each one instruction.
+using PointMaps = detail::Map<detail::MapOf, Warps>::type;
+
+/// Calls f.template operator()<T>() for each type of a list.
+template <class... Ts, class F>
+void for_each_type(TypeList<Ts...>, F&& f) {
+    (f.template operator()<Ts>(), ...);
+}
+
+template <class T, class... Ts>
+constexpr std::size_t index_in(TypeList<Ts...>) {
+    std::size_t i = 0;
+    (void)((std::is_same_v<T, Ts> ? true : (++i, false)) || ...);
+    return i;
+}
+
+}  // namespace phasetree

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "phasetree/nodes/phased/combine.hpp"
+
+/// What intersection and difference with a shape share, for all phases or for some (paper, Section 5.1).
+///
+/// The vacuum grows by what is cut away: φ₀ = min(a₀, max(aₖ, g) over the cut phases k), g = −f of what is kept
+/// being the inside of what goes. For all phases that is min(a₀, g), because outside them the point is vacuum anyway.
+namespace phasetree::detail {
+
+/// Keeps of the chosen phases what lies where kept ≤ 0.
+template <class S>
+Phases<S> cut(const Phases<S>& a, const S& kept, PhaseSet chosen) {
+    Phases<S> result;
+    if (chosen.empty() || (a.materials() & ~chosen.bits) == 0) {
+        const S gone = -kept;
+        result.set(0, a.has(0) ? min(a[0], gone) : gone);
+        for_each_phase(a.materials(), [&](int i) { result.set(i, max(a[i], kept)); });
+        return result;
+    }
+    result = a;
+    for_each_phase(a.materials() & chosen.bits, [&](int i) {
+        const S gone = max(a[i], -kept);
+        result.set(0, result.has(0) ? min(result[0], gone) : gone);
+        result.set(i, max(a[i], kept));
+    });
+    return result;
+}
+
+inline constexpr Parameter cut_object{"of", "", "The object."};
+inline constexpr Parameter cut_phases{"phases", "", "The phases that are cut; all if left out.", limits::any, true};
+
+}  // namespace phasetree::detail

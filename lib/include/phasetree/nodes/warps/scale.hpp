@@ -1,0 +1,29 @@
+#pragma once
+
+#include "phasetree/nodes/warps/warped.hpp"
+
+namespace phasetree {
+
+struct Scale {
+    static constexpr NodeInfo info{"scale", "6", "s · φ(p / s)",
+                                   "Makes larger or smaller by the same factor everywhere."};
+    float factor = 1;
+
+    struct Map {
+        float inverse;
+        template <class T>
+        Vec3<T> operator()(const Vec3<T>& p) const {
+            return p * inverse;
+        }
+    };
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&Scale::factor, Parameter{"factor", "", "The factor.", limits::positive});
+    }
+    Map map() const { return {1.f / factor}; }
+    float value_scale() const { return factor; }
+    Bounds image(const Bounds& b) const { return b.empty() ? b : Bounds{b.low * factor, b.high * factor}; }
+};
+
+}  // namespace phasetree

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "phasetree/nodes/warps/warped.hpp"
+
+namespace phasetree {
+
+struct Translate {
+    static constexpr NodeInfo info{"translate", "6", "φ(p − v)", "Moves without turning."};
+    glm::vec3 by{0};
+
+    struct Map {
+        glm::vec3 by;
+        template <class T>
+        Vec3<T> operator()(const Vec3<T>& p) const {
+            return p - by;
+        }
+    };
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&Translate::by, Parameter{"by", "m", "Where the origin goes."});
+    }
+    Map map() const { return {by}; }
+    float value_scale() const { return 1; }
+    Bounds image(const Bounds& b) const { return b.empty() ? b : Bounds{b.low + by, b.high + by}; }
+};
+
+}  // namespace phasetree

@@ -1,0 +1,130 @@
+#pragma once
+
+#include "phasetree/nodes/fields/box.hpp"
+
+/// A warp deforms space: ω(A) has Φ(p) = Φ_A(ω⁻¹(p)) / λ with λ ≥ sup ‖J of ω⁻¹‖ (paper, Section 6). A warp is written
+/// once, as a struct with its parameters and
+///     Map map() const                 p ↦ ω⁻¹(p), a PointMap: one instruction of the program
+///     float value_scale() const       1/λ
+///     Bounds image(Bounds) const      a box around ω(box)
+/// and serves plain fields and objects alike through Warped<Warp, Child>.
+///
+/// Where ‖J‖ is bounded only on a part of space (`local`), the warp gets the child's bounds first through
+///     void fit(const Bounds& child)   throws ModelError if the child is unbounded
+///     float margin() const            D below, in metres
+/// and the sup is taken over the bounds grown by D/2. Outside, the field is that of a bounding box b: 1-Lipschitz by
+///     φᵢ ← max(b, min(φᵢ, D − b)),   φ₀ ← min(−b, max(φ₀, b − D)),
+/// which equals b wherever b ≥ D/2, so what the warped field does there is of no consequence.
+namespace phasetree {
+
+template <class W>
+concept LocalWarp = requires {
+    W::local;
+};
+
+/// Distance to a box that stands anywhere: the bound of a local warp.
+struct BoundingBox {
+    glm::vec3 centre{0};
+    glm::vec3 half{1};
+
+    template <class T>
+    T distance(const Vec3<T>& p) const {
+        return box_distance(p - centre, half);
+    }
+};
+
+namespace detail {
+template <class S>
+S confine(const S& value, const S& b, float margin) {
+    return max(b, min(value, margin - b));
+}
+template <class S>
+S confine_vacuum(const S& value, const S& b, float margin) {
+    return min(-b, max(value, b - margin));
+}
+}  // namespace detail
+
+template <class Warp, class Child>
+struct Warped {
+    static constexpr NodeInfo info = Warp::info;
+    static constexpr bool for_fields = std::is_same_v<Child, Field>;
+    Warp warp;
+    Child of;
+    BoundingBox bound;  ///< local warps only
+
+    template <class V>
+    static void parameters(V&& v) {
+        Warp::parameters([&](auto member, const Parameter& p) { v(Through<decltype(member)>{member}, p); });
+        v(&Warped::of, Parameter{"of", "", "What is warped: a field or an object."});
+    }
+    /// Reaches a member of the warp from the node.
+    template <class Member>
+    struct Through {
+        Member member;
+        friend decltype(auto) access(auto& node, Through t) { return (node.warp.*(t.member)); }
+    };
+
+    void prepare() {
+        phasetree::prepare(warp);
+        if constexpr (LocalWarp<Warp>) {
+            const Bounds inner = phasetree::bounds(of);
+            if (!inner.finite()) throw ModelError(std::string(info.name) + ": what is warped must be bounded");
+            warp.fit(inner);
+            const Bounds outer = warp.image(inner);
+            bound = {outer.centre(), outer.extent() * 0.5f};
+        }
+    }
+    template <class D>
+    auto evaluate(D& d, const typename D::Point& p) const {
+        const typename D::Point q = d.map(warp.map(), p, 1.f / warp.value_scale());
+        const float k = warp.value_scale();
+        const auto scaled = [&](const auto& value) { return k == 1.f ? value : value * k; };
+        if constexpr (for_fields) {
+            auto f = scaled(d.field(of, q));
+            if constexpr (LocalWarp<Warp>) f = detail::confine(f, d.primitive(bound, p), warp.margin());
+            return f;
+        } else {
+            auto a = d.phases(of, q);
+            for_each_phase(a.present, [&](int i) { a.set(i, scaled(a[i])); });
+            if constexpr (LocalWarp<Warp>) {
+                const auto b = d.primitive(bound, p);
+                for_each_phase(a.present, [&](int i) {
+                    a.set(i, i == 0 ? detail::confine_vacuum(a[i], b, warp.margin())
+                                    : detail::confine(a[i], b, warp.margin()));
+                });
+            }
+            return a;
+        }
+    }
+    Bounds bounds(BoundsQuery& q, float level) const {
+        if constexpr (LocalWarp<Warp>) {
+            // max(b, ·) ≤ level lies within b ≤ level, and a box's field is exact outside.
+            const glm::vec3 half = bound.half + level;
+            return Bounds{bound.centre - half, bound.centre + half};
+        } else {
+            return warp.image(q(of, level / warp.value_scale()));
+        }
+    }
+};
+
+/// Gives a warped node its kind without repeating the struct.
+template <class Warp>
+struct WarpedField : Warped<Warp, Field> {
+    static constexpr bool is_field_node = true;
+};
+template <class Warp>
+struct WarpedPhased : Warped<Warp, Phased> {
+    static constexpr bool is_phased_node = true;
+};
+
+/// `warped(Translate{{1, 0, 0}}, ball)`: the usual way to apply a warp.
+template <class Warp>
+Field warped(Warp warp, Field child) {
+    return WarpedField<Warp>{{warp, std::move(child), {}}};
+}
+template <class Warp>
+Phased warped(Warp warp, Phased child) {
+    return WarpedPhased<Warp>{{warp, std::move(child), {}}};
+}
+
+}  // namespace phasetree

@@ -1,0 +1,11 @@
+#pragma once
+
+/// PhaseTree: multiphase signed distance fields. This header is the model, its program and tracing; scene files are in
+/// phasetree/reading, Embree geometry in phasetree/embree.hpp.
+
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/node.hpp"
+#include "phasetree/program/evaluator.hpp"
+#include "phasetree/program/program.hpp"
+#include "phasetree/trace/tracer.hpp"
+#include "phasetree/version.hpp"

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <concepts>
+#include <initializer_list>
+#include <optional>
+#include <ranges>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace phasetree {
+
+/// The candidate a misspelt word was most likely meant to be, or nothing when none is near. Upper and lower case of
+/// ASCII letters count as equal. Of equally near candidates the first wins.
+std::optional<std::string> closest(std::string_view word, std::span<const std::string_view> candidates);
+
+inline std::optional<std::string> closest(std::string_view word, std::initializer_list<std::string_view> candidates) {
+    return closest(word, std::span(candidates.begin(), candidates.size()));
+}
+
+/// The same for any range of strings that outlives the call.
+template <std::ranges::input_range Strings>
+requires std::convertible_to<std::ranges::range_reference_t<const Strings>, std::string_view> &&
+    (std::is_reference_v<std::ranges::range_reference_t<const Strings>> ||
+     std::same_as<std::ranges::range_reference_t<const Strings>, std::string_view>)
+        std::optional<std::string> closest(std::string_view word, const Strings& candidates) {
+    std::vector<std::string_view> views;
+    for (const auto& candidate : candidates) views.emplace_back(candidate);
+    return closest(word, std::span<const std::string_view>(views));
+}
+
+}  // namespace phasetree

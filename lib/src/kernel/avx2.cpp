@@ -1,0 +1,2 @@
+#define PHASETREE_KERNEL kernel_avx2
+#include "kernel/kernel.inl"

@@ -1,0 +1,2 @@
+#define PHASETREE_KERNEL kernel_avx512
+#include "kernel/kernel.inl"

@@ -1,0 +1,2 @@
+#define PHASETREE_KERNEL kernel_baseline
+#include "kernel/kernel.inl"

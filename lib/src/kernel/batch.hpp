@@ -1,0 +1,118 @@
+#pragma once
+
+/// The number type of a kernel: sixteen floats in as many SIMD registers as the instruction set needs. Everything is
+/// in a namespace of the instruction set, so that the linker cannot mix two of them.
+
+#include <hwy/highway.h>
+
+#include "phasetree/math/number.hpp"
+
+namespace phasetree::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Tag = hn::CappedTag<float, 16>;
+using Register = hn::Vec<Tag>;
+using RegisterMask = hn::Mask<Tag>;
+inline constexpr std::size_t width = hn::MaxLanes(Tag());
+inline constexpr std::size_t parts = 16 / width;
+
+#define PHASETREE_EACH for (std::size_t i = 0; i < parts; ++i)
+
+struct Batch {
+    Register v[parts];
+
+    Batch() = default;
+    HWY_INLINE explicit Batch(float value) { PHASETREE_EACH v[i] = hn::Set(Tag(), value); }
+};
+
+struct BatchMask {
+    RegisterMask m[parts];
+};
+
+HWY_INLINE Batch load(const float* from) {
+    Batch r;
+    PHASETREE_EACH r.v[i] = hn::Load(Tag(), from + i * width);
+    return r;
+}
+HWY_INLINE void store(const Batch& a, float* to) {
+    PHASETREE_EACH hn::Store(a.v[i], Tag(), to + i * width);
+}
+
+template <class F>
+HWY_INLINE Batch each(F&& f) {
+    Batch r;
+    PHASETREE_EACH r.v[i] = f(i);
+    return r;
+}
+
+HWY_INLINE Batch operator+(const Batch& a, const Batch& b) {
+    return each([&](std::size_t i) { return hn::Add(a.v[i], b.v[i]); });
+}
+HWY_INLINE Batch operator-(const Batch& a, const Batch& b) {
+    return each([&](std::size_t i) { return hn::Sub(a.v[i], b.v[i]); });
+}
+HWY_INLINE Batch operator*(const Batch& a, const Batch& b) {
+    return each([&](std::size_t i) { return hn::Mul(a.v[i], b.v[i]); });
+}
+HWY_INLINE Batch operator/(const Batch& a, const Batch& b) {
+    return each([&](std::size_t i) { return hn::Div(a.v[i], b.v[i]); });
+}
+HWY_INLINE Batch operator-(const Batch& a) {
+    return each([&](std::size_t i) { return hn::Neg(a.v[i]); });
+}
+HWY_INLINE Batch operator+(const Batch& a, float b) {
+    return a + Batch(b);
+}
+HWY_INLINE Batch operator-(const Batch& a, float b) {
+    return a - Batch(b);
+}
+HWY_INLINE Batch operator*(const Batch& a, float b) {
+    return a * Batch(b);
+}
+HWY_INLINE Batch operator+(float a, const Batch& b) {
+    return Batch(a) + b;
+}
+HWY_INLINE Batch operator-(float a, const Batch& b) {
+    return Batch(a) - b;
+}
+HWY_INLINE Batch operator*(float a, const Batch& b) {
+    return Batch(a) * b;
+}
+
+HWY_INLINE BatchMask less(const Batch& a, const Batch& b) {
+    BatchMask r;
+    PHASETREE_EACH r.m[i] = hn::Lt(a.v[i], b.v[i]);
+    return r;
+}
+HWY_INLINE Batch select(const BatchMask& m, const Batch& yes, const Batch& no) {
+    return each([&](std::size_t i) { return hn::IfThenElse(m.m[i], yes.v[i], no.v[i]); });
+}
+// As in number.hpp: a comparison and a choice, whatever the instruction set's own minimum does with equals.
+HWY_INLINE Batch min(const Batch& a, const Batch& b) {
+#if HWY_ARCH_X86
+    return each([&](std::size_t i) { return hn::Min(a.v[i], b.v[i]); });
+#else
+    return select(less(a, b), a, b);
+#endif
+}
+HWY_INLINE Batch max(const Batch& a, const Batch& b) {
+#if HWY_ARCH_X86
+    return each([&](std::size_t i) { return hn::Max(a.v[i], b.v[i]); });
+#else
+    return select(less(b, a), a, b);
+#endif
+}
+HWY_INLINE Batch abs(const Batch& a) {
+    return each([&](std::size_t i) { return hn::Abs(a.v[i]); });
+}
+HWY_INLINE Batch sqrt(const Batch& a) {
+    return each([&](std::size_t i) { return hn::Sqrt(a.v[i]); });
+}
+HWY_INLINE Batch floor(const Batch& a) {
+    return each([&](std::size_t i) { return hn::Floor(a.v[i]); });
+}
+
+#undef PHASETREE_EACH
+
+}  // namespace phasetree::HWY_NAMESPACE

@@ -1,0 +1,150 @@
+/// The interpreter, compiled once for each instruction set with that set's compiler flags (see lib/CMakeLists.txt).
+/// The including file names the kernel: #define PHASETREE_KERNEL kernel_avx2
+
+#define HWY_COMPILE_ONLY_STATIC
+#include <cstring>
+#include <utility>
+
+#include "kernel/batch.hpp"
+#include "kernel/kernel.hpp"
+#include "phasetree/nodes/list.hpp"
+
+namespace phasetree {
+namespace HWY_NAMESPACE {
+namespace {
+
+HWY_INLINE float* at(float* registers, std::uint32_t slot) {
+    return registers + std::size_t{slot} * batch_size;
+}
+
+template <class Struct>
+HWY_INLINE Struct constants_of(const Evaluator::Step& s, const float* constants) {
+    Struct result;
+    std::memcpy(static_cast<void*>(&result), constants + s.data, sizeof(Struct));
+    return result;
+}
+
+HWY_INLINE Vec3<Batch> load_point(float* registers, std::uint32_t slot) {
+    const float* p = at(registers, slot);
+    return {load(p), load(p + batch_size), load(p + 2 * batch_size)};
+}
+
+using Handler = void (*)(const Evaluator::Step&, const float* constants, float* registers);
+
+template <class P>
+void run_primitive(const Evaluator::Step& s, const float* constants, float* registers) {
+    store(constants_of<P>(s, constants).distance(load_point(registers, s.a)), at(registers, s.to));
+}
+
+template <class M>
+void run_map(const Evaluator::Step& s, const float* constants, float* registers) {
+    const Vec3<Batch> q = constants_of<M>(s, constants)(load_point(registers, s.a));
+    float* to = at(registers, s.to);
+    store(q.x, to);
+    store(q.y, to + batch_size);
+    store(q.z, to + 2 * batch_size);
+}
+
+template <class PrimitiveList, class MapList>
+struct Table;
+template <class... Ps, class... Ms>
+struct Table<TypeList<Ps...>, TypeList<Ms...>> {
+    static constexpr Handler handlers[] = {run_primitive<Ps>..., run_map<Ms>...};
+};
+using Handlers = Table<Primitives, PointMaps>;
+
+void run(const Routine& routine, float* registers) {
+    const float* constants = routine.constants;
+    for (const Evaluator::Step *s = routine.steps, *end = s + routine.count; s != end; ++s) {
+        float* to = at(registers, s->to);
+        const float* a = at(registers, s->a);
+        const float* b = at(registers, s->b);
+        switch (static_cast<Op>(s->op)) {
+            case Op::input:
+                break;
+            case Op::negate:
+                store(-load(a), to);
+                break;
+            case Op::add:
+                store(load(a) + load(b), to);
+                break;
+            case Op::subtract:
+                store(load(a) - load(b), to);
+                break;
+            case Op::minimum:
+                store(min(load(a), load(b)), to);
+                break;
+            case Op::maximum:
+                store(max(load(a), load(b)), to);
+                break;
+            case Op::absolute:
+                store(abs(load(a)), to);
+                break;
+            case Op::add_constant:
+                store(load(a) + constants[s->data], to);
+                break;
+            case Op::constant_minus:
+                store(constants[s->data] - load(a), to);
+                break;
+            case Op::multiply_constant:
+                store(load(a) * constants[s->data], to);
+                break;
+            case Op::smooth_minimum:
+                store(smooth_min(load(a), load(b), constants[s->data]), to);
+                break;
+            default:
+                Handlers::handlers[s->op - static_cast<std::uint32_t>(Op::first_primitive)](*s, constants, registers);
+        }
+    }
+}
+
+void place(const Batch& x, const Batch& y, const Batch& z, float* registers) {
+    store(x, registers);
+    store(y, registers + batch_size);
+    store(z, registers + 2 * batch_size);
+}
+
+/// The smallest component's phase and the second smallest component.
+void classify(const Routine& routine, float* registers, float* label, float* distance) {
+    Batch lowest = load(at(registers, routine.output_slot[0]));
+    Batch second(3.402823466e38f);
+    Batch phase(routine.output_phase[0]);
+    for (std::size_t i = 1; i < routine.outputs; ++i) {
+        const Batch v = load(at(registers, routine.output_slot[i]));
+        const BatchMask lower = less(v, lowest);
+        second = min(second, max(v, lowest));
+        phase = select(lower, Batch(routine.output_phase[i]), phase);
+        lowest = min(v, lowest);
+    }
+    store(phase, label);
+    store(second, distance);
+}
+
+void evaluate(const Routine& routine, const float* x, const float* y, const float* z, float* registers, float* out) {
+    place(load(x), load(y), load(z), registers);
+    run(routine, registers);
+    for (std::size_t i = 0; i < routine.outputs; ++i)
+        store(load(at(registers, routine.output_slot[i])), out + i * batch_size);
+}
+
+void sample(const Routine& routine, const float* x, const float* y, const float* z, float* registers, float* label,
+            float* distance) {
+    place(load(x), load(y), load(z), registers);
+    run(routine, registers);
+    classify(routine, registers, label, distance);
+}
+
+void sample_ray(const Routine& routine, const float* o, const float* d, const float* t, float* registers, float* label,
+                float* distance) {
+    const Batch along = load(t);
+    place(Batch(o[0]) + along * d[0], Batch(o[1]) + along * d[1], Batch(o[2]) + along * d[2], registers);
+    run(routine, registers);
+    classify(routine, registers, label, distance);
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+
+const Kernel PHASETREE_KERNEL = {HWY_NAMESPACE::evaluate, HWY_NAMESPACE::sample, HWY_NAMESPACE::sample_ray};
+
+}  // namespace phasetree

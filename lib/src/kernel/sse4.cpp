@@ -1,0 +1,2 @@
+#define PHASETREE_KERNEL kernel_sse4
+#include "kernel/kernel.inl"

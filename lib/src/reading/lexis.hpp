@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+// The words of JSON text (RFC 8259) as far as positions and error messages need them. The parser proper has its own.
+namespace phasetree::reading {
+
+/// The first byte at or after `at` that is neither white space nor inside a comment. Stops at the '/' of a comment that
+/// has no end, and of one that is no comment.
+std::size_t skip_blank(std::string_view text, std::size_t at);
+
+/// The same, and commas and colons are passed over as well.
+std::size_t skip_to_token(std::string_view text, std::size_t at);
+
+/// Whether an unterminated /* comment begins here.
+bool begins_comment(std::string_view text, std::size_t at);
+
+/// The end of the longest JSON number that begins at `at`; `at` itself if there is none.
+std::size_t number_end(std::string_view text, std::size_t at);
+
+/// The end of the run of letters, digits and signs that begins at `at`, as people write names and numbers.
+std::size_t word_end(std::string_view text, std::size_t at);
+
+/// The end of the string that opens at `at`: past its closing quote, or the end of the line where it is missing.
+std::size_t string_end(std::string_view text, std::size_t at);
+
+/// The token at `at` as an error message shows it: '}', 'word', "string".
+std::string shown_token(std::string_view text, std::size_t at);
+
+}  // namespace phasetree::reading

@@ -1,0 +1,153 @@
+#include "trace/march.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+/// Multiphase sphere tracing with a batch of points *along the one ray*.
+///
+/// We hold a place `here` that is certainly in the ray's phase, and the samples already taken ahead of it. Two
+/// neighbours of equal label whose radii together cover the gap between them prove the gap free. The first gap in doubt
+/// is sampled again, sixteen points inside it: evenly; or, where the two labels differ, gathered around the place where
+/// the distances on either side predict the interface; or, where the ray starts on an interface, spread out
+/// geometrically from there. A gap no longer than the resolution is either the crossing or, with equal labels, passed.
+///
+/// A hit is a change of label, never a small distance: phantom zeros, where components vanish without a change, cost
+/// samples but are never hits.
+namespace phasetree {
+
+namespace {
+
+/// Samples ahead of the ray, the nearest on top.
+class Ahead {
+  public:
+    bool empty() const { return size_ == 0; }
+    bool has_room() const { return size_ + batch_size <= stack_.size(); }
+    const Waypoint& top() const { return stack_[size_ - 1]; }
+    const Waypoint* second() const { return size_ > 1 ? &stack_[size_ - 2] : nullptr; }
+    void pop() { --size_; }
+    void push(const Waypoint& w) { stack_[size_++] = w; }
+
+  private:
+    std::array<Waypoint, 64 * batch_size> stack_;
+    std::size_t size_ = 0;
+};
+
+/// Makes the resolution coarser for a ray that creeps along an interface, so that the work stays bounded: it doubles
+/// for every 32 batches past the first 128.
+float effective_resolution(float resolution, std::uint64_t batches) {
+    if (batches < 128) return resolution;
+    return std::ldexp(resolution, static_cast<int>(std::min<std::uint64_t>((batches - 128) / 32 + 1, 60)));
+}
+
+}  // namespace
+
+std::optional<Crossing> march(const Evaluator& evaluator, const glm::vec3& origin, const glm::vec3& direction,
+                              float length, float resolution, std::optional<Phase> carried, Evaluator::Workspace& w,
+                              TraceCounters& counters) {
+    std::uint64_t batches = 0;
+    Samples s;
+    const auto sample = [&](const BatchOfFloats& t) {
+        evaluator.sample_ray(origin, direction, t, s, w);
+        ++batches;
+        ++counters.batches;
+    };
+    const auto crossing = [&](float t_in, float t_out, float from, float to) {
+        return Crossing{t_in,
+                        t_out,
+                        origin + t_in * direction,
+                        origin + t_out * direction,
+                        Phase{static_cast<std::uint8_t>(from)},
+                        Phase{static_cast<std::uint8_t>(to)}};
+    };
+
+    // The start, and the first batch behind it. A ray that carries a phase mostly starts on an interface.
+    BatchOfFloats t = carried && *carried != vacuum ? spread_from(0, length, resolution) : spread_evenly(0, length);
+    for (std::size_t i = batch_size - 1; i > 0; --i) t[i] = t[i - 1];
+    t[0] = 0;
+    t[batch_size - 1] = length;
+    sample(t);
+
+    Waypoint here{0, s.distance[0], s.label[0]};
+    const float phase = carried ? static_cast<float>(carried->index) : here.label;
+    Ahead ahead;
+    const auto push_samples = [&](const BatchOfFloats& at, float low, float high) {
+        bool any = false;
+        float before = high;
+        for (std::size_t i = batch_size; i-- > 0;) {
+            if (!(at[i] > low && at[i] < before)) continue;
+            ahead.push({at[i], s.distance[i], s.label[i]});
+            before = at[i];
+            any = true;
+        }
+        return any;
+    };
+    push_samples(t, 0, std::nextafter(length, Bounds::infinity));
+
+    if (here.label != phase) {
+        // Rounding may have put the start just across the interface it was found on: look a little ahead.
+        BatchOfFloats near;
+        for (std::size_t i = 0; i < batch_size; ++i) near[i] = resolution * 0.25f * static_cast<float>(i + 1);
+        sample(near);
+        std::size_t found = 0;
+        while (found < batch_size && s.label[found] != phase) ++found;
+        if (found == batch_size || near[found] > length) return crossing(0, 0, phase, here.label);
+        here = {near[found], s.distance[found], phase};
+        while (!ahead.empty() && ahead.top().t <= here.t) ahead.pop();
+    }
+
+    while (!ahead.empty()) {
+        const Waypoint next = ahead.top();
+        const bool same = next.label == phase;
+        const float gap = next.t - here.t;
+        if (same && here.distance + next.distance >= gap) {
+            here = next;
+            ahead.pop();
+            continue;
+        }
+        const float fine = effective_resolution(resolution, batches);
+        const float low = here.t + std::max(here.distance, 0.f);
+        const float high = same ? next.t - std::max(next.distance, 0.f) : next.t;
+        bool resolved = gap <= fine || (same && high - low <= fine) || !ahead.has_room();
+        if (!resolved) {
+            BatchOfFloats between;
+            if (!same) {
+                const float sum = here.distance + next.distance;
+                const float root = sum > 0 ? here.t + gap * (here.distance / sum) : here.t + 0.5f * gap;
+                between = gather_around(std::clamp(root, here.t, next.t), here.t, next.t, 0.4f * fine);
+            } else if (here.distance < 4 * fine && gap > 64 * fine) {
+                between = spread_from(here.t, high, fine);
+            } else {
+                between = spread_evenly(std::min(low, high), high);
+            }
+            sample(between);
+            resolved = !push_samples(between, here.t, next.t);  // no float lies between
+        }
+        if (!resolved) continue;
+
+        ahead.pop();
+        if (same) {
+            ++counters.phantoms;
+            here = next;
+            continue;
+        }
+        // A change of label. A sliver thinner than the resolution, as rounding leaves where solids abut, is passed.
+        if (next.distance < fine * (1.f / 16)) {
+            BatchOfFloats beyond;
+            for (std::size_t i = 0; i < batch_size; ++i)
+                beyond[i] = std::min(next.t + fine * (1.f / 16) * static_cast<float>(i + 1), length);
+            sample(beyond);
+            std::size_t back = 0;
+            while (back < batch_size && s.label[back] != phase) ++back;
+            if (back < batch_size && beyond[back] > here.t) {
+                ++counters.phantoms;
+                here = {beyond[back], s.distance[back], phase};
+                while (!ahead.empty() && ahead.top().t <= here.t) ahead.pop();
+                continue;
+            }
+        }
+        return crossing(here.t, next.t, phase, next.label);
+    }
+    return std::nullopt;
+}
+
+}  // namespace phasetree
