@@ -9,7 +9,7 @@
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 
 packages_to_build=(g++ cmake ninja-build pkg-config ccache libembree-dev libopenimageio-dev openimageio-tools
-    libopencolorio-dev libtbb-dev libglm-dev libhwy-dev nlohmann-json3-dev libcli11-dev libfmt-dev)
+    libopencolorio-dev libtbb-dev libglm-dev libhwy-dev nlohmann-json3-dev libcli11-dev libfmt-dev libtinyobjloader-dev)
 # shellcheck disable=SC2034 # the scripts use it
 packages_to_test=("${packages_to_build[@]}" doctest-dev)
 
@@ -43,7 +43,7 @@ install_packages() {
     shift
     if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
         packages_absent=("$@")
-        packages_problem="This system has no apt: please install them, or the same libraries from elsewhere, another way."
+        packages_problem="This system has no apt: please install them, or the same libraries from elsewhere, some way."
         return
     fi
     mapfile -t missing < <(missing_packages "$@")
@@ -109,16 +109,17 @@ build_jobs() {
     echo $((memory < cores ? memory : cores))
 }
 
-# build PRESET [TARGET]: a line of progress on the terminal (every ten per cent elsewhere), the rest in the log, and of a
-# failed build what the compiler said.
+# build PRESET [TARGET]: a line of progress on the terminal (every ten per cent elsewhere), the rest in the log, and of
+# a failed build what the compiler said.
 build() {
-    local preset=$1 log="$root/build/$1/build.log" target=()
-    [ $# -lt 2 ] || target=(--target "$2")
-    if (cd "$root" && NINJA_STATUS='[%p] ' cmake --build --preset "$preset" --parallel "$(build_jobs)" "${target[@]}") 2>&1 |
-        tee "$log" | show_percent; then
+    local log="$root/build/$1/build.log" build=(cmake --build --preset "$1" --parallel "$(build_jobs)")
+    [ $# -lt 2 ] || build+=(--target "$2")
+    if (cd "$root" && NINJA_STATUS='[%p] ' "${build[@]}") 2>&1 | tee "$log" | show_percent; then
         return 0
     fi
-    awk '/^FAILED:|error:|Error [0-9]/ { found = 1 } found' "$log" | head -n 60 >&2
+    # From the first error on; of what has none that looks like one, the end.
+    awk '/^FAILED:|CMake Error|error:/ { found = 1 } found && ++lines <= 60 { print } END { exit !found }' "$log" >&2 ||
+        tail -n 20 "$log" >&2
     say "The build failed; all of its output is in $log"
     return 1
 }

@@ -1,5 +1,5 @@
 // nlohmann-json does the parsing; its SAX events become the flat array of DocumentData. The events carry no position,
-// but the parser reads its input byte by byte through an iterator that tells how far it came. An event follows its
+// but the parser reads its input byte by byte through an iterator that knows how far it came. An event follows its
 // token at once, so that position is the token's end (a number is read one byte too far, so its end is found by its
 // own grammar), and its begin is what follows the white space, comments, commas and colons behind the token before.
 
@@ -13,6 +13,8 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
+#include <span>
+#include <utility>
 
 #include "reading/diagnose.hpp"
 #include "reading/lexis.hpp"
@@ -22,45 +24,84 @@ namespace phasetree::reading {
 
 namespace {
 
-class TellingIterator {
+// The text as the parser gets it: each run of white space and comments is a single space. The parser could skip them
+// itself, but keeps all it has read since the last string or number for its own message, which nobody sees, at a cost
+// of a microsecond for each line end.
+class Source {
+  public:
+    explicit Source(std::string_view text) : text_(text) {}
+
+    std::size_t reached() const { return at_; }
+    bool is_at_end() const { return at_ == text_.size(); }
+
+    char current() const {
+        const char c = text_[at_];
+        if (state_ != State::between || !may_be_blank(c)) return c;
+        // A slash that begins no complete comment becomes a byte that is wrong everywhere.
+        return skip_blank(text_, at_) > at_ ? ' ' : '\x01';
+    }
+
+    void advance() {
+        const char c = text_[at_];
+        const std::size_t next = state_ == State::between && may_be_blank(c) ? skip_blank(text_, at_) : at_ + 1;
+        at_ = std::max(next, at_ + 1);
+        switch (state_) {
+            case State::between:
+                state_ = c == '"' ? State::string : State::between;
+                break;
+            case State::string:
+                state_ = c == '"' ? State::between : c == '\\' ? State::escape : State::string;
+                break;
+            case State::escape:
+                state_ = State::string;
+                break;
+        }
+    }
+
+  private:
+    enum class State { between, string, escape };
+
+    static bool may_be_blank(char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t' || c == '/'; }
+
+    std::string_view text_;
+    std::size_t at_ = 0;
+    State state_ = State::between;
+};
+
+// Reads a Source; the default one is the end.
+class SourceIterator {
   public:
     using iterator_category = std::input_iterator_tag;
     using value_type = char;
     using difference_type = std::ptrdiff_t;
-    using pointer = const char*;
-    using reference = const char&;
+    using pointer = void;
+    using reference = char;
 
-    TellingIterator(const char* at, const char** reached) : at_(at), reached_(reached) {}
-    reference operator*() const { return *at_; }
-    TellingIterator& operator++() {
-        *reached_ = ++at_;
+    SourceIterator() = default;
+    explicit SourceIterator(Source& source) : source_(&source) {}
+    char operator*() const { return source_->current(); }
+    SourceIterator& operator++() {
+        source_->advance();
         return *this;
     }
-    TellingIterator operator++(int) {
-        const TellingIterator before = *this;
-        ++*this;
-        return before;
-    }
-    bool operator==(const TellingIterator& other) const { return at_ == other.at_; }
+    void operator++(int) { ++*this; }
+    bool operator==(const SourceIterator& other) const { return is_end() == other.is_end(); }
 
   private:
-    const char* at_;
-    const char** reached_;
+    bool is_end() const { return source_ == nullptr || source_->is_at_end(); }
+
+    Source* source_ = nullptr;
 };
 
 class Builder {
   public:
     using Entry = DocumentData::Entry;
 
-    explicit Builder(DocumentData& data) : data_(data), reached_(data.text.data()) {}
+    explicit Builder(DocumentData& data) : data_(data), source_(data.text) {}
 
     /// SceneError if the text is wrong.
     void run() {
-        const std::string& text = data_.text;
-        const TellingIterator first(text.data(), &reached_);
-        const TellingIterator last(text.data() + text.size(), &reached_);
-        const bool is_good = nlohmann::json::sax_parse(first, last, this, nlohmann::json::input_format_t::json,
-                                                       /*strict*/ true, /*ignore_comments*/ true);
+        const bool is_good = nlohmann::json::sax_parse(SourceIterator(source_), SourceIterator(), this);
         if (!is_good) throw diagnose(data_.name, data_.text, failure_);
         data_.root = append(pending_);
     }
@@ -113,7 +154,7 @@ class Builder {
         Kind kind;
     };
 
-    std::size_t reached() const { return static_cast<std::size_t>(reached_ - data_.text.data()); }
+    std::size_t reached() const { return source_.reached(); }
     std::size_t next_token() const { return skip_to_token(data_.text, failure_.last_token_end); }
 
     DocumentData::Span store(std::string_view string) {
@@ -245,7 +286,7 @@ class Builder {
     }
 
     DocumentData& data_;
-    const char* reached_;         // behind the last byte the parser took
+    Source source_;
     std::vector<Entry> pending_;  // children of the arrays and objects that are open
     std::vector<Open> open_;
     std::uint32_t key_ = DocumentData::no_key;  // of the value that comes next

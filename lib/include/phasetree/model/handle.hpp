@@ -98,6 +98,6 @@ TreeStatistics statistics(const Field&);
 TreeStatistics statistics(const Phased&);
 
 /// Deeper trees are refused: everything that walks a tree recurses.
-inline constexpr std::size_t max_tree_depth = 1000;
+inline constexpr std::size_t max_tree_depth = 400;
 
 }  // namespace phasetree

@@ -1,0 +1,57 @@
+#pragma once
+
+/// PhaseTrees as Embree user geometry, for Embree 3.13 and Embree 4.
+
+#include "phasetree/embree_version.hpp"
+#include "phasetree/trace/tracer.hpp"
+
+namespace phasetree::embree {
+
+/// What a ray carries through Embree to our callbacks and back: Embree's own context first, so that its address is the
+/// context's. A geometry reads it only if it was made with `Options::rays_carry_phases`.
+struct Query {
+    Context context;
+    /// The phase the ray is in. Without it the geometry takes the label at the ray's start.
+    std::optional<Phase> carried;
+    /// The crossing behind the last hit that a PhaseTree reported. If the ray's final geomID is the tree's, this is
+    /// that hit's; in the object's own space.
+    Crossing crossing;
+    glm::vec3 normal{0};  ///< unit, from crossing.from into crossing.to
+    TraceCounters counters;
+
+    Query() { initialise(context); }
+};
+
+struct Options {
+    /// Every query that reaches the geometry is a phasetree::embree::Query, one ray at a time (rtcIntersect1 and
+    /// rtcOccluded1). Otherwise any context and any packet size will do.
+    bool rays_carry_phases = false;
+};
+
+/// An object as an RTCGeometry of type user. A hit is the first change of phase along the ray:
+///     tfar         distance to where the old phase ends (in units of the ray's direction, as Embree has it)
+///     Ng           normal on the side the ray came from; unit in object space
+///     u, v         index of the phase left and of the phase entered
+///     primID       0 (one primitive an object)
+/// A ray's direction may have any length. Rays with numbers that are not finite hit nothing.
+///
+/// Owns the handle and what its callbacks read: must outlive every scene that it is attached to. The geometry is not
+/// committed; do so before attaching, as with any other. Any thread may trace.
+class TreeGeometry {
+  public:
+    TreeGeometry(RTCDevice device, std::shared_ptr<const InterfaceTracer> object, const Options& options = {});
+    ~TreeGeometry();
+    TreeGeometry(TreeGeometry&&) noexcept;
+    TreeGeometry& operator=(TreeGeometry&&) noexcept;
+
+    RTCGeometry handle() const { return handle_; }
+    const InterfaceTracer& object() const;
+
+    struct Data;
+
+  private:
+    RTCGeometry handle_ = nullptr;
+    std::unique_ptr<Data> data_;
+};
+
+}  // namespace phasetree::embree

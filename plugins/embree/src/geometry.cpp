@@ -1,0 +1,145 @@
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "phasetree/embree.hpp"
+
+namespace phasetree::embree {
+
+struct TreeGeometry::Data {
+    std::shared_ptr<const InterfaceTracer> object;
+    Options options;
+};
+
+namespace {
+
+const TreeGeometry::Data& data_of(void* user) {
+    return *static_cast<const TreeGeometry::Data*>(user);
+}
+
+/// Each thread's scratch for evaluation.
+Evaluator::Workspace& workspace() {
+    thread_local Evaluator::Workspace w;
+    return w;
+}
+
+void bounds(const RTCBoundsFunctionArguments* arguments) {
+    const Bounds& b = data_of(arguments->geometryUserPtr).object->bounds();
+    RTCBounds& out = *arguments->bounds_o;
+    out.lower_x = b.low.x;
+    out.lower_y = b.low.y;
+    out.lower_z = b.low.z;
+    out.upper_x = b.high.x;
+    out.upper_y = b.high.y;
+    out.upper_z = b.high.z;
+}
+
+/// One lane of a packet.
+struct Ray {
+    glm::vec3 origin, direction;
+    float near, far;
+    float length;  ///< of the direction, which is then unit
+
+    static std::optional<Ray> of(RTCRayN* rays, unsigned n, unsigned i) {
+        Ray r;
+        r.origin = {RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)};
+        const glm::vec3 d{RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)};
+        r.length = glm::length(d);
+        if (!(r.length > 0) || !std::isfinite(r.length)) return std::nullopt;
+        // Dividing a unit vector by its rounded length would move a carried start's samples off its bracket for
+        // nothing.
+        r.direction = std::abs(r.length - 1) < 1e-6f ? d : d / r.length;
+        for (int k = 0; k < 3; ++k)
+            if (!std::isfinite(r.origin[k])) return std::nullopt;
+        r.near = RTCRayN_tnear(rays, n, i) * r.length;
+        r.far = RTCRayN_tfar(rays, n, i) * r.length;
+        if (!(r.near <= r.far)) return std::nullopt;
+        return r;
+    }
+};
+
+struct Lane {
+    Crossing crossing;
+    float length;
+};
+
+std::optional<Lane> trace(const TreeGeometry::Data& data, RTCRayN* rays, unsigned n, unsigned i, Query* query) {
+    const std::optional<Ray> ray = Ray::of(rays, n, i);
+    if (!ray) return std::nullopt;
+    const auto crossing = data.object->first_crossing(ray->origin, ray->direction, ray->near, ray->far,
+                                                      query ? query->carried : std::nullopt, workspace(),
+                                                      query ? &query->counters : nullptr);
+    if (!crossing || !(crossing->t_in <= ray->far)) return std::nullopt;
+    return Lane{*crossing, ray->length};
+}
+
+void intersect(const RTCIntersectFunctionNArguments* arguments) noexcept {
+    const TreeGeometry::Data& data = data_of(arguments->geometryUserPtr);
+    Query* query = data.options.rays_carry_phases ? reinterpret_cast<Query*>(arguments->context) : nullptr;
+    const unsigned n = arguments->N;
+    RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, n);
+    RTCHitN* hits = RTCRayHitN_HitN(arguments->rayhit, n);
+    for (unsigned i = 0; i < n; ++i) {
+        if (arguments->valid[i] != -1) continue;
+        const auto lane = trace(data, rays, n, i, query);
+        if (!lane) continue;
+        const Crossing& c = lane->crossing;
+        const glm::vec3 direction{RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)};
+        const glm::vec3 normal = data.object->normal(c, direction / lane->length);
+        RTCRayN_tfar(rays, n, i) = c.t_in / lane->length;
+        RTCHitN_Ng_x(hits, n, i) = -normal.x;
+        RTCHitN_Ng_y(hits, n, i) = -normal.y;
+        RTCHitN_Ng_z(hits, n, i) = -normal.z;
+        RTCHitN_u(hits, n, i) = static_cast<float>(c.from.index);
+        RTCHitN_v(hits, n, i) = static_cast<float>(c.to.index);
+        RTCHitN_primID(hits, n, i) = arguments->primID;
+        RTCHitN_geomID(hits, n, i) = arguments->geomID;
+        RTCHitN_instID(hits, n, i, 0) = arguments->context->instID[0];
+        if (query) {
+            query->crossing = c;
+            query->normal = normal;
+        }
+    }
+}
+
+void occluded(const RTCOccludedFunctionNArguments* arguments) noexcept {
+    const TreeGeometry::Data& data = data_of(arguments->geometryUserPtr);
+    Query* query = data.options.rays_carry_phases ? reinterpret_cast<Query*>(arguments->context) : nullptr;
+    const unsigned n = arguments->N;
+    for (unsigned i = 0; i < n; ++i) {
+        if (arguments->valid[i] != -1) continue;
+        if (trace(data, arguments->ray, n, i, query))
+            RTCRayN_tfar(arguments->ray, n, i) = -std::numeric_limits<float>::infinity();
+    }
+}
+
+}  // namespace
+
+TreeGeometry::TreeGeometry(RTCDevice device, std::shared_ptr<const InterfaceTracer> object, const Options& options)
+    : handle_(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER)),
+      data_(std::make_unique<Data>(Data{std::move(object), options})) {
+    rtcSetGeometryUserPrimitiveCount(handle_, 1);
+    rtcSetGeometryUserData(handle_, data_.get());
+    rtcSetGeometryBoundsFunction(handle_, bounds, nullptr);
+    rtcSetGeometryIntersectFunction(handle_, intersect);
+    rtcSetGeometryOccludedFunction(handle_, occluded);
+}
+
+TreeGeometry::~TreeGeometry() {
+    if (handle_) rtcReleaseGeometry(handle_);
+}
+
+TreeGeometry::TreeGeometry(TreeGeometry&& other) noexcept
+    : handle_(std::exchange(other.handle_, nullptr)), data_(std::move(other.data_)) {}
+
+TreeGeometry& TreeGeometry::operator=(TreeGeometry&& other) noexcept {
+    std::swap(handle_, other.handle_);
+    std::swap(data_, other.data_);
+    return *this;
+}
+
+const InterfaceTracer& TreeGeometry::object() const {
+    return *data_->object;
+}
+
+}  // namespace phasetree::embree

@@ -1,0 +1,99 @@
+#include "output/interrupt.hpp"
+
+#include <doctest/doctest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <stdexcept>
+
+using namespace phasetree::tracer;
+
+namespace {
+
+// The signal a child dies of that runs f, or 0.
+template <class F>
+int deadly_signal(F&& f) {
+    const pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        const rlimit no_core{0, 0};
+        setrlimit(RLIMIT_CORE, &no_core);
+        std::signal(SIGINT, SIG_DFL);
+        std::signal(SIGTERM, SIG_DFL);
+        f();
+        ::_exit(0);
+    }
+    int status = 0;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    return WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+}
+
+}  // namespace
+
+TEST_CASE("the first signal is a question, for a guard's life only") {
+    CHECK_FALSE(interrupted());
+    for (const int signal : {SIGINT, SIGTERM}) {
+        {
+            const InterruptGuard guard;
+            CHECK_FALSE(interrupted());
+            std::raise(signal);
+            CHECK(interrupted());
+            CHECK_THROWS_AS(InterruptGuard{}, std::logic_error);
+            CHECK(interrupted());
+        }
+        CHECK_FALSE(interrupted());
+    }
+}
+
+TEST_CASE("after the first signal both have their default action, which ends the program") {
+    const InterruptGuard guard;
+    std::raise(SIGTERM);
+    for (const int signal : {SIGINT, SIGTERM}) {
+        struct sigaction current {};
+        sigaction(signal, nullptr, &current);
+        const bool is_default = current.sa_handler == SIG_DFL;
+        CHECK(is_default);
+    }
+}
+
+// The thread sanitizer switches itself half off in the child of a process with threads, signals included.
+#ifdef __SANITIZE_THREAD__
+constexpr bool signals_work_in_children = false;
+#else
+constexpr bool signals_work_in_children = true;
+#endif
+
+TEST_CASE("the second signal ends the program at once" * doctest::skip(!signals_work_in_children)) {
+    CHECK(deadly_signal([] {
+              const InterruptGuard guard;
+              std::raise(SIGINT);
+          }) == 0);
+    CHECK(deadly_signal([] {
+              const InterruptGuard guard;
+              std::raise(SIGINT);
+              std::raise(SIGINT);
+          }) == SIGINT);
+    CHECK(deadly_signal([] {
+              const InterruptGuard guard;
+              std::raise(SIGINT);
+              std::raise(SIGTERM);
+          }) == SIGTERM);
+}
+
+TEST_CASE("afterwards the earlier handlers are back") {
+    CHECK(deadly_signal([] {
+              { const InterruptGuard guard; }
+              std::raise(SIGTERM);
+          }) == SIGTERM);
+}
+
+TEST_CASE("a signal that was ignored stays ignored") {
+    CHECK(deadly_signal([] {
+              std::signal(SIGINT, SIG_IGN);
+              const InterruptGuard guard;
+              std::raise(SIGINT);
+              if (interrupted()) ::abort();
+              std::raise(SIGINT);
+          }) == 0);
+}

@@ -1,0 +1,368 @@
+#include "output/write.hpp"
+
+#include <OpenImageIO/imageio.h>
+#include <doctest/doctest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <thread>
+
+#include "environment.hpp"
+#include "phasetree/version.hpp"
+#include "temporary_directory.hpp"
+
+namespace fs = std::filesystem;
+using namespace phasetree::tracer;
+using namespace phasetree::tracer::test;
+
+namespace {
+
+const Metadata metadata{"/some/where/hourglass.json", 128, 18446744073709551615u};
+constexpr std::array<const char*, 4> names{"a.exr", "a.png", "a.jpg", "a.tif"};
+
+Image noise(int width, int height) {
+    Image image{width, height, {}};
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> value(0.0f, 2.0f);
+    for (int i = 0; i < width * height; ++i) image.pixels.emplace_back(value(random), value(random), value(random));
+    return image;
+}
+
+Image flat(int width, int height, glm::vec3 color) {
+    return {width, height, std::vector<glm::vec3>(static_cast<std::size_t>(width) * height, color)};
+}
+
+OIIO::ImageSpec spec_of(const fs::path& path) {
+    const auto input = OIIO::ImageInput::open(path.string());
+    REQUIRE(input);
+    return input->spec();
+}
+
+template <class T>
+std::vector<T> values_of(const fs::path& path, OIIO::TypeDesc type) {
+    const auto input = OIIO::ImageInput::open(path.string());
+    REQUIRE(input);
+    CHECK(input->spec().format == type);
+    CHECK(input->spec().nchannels == 3);
+    std::vector<T> values(input->spec().image_pixels() * 3);
+    REQUIRE(input->read_image(0, 0, 0, 3, type, values.data()));
+    return values;
+}
+
+double srgb(double v) {
+    return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
+}
+
+/// No file of this process may grow beyond a few bytes: the nearest to a full disk that needs no disk.
+class FullDisk {
+  public:
+    explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+        getrlimit(RLIMIT_FSIZE, &previous_);
+        const rlimit tight{bytes, previous_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &tight);
+    }
+    ~FullDisk() {
+        setrlimit(RLIMIT_FSIZE, &previous_);
+        std::signal(SIGXFSZ, handler_);
+    }
+    FullDisk(const FullDisk&) = delete;
+    FullDisk& operator=(const FullDisk&) = delete;
+
+  private:
+    void (*handler_)(int);
+    rlimit previous_{};
+};
+
+}  // namespace
+
+TEST_CASE("EXR keeps every bit of every float") {
+    const OcioVariable none;
+    const TemporaryDirectory folder;
+    Image image = noise(67, 35);
+    std::size_t i = 0;
+    using limits = std::numeric_limits<float>;
+    for (const float v : {-0.0f, -1.5f, limits::denorm_min(), -limits::denorm_min(), limits::min() / 3, limits::max(),
+                          limits::lowest(), 1e30f, 65504.0f, 65536.0f, 1.0f + limits::epsilon(), limits::infinity(),
+                          -limits::infinity(), limits::quiet_NaN()}) {
+        image.pixels[i++ * 7] = glm::vec3(v, 0.5f, -v);
+    }
+    write_image(image, folder / "a.exr", metadata, DisplayTransform(std::nullopt, std::nullopt, 3.0f));
+    const auto values = values_of<float>(folder / "a.exr", OIIO::TypeDesc::FLOAT);
+    REQUIRE(values.size() == image.pixels.size() * 3);
+    CHECK(std::memcmp(values.data(), image.pixels.data(), values.size() * sizeof(float)) == 0);
+    CHECK(count_non_finite(image) == 3);
+}
+
+TEST_CASE("equal pictures are equal files, whenever they are written") {
+    const OcioVariable none;
+    const TemporaryDirectory folder;
+    const Image image = noise(61, 40);
+    const DisplayTransform transform;
+    std::array<std::string, names.size()> first;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        write_image(image, folder / names[i], metadata, transform);
+        first[i] = bytes_of(folder / names[i]);
+        CHECK(first[i].size() > 1000);
+        CHECK(spec_of(folder / names[i]).get_string_attribute("DateTime").empty());
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // file formats count whole seconds
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        write_image(image, folder / names[i], metadata, transform);
+        CHECK_MESSAGE(bytes_of(folder / names[i]) == first[i], names[i]);
+    }
+    Image other = image;
+    other.pixels[100].g = std::nextafter(other.pixels[100].g, 9.0f);
+    write_image(other, folder / "a.exr", metadata, transform);
+    CHECK(bytes_of(folder / "a.exr") != first[0]);
+}
+
+TEST_CASE("EXR tells how it was made and what its numbers mean") {
+    const OcioVariable none;
+    const TemporaryDirectory folder;
+    write_image(noise(8, 6), folder / "a.exr", metadata, DisplayTransform());
+    const OIIO::ImageSpec spec = spec_of(folder / "a.exr");
+    CHECK(std::string(spec.get_string_attribute("Software")) == std::string("phasetree ") + phasetree::version());
+    CHECK(spec.get_string_attribute("phasetree:scene") == "hourglass.json");
+    CHECK(spec.get_int_attribute("phasetree:samplesPerPixel") == 128);
+    CHECK(spec.get_string_attribute("phasetree:seed") == "18446744073709551615");
+    CHECK(spec.get_string_attribute("compression") == "zip");
+    CHECK(spec.get_string_attribute("oiio:ColorSpace") == "Linear");
+    CHECK(spec.channelnames == std::vector<std::string>{"R", "G", "B"});
+    const OIIO::ParamValue* chromaticities = spec.find_attribute("chromaticities");
+    REQUIRE(chromaticities);
+    const std::array<float, 8> rec709{0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
+    CHECK(std::memcmp(chromaticities->data(), rec709.data(), sizeof rec709) == 0);
+}
+
+TEST_CASE("a crop is EXR's data window, and elsewhere the same codes as in the whole picture") {
+    const OcioVariable none;
+    const TemporaryDirectory folder;
+    const Image whole = noise(40, 30);
+    Image crop{9, 5, {}, Crop{13, 21, 40, 30}};
+    for (int y = 0; y < 5; ++y) {
+        for (int x = 0; x < 9; ++x) crop.pixels.push_back(whole.pixels[(y + 21) * 40 + x + 13]);
+    }
+    const DisplayTransform transform;
+    write_image(crop, folder / "crop.exr", metadata, transform);
+    const OIIO::ImageSpec spec = spec_of(folder / "crop.exr");
+    CHECK(spec.x == 13);
+    CHECK(spec.y == 21);
+    CHECK(spec.width == 9);
+    CHECK(spec.height == 5);
+    CHECK(spec.full_x == 0);
+    CHECK(spec.full_y == 0);
+    CHECK(spec.full_width == 40);
+    CHECK(spec.full_height == 30);
+
+    write_image(whole, folder / "whole.png", metadata, transform);
+    write_image(crop, folder / "crop.png", metadata, transform);
+    const auto all = values_of<std::uint8_t>(folder / "whole.png", OIIO::TypeDesc::UINT8);
+    const auto part = values_of<std::uint8_t>(folder / "crop.png", OIIO::TypeDesc::UINT8);
+    REQUIRE(part.size() == 9 * 5 * 3);
+    int different = 0;
+    for (int y = 0; y < 5; ++y) {
+        for (int i = 0; i < 27; ++i) different += part[y * 27 + i] != all[((y + 21) * 40 + 13) * 3 + i];
+    }
+    CHECK(different == 0);
+
+    crop.crop->x0 = 32;
+    CHECK_THROWS_AS(write_image(crop, folder / "crop.exr", metadata, transform), std::invalid_argument);
+    crop.pixels.pop_back();
+    CHECK_THROWS_AS(write_image(crop, folder / "crop.exr", metadata, transform), std::invalid_argument);
+    CHECK(folder.size() == 3);
+}
+
+TEST_CASE("the Standard view of a PNG is the sRGB curve within one code") {
+    const OcioVariable none;
+    const TemporaryDirectory folder;
+    Image image{256, 256, {}};
+    for (int i = 0; i < 65536; ++i) image.pixels.emplace_back(static_cast<float>(i) / 65535.0f);
+    const DisplayTransform standard(std::nullopt, "Standard");
+    write_image(image, folder / "a.png", metadata, standard);
+    const auto codes = values_of<std::uint8_t>(folder / "a.png", OIIO::TypeDesc::UINT8);
+    double worst = 0.0;
+    bool neutral = true;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        worst = std::max(worst, std::abs(codes[3 * i] - 255.0 * srgb(static_cast<double>(i) / 65535.0)));
+        neutral = neutral && codes[3 * i] == codes[3 * i + 1] && codes[3 * i] == codes[3 * i + 2];
+    }
+    CHECK(worst < 1.0);
+    CHECK(neutral);
+    CHECK(codes.front() == 0);
+    CHECK(codes.back() == 255);
+
+    // sRGB(0.5) is code 187.516: both neighbours, in the proportion that gives this mean.
+    write_image(flat(64, 64, glm::vec3(0.5f)), folder / "half.png", metadata, standard);
+    double sum = 0.0;
+    for (const int code : values_of<std::uint8_t>(folder / "half.png", OIIO::TypeDesc::UINT8)) {
+        CHECK((code == 187 || code == 188));
+        sum += code;
+    }
+    // 1/256 for the levels of the threshold, as much again for the discrepancy of 4096 points of the recurrence.
+    CHECK(sum / (64 * 64 * 3) == doctest::Approx(255.0 * srgb(0.5)).epsilon(2.0 / 256.0 / 187.0));
+
+    write_image(flat(8, 8, glm::vec3(0.5f)), folder / "half.tiff", metadata, standard);
+    for (const int code : values_of<std::uint16_t>(folder / "half.tiff", OIIO::TypeDesc::UINT16)) {
+        CHECK(std::abs(code - 65535.0 * srgb(0.5)) < 1.5);
+    }
+}
+
+TEST_CASE("exposure brightens what is displayed by powers of two") {
+    const OcioVariable none;
+    const TemporaryDirectory folder;
+    write_image(flat(8, 8, glm::vec3(0.1f)), folder / "a.tif", metadata,
+                DisplayTransform(std::nullopt, "Standard", 2.0f));
+    const auto codes = values_of<std::uint16_t>(folder / "a.tif", OIIO::TypeDesc::UINT16);
+    CHECK(std::abs(codes[0] - 65535.0 * srgb(0.4)) < 1.5);
+}
+
+TEST_CASE("pixels that are no numbers are black in eight bits and harm no neighbour") {
+    const OcioVariable none;
+    const TemporaryDirectory folder;
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    Image image = flat(16, 16, glm::vec3(0.5f));
+    image.pixels[3] = glm::vec3(std::nanf(""), 1.0f, 1.0f);
+    image.pixels[4] = glm::vec3(1.0f, infinity, 1.0f);
+    image.pixels[5] = glm::vec3(-infinity);
+    image.pixels[6] = glm::vec3(std::numeric_limits<float>::max());
+    image.pixels[7] = glm::vec3(std::numeric_limits<float>::lowest());
+    CHECK(count_non_finite(image) == 3);
+    for (const char* view : {"Photographic", "ACES 1.0 SDR", "Standard", "Raw"}) {
+        write_image(image, folder / "a.png", metadata, DisplayTransform(std::nullopt, view, 100.0f));
+        const auto codes = values_of<std::uint8_t>(folder / "a.png", OIIO::TypeDesc::UINT8);
+        for (int i = 0; i < 16 * 16; ++i) {
+            const int expected = (i >= 3 && i <= 5) || i == 7 ? 0 : 255;
+            for (int c = 0; c < 3; ++c) CHECK_MESSAGE(codes[3 * i + c] == expected, view << " " << i);
+        }
+    }
+}
+
+TEST_CASE("PNG is tagged sRGB, JPEG is fine") {
+    const OcioVariable none;
+    const TemporaryDirectory folder;
+    const Image image = noise(32, 32);
+    write_image(image, folder / "a.PNG", metadata, DisplayTransform());
+    const std::string srgb_chunk("\0\0\0\1sRGB", 8);  // its length and type
+    CHECK(contains(bytes_of(folder / "a.PNG"), srgb_chunk));
+    CHECK_FALSE(contains(bytes_of(folder / "a.PNG"), "tIME"));
+    CHECK(contains(spec_of(folder / "a.PNG").get_string_attribute("ImageDescription"), "hourglass.json"));
+
+    write_image(image, folder / "a.jpeg", metadata, DisplayTransform());
+    CHECK(spec_of(folder / "a.jpeg").get_string_attribute("jpeg:subsampling") == "4:4:4");
+    // The first quantisation table begins with that of the standard, 16, scaled: (16 · (200 − 2 · 95) + 50) / 100 = 2.
+    const std::string bytes = bytes_of(folder / "a.jpeg");
+    const std::size_t table = bytes.find("\xff\xdb");
+    REQUIRE(table != std::string::npos);
+    CHECK(static_cast<int>(bytes[table + 5]) == 2);
+}
+
+TEST_CASE("a bad name is refused with the reason, before and after rendering") {
+    const OcioVariable none;
+    const TemporaryDirectory folder;
+    fs::create_directory(folder / "folder.png");
+    write_text(folder / "file", "");
+    fs::create_symlink("loop.png", folder / "loop.png");
+    const Image image = noise(8, 8);
+    const DisplayTransform transform;
+    struct Case {
+        fs::path path;
+        const char* reason;
+    };
+    const Case cases[] = {
+        {folder / "a.bmp",
+         "\".bmp\" is no known image format; the formats are .exr, .png, .jpg, .jpeg, .tif and .tiff"},
+        {folder / "a", "its name has no extension; the formats are .exr"},
+        {folder / ".exr", "its name has no extension"},
+        {"", "its name has no extension"},
+        {folder / "folder.png", "it is a directory"},
+        {folder / "missing" / "a.png", "there is no directory"},
+        {folder / "file" / "a.png", "is not a directory"},
+        {folder / (std::string(300, 'x') + ".png"), "File name too long"},
+        {folder / "loop.png", "the symbolic link leads nowhere"},
+        {"/proc/a.png", "no file can be created in the directory \"/proc\""},  // not even by root
+    };
+    for (const Case& c : cases) {
+        CAPTURE(c.path.string());
+        const std::string before = message_of<OutputError>([&] { check_writable(c.path); });
+        const std::string after = message_of<OutputError>([&] { write_image(image, c.path, metadata, transform); });
+        CHECK(contains(before, c.reason));
+        CHECK(before == after);
+        CHECK(contains(before, "cannot write \"" + c.path.string() + "\": "));
+        CHECK_FALSE(contains(before, "\n"));
+    }
+    CHECK(folder.size() == 3);
+}
+
+TEST_CASE("permissions are respected") {
+    const TemporaryDirectory folder;
+    write_text(folder / "protected.png", "precious");
+    fs::permissions(folder / "protected.png", fs::perms(0444));
+    // Root may write everywhere: become somebody else for a moment, where that is possible.
+    const bool root = ::geteuid() == 0;
+    for (const bool writable_folder : {false, true}) {
+        fs::permissions(folder.path(), fs::perms(writable_folder ? 0777 : 0555));
+        if (root && ::seteuid(65534) != 0) continue;
+        const std::string created = message_of<OutputError>([&] { check_writable(folder / "a.png"); });
+        const std::string replaced = message_of<OutputError>([&] { check_writable(folder / "protected.png"); });
+        if (root) REQUIRE(::seteuid(0) == 0);
+        CHECK(contains(created, writable_folder ? "(no exception)" : "Permission denied"));
+        CHECK(contains(replaced, "Permission denied"));
+    }
+    fs::permissions(folder.path(), fs::perms(0755));
+    CHECK(bytes_of(folder / "protected.png") == "precious");
+    CHECK(folder.size() == 1);
+}
+
+TEST_CASE("a full disk leaves the old file and no other") {
+    const OcioVariable none;
+    const TemporaryDirectory folder;
+    const Image image = noise(64, 64);
+    const DisplayTransform transform;
+    for (const char* name : names) {
+        CAPTURE(name);
+        write_text(folder / name, "precious");
+        std::string message;
+        {
+            const FullDisk full(512);
+            message = message_of<OutputError>([&] { write_image(image, folder / name, metadata, transform); });
+        }
+        CHECK(contains(message, "File too large"));
+        CHECK(contains(message, name));
+        CHECK(bytes_of(folder / name) == "precious");
+    }
+    CHECK(folder.size() == names.size());
+}
+
+TEST_CASE("writing replaces the old file, and only it") {
+    const OcioVariable none;
+    const TemporaryDirectory folder;
+    write_text(folder / "target.png", "old");
+    fs::create_symlink("target.png", folder / "link.png");
+    // What a killed process of the same number may have left.
+    const std::string leftover = ".target.png." + std::to_string(::getpid()) + ".tmp.png";
+    write_text(folder / leftover, "half");
+    check_writable(folder / "link.png");
+    CHECK(bytes_of(folder / "target.png") == "old");
+    write_image(noise(8, 8), folder / "link.png", metadata, DisplayTransform());
+    CHECK(fs::is_symlink(folder / "link.png"));
+    CHECK(bytes_of(folder / "target.png").substr(1, 3) == "PNG");
+    CHECK(folder.size() == 2);
+
+    check_writable(folder / "new.exr");
+    CHECK(folder.size() == 2);
+
+    const fs::path here = fs::current_path();
+    fs::current_path(folder.path());
+    write_image(noise(8, 8), "bare.exr", metadata, DisplayTransform());
+    fs::current_path(here);
+    CHECK(fs::is_regular_file(folder / "bare.exr"));
+    CHECK(folder.size() == 3);
+}

@@ -1,0 +1,148 @@
+#include <doctest/doctest.h>
+
+#include "bsdf_checks.hpp"
+#include "shading/fresnel.hpp"
+
+using namespace phasetree;
+using namespace phasetree::tests;
+using tracer::RoughDielectricBsdf;
+
+namespace {
+
+struct Case {
+    float from, to, roughness;
+    double theta;
+};
+
+constexpr Case cases[] = {
+    {1.0f, 1.5f, 0.3f, 10.0}, {1.0f, 1.5f, 0.5f, 84.0}, {1.5f, 1.0f, 0.4f, 30.0}, {1.5f, 1.33f, 0.3f, 70.0}};
+
+// Part of the energy of a uniform furnace that one scattering gives back: in a medium of index η radiance is η².
+double furnace(const Case& c, int points = 64) {
+    const tracer::Bsdf bsdf(RoughDielectricBsdf(c.from, c.to, c.roughness));
+    const double square = static_cast<double>(c.to) * c.to / (static_cast<double>(c.from) * c.from);
+    const glm::vec3 wo = direction(c.theta);
+    return total(integrate_cells(
+        [&](const glm::vec3& wi) {
+            const double value = static_cast<double>(bsdf.evaluate(wo, wi).x);
+            return wi.z > 0.0f ? value : value * square;
+        },
+        points));
+}
+
+}  // namespace
+
+TEST_CASE("rough dielectric: directions follow the pdf, weights the function, and 1 % errors are seen") {
+    const double significance = sidak(1e-4, 2 * std::size(cases));
+    for (const Case& c : cases) {
+        CAPTURE(c.from);
+        CAPTURE(c.to);
+        CAPTURE(c.roughness);
+        CAPTURE(c.theta);
+        const tracer::Bsdf bsdf(RoughDielectricBsdf(c.from, c.to, c.roughness));
+        const BsdfReport report = examine(bsdf, direction(c.theta), 11);
+        CHECK(report.directions > significance);
+        CHECK(report.directions_skewed < significance);
+        CHECK(report.directions_scaled < significance);
+        CHECK(report.pdf_integral <= 1.00001);
+        CHECK(report.weight > significance);
+        CHECK(report.weight_scaled < significance);
+        CHECK(worst_disagreement(bsdf, direction(c.theta), 12) < 2e-3);
+    }
+}
+
+TEST_CASE("rough dielectric: no more than a white furnace, and little less when it is not very rough") {
+    for (const Case& c : cases) {
+        CAPTURE(c.theta);
+        const double energy = furnace(c);
+        CHECK(energy <= 1.00001);
+        CHECK(energy > 0.5);
+    }
+    // One scattering loses what leaves below the horizon or is masked, of the order of α²: see the closed form for
+    // conductors. Refraction bends less than reflection and loses less.
+    // Narrow lobes: the quadrature is good to 2e-4.
+    for (const double theta : {0.0, 40.0, 60.0}) {
+        CAPTURE(theta);
+        const double entering = furnace({1.0f, 1.5f, 0.1f, theta}, 128);
+        CHECK(entering <= 1.0002);
+        CHECK(entering > 0.98);
+        const double leaving = furnace({1.5f, 1.33f, 0.1f, theta}, 128);
+        CHECK(leaving <= 1.0002);
+        CHECK(leaving > 0.94);  // 60° is close to the critical angle of 62.5°
+    }
+}
+
+TEST_CASE("rough dielectric: reciprocal, with the square of the index across the interface") {
+    const float from = 1.33f;
+    const float to = 1.6f;
+    const tracer::Bsdf bsdf(RoughDielectricBsdf(from, to, 0.3f));
+    const tracer::Bsdf reverse(RoughDielectricBsdf(to, from, 0.3f));
+    Uniform uniform(13);
+    int transmitted = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const glm::vec3 wo = tracer::square_to_cosine_hemisphere({uniform(), uniform()});
+        const auto sample = bsdf.sample(wo, uniform(), {uniform(), uniform()});
+        if (!sample) continue;
+        const glm::vec3 wi = sample->wi;
+        const double there = static_cast<double>(bsdf.evaluate(wo, wi).x / std::abs(wi.z));
+        double back = 0.0;
+        if (sample->transmitted) {
+            ++transmitted;
+            back = static_cast<double>(reverse.evaluate({wi.x, wi.y, -wi.z}, {wo.x, wo.y, -wo.z}).x / wo.z);
+            back *= static_cast<double>(from) * from / (static_cast<double>(to) * to);
+        } else {
+            back = static_cast<double>(bsdf.evaluate(wi, wo).x / wo.z);
+        }
+        const bool agrees = std::abs(there - back) <= 1e-3 * there + 1e-6;
+        CHECK(agrees);
+        if (!agrees) break;
+    }
+    CHECK(transmitted > 1000);
+}
+
+TEST_CASE("rough dielectric: a slightly rough surface reflects and refracts nearly as a smooth one") {
+    for (const double theta : {0.0, 30.0, 60.0}) {
+        const glm::vec3 wo = direction(theta);
+        const tracer::Bsdf bsdf(RoughDielectricBsdf(1.0f, 1.5f, 0.03f));
+        const double reflected = total(
+            integrate_cells([&](const glm::vec3& wi) { return wi.z > 0.0f ? bsdf.evaluate(wo, wi).x : 0.0f; }, 128));
+        const double smooth = static_cast<double>(tracer::fresnel_dielectric(wo.z, 1.5f).reflectance);
+        CAPTURE(theta);
+        CHECK(reflected == doctest::Approx(smooth).epsilon(0.03));
+    }
+}
+
+TEST_CASE("rough dielectric: the transmitted weight carries the same factor of radiance as the smooth one") {
+    // Nearly smooth, so that masking is next to 1.
+    const tracer::Bsdf bsdf(RoughDielectricBsdf(1.0f, 1.5f, 0.001f));
+    const auto sample = bsdf.sample(direction(30.0), 0.9999f, {0.3f, 0.6f});
+    REQUIRE(sample);
+    REQUIRE(sample->transmitted);
+    CHECK(static_cast<double>(sample->weight.x) == doctest::Approx(1.0 / 2.25).epsilon(1e-5));
+    CHECK(glm::length(glm::vec2{sample->wi}) == doctest::Approx(0.5f / 1.5f).epsilon(0.02));
+}
+
+TEST_CASE("rough dielectric: extreme directions give numbers") {
+    Uniform uniform(14);
+    for (const float roughness : {0.001f, 0.1f, 1.0f}) {
+        for (const float z : {1e-20f, 1e-7f, 1e-3f, 1.0f}) {
+            for (const float to : {1.0001f, 1.5f, 0.6f}) {
+                const tracer::Bsdf bsdf(RoughDielectricBsdf(1.0f, to, roughness));
+                const glm::vec3 wo{std::sqrt(std::max(0.0f, 1.0f - z * z)), 0.0f, z};
+                for (int i = 0; i < 200; ++i) {
+                    const auto sample = bsdf.sample(wo, uniform(), {uniform(), uniform()});
+                    if (!sample) continue;
+                    const bool sane = std::isfinite(sample->weight.x) && sample->weight.x >= 0.0f &&
+                                      sample->pdf >= 0.0f && !std::isnan(sample->pdf) &&
+                                      std::abs(glm::length(sample->wi) - 1.0f) < 1e-4f &&
+                                      std::isfinite(bsdf.evaluate(wo, sample->wi).x);
+                    CAPTURE(roughness);
+                    CAPTURE(z);
+                    CAPTURE(to);
+                    CHECK(sane);
+                    if (!sane) return;
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,223 @@
+// All lights together: the mixture's density, what samples and rays see, and multiple importance sampling.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "light_checks.hpp"
+#include "lights/daylight.hpp"
+#include "lights/lights.hpp"
+#include "lights/luminance.hpp"
+#include "sampling/warps.hpp"
+#include "shading/frame.hpp"
+
+using namespace phasetree::tracer;
+using namespace phasetree::tests;
+
+namespace {
+
+constexpr double half_turn = std::numbers::pi;
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+const glm::vec3 towards_sun = glm::normalize(glm::vec3(-0.6f, 0.0f, 0.8f));
+
+// An environment, a wide sun, a rectangle, and a sphere that hides part of the rectangle from the origin; the sun's
+// disk is partly behind the rectangle.
+Lights everything() {
+    Lights lights;
+    lights.add(ConstantEnvironment(glm::vec3(0.5f)));
+    lights.add(Sun(towards_sun, glm::vec3(1.0f), 20.0f));
+    lights.add(RectangleLight::facing({-0.5f, 0.0f, 2.0f}, {-0.5f, 0.0f, 0.0f}, 1.5f, 1.0f, glm::vec3(3.0f)));
+    lights.add(SphereLight({0.3f, 0.0f, 1.0f}, 0.25f, glm::vec3(2.0f), false));
+    return lights;
+}
+
+// What a ray from p sees when there is no geometry.
+Lights::Emission seen(const Lights& lights, const glm::vec3& p, const glm::vec3& w) {
+    if (const auto hit = lights.intersect(p, w, infinity, false)) return *hit;
+    return lights.infinite(p, w, false);
+}
+
+// ∫ L max(0, n·ω) dω, by the midpoint rule on a grid of 1,024² directions: edges of lights cross a few in a thousand
+// of its cells, with random sign, so its error is of the order of 1e-4, a fifth of the statistical one.
+double irradiance_by_quadrature(const Lights& lights, const glm::vec3& p, const glm::vec3& normal) {
+    return sum_of(lat_long_probabilities(1, 1, 1024, [&](const glm::vec3& w) {
+        const float cosine = glm::dot(normal, w);
+        return cosine > 0.0f ? static_cast<double>(luminance(seen(lights, p, w).radiance) * cosine) : 0.0;
+    }));
+}
+
+}  // namespace
+
+TEST_CASE("lights: samples and rays agree on radiance, distance and density") {
+    const Lights lights = everything();
+    Uniform random(1);
+    int infinite = 0;
+    int area = 0;
+    for (int i = 0; i < 100000; ++i) {
+        const glm::vec3 p(random.one() - 0.5f, random.one() - 0.5f, 0.3f * random.one());
+        const auto s = lights.sample(p, random.one(), random.two());
+        if (!s) continue;
+        const auto again = seen(lights, p, s->wi);
+        REQUIRE(again.distance == s->distance);
+        REQUIRE(again.radiance == s->radiance);
+        REQUIRE(again.pdf == s->pdf);
+        REQUIRE(std::abs(glm::length(s->wi) - 1.0f) < 1e-6f);
+        (s->distance == infinity ? infinite : area) += 1;
+    }
+    CHECK(infinite + area > 99900);  // nearly nothing is lost to rounding at rims
+    CHECK(infinite > 1000);
+    CHECK(area > 1000);
+}
+
+TEST_CASE("lights: a direction that several lights can propose counts all of them") {
+    const Lights lights = everything();
+    const glm::vec3 p(0.0f);
+    // Fluences, and from them the shares: environment, sun, rectangle, sphere.
+    const double rectangle_angle =
+        RectangleLight::facing({-0.5f, 0.0f, 2.0f}, {-0.5f, 0.0f, 0.0f}, 1.5f, 1.0f, {}).solid_angle(p);
+    const double sphere_angle = SphereLight({0.3f, 0.0f, 1.0f}, 0.25f, {}).solid_angle(p);
+    const double sun_radius = 10.0 * half_turn / 180.0;
+    const double sun_angle = 2.0 * half_turn * (1.0 - std::cos(sun_radius));
+    const double environment = 0.5 * 4.0 * half_turn;
+    const double sun = sun_angle / (half_turn * std::pow(std::sin(sun_radius), 2.0));
+    const double rectangle = 3.0 * rectangle_angle;
+    const double sphere = 2.0 * sphere_angle;
+    const double total = environment + sun + rectangle + sphere;
+
+    const auto density = [&](bool in_sun, bool in_rectangle, bool in_sphere) {
+        return (environment / (4.0 * half_turn) + (in_sun ? sun / sun_angle : 0.0) +
+                (in_rectangle ? rectangle / rectangle_angle : 0.0) + (in_sphere ? sphere / sphere_angle : 0.0)) /
+               total;
+    };
+    const auto pdf = [&](const glm::vec3& to) { return lights.pdf(p, glm::normalize(to)); };
+    CHECK(pdf({0, 0, -1}) == doctest::Approx(density(false, false, false)).epsilon(1e-5));
+    CHECK(pdf({-0.4f, 0.4f, 2}) == doctest::Approx(density(false, true, false)).epsilon(1e-5));
+    CHECK(pdf({0.3f, 0, 1}) == doctest::Approx(density(false, false, true)).epsilon(1e-5));
+    CHECK(pdf({0.2f, 0, 2}) == doctest::Approx(density(false, true, true)).epsilon(1e-5));
+    CHECK(pdf(towards_sun) == doctest::Approx(density(true, false, false)).epsilon(1e-5));
+    CHECK(pdf({-1.2f, 0, 2}) == doctest::Approx(density(true, true, false)).epsilon(1e-5));
+    CHECK(lights.intersect(p, glm::normalize(glm::vec3(0.2f, 0, 2)), infinity, false)->radiance.x == 2.0f);
+    CHECK(lights.infinite(p, towards_sun, false).radiance.x > 1.5f);
+    CHECK(lights.infinite(p, {0, 0, -1}, false).radiance.x == 0.5f);
+}
+
+TEST_CASE("lights: the density integrates to 1 and samples follow it") {
+    const Lights lights = everything();
+    for (const glm::vec3 p : {glm::vec3(0.0f), glm::vec3(0.3f, 0.1f, 1.0f)}) {
+        CAPTURE(p.x);
+        constexpr int columns = 8;
+        constexpr int rows = 8;
+        const auto probability = lat_long_probabilities(
+            columns, rows, 128, [&](const glm::vec3& w) { return static_cast<double>(lights.pdf(p, w)); });
+        // On a grid of 1,024² cells; edges of lights cross a few in a thousand of them, with random sign.
+        CHECK(sum_of(probability) == doctest::Approx(1.0).epsilon(1e-3));
+        Uniform choice(5);
+        check_directions(
+            probability,
+            [&](const glm::vec2& u) -> std::optional<glm::vec3> {
+                // The choice of the light takes its random number from the first one, so that the planted defect, which
+                // narrows the second, is not diluted.
+                const auto s = lights.sample(p, choice.one(), u);
+                if (!s) return std::nullopt;
+                return s->wi;
+            },
+            [](const glm::vec3& w) { return lat_long_bin(columns, rows, w); });
+    }
+}
+
+TEST_CASE("lights: light samples, BSDF samples and both together estimate the same integral") {
+    Lights day;
+    const Daylight daylight_parts =
+        make_daylight({.sun_elevation_degrees = 40.0f, .sun_angular_diameter_degrees = 4.0f});
+    day.add(daylight_parts.sky);
+    day.add(daylight_parts.sun);
+    Lights sky;
+    sky.add(daylight_parts.sky);
+    struct Case {
+        std::string name;
+        Lights lights;
+        double expected;
+        bool bsdf_alone;  // cosine samples find the light often enough to be tested alone
+    };
+    const glm::vec3 p(0.0f, 0.0f, 0.05f);
+    const glm::vec3 normal = glm::normalize(glm::vec3(0.1f, 0.1f, 1.0f));
+    // The sun's disk is too small for the grid; it is L π sin²α cos θ.
+    const double sun = luminance(daylight_parts.sun.radiance(daylight_parts.sun.direction())) * half_turn *
+                       std::pow(std::sin(2.0 * half_turn / 180.0), 2.0) *
+                       glm::dot(normal, daylight_parts.sun.direction());
+    Lights rectangle;
+    rectangle.add(RectangleLight::facing({0.5f, 0.2f, 1.5f}, {0, 0, 0}, 1.0f, 1.0f, glm::vec3(1.0f)));
+    const Case cases[] = {{"everything", everything(), irradiance_by_quadrature(everything(), p, normal), true},
+                          {"sky and sun", day, irradiance_by_quadrature(sky, p, normal) + sun, false},
+                          {"rectangle", rectangle, irradiance_by_quadrature(rectangle, p, normal), true}};
+    const auto cosine_density = [&](const glm::vec3& w) { return cosine_hemisphere_pdf(glm::dot(normal, w)); };
+    for (const Case& test : cases) {
+        CAPTURE(test.name);
+        const Lights& lights = test.lights;
+        const double expected = test.expected;
+
+        const auto by_light = [&](Uniform& random, bool weigh) {
+            const float choice = random.one();
+            const auto s = lights.sample(p, choice, random.two());
+            if (!s || glm::dot(normal, s->wi) <= 0.0f) return 0.0;
+            const float weight = weigh ? s->pdf / (s->pdf + cosine_density(s->wi)) : 1.0f;
+            return static_cast<double>(weight * luminance(s->radiance) * glm::dot(normal, s->wi) / s->pdf);
+        };
+        const auto by_bsdf = [&](Uniform& random, bool weigh) {
+            const glm::vec3 w = Frame(normal).to_world(square_to_cosine_hemisphere(random.two()));
+            const float density = cosine_density(w);
+            if (!(density > 0.0f)) return 0.0;
+            const auto emission = seen(lights, p, w);
+            const float weight = weigh ? density / (density + emission.pdf) : 1.0f;
+            return static_cast<double>(weight * luminance(emission.radiance) * glm::dot(normal, w) / density);
+        };
+        check(estimator_test(expected, 1000000, [&](Uniform& r) { return by_light(r, false); }));
+        check(estimator_test(expected, 1000000, [&](Uniform& r) { return by_light(r, true) + by_bsdf(r, true); }));
+        if (test.bsdf_alone) {
+            check(estimator_test(expected, 2500000, [&](Uniform& r) { return by_bsdf(r, false); }));
+        }
+    }
+}
+
+TEST_CASE("lights: visibility to the camera, background, and occlusion") {
+    Lights lights = everything();
+    const glm::vec3 p(0.0f);
+    const glm::vec3 to_both = glm::normalize(glm::vec3(0.2f, 0.0f, 2.0f));
+    // The sphere in front is invisible to the camera, the rectangle behind it is not.
+    CHECK(lights.intersect(p, to_both, infinity, true)->radiance.x == 3.0f);
+    CHECK(lights.intersect(p, to_both, infinity, false)->radiance.x == 2.0f);
+    CHECK(lights.intersect(p, to_both, 0.5f, false) == std::nullopt);
+    const float to_rectangle = lights.intersect(p, to_both, infinity, true)->distance;
+    CHECK(to_rectangle == doctest::Approx(2.0 / to_both.z));
+    CHECK_FALSE(lights.intersect(p, to_both, to_rectangle, true));
+
+    lights.set_background(glm::vec3(0.1f, 0.2f, 0.3f));
+    CHECK(lights.infinite(p, towards_sun, true).radiance == glm::vec3(0.1f, 0.2f, 0.3f));
+    CHECK(lights.infinite(p, towards_sun, false).radiance.x > 1.5f);
+    lights.set_background(std::nullopt);
+    CHECK(lights.infinite(p, towards_sun, true).radiance.x > 1.5f);
+}
+
+TEST_CASE("lights: none, black ones, and ones that are turned away yield nothing") {
+    Lights lights;
+    CHECK(lights.empty());
+    CHECK_FALSE(lights.sample({}, 0.5f, {0.5f, 0.5f}));
+    CHECK_FALSE(lights.intersect({}, {0, 0, 1}, infinity, true));
+    CHECK(lights.infinite({}, {0, 0, 1}, true).radiance == glm::vec3(0.0f));
+    CHECK(lights.infinite({}, {0, 0, 1}, true).pdf == 0.0f);
+    lights.add(ConstantEnvironment(glm::vec3(0.0f)));
+    lights.add(RectangleLight::facing({0, 0, 1}, {0, 0, 2}, 1, 1, glm::vec3(1.0f)));
+    CHECK_FALSE(lights.empty());
+    CHECK_FALSE(lights.sample({}, 0.5f, {0.5f, 0.5f}));
+    CHECK(lights.sample({0, 0, 2}, 0.5f, {0.5f, 0.5f}));
+    // A light that takes no part is never chosen, at either end of the range.
+    lights.add(ConstantEnvironment(glm::vec3(0.0f)));
+    for (const float choice : {0.0f, 0x1.fffffep-1f}) {
+        CHECK(lights.sample({0, 0, 2}, choice, {0.5f, 0.5f})->radiance.x == 1.0f);
+    }
+    CHECK_FALSE(lights.sample(glm::vec3(std::numeric_limits<float>::quiet_NaN()), 0.5f, {0.5f, 0.5f}));
+}

@@ -1,0 +1,430 @@
+#pragma once
+
+/// An oracle: what every node means, written a second time, in double, from the definitions of the sets (paper,
+/// Sections 3 to 6) and textbook inequalities of the primitives. It shares no equation with the library.
+///
+///     inside(f, p), label(a, p)   plain Boolean set algebra: &&, ||, !, "the later object replaces", inverse
+///     transforms value(f, p), values(a, p)   fields as numbers, for those nodes whose very meaning is one (offset,
+///     shell, smooth
+///                                 operators, thin_shell, layered) and as an independent reference of φ
+///
+/// The functions dispatch over the library's variants without a default case: a node added to the list does not
+/// compile here until the oracle knows it.
+
+#include <glm/geometric.hpp>
+#include <limits>
+#include <stdexcept>
+
+#include "phasetree/nodes/node.hpp"
+
+namespace phasetree::tests {
+
+inline constexpr double absent = std::numeric_limits<double>::infinity();
+
+/// Φ in double, an absent phase being infinite. The index is the phase's.
+struct Components {
+    std::array<double, 16> phi;
+
+    Components() { phi.fill(absent); }
+    double& operator[](std::size_t i) { return phi.at(i); }
+    double operator[](std::size_t i) const { return phi.at(i); }
+    static constexpr std::size_t size = 16;
+
+    /// Second smallest component: no label changes within that distance.
+    double interface_distance() const {
+        double first = absent, second = absent;
+        for (const double v : phi) {
+            second = std::min(second, std::max(first, v));
+            first = std::min(first, v);
+        }
+        return second;
+    }
+};
+
+bool inside(const Field&, const glm::dvec3&);
+Phase label(const Phased&, const glm::dvec3&);
+double value(const Field&, const glm::dvec3&);
+Components values(const Phased&, const glm::dvec3&);
+
+namespace oracle {
+
+using glm::dvec3;
+
+inline double square(double x) {
+    return x * x;
+}
+
+// Inverse transforms.
+
+inline dvec3 back(const Translate& w, const dvec3& p) {
+    return p - dvec3(w.by);
+}
+/// Rodrigues' formula for the opposite angle.
+inline dvec3 back(const Rotate& w, const dvec3& p) {
+    const dvec3 k = glm::normalize(dvec3(w.axis));
+    const double a = -glm::radians(static_cast<double>(w.angle));
+    return p * std::cos(a) + glm::cross(k, p) * std::sin(a) + k * (glm::dot(k, p) * (1 - std::cos(a)));
+}
+inline dvec3 back(const Scale& w, const dvec3& p) {
+    return p / static_cast<double>(w.factor);
+}
+inline dvec3 back(const Twist& w, const dvec3& p) {
+    const double a = -glm::radians(static_cast<double>(w.rate)) * p.z;
+    return {p.x * std::cos(a) - p.y * std::sin(a), p.x * std::sin(a) + p.y * std::cos(a), p.z};
+}
+
+// Primitives: membership.
+
+inline bool member(const Sphere& n, const dvec3& p) {
+    return glm::dot(p, p) < square(n.radius);
+}
+inline bool member(const Box& n, const dvec3& p) {
+    return 2 * std::abs(p.x) < n.size.x && 2 * std::abs(p.y) < n.size.y && 2 * std::abs(p.z) < n.size.z;
+}
+/// A box, and a ball rolled about it.
+inline bool member(const RoundedBox& n, const dvec3& p) {
+    double sum = 0;
+    for (int i = 0; i < 3; ++i) {
+        const double beyond = std::abs(p[i]) - (n.size[i] / 2.0 - n.radius);
+        if (beyond > n.radius) return false;
+        if (beyond > 0) sum += beyond * beyond;
+    }
+    return sum == 0 || sum < square(n.radius);
+}
+inline bool member(const Cylinder& n, const dvec3& p) {
+    return p.x * p.x + p.y * p.y < square(n.radius) && 2 * std::abs(p.z) < n.height;
+}
+inline bool member(const CappedCone& n, const dvec3& p) {
+    const double up = p.z / n.height + 0.5;
+    const double radius = n.radius_bottom + (static_cast<double>(n.radius_top) - n.radius_bottom) * up;
+    return up > 0 && up < 1 && p.x * p.x + p.y * p.y < square(radius);
+}
+/// A ball at either end and a cylinder between.
+inline bool member(const Capsule& n, const dvec3& p) {
+    const dvec3 a(n.from), b(n.to), axis = b - a, q = p - a, side = glm::cross(q, axis);
+    const double along = glm::dot(q, axis), squared = glm::dot(axis, axis);
+    return glm::dot(q, q) < square(n.radius) || glm::dot(p - b, p - b) < square(n.radius) ||
+           (along > 0 && along < squared && glm::dot(side, side) < square(n.radius) * squared);
+}
+inline bool member(const Torus& n, const dvec3& p) {
+    return square(std::hypot(p.x, p.y) - n.major) + p.z * p.z < square(n.minor);
+}
+inline bool member(const Plane& n, const dvec3& p) {
+    return glm::dot(p, dvec3(n.normal)) < n.offset;
+}
+
+// Primitives: signed distance.
+
+inline double box(const dvec3& p, const dvec3& half) {
+    const dvec3 q = glm::abs(p) - half;
+    const double most = std::max({q.x, q.y, q.z});
+    return most < 0 ? most : glm::length(glm::max(q, dvec3(0)));
+}
+inline double signed_value(const Sphere& n, const dvec3& p) {
+    return glm::length(p) - n.radius;
+}
+inline double signed_value(const Box& n, const dvec3& p) {
+    return box(p, dvec3(n.size) / 2.0);
+}
+inline double signed_value(const RoundedBox& n, const dvec3& p) {
+    return box(p, dvec3(n.size) / 2.0 - static_cast<double>(n.radius)) - n.radius;
+}
+/// Distance in the plane (ρ, z) to a segment.
+inline double to_segment(double rho, double z, double r0, double z0, double r1, double z1) {
+    const double dr = r1 - r0, dz = z1 - z0;
+    const double s = std::clamp(((rho - r0) * dr + (z - z0) * dz) / (dr * dr + dz * dz), 0.0, 1.0);
+    return std::hypot(rho - r0 - s * dr, z - z0 - s * dz);
+}
+/// The profile's three edges; the fourth is the axis.
+inline double signed_value(const CappedCone& n, const dvec3& p) {
+    const double rho = std::hypot(p.x, p.y), h = n.height / 2.0, b = n.radius_bottom, t = n.radius_top;
+    double d = to_segment(rho, p.z, b, -h, t, h);
+    d = std::min(d, b > 0 ? to_segment(rho, p.z, 0, -h, b, -h) : std::hypot(rho, p.z + h));
+    d = std::min(d, t > 0 ? to_segment(rho, p.z, 0, h, t, h) : std::hypot(rho, p.z - h));
+    return member(n, p) ? -d : d;
+}
+inline double signed_value(const Cylinder& n, const dvec3& p) {
+    return signed_value(CappedCone{.radius_bottom = n.radius, .radius_top = n.radius, .height = n.height}, p);
+}
+inline double signed_value(const Capsule& n, const dvec3& p) {
+    const dvec3 a(n.from), b(n.to), axis = b - a;
+    const double squared = glm::dot(axis, axis);
+    const double s = squared > 0 ? std::clamp(glm::dot(p - a, axis) / squared, 0.0, 1.0) : 0.0;
+    return glm::length(p - a - axis * s) - n.radius;
+}
+inline double signed_value(const Torus& n, const dvec3& p) {
+    return std::hypot(std::hypot(p.x, p.y) - n.major, p.z) - n.minor;
+}
+inline double signed_value(const Plane& n, const dvec3& p) {
+    return glm::dot(p, dvec3(n.normal)) - n.offset;
+}
+
+// Operators of plain fields.
+
+/// Section 9.3.
+inline double smooth_minimum(double a, double b, double r) {
+    const double d = std::max(1 - std::abs(b - a) / r, 0.0);
+    return std::min(a, b) - r / 6 * d * d * d;
+}
+template <class Combine>
+double folded(const std::vector<Field>& of, const dvec3& p, Combine&& combine) {
+    double result = value(of.front(), p);
+    for (std::size_t i = 1; i < of.size(); ++i) result = combine(result, value(of[i], p));
+    return result;
+}
+inline bool in_any(const std::vector<Field>& of, const dvec3& p) {
+    return std::any_of(of.begin(), of.end(), [&](const Field& f) { return inside(f, p); });
+}
+
+inline double signed_value(const Union& n, const dvec3& p) {
+    return folded(n.of, p, [](double a, double b) { return std::min(a, b); });
+}
+inline double signed_value(const Intersection& n, const dvec3& p) {
+    return folded(n.of, p, [](double a, double b) { return std::max(a, b); });
+}
+inline double signed_value(const Difference& n, const dvec3& p) {
+    double result = value(n.from, p);
+    for (const Field& f : n.subtract) result = std::max(result, -value(f, p));
+    return result;
+}
+inline double signed_value(const SmoothUnion& n, const dvec3& p) {
+    return folded(n.of, p, [&](double a, double b) { return smooth_minimum(a, b, n.radius); });
+}
+inline double signed_value(const SmoothIntersection& n, const dvec3& p) {
+    return folded(n.of, p, [&](double a, double b) { return -smooth_minimum(-a, -b, n.radius); });
+}
+inline double signed_value(const SmoothDifference& n, const dvec3& p) {
+    const double cut = folded(n.subtract, p, [&](double a, double b) { return smooth_minimum(a, b, n.radius); });
+    return -smooth_minimum(-value(n.from, p), cut, n.radius);
+}
+inline double signed_value(const Offset& n, const dvec3& p) {
+    return value(n.of, p) - n.amount;
+}
+inline double signed_value(const Shell& n, const dvec3& p) {
+    return std::abs(value(n.of, p)) - n.half_thickness;
+}
+inline double signed_value(const Merge& n, const dvec3& p) {
+    const Components a = values(n.of, p);
+    double result = absent;
+    for (std::size_t i = 0; i < Components::size; ++i)
+        if (n.phases.empty() ? i > 0 : n.phases.contains(static_cast<int>(i))) result = std::min(result, a[i]);
+    return result;
+}
+
+inline bool member(const Union& n, const dvec3& p) {
+    return in_any(n.of, p);
+}
+inline bool member(const Intersection& n, const dvec3& p) {
+    return std::all_of(n.of.begin(), n.of.end(), [&](const Field& f) { return inside(f, p); });
+}
+inline bool member(const Difference& n, const dvec3& p) {
+    return inside(n.from, p) && !in_any(n.subtract, p);
+}
+inline bool member(const SmoothUnion& n, const dvec3& p) {
+    return signed_value(n, p) < 0;
+}
+inline bool member(const SmoothIntersection& n, const dvec3& p) {
+    return signed_value(n, p) < 0;
+}
+inline bool member(const SmoothDifference& n, const dvec3& p) {
+    return signed_value(n, p) < 0;
+}
+inline bool member(const Offset& n, const dvec3& p) {
+    return signed_value(n, p) < 0;
+}
+inline bool member(const Shell& n, const dvec3& p) {
+    return signed_value(n, p) < 0;
+}
+inline bool member(const Merge& n, const dvec3& p) {
+    const Phase l = label(n.of, p);
+    return n.phases.empty() ? l != vacuum : n.phases.contains(l);
+}
+
+// Objects: the phase at a point, by sets.
+
+inline Phase region(const Set& n, const dvec3& p) {
+    return inside(n.of, p) ? n.phase : vacuum;
+}
+/// The wall is where the surface is nearer than t, the inside what is deeper.
+inline Phase region(const ThinShell& n, const dvec3& p) {
+    const double f = value(n.of, p);
+    if (f >= n.half_thickness) return vacuum;
+    return f > -n.half_thickness ? n.shell : n.inside;
+}
+/// The last of the objects that are here.
+inline Phase region(const Under& n, const dvec3& p) {
+    for (std::size_t i = n.of.size(); i-- > 0;)
+        if (const Phase l = label(n.of[i], p); l != vacuum) return l;
+    return vacuum;
+}
+/// The first of the objects that are here.
+inline Phase region(const Over& n, const dvec3& p) {
+    for (const Phased& a : n.of)
+        if (const Phase l = label(a, p); l != vacuum) return l;
+    return vacuum;
+}
+/// I(complement of A₀, t) ∩ A₀ gets the layer's phase.
+inline Phase region(const Layered& n, const dvec3& p) {
+    const Phase l = label(n.of, p);
+    return l == vacuum && -values(n.of, p)[0] < n.thickness ? n.phase : l;
+}
+inline bool is_cut(PhaseSet chosen, Phase l) {
+    return l != vacuum && (chosen.empty() || chosen.contains(l));
+}
+inline Phase region(const IntersectShape& n, const dvec3& p) {
+    const Phase l = label(n.of, p);
+    return is_cut(n.phases_cut, l) && !inside(n.shape, p) ? vacuum : l;
+}
+inline Phase region(const SubtractShape& n, const dvec3& p) {
+    const Phase l = label(n.of, p);
+    return is_cut(n.phases_cut, l) && inside(n.shape, p) ? vacuum : l;
+}
+inline Phase region(const Change& n, const dvec3& p) {
+    const Phase l = label(n.of, p);
+    return l == n.from && (!n.shape || inside(n.shape, p)) ? n.to : l;
+}
+inline Phase region(const Remove& n, const dvec3& p) {
+    const Phase l = label(n.of, p);
+    return n.gone.contains(l) ? vacuum : l;
+}
+
+// Objects: Φ as numbers. With infinite absent phases the equations of the table hold without a special case.
+
+inline Components components(const Set& n, const dvec3& p) {
+    Components r;
+    r[n.phase.index] = value(n.of, p);
+    r[0] = -r[n.phase.index];
+    return r;
+}
+inline Components components(const ThinShell& n, const dvec3& p) {
+    Components r;
+    const double f = value(n.of, p);
+    r[0] = n.half_thickness - f;
+    r[n.shell.index] = std::abs(f) - n.half_thickness;
+    r[n.inside.index] = f + n.half_thickness;
+    return r;
+}
+inline Components replaced(const Components& a, const Components& b) {
+    Components r;
+    r[0] = std::max(a[0], b[0]);
+    for (std::size_t i = 1; i < Components::size; ++i) {
+        double others = absent;
+        for (std::size_t j = 1; j < Components::size; ++j)
+            if (j != i) others = std::min(others, b[j]);
+        r[i] = std::min(a[i], b[i]);
+        if (r[i] < absent) r[i] = std::max(r[i], -others);
+    }
+    return r;
+}
+inline Components components(const Under& n, const dvec3& p) {
+    Components r = values(n.of.front(), p);
+    for (std::size_t i = 1; i < n.of.size(); ++i) r = replaced(r, values(n.of[i], p));
+    return r;
+}
+inline Components components(const Over& n, const dvec3& p) {
+    Components r = values(n.of.back(), p);
+    for (std::size_t i = n.of.size() - 1; i-- > 0;) r = replaced(r, values(n.of[i], p));
+    return r;
+}
+inline Components components(const Layered& n, const dvec3& p) {
+    Components a = values(n.of, p);
+    const double outside = a[0], t = n.thickness;
+    a[n.phase.index] = std::min(a[n.phase.index], std::max(-outside - t, outside));
+    a[0] = outside + t;
+    return a;
+}
+/// What is kept of the chosen phases is where kept < 0. If that is all phases, what goes need not be within them.
+inline Components cut(Components a, double kept, PhaseSet chosen, PhaseSet there) {
+    const bool all = chosen.empty() || (there.bits & ~chosen.bits & ~std::uint64_t{1}) == 0;
+    double vacuum_value = all ? std::min(a[0], -kept) : a[0];
+    for (std::size_t i = 1; i < Components::size; ++i) {
+        if (!(a[i] < absent) || !(all || chosen.contains(static_cast<int>(i)))) continue;
+        if (!all) vacuum_value = std::min(vacuum_value, std::max(a[i], -kept));
+        a[i] = std::max(a[i], kept);
+    }
+    a[0] = vacuum_value;
+    return a;
+}
+inline Components components(const IntersectShape& n, const dvec3& p) {
+    return cut(values(n.of, p), value(n.shape, p), n.phases_cut, phases(n.of));
+}
+inline Components components(const SubtractShape& n, const dvec3& p) {
+    return cut(values(n.of, p), -value(n.shape, p), n.phases_cut, phases(n.of));
+}
+inline Components components(const Change& n, const dvec3& p) {
+    const Components a = values(n.of, p);
+    const double f = n.shape ? value(n.shape, p) : -absent;
+    Components r = a;
+    if (!(a[n.from.index] < absent)) return a;
+    r[n.to.index] = std::min(a[n.to.index], std::max(a[n.from.index], f));
+    r[n.from.index] = std::max(a[n.from.index], -f);
+    return r;
+}
+inline Components components(const Remove& n, const dvec3& p) {
+    Components a = values(n.of, p);
+    for (std::size_t i = 1; i < Components::size; ++i) {
+        if (!n.gone.contains(static_cast<int>(i))) continue;
+        a[0] = std::min(a[0], a[i]);
+        a[i] = absent;
+    }
+    return a;
+}
+
+// Warps. λ is the node's choice, which the tests of slopes hold to be large enough.
+
+template <class W>
+double to_bound(const Warped<W, Field>& n, const dvec3& p) {
+    return box(p - dvec3(n.bound.centre), dvec3(n.bound.half));
+}
+template <class W>
+double to_bound(const Warped<W, Phased>& n, const dvec3& p) {
+    return box(p - dvec3(n.bound.centre), dvec3(n.bound.half));
+}
+
+template <class W>
+bool member(const WarpedField<W>& n, const dvec3& p) {
+    return inside(n.of, back(n.warp, p));
+}
+template <class W>
+Phase region(const WarpedPhased<W>& n, const dvec3& p) {
+    return label(n.of, back(n.warp, p));
+}
+template <class W>
+double signed_value(const WarpedField<W>& n, const dvec3& p) {
+    double f = value(n.of, back(n.warp, p)) * n.warp.value_scale();
+    if constexpr (LocalWarp<W>) {
+        const double b = to_bound(n, p);
+        f = std::max(b, std::min(f, n.warp.margin() - b));
+    }
+    return f;
+}
+template <class W>
+Components components(const WarpedPhased<W>& n, const dvec3& p) {
+    Components a = values(n.of, back(n.warp, p));
+    for (std::size_t i = 0; i < Components::size; ++i) {
+        if (!(a[i] < absent)) continue;
+        a[i] *= n.warp.value_scale();
+        if constexpr (LocalWarp<W>) {
+            const double b = to_bound(n, p), far = n.warp.margin() - b;
+            a[i] = i == 0 ? std::min(-b, std::max(a[i], -far)) : std::max(b, std::min(a[i], far));
+        }
+    }
+    return a;
+}
+
+}  // namespace oracle
+
+inline bool inside(const Field& f, const glm::dvec3& p) {
+    return std::visit([&](const auto& n) { return oracle::member(n, p); }, f.node()->node);
+}
+inline Phase label(const Phased& a, const glm::dvec3& p) {
+    return std::visit([&](const auto& n) { return oracle::region(n, p); }, a.node()->node);
+}
+inline double value(const Field& f, const glm::dvec3& p) {
+    return std::visit([&](const auto& n) { return oracle::signed_value(n, p); }, f.node()->node);
+}
+inline Components values(const Phased& a, const glm::dvec3& p) {
+    return std::visit([&](const auto& n) { return oracle::components(n, p); }, a.node()->node);
+}
+
+}  // namespace phasetree::tests

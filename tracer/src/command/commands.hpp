@@ -1,0 +1,18 @@
+// The subcommands of `phasetree`, one file each. Each adds itself to the command line and, when it is chosen, sets
+// `run`, which returns the exit code: 0 for success, 1 for an interrupted or failed run, 2 for input that is wrong.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace phasetree::tracer {
+
+using Run = std::function<int()>;
+
+void add_render(CLI::App& app, Run& run);
+void add_check(CLI::App& app, Run& run);
+void add_info(CLI::App& app, Run& run);
+void add_eval(CLI::App& app, Run& run);
+void add_trace(CLI::App& app, Run& run);
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,71 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "command/commands.hpp"
+#include "phasetree/phasetree.hpp"
+#include "phasetree/reading/tree.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+int info(const std::string& file, bool as_json) {
+    const SceneTree tree = read_tree(Document::from_file(file));
+    const TreeStatistics s = statistics(tree.object);
+    const Bounds b = bounds(tree.object);
+    const Evaluator evaluator(record(tree.object));
+    const Program& program = evaluator.program();
+    const PhaseSet there = phases(tree.object);
+
+    if (as_json) {
+        nlohmann::ordered_json json;
+        json["scene"] = file;
+        json["nodes"] = s.nodes;
+        json["depth"] = s.depth;
+        json["tree_bytes"] = s.bytes;
+        auto& list = json["phases"] = nlohmann::ordered_json::array();
+        for_each_phase(there.bits & ~std::uint64_t{1},
+                       [&](int i) { list.push_back(tree.phases.names[static_cast<std::size_t>(i)]); });
+        if (b.finite() && !b.empty())
+            json["bounds"] = {{b.low.x, b.low.y, b.low.z}, {b.high.x, b.high.y, b.high.z}};
+        else
+            json["bounds"] = nullptr;
+        json["instructions"] = program.instructions.size();
+        json["program_bytes"] = evaluator.bytes();
+        json["simd"] = simd_target();
+        fmt::print("{}\n", json.dump(2));
+        return 0;
+    }
+    std::string names;
+    for_each_phase(there.bits & ~std::uint64_t{1}, [&](int i) {
+        names += (names.empty() ? "" : ", ") + tree.phases.names[static_cast<std::size_t>(i)];
+    });
+    fmt::print("{:<14}{}\n", "scene", file);
+    fmt::print("{:<14}{} ({} deep)\n", "nodes", s.nodes, s.depth);
+    fmt::print("{:<14}{} ({})\n", "phases", std::popcount(there.bits & ~std::uint64_t{1}), names);
+    fmt::print("{:<14}{}\n", "tree bytes", s.bytes);
+    if (b.finite() && !b.empty())
+        fmt::print("{:<14}[{}, {}, {}] to [{}, {}, {}]\n", "bounds", b.low.x, b.low.y, b.low.z, b.high.x, b.high.y,
+                   b.high.z);
+    else
+        fmt::print("{:<14}{}\n", "bounds", b.empty() ? "empty" : "unbounded");
+    fmt::print("{:<14}{}\n", "instructions", program.instructions.size());
+    fmt::print("{:<14}{}\n", "program bytes", evaluator.bytes());
+    fmt::print("{:<14}{}\n", "SIMD", simd_target());
+    return 0;
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, Run& run) {
+    CLI::App* command = app.add_subcommand("info", "Print a scene's nodes, phases, bytes, bounds and instructions");
+    auto file = std::make_shared<std::string>();
+    auto json = std::make_shared<bool>(false);
+    command->add_option("scene", *file, "The scene file")->required();
+    command->add_flag("--json", *json, "As JSON");
+    command->callback([file, json, &run] { run = [file, json] { return info(*file, *json); }; });
+}
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,170 @@
+#include "render/render.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "command/commands.hpp"
+#include "command/load.hpp"
+#include "output/interrupt.hpp"
+#include "output/progress.hpp"
+#include "output/write.hpp"
+#include "phasetree/phasetree.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+struct Options {
+    std::string scene;
+    std::vector<std::string> outputs;
+    std::optional<int> samples;
+    std::optional<std::string> size;
+    std::optional<std::string> crop;
+    int threads = 0;
+    std::optional<std::uint32_t> seed;
+    std::optional<float> exposure;
+    std::optional<std::string> display, view, stats;
+    bool quiet = false;
+};
+
+std::vector<int> integers(const std::string& text, char separator, std::size_t count, const char* option,
+                          const char* form) {
+    std::vector<int> values;
+    std::size_t from = 0;
+    while (from <= text.size() && values.size() < count) {
+        const std::size_t to = std::min(text.find(separator, from), text.size());
+        int value = 0;
+        const auto [end, error] = std::from_chars(text.data() + from, text.data() + to, value);
+        if (error != std::errc() || end != text.data() + to || from == to) break;
+        values.push_back(value);
+        from = to + 1;
+    }
+    if (values.size() != count || from != text.size() + 1)
+        throw OutputError(fmt::format("{} must be {}, but is \"{}\"", option, form, text));
+    return values;
+}
+
+PixelRange pixels(const Options& options, const Scene& scene) {
+    PixelRange range{0, 0, scene.camera.width, scene.camera.height};
+    if (!options.crop) return range;
+    const std::vector<int> c = integers(*options.crop, ',', 4, "--crop", "X0,Y0,X1,Y1 in pixels");
+    range = {c[0], c[1], c[2], c[3]};
+    if (range.x0 < 0 || range.y0 < 0 || range.x1 > scene.camera.width || range.y1 > scene.camera.height ||
+        range.x0 >= range.x1 || range.y0 >= range.y1)
+        throw OutputError(fmt::format("--crop {} is not a part of the {}x{} image", *options.crop, scene.camera.width,
+                                      scene.camera.height));
+    return range;
+}
+
+void write_stats(const std::string& path, const Options& options, const World& world, const Rendering& r) {
+    const auto per_ray = [&](std::uint64_t n) {
+        return r.counters.trace.rays ? static_cast<double>(n) / static_cast<double>(r.counters.trace.rays) : 0.0;
+    };
+    nlohmann::ordered_json json;
+    json["scene"] = options.scene;
+    json["width"] = r.image.width;
+    json["height"] = r.image.height;
+    json["samples"] = r.samples;
+    json["threads"] = r.threads;
+    json["simd"] = simd_target();
+    json["render_seconds"] = r.seconds;
+    json["paths"] = r.counters.paths;
+    json["interactions"] = r.counters.interactions;
+    json["object_rays"] = r.counters.trace.rays;
+    json["batches_per_ray"] = per_ray(r.counters.trace.batches);
+    json["phantom_steps_per_ray"] = per_ray(r.counters.trace.phantoms);
+    json["instructions"] = world.object().evaluator().program().instructions.size();
+    json["program_bytes"] = world.object().evaluator().bytes();
+    std::ofstream out(path);
+    out << json.dump(2) << "\n";
+    if (!out.flush()) throw OutputError(fmt::format("{}: cannot be written", path));
+}
+
+int render_scene(const Options& options) {
+    Scene scene = load_scene(options.scene);
+    if (options.samples) scene.settings.samples = *options.samples;
+    if (options.seed) scene.settings.seed = *options.seed;
+    if (options.size) {
+        const std::vector<int> size = integers(*options.size, 'x', 2, "--size", "WIDTHxHEIGHT in pixels");
+        for (const int n : size)
+            if (n < 1 || n > 32768)
+                throw OutputError(fmt::format("--size {}: a side is 1 to 32768 pixels", *options.size));
+        scene.camera.width = size[0];
+        scene.camera.height = size[1];
+    }
+    std::vector<std::string> outputs = options.outputs;
+    if (outputs.empty()) {
+        const std::string stem = std::filesystem::path(options.scene).stem().string();
+        outputs = {stem + ".exr", stem + ".png"};
+    }
+    for (const std::string& output : outputs) check_writable(output);
+    const DisplayTransform display(options.display, options.view ? options.view : scene.settings.view,
+                                   options.exposure.value_or(scene.settings.exposure_ev));
+    RenderJob job;
+    job.pixels = pixels(options, scene);
+    job.threads = options.threads;
+    job.cancelled = [] { return interrupted(); };
+
+    const InterruptGuard guard;
+    const World world(scene);
+    const auto total = static_cast<std::uint64_t>(job.pixels.width()) *
+                       static_cast<std::uint64_t>(job.pixels.height()) *
+                       static_cast<std::uint64_t>(scene.settings.samples);
+    Progress progress(total, ProgressOutput::standard_error(options.quiet));
+    job.advance = [&](std::uint64_t n) { progress.advance(n); };
+    const Rendering rendering = render(world, scene, job);
+    progress.finish();
+
+    Metadata metadata;
+    metadata.scene = options.scene;
+    metadata.samples_per_pixel = rendering.samples;
+    metadata.seed = scene.settings.seed;
+    for (const std::string& output : outputs) write_image(rendering.image, output, metadata, display);
+    if (options.stats) write_stats(*options.stats, options, world, rendering);
+    if (const std::size_t bad = count_non_finite(rendering.image))
+        fmt::print(stderr, "phasetree: {} pixels are not finite numbers; please report this scene\n", bad);
+    if (!options.quiet) {
+        for (const std::string& output : outputs)
+            fmt::print(stderr, "{} ({}x{}, {} samples a pixel, {:.1f} s)\n", output, rendering.image.width,
+                       rendering.image.height, rendering.samples, rendering.seconds);
+    }
+    if (rendering.samples < scene.settings.samples) {
+        fmt::print(stderr, "phasetree: interrupted; the image has {} of {} samples a pixel\n", rendering.samples,
+                   scene.settings.samples);
+        return 1;
+    }
+    return 0;
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, Run& run) {
+    CLI::App* command = app.add_subcommand("render", "Path-trace a scene to images");
+    auto o = std::make_shared<Options>();
+    command->add_option("scene", o->scene, "The scene file")->required();
+    command
+        ->add_option("-o,--output", o->outputs,
+                     "Image to write, the extension choosing the format: .exr .png .jpg .tif; may be repeated "
+                     "(default: the scene's name, .exr and .png)")
+        ->take_all()
+        ->expected(1);
+    command->add_option("--spp", o->samples, "Samples a pixel")->check(CLI::Range(1, 1 << 24));
+    command->add_option("--size", o->size, "WIDTHxHEIGHT in pixels");
+    command->add_option("--crop", o->crop, "X0,Y0,X1,Y1: only these pixels, from the top left, the last excluded");
+    command->add_option("--threads", o->threads, "Threads (default: one a core); the image does not depend on it")
+        ->check(CLI::Range(1, 1024));
+    command->add_option("--seed", o->seed, "Seed of the sampling");
+    command->add_option("--exposure", o->exposure, "Stops by which display images are brighter; EXR stays as it is")
+        ->check(CLI::Range(-50.0, 50.0));
+    command->add_option("--display", o->display, "OpenColorIO display");
+    command->add_option("--view", o->view, "OpenColorIO view");
+    command->add_option("--stats", o->stats, "Write what rendering cost, as JSON");
+    command->add_flag("--quiet", o->quiet, "No progress, errors only");
+    command->callback([o, &run] { run = [o] { return render_scene(*o); }; });
+}
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,160 @@
+#include "integrator/world.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "shading/beer_lambert.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+constexpr unsigned tree_id = 0;
+
+RTCRay ray_of(const glm::vec3& origin, const glm::vec3& direction, float far) {
+    RTCRay ray{};
+    ray.org_x = origin.x;
+    ray.org_y = origin.y;
+    ray.org_z = origin.z;
+    ray.tnear = 0;
+    ray.dir_x = direction.x;
+    ray.dir_y = direction.y;
+    ray.dir_z = direction.z;
+    ray.tfar = far;
+    ray.mask = ~0u;
+    return ray;
+}
+
+}  // namespace
+
+World::World(const Scene& scene) : scene_(scene), interfaces_(scene.materials) {
+    object_ = std::make_shared<const InterfaceTracer>(scene.object);
+    device_ = rtcNewDevice(nullptr);
+    if (!device_) throw std::runtime_error("Embree cannot be started");
+    embree_ = rtcNewScene(device_);
+    // The nearest hit of everything, whatever the order of a million small triangles: exactness before speed.
+    rtcSetSceneFlags(embree_, RTC_SCENE_FLAG_ROBUST);
+    tree_.emplace(device_, object_, embree::Options{.rays_carry_phases = true});
+    rtcCommitGeometry(tree_->handle());
+    rtcAttachGeometryByID(embree_, tree_->handle(), tree_id);
+    hair_ = 1e-5f * object_->bounds().diagonal();
+    for (const Mesh& mesh : scene.meshes) add_mesh(mesh);
+    rtcCommitScene(embree_);
+
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (is_clear(scene.materials[i]) && is_clear(scene.materials[j]))
+                passes_somewhere_ = passes_somewhere_ ||
+                                    std::get<Clear>(scene.materials[i]).ior == std::get<Clear>(scene.materials[j]).ior;
+}
+
+World::~World() {
+    if (embree_) rtcReleaseScene(embree_);
+    tree_.reset();
+    if (device_) rtcReleaseDevice(device_);
+}
+
+void World::add_mesh(const Mesh& mesh) {
+    const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3),
+                                             mesh.vertices.size());
+    void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3),
+                                              mesh.triangles.size());
+    std::memcpy(vertices, mesh.vertices.data(), mesh.vertices.size() * sizeof(glm::vec3));
+    std::memcpy(triangles, mesh.triangles.data(), mesh.triangles.size() * sizeof(glm::uvec3));
+    rtcCommitGeometry(geometry);
+    const auto id = static_cast<unsigned>(mesh_interfaces_.size() / scene_.materials.size()) + tree_id + 1;
+    rtcAttachGeometryByID(embree_, geometry, id);
+    rtcReleaseGeometry(geometry);
+    for (const Material& from : scene_.materials) mesh_interfaces_.push_back(Interface::between(from, mesh.material));
+}
+
+std::optional<Surface> World::intersect(const glm::vec3& origin, const glm::vec3& direction, Phase carried,
+                                        TraceCounters& counters) const {
+    embree::Query query;
+    query.carried = carried;
+    RTCRayHit ray{};
+    ray.ray = ray_of(origin, direction, std::numeric_limits<float>::infinity());
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    embree::intersect(embree_, query.context, ray);
+    counters.rays += query.counters.rays;
+    counters.batches += query.counters.batches;
+    counters.phantoms += query.counters.phantoms;
+    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    if (ray.hit.geomID != tree_id) return on_mesh(ray, direction, carried);
+
+    const Crossing& c = query.crossing;
+    Surface s;
+    s.distance = c.t_in;
+    s.normal = -query.normal;
+    s.near_origin = c.p_in;
+    s.far_origin = c.p_out;
+    s.near_phase = c.from;
+    s.far_phase = c.to;
+    s.optics = &interfaces_.between(c.from.index, c.to.index);
+    return s;
+}
+
+Surface World::on_mesh(const RTCRayHit& ray, const glm::vec3& direction, Phase carried) const {
+    const std::size_t index = ray.hit.geomID - tree_id - 1;
+    const Mesh& mesh = scene_.meshes[index];
+    const glm::uvec3& t = mesh.triangles[ray.hit.primID];
+    const float u = ray.hit.u, v = ray.hit.v;
+    // The point by the triangle's own coordinates: exact to an ulp of those, however far the ray has come.
+    const glm::vec3 p = (1 - u - v) * mesh.vertices[t.x] + u * mesh.vertices[t.y] + v * mesh.vertices[t.z];
+    glm::vec3 flat = glm::normalize(glm::vec3(ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z));
+    if (glm::dot(flat, direction) > 0) flat = -flat;
+    Surface s;
+    s.distance = ray.ray.tfar;
+    s.normal = flat;
+    if (!mesh.normals.empty()) {
+        glm::vec3 n = glm::normalize((1 - u - v) * mesh.normals[t.x] + u * mesh.normals[t.y] + v * mesh.normals[t.z]);
+        if (glm::dot(n, flat) < 0) n = -n;
+        if (glm::dot(n, direction) < 0) s.normal = n;  // else the ray grazes, and the shading normal faces away
+    }
+    const float size = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), 1.0f});
+    s.near_origin = p + flat * std::max(hair_, 1e-5f * size);
+    s.far_origin = s.near_origin;
+    s.near_phase = s.far_phase = carried;
+    s.optics = &mesh_interfaces_[index * scene_.materials.size() + carried.index];
+    return s;
+}
+
+glm::vec3 World::visibility(const glm::vec3& origin, const glm::vec3& direction, float distance, Phase carried,
+                            TraceCounters& counters) const {
+    const auto absorbed = [&](Phase phase, float length) {
+        const Clear* medium = std::get_if<Clear>(&scene_.materials[phase.index]);
+        return medium ? transmittance(medium->absorption, length) : glm::vec3(0.0f);
+    };
+    if (!passes_somewhere_) {
+        embree::Query query;
+        query.carried = carried;
+        RTCRay ray = ray_of(origin, direction, distance);
+        const bool hidden = embree::occluded(embree_, query.context, ray);
+        counters.rays += query.counters.rays;
+        counters.batches += query.counters.batches;
+        counters.phantoms += query.counters.phantoms;
+        return hidden ? glm::vec3(0.0f) : absorbed(carried, distance);
+    }
+    glm::vec3 passed(1.0f), p = origin;
+    for (int i = 0; i < 1000; ++i) {
+        const auto surface = intersect(p, direction, carried, counters);
+        if (!surface || surface->distance >= distance) return passed * absorbed(carried, distance);
+        if (surface->near_phase == surface->far_phase || !surface->optics->at(p).passes_through())
+            return glm::vec3(0.0f);
+        passed *= absorbed(carried, surface->distance);
+        distance -= surface->distance;
+        p = surface->far_origin;
+        carried = surface->far_phase;
+    }
+    return glm::vec3(0.0f);
+}
+
+Phase World::label(const glm::vec3& p) const {
+    Evaluator::Workspace w;
+    return object_->label(p, w);
+}
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,64 @@
+// The scene in Embree: the object as user geometry, and the meshes beside it.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "phasetree/embree.hpp"
+#include "scene/scene.hpp"
+#include "shading/interface.hpp"
+
+namespace phasetree::tracer {
+
+// A place where a path is changed: an interface between two phases, or a mesh.
+struct Surface {
+    float distance = 0;
+    glm::vec3 normal{0};  // unit; on the side the ray came from
+    // Where a ray goes on that stays on this side, and one that passes through, in which phase.
+    glm::vec3 near_origin{0};
+    glm::vec3 far_origin{0};
+    Phase near_phase;
+    Phase far_phase;
+    const Interface* optics = nullptr;
+};
+
+class World {
+  public:
+    // Refers to the scene, which must outlive it. Throws ModelError for an object that cannot be traced.
+    explicit World(const Scene& scene);
+    ~World();
+    World(const World&) = delete;
+    World& operator=(const World&) = delete;
+
+    // The nearest surface on a ray that carries a phase; direction of unit length.
+    std::optional<Surface> intersect(const glm::vec3& origin, const glm::vec3& direction, Phase carried,
+                                     TraceCounters& counters) const;
+
+    // The part of light that passes between origin and a point at the distance (infinity for an infinite light) along
+    // the direction, straight on. Zero behind any surface: light through an interface of different indices arrives
+    // bent, along paths that the sampling of BSDFs finds. Interfaces of equal indices let it pass, and every medium
+    // absorbs its share.
+    glm::vec3 visibility(const glm::vec3& origin, const glm::vec3& direction, float distance, Phase carried,
+                         TraceCounters& counters) const;
+
+    Phase label(const glm::vec3& p) const;
+    const InterfaceTracer& object() const { return *object_; }
+    // A length below which two points are the same place: what rays that leave a mesh are moved by.
+    float hair() const { return hair_; }
+
+  private:
+    void add_mesh(const Mesh& mesh);
+    Surface on_mesh(const RTCRayHit& ray, const glm::vec3& direction, Phase carried) const;
+
+    const Scene& scene_;
+    std::shared_ptr<const InterfaceTracer> object_;
+    RTCDevice device_ = nullptr;
+    RTCScene embree_ = nullptr;
+    std::optional<embree::TreeGeometry> tree_;
+    InterfaceTable interfaces_;
+    std::vector<Interface> mesh_interfaces_;  // [mesh · phases + phase the ray is in]
+    bool passes_somewhere_ = false;           // two clear phases have equal indices
+    float hair_ = 0;
+};
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,92 @@
+// All lights of a scene, as the integrator sees them.
+//
+// Sampling is one density over *directions*, a mixture of the lights' own:
+//     p(ω | x) = Σᵢ cᵢ(x) pᵢ(ω | x),   Σ cᵢ = 1.
+// A light is chosen with cᵢ, a direction from that light's pᵢ, and the sample is then what is *seen* along that
+// direction if no geometry is in the way: the nearest area light, or, if there is none, all infinite lights together
+// (sky + sun). The radiance belongs to the direction, not to the light that proposed it, and the density is the whole
+// mixture's. So overlapping lights (the sun's disk in front of the sky, a lamp in front of another) are neither counted
+// twice nor lost, ∫ f(ω) L(ω) dω has the unbiased estimator f L/p, and BSDF samples combine with light samples by one
+// pair of densities.
+//
+// cᵢ(x) is proportional to the luminance the light sends through x from all directions if nothing is in the way (its
+// fluence, the mean luminance times the solid angle). Unlike emitted power it needs no extent of the scene to compare
+// an environment with a lamp, and a lamp that is far away or turned away takes no samples.
+//
+// Area lights hide what is behind them, and nothing else: rectangles from their emitting side, spheres from everywhere.
+#pragma once
+
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "lights/constant_environment.hpp"
+#include "lights/gradient_environment.hpp"
+#include "lights/image_environment.hpp"
+#include "lights/rectangle_light.hpp"
+#include "lights/sphere_light.hpp"
+#include "lights/sun.hpp"
+
+namespace phasetree::tracer {
+
+using InfiniteLight = std::variant<ConstantEnvironment, GradientEnvironment, ImageEnvironment, Sun>;
+using AreaLight = std::variant<RectangleLight, SphereLight>;
+
+struct LightSample {
+    glm::vec3 wi;        // unit, from the point towards the light
+    float distance;      // to the light; infinity for infinite lights
+    glm::vec3 radiance;  // that arrives from there if no geometry is in between
+    float pdf;           // per steradian, of the whole mixture
+};
+
+class Lights {
+  public:
+    struct Emission {
+        float distance;
+        glm::vec3 radiance;
+        float pdf;  // the density with which sample() at the ray's origin proposes this direction
+    };
+
+    void add(InfiniteLight light) { infinite_.push_back(std::move(light)); }
+    void add(AreaLight light) { area_.push_back(std::move(light)); }
+    // What camera rays see instead of the infinite lights.
+    void set_background(const std::optional<glm::vec3>& radiance);
+
+    bool empty() const { return infinite_.empty() && area_.empty(); }
+
+    // `u_choice` chooses the light, `u` the direction; all in [0, 1). Nothing when no light reaches p.
+    std::optional<LightSample> sample(const glm::vec3& p, float u_choice, const glm::vec2& u) const;
+
+    // The nearest area light a ray meets before `distance_max`. Camera rays pass through lights that are not visible to
+    // the camera.
+    std::optional<Emission> intersect(const glm::vec3& origin, const glm::vec3& direction, float distance_max,
+                                      bool camera_ray) const;
+
+    // What a ray sees that meets neither geometry nor an area light.
+    Emission infinite(const glm::vec3& origin, const glm::vec3& direction, bool camera_ray) const;
+
+    // The density of sample() at p per steradian.
+    float pdf(const glm::vec3& p, const glm::vec3& direction) const;
+
+  private:
+    struct Hit {
+        float distance;
+        glm::vec3 radiance;
+    };
+
+    std::size_t size() const { return infinite_.size() + area_.size(); }
+    float fluences(const glm::vec3& p, std::span<float> fluence) const;
+    float pdf(const glm::vec3& p, const glm::vec3& direction, std::span<const float> fluence, float total) const;
+    std::optional<Hit> nearest(const glm::vec3& origin, const glm::vec3& direction, float distance_max,
+                               bool camera_ray) const;
+    glm::vec3 infinite_radiance(const glm::vec3& direction) const;
+
+    std::vector<InfiniteLight> infinite_;
+    std::vector<AreaLight> area_;
+    std::optional<glm::vec3> background_;
+};
+
+}  // namespace phasetree::tracer

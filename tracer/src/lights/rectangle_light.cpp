@@ -1,0 +1,161 @@
+#include "lights/rectangle_light.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "lights/check.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+constexpr double smallest_spherical = 1e-9;  // steradians
+
+// The component along z, and 1 − z², of the normal of the plane through the origin and a rectangle's edge. The edge
+// runs parallel to one axis at offset `side` along the other and at depth `depth`.
+struct EdgeNormal {
+    double z;
+    double rest;
+    EdgeNormal(double side, double depth, double sign) {
+        const double squared = side * side + depth * depth;
+        z = sign * side / std::sqrt(squared);
+        rest = depth * depth / squared;
+    }
+};
+
+// The inner angle between two neighbouring edge planes: cos = −z₀z₁, sin² = 1 − z₀²z₁².
+double corner_angle(const EdgeNormal& a, const EdgeNormal& b) {
+    const double sin_squared = a.rest + b.rest - a.rest * b.rest;
+    return std::atan2(std::sqrt(std::max(0.0, sin_squared)), -a.z * b.z);
+}
+
+}  // namespace
+
+// The spherical rectangle, in the frame of p: the rectangle is [x0, x1] × [y0, y1] in the plane z = −depth.
+struct RectangleLight::View {
+    double x0, x1, y0, y1, depth;
+    double solid_angle = 0.0;
+    double b0 = 0.0, b1 = 0.0, k = 0.0;
+};
+
+RectangleLight::RectangleLight(const glm::vec3& centre, const glm::vec3& edge_u, const glm::vec3& edge_v,
+                               const glm::vec3& radiance, bool visible_to_camera)
+    : centre_(centre), radiance_(radiance), visible_to_camera_(visible_to_camera) {
+    check_point(centre, "the rectangle light's centre");
+    check_point(edge_u, "the rectangle light's first edge");
+    check_point(edge_v, "the rectangle light's second edge");
+    check_colour(radiance, "the rectangle light's radiance");
+    const glm::dvec3 u(edge_u);
+    const glm::dvec3 v(edge_v);
+    const double width = glm::length(u);
+    const double height = glm::length(v);
+    if (!(width > 0.0) || !(height > 0.0)) {
+        throw std::invalid_argument("the rectangle light's edges must be longer than zero");
+    }
+    if (std::abs(glm::dot(u, v)) > 1e-4 * width * height) {
+        throw std::invalid_argument("the rectangle light's edges must be perpendicular to each other");
+    }
+    axis_u_ = u / width;
+    axis_n_ = glm::normalize(glm::cross(u, v));
+    axis_v_ = glm::cross(axis_n_, axis_u_);
+    half_u_ = 0.5 * width;
+    half_v_ = 0.5 * height;
+}
+
+RectangleLight RectangleLight::facing(const glm::vec3& centre, const glm::vec3& target, float width, float height,
+                                      const glm::vec3& radiance, bool visible_to_camera) {
+    check_point(centre, "the rectangle light's centre");
+    check_point(target, "the rectangle light's target");
+    check_positive(width, "the rectangle light's width");
+    check_positive(height, "the rectangle light's height");
+    const glm::dvec3 towards = glm::dvec3(target) - glm::dvec3(centre);
+    if (!(glm::length(towards) > 0.0)) {
+        throw std::invalid_argument("the rectangle light's target must not be its centre");
+    }
+    const glm::dvec3 normal = glm::normalize(towards);
+    const glm::dvec3 horizontal = glm::cross(glm::dvec3(0.0, 0.0, 1.0), normal);
+    const glm::dvec3 u = glm::length(horizontal) > 1e-6 ? glm::normalize(horizontal) : glm::dvec3(1.0, 0.0, 0.0);
+    const glm::dvec3 v = glm::normalize(glm::cross(normal, u));
+    return {centre, glm::vec3(u * static_cast<double>(width)), glm::vec3(v * static_cast<double>(height)), radiance,
+            visible_to_camera};
+}
+
+RectangleLight::View RectangleLight::seen_from(const glm::vec3& p) const {
+    const glm::dvec3 offset = centre_ - glm::dvec3(p);
+    const double x = glm::dot(offset, axis_u_);
+    const double y = glm::dot(offset, axis_v_);
+    View view{x - half_u_, x + half_u_, y - half_v_, y + half_v_, -glm::dot(offset, axis_n_)};
+    if (!(view.depth > 0.0)) return view;
+    // The edges' planes in the order y = y0, x = x1, y = y1, x = x0; the sign makes all normals point outwards alike.
+    const EdgeNormal n0(view.y0, view.depth, -1.0);
+    const EdgeNormal n1(view.x1, view.depth, 1.0);
+    const EdgeNormal n2(view.y1, view.depth, 1.0);
+    const EdgeNormal n3(view.x0, view.depth, -1.0);
+    const double g0 = corner_angle(n0, n1);
+    const double g1 = corner_angle(n1, n2);
+    const double g2 = corner_angle(n2, n3);
+    const double g3 = corner_angle(n3, n0);
+    view.b0 = n0.z;
+    view.b1 = n2.z;
+    view.k = 2.0 * std::numbers::pi - g2 - g3;
+    view.solid_angle = g0 + g1 - view.k;
+    if (!(view.solid_angle >= smallest_spherical)) {
+        const double distance = glm::length(offset);
+        view.solid_angle = 4.0 * half_u_ * half_v_ * view.depth / (distance * distance * distance);
+        view.solid_angle = std::min(view.solid_angle, 0.999 * smallest_spherical);
+    }
+    return view;
+}
+
+double RectangleLight::solid_angle(const glm::vec3& p) const {
+    return seen_from(p).solid_angle;
+}
+
+glm::vec3 RectangleLight::sample(const glm::vec3& p, const glm::vec2& u) const {
+    const View view = seen_from(p);
+    double x = 0.0;
+    double y = 0.0;
+    if (view.solid_angle < smallest_spherical) {
+        x = view.x0 + static_cast<double>(u.x) * (view.x1 - view.x0);
+        y = view.y0 + static_cast<double>(u.y) * (view.y1 - view.y0);
+    } else {
+        const double angle = static_cast<double>(u.x) * view.solid_angle + view.k;
+        const double fu = (std::cos(angle) * view.b0 - view.b1) / std::sin(angle);
+        const double cu = std::clamp(std::copysign(1.0 / std::sqrt(fu * fu + view.b0 * view.b0), fu), -1.0, 1.0);
+        const double xu = cu * view.depth / std::sqrt(std::max(1e-300, 1.0 - cu * cu));
+        x = std::clamp(xu, view.x0, view.x1);
+        const double d = std::sqrt(x * x + view.depth * view.depth);
+        const double h0 = view.y0 / std::sqrt(d * d + view.y0 * view.y0);
+        const double h1 = view.y1 / std::sqrt(d * d + view.y1 * view.y1);
+        const double h = h0 + static_cast<double>(u.y) * (h1 - h0);
+        y = std::clamp(h * d / std::sqrt(std::max(1e-300, 1.0 - h * h)), view.y0, view.y1);
+    }
+    return glm::normalize(x * axis_u_ + y * axis_v_ - view.depth * axis_n_);
+}
+
+float RectangleLight::pdf(const glm::vec3& p, const glm::vec3& direction) const {
+    const auto distance = intersect(p, direction);
+    if (!distance) return 0.0f;
+    const View view = seen_from(p);
+    if (view.solid_angle >= smallest_spherical) return static_cast<float>(1.0 / view.solid_angle);
+    const double cosine = -glm::dot(glm::dvec3(direction), axis_n_);
+    const double d = *distance;
+    return static_cast<float>(d * d / (4.0 * half_u_ * half_v_ * cosine));
+}
+
+std::optional<float> RectangleLight::intersect(const glm::vec3& origin, const glm::vec3& direction) const {
+    const glm::dvec3 d(direction);
+    const glm::dvec3 offset = centre_ - glm::dvec3(origin);
+    const double depth = -glm::dot(offset, axis_n_);
+    const double approach = -glm::dot(d, axis_n_);
+    if (!(depth > 0.0) || !(approach > 0.0)) return std::nullopt;
+    const double distance = depth / approach;
+    const glm::dvec3 from_centre = distance * d - offset;
+    if (!(std::abs(glm::dot(from_centre, axis_u_)) <= half_u_)) return std::nullopt;
+    if (!(std::abs(glm::dot(from_centre, axis_v_)) <= half_v_)) return std::nullopt;
+    return static_cast<float>(distance);
+}
+
+}  // namespace phasetree::tracer

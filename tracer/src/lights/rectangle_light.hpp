@@ -1,0 +1,49 @@
+// A rectangle that emits the radiance L uniformly to one side, the side of its normal. From behind it is not there: it
+// neither emits nor hides anything.
+//
+// Sampled uniformly in the solid angle it subtends, p = 1/Ω: Ureña, Fajardo, King: An Area-Preserving Parametrization
+// for Spherical Rectangles, EGSR 2013. The angles are computed by atan2 of exact sines instead of acos, which keeps
+// them when the point is close to the rectangle's plane. Where Ω < 1e-9, too little for the parametrisation's own
+// rounding, points are taken uniformly in area instead, p = d²/(A cos θ).
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+
+namespace phasetree::tracer {
+
+class RectangleLight {
+  public:
+    // The full edges, perpendicular to each other; the normal is cross(edge_u, edge_v).
+    RectangleLight(const glm::vec3& centre, const glm::vec3& edge_u, const glm::vec3& edge_v, const glm::vec3& radiance,
+                   bool visible_to_camera = true);
+
+    // Turned to emit towards `target`, its width horizontal (for one that faces straight up or down: along x).
+    static RectangleLight facing(const glm::vec3& centre, const glm::vec3& target, float width, float height,
+                                 const glm::vec3& radiance, bool visible_to_camera = true);
+
+    const glm::vec3& radiance() const { return radiance_; }
+    bool visible_to_camera() const { return visible_to_camera_; }
+    glm::vec3 normal() const { return axis_n_; }
+
+    // Steradians seen from p; 0 from behind.
+    double solid_angle(const glm::vec3& p) const;
+    // A direction from p towards the light; p must see it.
+    glm::vec3 sample(const glm::vec3& p, const glm::vec2& u) const;
+    // The density of sample() per steradian.
+    float pdf(const glm::vec3& p, const glm::vec3& direction) const;
+    // The distance at which a ray meets the emitting side.
+    std::optional<float> intersect(const glm::vec3& origin, const glm::vec3& direction) const;
+
+  private:
+    struct View;
+    View seen_from(const glm::vec3& p) const;
+
+    glm::dvec3 centre_;
+    glm::dvec3 axis_u_, axis_v_, axis_n_;  // orthonormal
+    double half_u_, half_v_;
+    glm::vec3 radiance_;
+    bool visible_to_camera_;
+};
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,58 @@
+#include "lights/sphere_light.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "lights/check.hpp"
+#include "sampling/warps.hpp"
+#include "shading/frame.hpp"
+
+namespace phasetree::tracer {
+
+SphereLight::SphereLight(const glm::vec3& centre, float radius, const glm::vec3& radiance, bool visible_to_camera)
+    : centre_(centre), radius_(radius), radiance_(radiance), visible_to_camera_(visible_to_camera) {
+    check_point(centre, "the sphere light's centre");
+    check_positive(radius, "the sphere light's radius");
+    check_colour(radiance, "the sphere light's radiance");
+}
+
+// 1 − cos α of the cone the sphere fills; 2, all directions, from inside. With s = sin α:
+// 1 − √(1 − s²) = s²/(1 + √(1 − s²)) loses no digits when the sphere is far away.
+double SphereLight::cap_height(const glm::dvec3& to_centre) const {
+    const double squared_distance = glm::dot(to_centre, to_centre);
+    const double squared_radius = radius_ * radius_;
+    if (!(squared_distance > squared_radius)) return 2.0;
+    const double squared_sine = squared_radius / squared_distance;
+    return squared_sine / (1.0 + std::sqrt(1.0 - squared_sine));
+}
+
+double SphereLight::solid_angle(const glm::vec3& p) const {
+    return 2.0 * std::numbers::pi * cap_height(centre_ - glm::dvec3(p));
+}
+
+glm::vec3 SphereLight::sample(const glm::vec3& p, const glm::vec2& u) const {
+    const glm::dvec3 to_centre = centre_ - glm::dvec3(p);
+    const double height = cap_height(to_centre);
+    if (height == 2.0) return square_to_uniform_sphere(u);
+    const glm::vec3 axis = glm::normalize(to_centre);
+    return glm::normalize(Frame(axis).to_world(square_to_uniform_cone(u, static_cast<float>(height))));
+}
+
+float SphereLight::pdf(const glm::vec3& p, const glm::vec3& direction) const {
+    return intersect(p, direction) ? static_cast<float>(1.0 / solid_angle(p)) : 0.0f;
+}
+
+std::optional<float> SphereLight::intersect(const glm::vec3& origin, const glm::vec3& direction) const {
+    const glm::dvec3 d = glm::normalize(glm::dvec3(direction));
+    const glm::dvec3 to_centre = centre_ - glm::dvec3(origin);
+    const double along = glm::dot(to_centre, d);
+    const glm::dvec3 across = to_centre - along * d;
+    const double squared_half_chord = radius_ * radius_ - glm::dot(across, across);
+    const bool inside = cap_height(to_centre) == 2.0;
+    if (inside) return static_cast<float>(along + std::sqrt(std::max(0.0, squared_half_chord)));
+    if (!(squared_half_chord >= 0.0) || !(along > 0.0)) return std::nullopt;
+    return static_cast<float>(along - std::sqrt(squared_half_chord));
+}
+
+}  // namespace phasetree::tracer

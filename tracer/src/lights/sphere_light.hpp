@@ -1,0 +1,38 @@
+// A sphere whose surface emits the radiance L uniformly, outwards and inwards.
+//
+// From outside, at distance d, it fills the cone of half-angle asin(r/d), which is sampled uniformly: p = 1/(2π(1 − cos
+// α)). From inside it fills the whole sphere of directions: p = 1/4π. A surface element at distance d that sees all of
+// it receives E = πL (r/d)² cos θ.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+
+namespace phasetree::tracer {
+
+class SphereLight {
+  public:
+    SphereLight(const glm::vec3& centre, float radius, const glm::vec3& radiance, bool visible_to_camera = true);
+
+    const glm::vec3& radiance() const { return radiance_; }
+    bool visible_to_camera() const { return visible_to_camera_; }
+
+    // Steradians seen from p.
+    double solid_angle(const glm::vec3& p) const;
+    // A direction from p towards the light.
+    glm::vec3 sample(const glm::vec3& p, const glm::vec2& u) const;
+    // The density of sample() per steradian.
+    float pdf(const glm::vec3& p, const glm::vec3& direction) const;
+    // The distance at which a ray first meets the surface.
+    std::optional<float> intersect(const glm::vec3& origin, const glm::vec3& direction) const;
+
+  private:
+    double cap_height(const glm::dvec3& to_centre) const;
+
+    glm::dvec3 centre_;
+    double radius_;
+    glm::vec3 radiance_;
+    bool visible_to_camera_;
+};
+
+}  // namespace phasetree::tracer

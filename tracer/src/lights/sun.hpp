@@ -1,0 +1,39 @@
+// The sun: a disk of constant radiance L infinitely far away, of angular radius α.
+//
+// It is described by the irradiance E⊥ it gives a surface that faces it; L = E⊥/(π sin²α). So a larger sun softens
+// shadows and caustics and leaves the exposure as it is. Sampled uniformly in its cone, p = 1/(2π(1 − cos α)); a
+// surface whose whole upper half-space holds the disk receives E = Lπ sin²α cos θ.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+
+#include "lights/direction_sample.hpp"
+
+namespace phasetree::tracer {
+
+class Sun {
+  public:
+    static constexpr float real_angular_diameter_degrees = 0.53f;
+
+    // `direction` points towards the sun, of any length; `irradiance` is E⊥. The diameter is in (0, 90] degrees.
+    Sun(const glm::vec3& direction, const glm::vec3& irradiance,
+        float angular_diameter_degrees = real_angular_diameter_degrees);
+
+    glm::vec3 radiance(const glm::vec3& direction) const;
+    std::optional<DirectionSample> sample(const glm::vec2& u) const;
+    float pdf(const glm::vec3& direction) const;
+    // Luminance of the radiance integrated over all directions.
+    float fluence() const;
+
+    const glm::vec3& direction() const { return direction_; }
+
+  private:
+    bool in_disk(const glm::vec3& direction) const;
+
+    glm::vec3 direction_;
+    glm::vec3 radiance_;
+    float cap_height_;  // 1 − cos α, of which nothing would be left if cos α were stored
+};
+
+}  // namespace phasetree::tracer

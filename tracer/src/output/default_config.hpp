@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string_view>
+
+namespace phasetree::tracer {
+
+/// The text of tracer/color/phasetree.ocio, the OpenColorIO configuration used where $OCIO names no other.
+std::string_view default_color_config();
+
+}  // namespace phasetree::tracer

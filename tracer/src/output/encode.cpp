@@ -1,0 +1,137 @@
+#include "output/encode.hpp"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <exception>
+#include <memory>
+#include <stdexcept>
+
+#include "output/error.hpp"
+#include "output/quantise.hpp"
+#include "phasetree/version.hpp"
+
+namespace phasetree::tracer {
+namespace {
+
+// CIE xy of red, green, blue and white: ITU-R BT.709 and D65.
+constexpr std::array<float, 8> rec709_chromaticities{0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
+
+// Any name with the right extension: nothing of it is opened.
+const char* name_for_format(Format format) {
+    switch (format) {
+        case Format::exr:
+            return "image.exr";
+        case Format::png:
+            return "image.png";
+        case Format::jpeg:
+            return "image.jpg";
+        case Format::tiff:
+            return "image.tif";
+    }
+    throw std::invalid_argument("unknown image format");
+}
+
+void check(const Image& image) {
+    if (image.width <= 0 || image.height <= 0 ||
+        image.pixels.size() != static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height)) {
+        throw std::invalid_argument("an image must have width × height pixels, and at least one");
+    }
+    if (const auto& crop = image.crop;
+        crop && (crop->x0 < 0 || crop->y0 < 0 || crop->display_width < image.width ||
+                 crop->x0 > crop->display_width - image.width || crop->display_height < image.height ||
+                 crop->y0 > crop->display_height - image.height)) {
+        throw std::invalid_argument("a crop must lie inside its picture");
+    }
+}
+
+OIIO::ImageSpec spec_for(const Image& image, Format format, const Metadata& metadata,
+                         const DisplayTransform& transform) {
+    const auto type = format == Format::exr    ? OIIO::TypeDesc::FLOAT
+                      : format == Format::tiff ? OIIO::TypeDesc::UINT16
+                                               : OIIO::TypeDesc::UINT8;
+    OIIO::ImageSpec spec(image.width, image.height, 3, type);
+    const std::string scene = std::filesystem::path(metadata.scene).filename().string();
+    spec.attribute("Software", fmt::format("phasetree {}", version()));
+    // Left out, EXR and TIFF get today's date; an empty one keeps equal pictures equal files.
+    spec.attribute("DateTime", "");
+    if (format == Format::exr) {
+        if (image.crop) {
+            spec.x = image.crop->x0;
+            spec.y = image.crop->y0;
+            spec.full_width = image.crop->display_width;
+            spec.full_height = image.crop->display_height;
+        }
+        spec.attribute("compression", "zip");
+        spec.attribute("oiio:ColorSpace", "Linear");
+        spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), rec709_chromaticities.data());
+        spec.attribute("phasetree:scene", scene);
+        spec.attribute("phasetree:samplesPerPixel", metadata.samples_per_pixel);
+        spec.attribute("phasetree:seed", std::to_string(metadata.seed));
+    } else {
+        spec.attribute("ImageDescription",
+                       fmt::format("{}, {} samples per pixel, seed {}, {} {:+g} EV", scene, metadata.samples_per_pixel,
+                                   metadata.seed, transform.view(), transform.exposure_ev()));
+        // Not in TIFF: it would become an EXIF directory, which OpenImageIO before 2.5.13 spoils when writing to
+        // memory.
+        if (transform.is_srgb() && format != Format::tiff) spec.attribute("oiio:ColorSpace", "sRGB");
+        if (format == Format::jpeg) {
+            spec.attribute("compression", "jpeg:95");
+            spec.attribute("jpeg:subsampling", "4:4:4");
+        } else if (format == Format::tiff) {
+            spec.attribute("compression", "zip");
+        }
+    }
+    return spec;
+}
+
+std::vector<unsigned char> encoded(const OIIO::ImageSpec& spec, const char* name, const void* pixels) {
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(name);
+    if (!output) throw OutputError(fmt::format("OpenImageIO has no writer for it: {}", OIIO::geterror()));
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    if (!output->supports("ioproxy")) throw OutputError("this OpenImageIO is too old, 2.4 or newer is needed");
+    output->set_ioproxy(&memory);
+    if (!output->open(name, spec) || !output->write_image(spec.format, pixels) || !output->close()) {
+        throw OutputError(output->geterror());
+    }
+    return bytes;
+}
+
+}  // namespace
+
+Format format_of(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension == ".exr") return Format::exr;
+    if (extension == ".png") return Format::png;
+    if (extension == ".jpg" || extension == ".jpeg") return Format::jpeg;
+    if (extension == ".tif" || extension == ".tiff") return Format::tiff;
+    throw OutputError(fmt::format(
+        "cannot write \"{}\": {}; the formats are .exr, .png, .jpg, .jpeg, .tif and .tiff", path.string(),
+        extension.empty() ? "its name has no extension" : fmt::format("\"{}\" is no known image format", extension)));
+}
+
+std::vector<unsigned char> encode(const Image& image, Format format, const Metadata& metadata,
+                                  const DisplayTransform& transform) {
+    check(image);
+    const OIIO::ImageSpec spec = spec_for(image, format, metadata, transform);
+    const char* name = name_for_format(format);
+    if (format == Format::exr) {
+        static_assert(sizeof(glm::vec3) == 3 * sizeof(float), "pixels are handed to OpenImageIO as packed floats");
+        return encoded(spec, name, image.pixels.data());
+    }
+    std::vector<glm::vec3> shown = image.pixels;
+    transform.apply(shown);
+    if (format == Format::tiff) return encoded(spec, name, quantise16(shown).data());
+    const Crop whole{};
+    const Crop& place = image.crop ? *image.crop : whole;
+    return encoded(spec, name, quantise8(shown, image.width, place.x0, place.y0).data());
+}
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,38 @@
+#pragma once
+
+// Image files as bytes in memory, by OpenImageIO. In memory, because a full disk then shows where we write the bytes
+// ourselves; some of the libraries beneath OpenImageIO end the program there.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "output/display.hpp"
+#include "output/image.hpp"
+
+namespace phasetree::tracer {
+
+/// How a picture was made. Equal pictures must be equal files: times, dates and thread counts have no place here.
+struct Metadata {
+    std::string scene;  // the scene's file name; its folder is left out
+    int samples_per_pixel = 0;
+    std::uint64_t seed = 0;
+};
+
+enum class Format { exr, png, jpeg, tiff };
+
+/// The format a file name's extension stands for, in either case. Throws OutputError, naming the formats.
+Format format_of(const std::filesystem::path& path);
+
+/// The file's bytes; equal arguments give equal bytes.
+///   EXR   scene-linear 32-bit float RGB, ZIP; the transform is not applied. Attributes phasetree:scene,
+///         phasetree:samplesPerPixel, phasetree:seed (as text: EXR has no 64-bit integers), Software, chromaticities.
+///   PNG   8 bits, dithered (quantise.hpp), tagged sRGB where the display is
+///   JPEG  the same 8 bits and tag, quality 95, chroma not subsampled
+///   TIFF  16 bits, ZIP
+/// Throws OutputError with the reason, not knowing the path.
+std::vector<unsigned char> encode(const Image& image, Format format, const Metadata& metadata,
+                                  const DisplayTransform& transform);
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,27 @@
+#pragma once
+
+// Ctrl-C and SIGTERM, turned into a question a render loop can ask.
+
+#include <array>
+#include <csignal>
+
+namespace phasetree::tracer {
+
+/// While it lives, the first SIGINT or SIGTERM only makes interrupted() true, so that the image so far can be written;
+/// the second ends the program at once. A signal that was ignored (nohup, a background job) stays ignored. The
+/// destructor brings back the earlier handlers. One at a time: a second guard while one lives throws std::logic_error.
+class InterruptGuard {
+  public:
+    InterruptGuard();
+    ~InterruptGuard();
+    InterruptGuard(const InterruptGuard&) = delete;
+    InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+  private:
+    std::array<struct sigaction, 2> previous_{};  // of SIGINT and SIGTERM
+};
+
+/// Whether a signal has arrived since the living InterruptGuard was made; false without one.
+bool interrupted();
+
+}  // namespace phasetree::tracer

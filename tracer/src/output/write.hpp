@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+
+#include "output/display.hpp"
+#include "output/encode.hpp"
+#include "output/error.hpp"
+#include "output/image.hpp"
+
+namespace phasetree::tracer {
+
+/// Writes an image; the extension chooses the format (encode.hpp). EXR keeps the linear values as they are; for the
+/// others the transform is applied. The file appears complete or not at all: it is written under a temporary name in
+/// the same directory and renamed. A symbolic link stays one, and what it points at is replaced. Throws OutputError;
+/// then an existing file is untouched and no temporary is left.
+void write_image(const Image& image, const std::filesystem::path& path, const Metadata& metadata,
+                 const DisplayTransform& transform);
+
+/// Throws the OutputError that write_image would, as far as it can be known before there is an image: to be called
+/// before an hour of rendering. Leaves the directory as it was.
+void check_writable(const std::filesystem::path& path);
+
+}  // namespace phasetree::tracer

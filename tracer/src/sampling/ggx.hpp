@@ -1,0 +1,73 @@
+// The GGX (Trowbridge-Reitz) distribution of microfacet normals, with Smith's masking and shadowing.
+//
+//   D(m)      = α² / (π (m.x² + m.y² + α² m.z²)²)
+//   G₁(w)     = 2 |w.z| / (|w.z| + √(w.z² + α² (1 − w.z²)))
+//   G₂(o, i)  = 1 / (1 + Λ(o) + Λ(i)) for reflection (heights correlated), G₁(o) G₁(i) for transmission
+//   D_o(m)    = G₁(o) max(0, o·m) D(m) / o.z, the density of the normals that `o` sees
+//
+// α is the roughness; m.z > 0 and o.z > 0.
+//
+// References: Walter, Marschner, Li & Torrance, Microfacet Models for Refraction through Rough Surfaces, EGSR 2007;
+// Heitz, Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs, JCGT 3(2), 2014; Dupuy & Benyoub,
+// Sampling Visible GGX Normals with Spherical Caps, HPG 2023.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "sampling/warps.hpp"
+
+namespace phasetree::tracer {
+
+class Ggx {
+  public:
+    explicit Ggx(float alpha) : alpha_(alpha), alpha2_(alpha * alpha) {}
+
+    float alpha() const { return alpha_; }
+
+    float distribution(const glm::vec3& m) const {
+        const float stretched = m.x * m.x + m.y * m.y + alpha2_ * m.z * m.z;
+        return alpha2_ / (pi * stretched * stretched);
+    }
+
+    float masking(const glm::vec3& w) const { return 2.0f * std::abs(w.z) / (std::abs(w.z) + slope_term(w)); }
+
+    // G₂ / (|o.z| |i.z|) for reflection; finite at grazing angles.
+    float reflection_visibility(const glm::vec3& o, const glm::vec3& i) const {
+        return 2.0f / (std::abs(i.z) * slope_term(o) + std::abs(o.z) * slope_term(i));
+    }
+
+    // G₂ / (|o.z| |i.z|) for transmission.
+    float transmission_visibility(const glm::vec3& o, const glm::vec3& i) const {
+        return 4.0f / ((std::abs(o.z) + slope_term(o)) * (std::abs(i.z) + slope_term(i)));
+    }
+
+    // A normal that `o` sees. The normals seen on the stretched, hemispherical surface are halfway between `o` and a
+    // direction uniform on a spherical cap.
+    glm::vec3 sample_visible_normal(const glm::vec3& o, const glm::vec2& u) const {
+        const glm::vec3 stretched = glm::normalize(glm::vec3{alpha_ * o.x, alpha_ * o.y, o.z});
+        const glm::vec3 cap = square_to_uniform_cone({u.y, u.x}, 1.0f + stretched.z);
+        const glm::vec3 half = cap + stretched;
+        const glm::vec3 normal{alpha_ * half.x, alpha_ * half.y, std::max(1e-9f, half.z)};
+        return glm::normalize(normal);
+    }
+
+    // D_o(m), per solid angle of m.
+    float visible_normal_pdf(const glm::vec3& o, const glm::vec3& m) const {
+        return 2.0f * std::max(0.0f, glm::dot(o, m)) * distribution(m) / (o.z + slope_term(o));
+    }
+
+  private:
+    float slope_term(const glm::vec3& w) const {
+        const float z2 = w.z * w.z;
+        return std::sqrt(z2 + alpha2_ * std::max(0.0f, 1.0f - z2));
+    }
+
+    float alpha_;
+    float alpha2_;
+};
+
+}  // namespace phasetree::tracer

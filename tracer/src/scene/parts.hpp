@@ -1,0 +1,29 @@
+// The readers of a scene's parts, one file each. All throw SceneError.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "phasetree/reading/object_reader.hpp"
+#include "scene/scene.hpp"
+
+namespace phasetree::tracer {
+
+// A choice between kinds is an object of one member, {"kind": {…}}, as nodes are. Returns that member, whose key is
+// one of `kinds`; `what` names the choice in messages ("a material").
+Value chosen(const Document& document, Value value, std::string_view what, std::span<const std::string_view> kinds);
+
+Material read_material(const Document& document, Value value);
+// The same, but not a clear one: meshes have no inside.
+Material read_opaque_material(const Document& document, Value value);
+Texture read_texture(const Document& document, Value value);
+Lights read_lights(const Document& document, Value root);
+ThinLensParameters read_camera(const Document& document, Value value);
+std::vector<Mesh> read_meshes(const Document& document, Value list);
+// Image size, in the camera's parameters, and all else.
+RenderSettings read_settings(const Document& document, Value value, ThinLensParameters& camera);
+
+// A path of the scene file, relative to the file's directory.
+std::filesystem::path resolved(const Document& document, const std::string& path);
+
+}  // namespace phasetree::tracer

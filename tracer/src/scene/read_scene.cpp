@@ -1,0 +1,39 @@
+#include <fmt/format.h>
+
+#include "scene/parts.hpp"
+
+namespace phasetree::tracer {
+
+Scene read_scene(const Document& document) {
+    ObjectReader root(document, document.root(), "the scene");
+    root.allow({"version", "phases", "shapes", "tree", "meshes", "lights", "background", "camera", "render"});
+    root.finish();
+    const Value version = root.required_value("version");
+    if (as<int>(document, version, "\"version\"") != 1)
+        throw document.error(version, "this program reads scenes of version 1");
+
+    Scene scene;
+    scene.file = document.name();
+    SceneTree tree = read_tree(document);
+    scene.phases = std::move(tree.phases);
+    scene.object = std::move(tree.object);
+    scene.materials.push_back(vacuum());
+    for (const Value phase : root.required_value("phases")) scene.materials.push_back(read_material(document, phase));
+    scene.lights = read_lights(document, document.root());
+    if (const auto meshes = root.value("meshes")) scene.meshes = read_meshes(document, *meshes);
+    scene.camera = read_camera(document, root.required_value("camera"));
+    scene.camera.width = 1024;
+    scene.camera.height = 768;
+    if (const auto settings = root.value("render")) scene.settings = read_settings(document, *settings, scene.camera);
+
+    // An object that cannot be traced is found here, and not after the meshes are in memory.
+    const Bounds b = bounds(scene.object);
+    if (b.empty()) throw document.error(*root.value("tree"), "the object is empty: nothing of it is left");
+    if (!b.finite())
+        throw document.error(
+            *root.value("tree"),
+            "the object is unbounded: cut it to size with {\"intersect_shape\": {\"of\": …, \"shape\": …}}");
+    return scene;
+}
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,47 @@
+// A scene file, read: everything an image needs, as plain values.
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "camera/thin_lens.hpp"
+#include "lights/lights.hpp"
+#include "phasetree/reading/tree.hpp"
+#include "shading/material.hpp"
+
+namespace phasetree::tracer {
+
+// Triangles beside the object, of one opaque material. With vertex normals (one a vertex) the shading is smooth.
+struct Mesh {
+    std::vector<glm::vec3> vertices;
+    std::vector<glm::vec3> normals;
+    std::vector<glm::uvec3> triangles;
+    Material material;
+};
+
+struct RenderSettings {
+    int samples = 64;  // per pixel
+    std::uint32_t seed = 0;
+    int max_depth = 4096;  // interactions of a path; Russian roulette ends it long before where light is absorbed
+    float exposure_ev = 0.0f;
+    std::optional<std::string> view;  // of the display transform
+};
+
+struct Scene {
+    std::filesystem::path file;
+    PhaseNames phases;
+    Phased object;
+    std::vector<Material> materials;  // by phase; [0] is the vacuum
+    std::vector<Mesh> meshes;
+    Lights lights;
+    ThinLensParameters camera;
+    RenderSettings settings;
+};
+
+// Reads a whole scene. Files it names are relative to it. Throws SceneError with the place in the text.
+Scene read_scene(const Document& document);
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,41 @@
+#include "shading/fresnel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace phasetree::tracer {
+
+DielectricFresnel fresnel_dielectric(float cos_theta, float eta) {
+    const float c = std::clamp(cos_theta, 0.0f, 1.0f);
+    const float sin2_transmitted = (1.0f - c) * (1.0f + c) / (eta * eta);
+    if (!(sin2_transmitted < 1.0f)) return {1.0f, 0.0f};
+    const float transmitted = std::sqrt(1.0f - sin2_transmitted);
+    // At c = 0 nothing gets in, whatever eta; for eta = 1 both would be 0/0.
+    if (c == 0.0f) return {1.0f, transmitted};
+    const float parallel = (eta * c - transmitted) / (eta * c + transmitted);
+    const float perpendicular = (c - eta * transmitted) / (c + eta * transmitted);
+    return {std::min(1.0f, 0.5f * (parallel * parallel + perpendicular * perpendicular)), transmitted};
+}
+
+float fresnel_conductor(float cos_theta, float eta, float k) {
+    const float c = std::clamp(cos_theta, 0.0f, 1.0f);
+    const float c2 = c * c;
+    const float s2 = (1.0f - c) * (1.0f + c);
+    // (a + ib)² = (η + ik)² − sin²θ
+    const float real = eta * eta - k * k - s2;
+    const float imaginary = 2.0f * eta * k;
+    const float a2_plus_b2 = std::sqrt(real * real + imaginary * imaginary);
+    const float a = std::sqrt(std::max(0.0f, 0.5f * (a2_plus_b2 + real)));
+    const float perpendicular = (a2_plus_b2 + c2 - 2.0f * a * c) / (a2_plus_b2 + c2 + 2.0f * a * c);
+    const float parallel_ratio_top = c2 * a2_plus_b2 + s2 * s2 - 2.0f * a * c * s2;
+    const float parallel_ratio_bottom = c2 * a2_plus_b2 + s2 * s2 + 2.0f * a * c * s2;
+    if (!(parallel_ratio_bottom > 0.0f)) return 1.0f;
+    return std::clamp(0.5f * perpendicular * (1.0f + parallel_ratio_top / parallel_ratio_bottom), 0.0f, 1.0f);
+}
+
+glm::vec3 fresnel_conductor(float cos_theta, const glm::vec3& eta, const glm::vec3& k) {
+    return {fresnel_conductor(cos_theta, eta.x, k.x), fresnel_conductor(cos_theta, eta.y, k.y),
+            fresnel_conductor(cos_theta, eta.z, k.z)};
+}
+
+}  // namespace phasetree::tracer

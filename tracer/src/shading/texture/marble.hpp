@@ -1,0 +1,21 @@
+// A ground colour crossed by veins: thin sheets where a warped noise passes through zero, between broad clouds of a mix
+// of the two colours.
+//
+// Reference: Ebert, Musgrave, Peachey, Perlin & Worley, Texturing and Modeling, 3rd ed., 2003 (marble by turbulence).
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+namespace phasetree::tracer {
+
+struct MarbleTexture {
+    glm::vec3 color{0.82f, 0.80f, 0.77f};
+    glm::vec3 vein{0.20f, 0.21f, 0.24f};
+    float scale = 1.0f;  // distance between veins
+    std::uint32_t seed = 0;
+
+    glm::vec3 at(const glm::vec3& position) const;
+};
+
+}  // namespace phasetree::tracer

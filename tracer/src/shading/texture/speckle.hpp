@@ -1,0 +1,22 @@
+// Grains, as of sand: cells of cellular noise, each with a colour and a brightness of its own, darker in the gaps
+// between them. Some grains are of a dark mineral and some nearly white.
+//
+// Reference: Worley, A Cellular Texture Basis Function, SIGGRAPH 1996.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+namespace phasetree::tracer {
+
+struct SpeckleTexture {
+    glm::vec3 color{0.58f, 0.42f, 0.24f};
+    glm::vec3 other{0.70f, 0.57f, 0.39f};  // grains are mixed from the two
+    float grain = 0.01f;                   // mean distance of grains
+    float contrast = 0.5f;                 // 0: all grains alike; 1: very mixed
+    std::uint32_t seed = 0;
+
+    glm::vec3 at(const glm::vec3& position) const;
+};
+
+}  // namespace phasetree::tracer

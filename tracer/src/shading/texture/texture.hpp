@@ -1,0 +1,25 @@
+// A colour at every point of space: linear Rec.709 reflectance, from one of the kinds of this folder.
+#pragma once
+
+#include <cmath>
+#include <glm/vec3.hpp>
+#include <variant>
+
+#include "shading/texture/checker.hpp"
+#include "shading/texture/constant.hpp"
+#include "shading/texture/marble.hpp"
+#include "shading/texture/speckle.hpp"
+#include "shading/texture/wood.hpp"
+
+namespace phasetree::tracer {
+
+using Texture = std::variant<ConstantTexture, CheckerTexture, MarbleTexture, SpeckleTexture, WoodTexture>;
+
+// `position` is in the object's own space, in the scene's unit of length.
+inline glm::vec3 color_at(const Texture& texture, const glm::vec3& position) {
+    // Where floats resolve no texture any more, and for what is no position, the colour of the origin.
+    const bool near = std::abs(position.x) < 1e9f && std::abs(position.y) < 1e9f && std::abs(position.z) < 1e9f;
+    return std::visit([&](const auto& kind) { return kind.at(near ? position : glm::vec3{0.0f}); }, texture);
+}
+
+}  // namespace phasetree::tracer
