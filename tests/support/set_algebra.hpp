@@ -372,12 +372,8 @@ inline Components components(const Remove& n, const dvec3& p) {
 
 // Warps. λ is the node's choice, which the tests of slopes hold to be large enough.
 
-template <class W>
-double to_bound(const Warped<W, Field>& n, const dvec3& p) {
-    return box(p - dvec3(n.bound.centre), dvec3(n.bound.half));
-}
-template <class W>
-double to_bound(const Warped<W, Phased>& n, const dvec3& p) {
+template <class W, class Child>
+double to_bound(const Warped<W, Child>& n, const dvec3& p) {
     return box(p - dvec3(n.bound.centre), dvec3(n.bound.half));
 }
 
@@ -389,25 +385,30 @@ template <class W>
 Phase region(const WarpedPhased<W>& n, const dvec3& p) {
     return label(n.of, back(n.warp, p));
 }
+/// A local warp is evaluated at the nearest point of its bounds, and the distance to them takes over where it is
+/// larger.
+template <class N>
+dvec3 evaluated_at(const N& n, const dvec3& p) {
+    if constexpr (LocalWarp<decltype(n.warp)>) {
+        const dvec3 centre(n.bound.centre), half(n.bound.half);
+        return back(n.warp, glm::clamp(p, centre - half, centre + half));
+    } else {
+        return back(n.warp, p);
+    }
+}
 template <class W>
 double signed_value(const WarpedField<W>& n, const dvec3& p) {
-    double f = value(n.of, back(n.warp, p)) * n.warp.value_scale();
-    if constexpr (LocalWarp<W>) {
-        const double b = to_bound(n, p);
-        f = std::max(b, std::min(f, n.warp.margin() - b));
-    }
+    const double f = value(n.of, evaluated_at(n, p)) * n.warp.value_scale();
+    if constexpr (LocalWarp<W>) return std::max(f, to_bound(n, p));
     return f;
 }
 template <class W>
 Components components(const WarpedPhased<W>& n, const dvec3& p) {
-    Components a = values(n.of, back(n.warp, p));
+    Components a = values(n.of, evaluated_at(n, p));
     for (std::size_t i = 0; i < Components::size; ++i) {
         if (!(a[i] < absent)) continue;
         a[i] *= n.warp.value_scale();
-        if constexpr (LocalWarp<W>) {
-            const double b = to_bound(n, p), far = n.warp.margin() - b;
-            a[i] = i == 0 ? std::min(-b, std::max(a[i], -far)) : std::max(b, std::min(a[i], far));
-        }
+        if constexpr (LocalWarp<W>) a[i] = i == 0 ? std::min(a[i], -to_bound(n, p)) : std::max(a[i], to_bound(n, p));
     }
     return a;
 }

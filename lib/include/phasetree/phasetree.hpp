@@ -7,5 +7,6 @@
 #include "phasetree/nodes/node.hpp"
 #include "phasetree/program/evaluator.hpp"
 #include "phasetree/program/program.hpp"
+#include "phasetree/cells/cells.hpp"
 #include "phasetree/trace/tracer.hpp"
 #include "phasetree/version.hpp"

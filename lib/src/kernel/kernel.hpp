@@ -7,15 +7,34 @@
 
 namespace phasetree {
 
+/// A resolved instruction. Slots count batches in the register file; a point takes three.
+struct Step {
+    std::uint32_t op;
+    std::uint32_t to;
+    std::uint32_t a;
+    std::uint32_t b;
+    std::uint32_t data;
+
+    bool operator==(const Step&) const = default;
+};
+
+/// Where a component is found after the steps: sign (1 or −1) times the slot's value.
+struct OutputSlot {
+    std::uint32_t slot;
+    float phase;
+    float sign;
+
+    bool operator==(const OutputSlot&) const = default;
+};
+
 /// What a kernel runs: plain pointers, because kernels are compiled for several instruction sets and must not share
 /// inline functions of the standard library with the rest.
 struct Routine {
-    const Evaluator::Step* steps;
+    const Step* steps;
     std::size_t count;
     const float* constants;
-    const std::uint32_t* output_slot;
-    const float* output_phase;
-    std::size_t outputs;
+    const OutputSlot* outputs;
+    std::size_t output_count;
 };
 
 /// A kernel: the same functions for one instruction set. Slot 0 … 2 is the input point.

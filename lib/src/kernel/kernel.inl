@@ -18,7 +18,7 @@ HWY_INLINE float* at(float* registers, std::uint32_t slot) {
 }
 
 template <class Struct>
-HWY_INLINE Struct constants_of(const Evaluator::Step& s, const float* constants) {
+HWY_INLINE Struct constants_of(const Step& s, const float* constants) {
     Struct result;
     std::memcpy(static_cast<void*>(&result), constants + s.data, sizeof(Struct));
     return result;
@@ -29,15 +29,15 @@ HWY_INLINE Vec3<Batch> load_point(float* registers, std::uint32_t slot) {
     return {load(p), load(p + batch_size), load(p + 2 * batch_size)};
 }
 
-using Handler = void (*)(const Evaluator::Step&, const float* constants, float* registers);
+using Handler = void (*)(const Step&, const float* constants, float* registers);
 
 template <class P>
-void run_primitive(const Evaluator::Step& s, const float* constants, float* registers) {
+HWY_FLATTEN void run_primitive(const Step& s, const float* constants, float* registers) {
     store(constants_of<P>(s, constants).distance(load_point(registers, s.a)), at(registers, s.to));
 }
 
 template <class M>
-void run_map(const Evaluator::Step& s, const float* constants, float* registers) {
+HWY_FLATTEN void run_map(const Step& s, const float* constants, float* registers) {
     const Vec3<Batch> q = constants_of<M>(s, constants)(load_point(registers, s.a));
     float* to = at(registers, s.to);
     store(q.x, to);
@@ -53,9 +53,9 @@ struct Table<TypeList<Ps...>, TypeList<Ms...>> {
 };
 using Handlers = Table<Primitives, PointMaps>;
 
-void run(const Routine& routine, float* registers) {
+HWY_FLATTEN void run(const Routine& routine, float* registers) {
     const float* constants = routine.constants;
-    for (const Evaluator::Step *s = routine.steps, *end = s + routine.count; s != end; ++s) {
+    for (const Step *s = routine.steps, *end = s + routine.count; s != end; ++s) {
         float* to = at(registers, s->to);
         const float* a = at(registers, s->a);
         const float* b = at(registers, s->b);
@@ -98,22 +98,25 @@ void run(const Routine& routine, float* registers) {
     }
 }
 
-void place(const Batch& x, const Batch& y, const Batch& z, float* registers) {
+HWY_INLINE void place(const Batch& x, const Batch& y, const Batch& z, float* registers) {
     store(x, registers);
     store(y, registers + batch_size);
     store(z, registers + 2 * batch_size);
 }
 
 /// The smallest component's phase and the second smallest component.
-void classify(const Routine& routine, float* registers, float* label, float* distance) {
-    Batch lowest = load(at(registers, routine.output_slot[0]));
+HWY_INLINE void classify(const Routine& routine, float* registers, float* label, float* distance) {
+    const auto component = [&](std::size_t i) {
+        return load(at(registers, routine.outputs[i].slot)) * routine.outputs[i].sign;
+    };
+    Batch lowest = component(0);
     Batch second(3.402823466e38f);
-    Batch phase(routine.output_phase[0]);
-    for (std::size_t i = 1; i < routine.outputs; ++i) {
-        const Batch v = load(at(registers, routine.output_slot[i]));
+    Batch phase(routine.outputs[0].phase);
+    for (std::size_t i = 1; i < routine.output_count; ++i) {
+        const Batch v = component(i);
         const BatchMask lower = less(v, lowest);
         second = min(second, max(v, lowest));
-        phase = select(lower, Batch(routine.output_phase[i]), phase);
+        phase = select(lower, Batch(routine.outputs[i].phase), phase);
         lowest = min(v, lowest);
     }
     store(phase, label);
@@ -123,8 +126,8 @@ void classify(const Routine& routine, float* registers, float* label, float* dis
 void evaluate(const Routine& routine, const float* x, const float* y, const float* z, float* registers, float* out) {
     place(load(x), load(y), load(z), registers);
     run(routine, registers);
-    for (std::size_t i = 0; i < routine.outputs; ++i)
-        store(load(at(registers, routine.output_slot[i])), out + i * batch_size);
+    for (std::size_t i = 0; i < routine.output_count; ++i)
+        store(load(at(registers, routine.outputs[i].slot)) * routine.outputs[i].sign, out + i * batch_size);
 }
 
 void sample(const Routine& routine, const float* x, const float* y, const float* z, float* registers, float* label,

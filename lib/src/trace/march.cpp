@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "program/target.hpp"
+
 /// Multiphase sphere tracing with a batch of points *along the one ray*.
 ///
 /// We hold a place `here` that is certainly in the ray's phase, and the samples already taken ahead of it. Two
@@ -20,6 +22,7 @@ namespace {
 /// Samples ahead of the ray, the nearest on top.
 class Ahead {
   public:
+    Ahead() {}
     bool empty() const { return size_ == 0; }
     bool has_room() const { return size_ + batch_size <= stack_.size(); }
     const Waypoint& top() const { return stack_[size_ - 1]; }
@@ -28,7 +31,7 @@ class Ahead {
     void push(const Waypoint& w) { stack_[size_++] = w; }
 
   private:
-    std::array<Waypoint, 64 * batch_size> stack_;
+    std::array<Waypoint, 64 * batch_size> stack_;  // unset on purpose: most rays use a few
     std::size_t size_ = 0;
 };
 
@@ -41,13 +44,15 @@ float effective_resolution(float resolution, std::uint64_t batches) {
 
 }  // namespace
 
-std::optional<Crossing> march(const Evaluator& evaluator, const glm::vec3& origin, const glm::vec3& direction,
-                              float length, float resolution, std::optional<Phase> carried, Evaluator::Workspace& w,
+std::optional<Crossing> march(const Routine& routine, float* registers, const glm::vec3& origin,
+                              const glm::vec3& direction, float length, float resolution, std::optional<Phase> carried,
                               TraceCounters& counters) {
+    const auto sample_ray = active_kernel().sample_ray;
     std::uint64_t batches = 0;
     Samples s;
     const auto sample = [&](const BatchOfFloats& t) {
-        evaluator.sample_ray(origin, direction, t, s, w);
+        sample_ray(routine, &origin.x, &direction.x, t.lane.data(), registers, s.label.lane.data(),
+                   s.distance.lane.data());
         ++batches;
         ++counters.batches;
     };
@@ -148,6 +153,37 @@ std::optional<Crossing> march(const Evaluator& evaluator, const glm::vec3& origi
         return crossing(here.t, next.t, phase, next.label);
     }
     return std::nullopt;
+}
+
+Interval clip(const Bounds& box, const glm::vec3& origin, const glm::vec3& direction, double t_min, double t_max) {
+    Interval r{t_min, t_max};
+    for (int i = 0; i < 3; ++i) {
+        const double o = static_cast<double>(origin[i]), d = static_cast<double>(direction[i]);
+        const double low = static_cast<double>(box.low[i]) - o, high = static_cast<double>(box.high[i]) - o;
+        if (d == 0) {
+            if (low > 0 || high < 0) return {1, 0};
+            continue;
+        }
+        const double a = low / d, b = high / d;
+        r.low = std::max(r.low, std::min(a, b));
+        r.high = std::min(r.high, std::max(a, b));
+    }
+    return r;
+}
+
+std::optional<Crossing> march_within(const Bounds& box, const Routine& routine, float* registers,
+                                     const glm::vec3& origin, const glm::vec3& direction, float t_min, float t_max,
+                                     float resolution, std::optional<Phase> carried, TraceCounters& counters) {
+    const Interval span = clip(box, origin, direction, static_cast<double>(t_min), static_cast<double>(t_max));
+    if (!(span.low <= span.high) || !std::isfinite(span.high)) return std::nullopt;
+    const glm::vec3 start = span.low > 0 ? glm::vec3(glm::dvec3(origin) + span.low * glm::dvec3(direction)) : origin;
+    auto hit = march(routine, registers, start, direction, static_cast<float>(span.high - span.low), resolution,
+                     carried, counters);
+    if (hit) {
+        hit->t_in = static_cast<float>(span.low + static_cast<double>(hit->t_in));
+        hit->t_out = static_cast<float>(span.low + static_cast<double>(hit->t_out));
+    }
+    return hit;
 }
 
 }  // namespace phasetree

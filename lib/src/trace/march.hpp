@@ -1,15 +1,16 @@
 #pragma once
 
-#include "phasetree/trace/tracer.hpp"
+#include "kernel/kernel.hpp"
+#include "phasetree/trace/crossing.hpp"
 
 namespace phasetree {
 
 /// Where the samples of the next batch go: strictly between two places of which the first is known to be in the ray's
 /// phase. See march.cpp.
 struct Waypoint {
-    float t = 0;
-    float distance = 0;  ///< s(p): the label is the same within this radius
-    float label = 0;
+    float t;
+    float distance;  ///< s(p): the label is the same within this radius
+    float label;
 };
 
 /// Sixteen distances in rising order between low and high. `on_interface`: low is on an interface, so the samples
@@ -19,7 +20,22 @@ BatchOfFloats spread_from(float low, float high, float smallest);
 BatchOfFloats gather_around(float root, float low, float high, float smallest);
 
 /// First change of label along origin + t·direction, 0 ≤ t ≤ length. The t of the result count from origin.
-std::optional<Crossing> march(const Evaluator&, const glm::vec3& origin, const glm::vec3& direction, float length,
-                              float resolution, std::optional<Phase> carried, Evaluator::Workspace&, TraceCounters&);
+/// `registers` has room for the routine's slots.
+std::optional<Crossing> march(const Routine&, float* registers, const glm::vec3& origin, const glm::vec3& direction,
+                              float length, float resolution, std::optional<Phase> carried, TraceCounters&);
+
+struct Interval {
+    double low, high;
+};
+
+/// Where a ray is within a box, clipped to [t_min, t_max]; empty if low > high. In double, so that an origin far from
+/// the object costs no accuracy.
+Interval clip(const Bounds& box, const glm::vec3& origin, const glm::vec3& direction, double t_min, double t_max);
+
+/// march() within a box, from the ray's entry on, so that t is small and exact there. A ray that starts inside keeps
+/// its very origin.
+std::optional<Crossing> march_within(const Bounds& box, const Routine&, float* registers, const glm::vec3& origin,
+                                     const glm::vec3& direction, float t_min, float t_max, float resolution,
+                                     std::optional<Phase> carried, TraceCounters&);
 
 }  // namespace phasetree

@@ -7,7 +7,7 @@
 namespace phasetree::embree {
 
 struct TreeGeometry::Data {
-    std::shared_ptr<const InterfaceTracer> object;
+    std::shared_ptr<const InterfaceCells> object;
     Options options;
 };
 
@@ -17,14 +17,8 @@ const TreeGeometry::Data& data_of(void* user) {
     return *static_cast<const TreeGeometry::Data*>(user);
 }
 
-/// Each thread's scratch for evaluation.
-Evaluator::Workspace& workspace() {
-    thread_local Evaluator::Workspace w;
-    return w;
-}
-
 void bounds(const RTCBoundsFunctionArguments* arguments) {
-    const Bounds& b = data_of(arguments->geometryUserPtr).object->bounds();
+    const Bounds b = data_of(arguments->geometryUserPtr).object->bounds(arguments->primID);
     RTCBounds& out = *arguments->bounds_o;
     out.lower_x = b.low.x;
     out.lower_y = b.low.y;
@@ -60,17 +54,20 @@ struct Ray {
 
 struct Lane {
     Crossing crossing;
+    glm::vec3 direction;
     float length;
 };
 
-std::optional<Lane> trace(const TreeGeometry::Data& data, RTCRayN* rays, unsigned n, unsigned i, Query* query) {
+std::optional<Lane> trace(const TreeGeometry::Data& data, unsigned cell, RTCRayN* rays, unsigned n, unsigned i,
+                          Query* query) {
     const std::optional<Ray> ray = Ray::of(rays, n, i);
     if (!ray) return std::nullopt;
-    const auto crossing = data.object->first_crossing(ray->origin, ray->direction, ray->near, ray->far,
-                                                      query ? query->carried : std::nullopt, workspace(),
-                                                      query ? &query->counters : nullptr);
+    TraceCounters unused;
+    const auto crossing = data.object->first_crossing(cell, ray->origin, ray->direction, ray->near, ray->far,
+                                                      query ? query->carried : std::nullopt,
+                                                      Evaluator::thread_workspace(), query ? query->counters : unused);
     if (!crossing || !(crossing->t_in <= ray->far)) return std::nullopt;
-    return Lane{*crossing, ray->length};
+    return Lane{*crossing, ray->direction, ray->length};
 }
 
 void intersect(const RTCIntersectFunctionNArguments* arguments) noexcept {
@@ -81,24 +78,20 @@ void intersect(const RTCIntersectFunctionNArguments* arguments) noexcept {
     RTCHitN* hits = RTCRayHitN_HitN(arguments->rayhit, n);
     for (unsigned i = 0; i < n; ++i) {
         if (arguments->valid[i] != -1) continue;
-        const auto lane = trace(data, rays, n, i, query);
+        const auto lane = trace(data, arguments->primID, rays, n, i, query);
         if (!lane) continue;
         const Crossing& c = lane->crossing;
-        const glm::vec3 direction{RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)};
-        const glm::vec3 normal = data.object->normal(c, direction / lane->length);
+        const glm::vec3 normal = query ? -lane->direction : -data.object->normal(arguments->primID, c, lane->direction);
         RTCRayN_tfar(rays, n, i) = c.t_in / lane->length;
-        RTCHitN_Ng_x(hits, n, i) = -normal.x;
-        RTCHitN_Ng_y(hits, n, i) = -normal.y;
-        RTCHitN_Ng_z(hits, n, i) = -normal.z;
+        RTCHitN_Ng_x(hits, n, i) = normal.x;
+        RTCHitN_Ng_y(hits, n, i) = normal.y;
+        RTCHitN_Ng_z(hits, n, i) = normal.z;
         RTCHitN_u(hits, n, i) = static_cast<float>(c.from.index);
         RTCHitN_v(hits, n, i) = static_cast<float>(c.to.index);
         RTCHitN_primID(hits, n, i) = arguments->primID;
         RTCHitN_geomID(hits, n, i) = arguments->geomID;
         RTCHitN_instID(hits, n, i, 0) = arguments->context->instID[0];
-        if (query) {
-            query->crossing = c;
-            query->normal = normal;
-        }
+        if (query) query->crossing = c;
     }
 }
 
@@ -108,17 +101,17 @@ void occluded(const RTCOccludedFunctionNArguments* arguments) noexcept {
     const unsigned n = arguments->N;
     for (unsigned i = 0; i < n; ++i) {
         if (arguments->valid[i] != -1) continue;
-        if (trace(data, arguments->ray, n, i, query))
+        if (trace(data, arguments->primID, arguments->ray, n, i, query))
             RTCRayN_tfar(arguments->ray, n, i) = -std::numeric_limits<float>::infinity();
     }
 }
 
 }  // namespace
 
-TreeGeometry::TreeGeometry(RTCDevice device, std::shared_ptr<const InterfaceTracer> object, const Options& options)
+TreeGeometry::TreeGeometry(RTCDevice device, std::shared_ptr<const InterfaceCells> object, const Options& options)
     : handle_(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER)),
       data_(std::make_unique<Data>(Data{std::move(object), options})) {
-    rtcSetGeometryUserPrimitiveCount(handle_, 1);
+    rtcSetGeometryUserPrimitiveCount(handle_, static_cast<unsigned>(data_->object->size()));
     rtcSetGeometryUserData(handle_, data_.get());
     rtcSetGeometryBoundsFunction(handle_, bounds, nullptr);
     rtcSetGeometryIntersectFunction(handle_, intersect);
@@ -138,7 +131,7 @@ TreeGeometry& TreeGeometry::operator=(TreeGeometry&& other) noexcept {
     return *this;
 }
 
-const InterfaceTracer& TreeGeometry::object() const {
+const InterfaceCells& TreeGeometry::object() const {
     return *data_->object;
 }
 

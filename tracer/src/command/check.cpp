@@ -4,7 +4,7 @@
 
 #include "command/commands.hpp"
 #include "command/load.hpp"
-#include "integrator/world.hpp"
+#include "phasetree/phasetree.hpp"
 
 namespace phasetree::tracer {
 
@@ -16,7 +16,7 @@ void add_check(CLI::App& app, Run& run) {
     command->callback([file, &run] {
         run = [file] {
             const Scene scene = load_scene(*file);
-            const InterfaceTracer object(scene.object);  // finds an object that is too large
+            const Program program = record(scene.object);  // finds an object that is too large
             return 0;
         };
     });

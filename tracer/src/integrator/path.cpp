@@ -17,6 +17,53 @@ float power_heuristic(float a, float b) {
     return 1.0f / (1.0f + q * q);
 }
 
+// A chain longer than this is not followed; paths know it too, so that its light is left to them alone.
+constexpr int longest_chain = 128;
+
+// Whether a surface is a link of a chain: smooth, and clear on both sides.
+bool links(const Bsdf& bsdf, const Surface& surface) {
+    return bsdf.is_delta() && surface.near_phase != surface.far_phase;
+}
+
+// E of path.hpp along a ray: the emission at the end of one chain of smooth clear interfaces, times what the media and
+// refraction leave of it.
+glm::vec3 emission_through_chain(const World& world, const Scene& scene, CameraRay ray, Phase phase, Sampler& sampler,
+                                 PathCounters& counters) {
+    glm::vec3 throughput(1.0f);
+    for (int length = 0;;) {
+        const std::optional<Surface> surface = world.intersect(ray.origin, ray.direction, phase, counters.trace);
+        const float distance = surface ? surface->distance : std::numeric_limits<float>::infinity();
+        const glm::vec3& absorption = std::get<Clear>(scene.materials[phase.index]).absorption;
+        if (const auto lamp = scene.lights.intersect(ray.origin, ray.direction, distance, false))
+            return throughput * transmittance(absorption, lamp->distance) * lamp->radiance;
+        if (!surface)
+            return throughput * transmittance(absorption, distance) *
+                   scene.lights.infinite(ray.origin, ray.direction, false).radiance;
+        if (!is_clear(scene.materials[surface->far_phase.index])) return glm::vec3(0.0f);
+        throughput *= transmittance(absorption, distance);
+        const Bsdf bsdf = surface->optics->at(surface->near_origin);
+        if (bsdf.passes_through()) {
+            ray.origin = surface->far_origin;
+            phase = surface->far_phase;
+            continue;
+        }
+        if (!links(bsdf, *surface) || ++length > longest_chain) return glm::vec3(0.0f);
+        const Frame frame(surface->normal);
+        const auto next = bsdf.sample(frame.to_local(-ray.direction), sampler.next(), glm::vec2(0.0f));
+        if (!next) return glm::vec3(0.0f);
+        throughput *= next->weight;
+        ray.direction = glm::normalize(frame.to_world(next->wi));
+        ray.origin = next->transmitted ? surface->far_origin : surface->near_origin;
+        phase = next->transmitted ? surface->far_phase : surface->near_phase;
+    }
+}
+
+// What the last place where light was sampled leaves to its path: the weight of emission found at the end of a chain.
+struct Chain {
+    float weight = 1;  // of the path's own technique, for the direction with which it began
+    int length = 0;
+};
+
 }  // namespace
 
 glm::vec3 trace_path(const World& world, const Scene& scene, CameraRay ray, Phase phase, Sampler& sampler,
@@ -27,10 +74,7 @@ glm::vec3 trace_path(const World& world, const Scene& scene, CameraRay ray, Phas
     const float camera_ior = medium(phase)->ior;
 
     glm::vec3 radiance(0.0f), throughput(1.0f);
-    // The last place where light was sampled as well, and with which density the path left it; none after the camera or
-    // a smooth interface.
-    std::optional<float> pdf;
-    glm::vec3 sampled_from = ray.origin;
+    Chain chain;  // none before the camera: its weight is 1
     bool camera_ray = true;
 
     for (int depth = 0; depth < scene.settings.max_depth;) {
@@ -39,7 +83,7 @@ glm::vec3 trace_path(const World& world, const Scene& scene, CameraRay ray, Phas
         const glm::vec3& absorption = medium(phase)->absorption;
 
         const auto add = [&](const Lights::Emission& light) {
-            const float weight = pdf ? power_heuristic(*pdf, scene.lights.pdf(sampled_from, ray.direction)) : 1.0f;
+            const float weight = chain.length > longest_chain ? 1.0f : chain.weight;
             radiance += throughput * weight * transmittance(absorption, light.distance) * light.radiance;
         };
         if (const auto lamp = scene.lights.intersect(ray.origin, ray.direction, distance, camera_ray)) {
@@ -72,11 +116,10 @@ glm::vec3 trace_path(const World& world, const Scene& scene, CameraRay ray, Phas
                 const glm::vec3 f = bsdf.evaluate(wo, wi);
                 if (f != glm::vec3(0.0f)) {
                     const bool through = wi.z < 0;
-                    const glm::vec3 passed = world.visibility(
-                        through ? surface->far_origin : surface->near_origin, light->wi, light->distance,
-                        through ? surface->far_phase : surface->near_phase, counters.trace);
-                    radiance += throughput * passed * f * light->radiance *
-                                (power_heuristic(light->pdf, bsdf.pdf(wo, wi)) / light->pdf);
+                    const CameraRay shadow{through ? surface->far_origin : surface->near_origin, light->wi};
+                    const glm::vec3 arrives = emission_through_chain(
+                        world, scene, shadow, through ? surface->far_phase : surface->near_phase, sampler, counters);
+                    radiance += throughput * f * arrives * (power_heuristic(light->pdf, bsdf.pdf(wo, wi)) / light->pdf);
                 }
             }
         }
@@ -88,9 +131,13 @@ glm::vec3 trace_path(const World& world, const Scene& scene, CameraRay ray, Phas
         ray.direction = glm::normalize(frame.to_world(next->wi));
         ray.origin = next->transmitted ? surface->far_origin : surface->near_origin;
         phase = next->transmitted ? surface->far_phase : surface->near_phase;
-        pdf = next->delta ? std::nullopt : std::optional<float>(next->pdf);
-        sampled_from = surface->near_origin;
         if (!medium(phase)) break;
+        if (!next->delta)
+            chain = {power_heuristic(next->pdf, scene.lights.pdf(surface->near_origin, ray.direction)), 0};
+        else if (links(bsdf, *surface))
+            ++chain.length;
+        else
+            chain = {};  // a mirror: no light was sampled
 
         // Roulette on what the path can still bring to the camera: radiance over η² is what refraction preserves.
         const float ior = medium(phase)->ior / camera_ior;

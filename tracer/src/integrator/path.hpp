@@ -16,10 +16,13 @@ struct PathCounters {
 
 // An unbiased estimate of the radiance that arrives along a ray that starts in the phase.
 //
-// Light through clear interfaces: a shadow ray ends at the first interface of different indices. What arrives bent is
-// found by the paths themselves: after a smooth interface no light is sampled, so the light they meet counts whole;
-// after any other, both techniques could have met it and are weighted. Nothing is counted twice and nothing is lost;
-// the price is noise where a small bright light is seen through glass, so light such scenes with large ones.
+// Light through clear interfaces. A shadow ray that meets a smooth interface of two clear phases is not lost: it goes
+// on as a path would, reflected or refracted by Fresnel's odds, and what it finds in the end is the light that arrives
+// from its first direction ω. A thin wall hardly bends it, so a lamp behind glass is found about as often as one in
+// plain sight. Both techniques thus estimate the same integral over ω,
+//     ∫ f(ω) E(ω) dω,   E: emission at the end of a chain of smooth clear interfaces, of any length from 0,
+// and combine by the power heuristic of their densities *of ω*: of the light sampling, and of the BSDF. A path keeps
+// these two through the chain. Nothing is counted twice and nothing is lost, whatever the light is seen through.
 glm::vec3 trace_path(const World& world, const Scene& scene, CameraRay ray, Phase phase, Sampler& sampler,
                      PathCounters& counters);
 

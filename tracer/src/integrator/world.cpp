@@ -4,8 +4,6 @@
 #include <cstring>
 #include <limits>
 
-#include "shading/beer_lambert.hpp"
-
 namespace phasetree::tracer {
 
 namespace {
@@ -29,7 +27,7 @@ RTCRay ray_of(const glm::vec3& origin, const glm::vec3& direction, float far) {
 }  // namespace
 
 World::World(const Scene& scene) : scene_(scene), interfaces_(scene.materials) {
-    object_ = std::make_shared<const InterfaceTracer>(scene.object);
+    object_ = std::make_shared<const InterfaceCells>(scene.object);
     device_ = rtcNewDevice(nullptr);
     if (!device_) throw std::runtime_error("Embree cannot be started");
     embree_ = rtcNewScene(device_);
@@ -41,12 +39,6 @@ World::World(const Scene& scene) : scene_(scene), interfaces_(scene.materials) {
     hair_ = 1e-5f * object_->bounds().diagonal();
     for (const Mesh& mesh : scene.meshes) add_mesh(mesh);
     rtcCommitScene(embree_);
-
-    for (std::size_t i = 0; i < scene.materials.size(); ++i)
-        for (std::size_t j = 0; j < i; ++j)
-            if (is_clear(scene.materials[i]) && is_clear(scene.materials[j]))
-                passes_somewhere_ = passes_somewhere_ ||
-                                    std::get<Clear>(scene.materials[i]).ior == std::get<Clear>(scene.materials[j]).ior;
 }
 
 World::~World() {
@@ -88,7 +80,7 @@ std::optional<Surface> World::intersect(const glm::vec3& origin, const glm::vec3
     const Crossing& c = query.crossing;
     Surface s;
     s.distance = c.t_in;
-    s.normal = -query.normal;
+    s.normal = -object_->normal(ray.hit.primID, c, direction);
     s.near_origin = c.p_in;
     s.far_origin = c.p_out;
     s.near_phase = c.from;
@@ -122,39 +114,8 @@ Surface World::on_mesh(const RTCRayHit& ray, const glm::vec3& direction, Phase c
     return s;
 }
 
-glm::vec3 World::visibility(const glm::vec3& origin, const glm::vec3& direction, float distance, Phase carried,
-                            TraceCounters& counters) const {
-    const auto absorbed = [&](Phase phase, float length) {
-        const Clear* medium = std::get_if<Clear>(&scene_.materials[phase.index]);
-        return medium ? transmittance(medium->absorption, length) : glm::vec3(0.0f);
-    };
-    if (!passes_somewhere_) {
-        embree::Query query;
-        query.carried = carried;
-        RTCRay ray = ray_of(origin, direction, distance);
-        const bool hidden = embree::occluded(embree_, query.context, ray);
-        counters.rays += query.counters.rays;
-        counters.batches += query.counters.batches;
-        counters.phantoms += query.counters.phantoms;
-        return hidden ? glm::vec3(0.0f) : absorbed(carried, distance);
-    }
-    glm::vec3 passed(1.0f), p = origin;
-    for (int i = 0; i < 1000; ++i) {
-        const auto surface = intersect(p, direction, carried, counters);
-        if (!surface || surface->distance >= distance) return passed * absorbed(carried, distance);
-        if (surface->near_phase == surface->far_phase || !surface->optics->at(p).passes_through())
-            return glm::vec3(0.0f);
-        passed *= absorbed(carried, surface->distance);
-        distance -= surface->distance;
-        p = surface->far_origin;
-        carried = surface->far_phase;
-    }
-    return glm::vec3(0.0f);
-}
-
 Phase World::label(const glm::vec3& p) const {
-    Evaluator::Workspace w;
-    return object_->label(p, w);
+    return object_->label(p, Evaluator::thread_workspace());
 }
 
 }  // namespace phasetree::tracer

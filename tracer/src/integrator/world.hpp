@@ -34,15 +34,8 @@ class World {
     std::optional<Surface> intersect(const glm::vec3& origin, const glm::vec3& direction, Phase carried,
                                      TraceCounters& counters) const;
 
-    // The part of light that passes between origin and a point at the distance (infinity for an infinite light) along
-    // the direction, straight on. Zero behind any surface: light through an interface of different indices arrives
-    // bent, along paths that the sampling of BSDFs finds. Interfaces of equal indices let it pass, and every medium
-    // absorbs its share.
-    glm::vec3 visibility(const glm::vec3& origin, const glm::vec3& direction, float distance, Phase carried,
-                         TraceCounters& counters) const;
-
     Phase label(const glm::vec3& p) const;
-    const InterfaceTracer& object() const { return *object_; }
+    const InterfaceCells& object() const { return *object_; }
     // A length below which two points are the same place: what rays that leave a mesh are moved by.
     float hair() const { return hair_; }
 
@@ -51,13 +44,12 @@ class World {
     Surface on_mesh(const RTCRayHit& ray, const glm::vec3& direction, Phase carried) const;
 
     const Scene& scene_;
-    std::shared_ptr<const InterfaceTracer> object_;
+    std::shared_ptr<const InterfaceCells> object_;
     RTCDevice device_ = nullptr;
     RTCScene embree_ = nullptr;
     std::optional<embree::TreeGeometry> tree_;
     InterfaceTable interfaces_;
     std::vector<Interface> mesh_interfaces_;  // [mesh · phases + phase the ray is in]
-    bool passes_somewhere_ = false;           // two clear phases have equal indices
     float hair_ = 0;
 };
 

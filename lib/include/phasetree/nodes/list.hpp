@@ -87,7 +87,7 @@ using PhasedNodes = detail::Concat<Objects, detail::Map<WarpedPhased, Warps>::ty
 /// The primitives, each one instruction of the program; a local warp's bound is one too.
 using Primitives = detail::Concat<TypeList<BoundingBox>, detail::OnlyPrimitives<PlainFields>::type>::type;
 /// The maps of space, each one instruction.
-using PointMaps = detail::Map<detail::MapOf, Warps>::type;
+using PointMaps = detail::Concat<TypeList<ClampToBox>, detail::Map<detail::MapOf, Warps>::type>::type;
 
 /// Calls f.template operator()<T>() for each type of a list.
 template <class... Ts, class F>

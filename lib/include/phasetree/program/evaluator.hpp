@@ -65,21 +65,13 @@ class Evaluator {
     const Program& program() const { return program_; }
     std::size_t bytes() const;
 
-    /// A resolved instruction. Slots count batches in the register file; a point takes three.
-    struct Step {
-        std::uint32_t op;
-        std::uint32_t to;
-        std::uint32_t a;
-        std::uint32_t b;
-        std::uint32_t data;
-    };
+    /// The scratch of one thread that all tracing shares.
+    static Workspace& thread_workspace();
 
   private:
+    friend class InterfaceTracer;
     Program program_;
-    std::vector<Step> steps_;
-    std::vector<std::uint32_t> output_slot_;
-    std::vector<float> output_phase_;
-    std::size_t slots_ = 0;
+    std::shared_ptr<const struct Assembly> assembly_;
 };
 
 /// The SIMD instruction sets that this build and this machine share, best first: "AVX-512", "AVX2", "SSE4", "SSE2".

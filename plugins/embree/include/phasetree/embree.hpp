@@ -2,8 +2,8 @@
 
 /// PhaseTrees as Embree user geometry, for Embree 3.13 and Embree 4.
 
+#include "phasetree/cells/cells.hpp"
 #include "phasetree/embree_version.hpp"
-#include "phasetree/trace/tracer.hpp"
 
 namespace phasetree::embree {
 
@@ -14,9 +14,9 @@ struct Query {
     /// The phase the ray is in. Without it the geometry takes the label at the ray's start.
     std::optional<Phase> carried;
     /// The crossing behind the last hit that a PhaseTree reported. If the ray's final geomID is the tree's, this is
-    /// that hit's; in the object's own space.
+    /// that hit's, in the object's own space, and the hit's primID is its cell: InterfaceCells::normal gives the
+    /// normal.
     Crossing crossing;
-    glm::vec3 normal{0};  ///< unit, from crossing.from into crossing.to
     TraceCounters counters;
 
     Query() { initialise(context); }
@@ -30,22 +30,23 @@ struct Options {
 
 /// An object as an RTCGeometry of type user. A hit is the first change of phase along the ray:
 ///     tfar         distance to where the old phase ends (in units of the ray's direction, as Embree has it)
-///     Ng           normal on the side the ray came from; unit in object space
+///     Ng           normal on the side the ray came from; unit in object space (for rays that carry phases against the
+///                  direction: they ask for the normal of the hit they keep)
 ///     u, v         index of the phase left and of the phase entered
-///     primID       0 (one primitive an object)
+///     primID       the cell
 /// A ray's direction may have any length. Rays with numbers that are not finite hit nothing.
 ///
 /// Owns the handle and what its callbacks read: must outlive every scene that it is attached to. The geometry is not
 /// committed; do so before attaching, as with any other. Any thread may trace.
 class TreeGeometry {
   public:
-    TreeGeometry(RTCDevice device, std::shared_ptr<const InterfaceTracer> object, const Options& options = {});
+    TreeGeometry(RTCDevice device, std::shared_ptr<const InterfaceCells> object, const Options& options = {});
     ~TreeGeometry();
     TreeGeometry(TreeGeometry&&) noexcept;
     TreeGeometry& operator=(TreeGeometry&&) noexcept;
 
     RTCGeometry handle() const { return handle_; }
-    const InterfaceTracer& object() const;
+    const InterfaceCells& object() const;
 
     struct Data;
 

@@ -6,15 +6,14 @@ namespace phasetree {
 
 /// Turns each slice z = const by k·z. ω⁻¹ turns back: J is a rotation times the shear (ρ dθ, dz) ↦ (ρ dθ − kρ dz, dz),
 /// whose largest singular value is (|k|ρ + √(k²ρ² + 4)) / 2 at distance ρ from the axis. It has no bound in space,
-/// so λ is taken over the object and a margin about it; see warped.hpp.
+/// so λ is taken over the object's bounds; see warped.hpp.
 struct Twist {
     static constexpr NodeInfo info{"twist", "6",
                                    "φ(R(−k z) p) / λ,  λ = (kρ + √(k²ρ² + 4))/2,  ρ the largest within the bounds",
                                    "Twists about the z axis."};
     static constexpr bool local = true;
     float rate = 0;
-    float reach = 0;      ///< largest distance from the axis within the bounds, derived
-    float clearance = 0;  ///< D, derived
+    float reach = 0;  ///< largest distance from the axis within the bounds, derived
 
     struct Map {
         float radians;
@@ -32,15 +31,13 @@ struct Twist {
     void fit(const Bounds& child) {
         reach = 0;
         for (int i = 0; i < 4; ++i) reach = std::max(reach, glm::length(glm::vec2(child.corner(i))));
-        clearance = 0.5f * child.diagonal();
         const float angle = std::abs(glm::radians(rate)) * std::max(std::abs(child.low.z), std::abs(child.high.z));
         if (angle > 5000.f) throw ModelError("twist: more than 800 turns from the origin to an end of the object");
     }
-    float margin() const { return clearance; }
     Map map() const { return {glm::radians(rate)}; }
     float value_scale() const {
-        // Within b < D/2, and the box around a circle reaches √2 further at its corners.
-        const float k = std::abs(glm::radians(rate)) * (reach + 0.5f * clearance) * 1.41422f;
+        // The box around the circle reaches √2 further at its corners.
+        const float k = std::abs(glm::radians(rate)) * reach * 1.41422f;
         return 2.f / (k + std::sqrt(k * k + 4.f)) * (1.f - 1e-6f);
     }
     Bounds image(const Bounds& b) const {

@@ -11,10 +11,10 @@
 ///
 /// Where ‖J‖ is bounded only on a part of space (`local`), the warp gets the child's bounds first through
 ///     void fit(const Bounds& child)   throws ModelError if the child is unbounded
-///     float margin() const            D below, in metres
-/// and the sup is taken over the bounds grown by D/2. Outside, the field is that of a bounding box b: 1-Lipschitz by
-///     φᵢ ← max(b, min(φᵢ, D − b)),   φ₀ ← min(−b, max(φ₀, b − D)),
-/// which equals b wherever b ≥ D/2, so what the warped field does there is of no consequence.
+/// and the sup is taken over ω(those bounds). What lies outside is first projected onto that box, a map that lengthens
+/// nothing, so Φ∘ω⁻¹∘clamp / λ is 1-Lipschitz everywhere; and because it stays small far away, the distance b
+/// to the bounds takes over where it is larger:
+///     φᵢ ← max(b, φᵢ),   φ₀ ← min(−b, φ₀).
 namespace phasetree {
 
 template <class W>
@@ -33,16 +33,16 @@ struct BoundingBox {
     }
 };
 
-namespace detail {
-template <class S>
-S confine(const S& value, const S& b, float margin) {
-    return max(b, min(value, margin - b));
-}
-template <class S>
-S confine_vacuum(const S& value, const S& b, float margin) {
-    return min(-b, max(value, b - margin));
-}
-}  // namespace detail
+/// The projection onto a box.
+struct ClampToBox {
+    glm::vec3 low{-1};
+    glm::vec3 high{1};
+
+    template <class T>
+    Vec3<T> operator()(const Vec3<T>& p) const {
+        return {clamp(p.x, T(low.x), T(high.x)), clamp(p.y, T(low.y), T(high.y)), clamp(p.z, T(low.z), T(high.z))};
+    }
+};
 
 template <class Warp, class Child>
 struct Warped {
@@ -76,22 +76,23 @@ struct Warped {
     }
     template <class D>
     auto evaluate(D& d, const typename D::Point& p) const {
-        const typename D::Point q = d.map(warp.map(), p, 1.f / warp.value_scale());
+        typename D::Point inside = p;
+        if constexpr (LocalWarp<Warp>) {
+            inside = d.map(ClampToBox{bound.centre - bound.half, bound.centre + bound.half}, p, 1.f);
+        }
+        const typename D::Point q = d.map(warp.map(), inside, 1.f / warp.value_scale());
         const float k = warp.value_scale();
         const auto scaled = [&](const auto& value) { return k == 1.f ? value : value * k; };
         if constexpr (for_fields) {
             auto f = scaled(d.field(of, q));
-            if constexpr (LocalWarp<Warp>) f = detail::confine(f, d.primitive(bound, p), warp.margin());
+            if constexpr (LocalWarp<Warp>) f = max(d.primitive(bound, p), f);
             return f;
         } else {
             auto a = d.phases(of, q);
             for_each_phase(a.present, [&](int i) { a.set(i, scaled(a[i])); });
             if constexpr (LocalWarp<Warp>) {
                 const auto b = d.primitive(bound, p);
-                for_each_phase(a.present, [&](int i) {
-                    a.set(i, i == 0 ? detail::confine_vacuum(a[i], b, warp.margin())
-                                    : detail::confine(a[i], b, warp.margin()));
-                });
+                for_each_phase(a.present, [&](int i) { a.set(i, i == 0 ? min(-b, a[i]) : max(b, a[i])); });
             }
             return a;
         }

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "phasetree/program/evaluator.hpp"
+#include "phasetree/trace/crossing.hpp"
+
+namespace phasetree {
+
+struct CellOptions {
+    float resolution = 0;           ///< see InterfaceTracer
+    std::size_t short_program = 6;  ///< a cell whose program is no longer is not divided
+    int deepest = 14;               ///< divisions from the bounds to the smallest cell
+    int patience = 2;               ///< divisions without a shorter program before dividing ends
+};
+
+struct CellStatistics {
+    std::size_t cells = 0;
+    std::size_t routines = 0;  ///< different programs among the cells
+    std::size_t bytes = 0;     ///< cells, routines and the constants they share
+    std::size_t median_instructions = 0, percentile90_instructions = 0, most_instructions = 0;
+    double build_seconds = 0;
+};
+
+/// An object cut into boxes around its interfaces, each with the few instructions that matter there. A ray meets a
+/// change of phase only inside a cell; in which order cells are tried is the caller's business (Embree's, for one).
+///
+/// A cell's program gives the whole object's labels within the cell and a hair beyond (reach()), and distances that are
+/// valid there. Immutable; any thread may read it.
+class InterfaceCells {
+  public:
+    /// Throws ModelError if the object is unbounded, empty or too large.
+    explicit InterfaceCells(const Phased& object, const CellOptions& options = {});
+    ~InterfaceCells();
+
+    std::size_t size() const;
+    /// A cell's box, a hair larger than its share of space so that rays cannot slip between two.
+    Bounds bounds(std::size_t cell) const;
+    /// The box of the whole object, with a margin of vacuum.
+    const Bounds& bounds() const;
+
+    /// As InterfaceTracer::first_crossing, within one cell.
+    std::optional<Crossing> first_crossing(std::size_t cell, const glm::vec3& origin, const glm::vec3& direction,
+                                           float t_min, float t_max, std::optional<Phase> carried,
+                                           Evaluator::Workspace&, TraceCounters&) const;
+    /// Unit normal of a crossing found in the cell, from `from` into `to`.
+    glm::vec3 normal(std::size_t cell, const Crossing&, const glm::vec3& direction) const;
+
+    /// The phase at a point, by the whole object's program; vacuum outside the bounds.
+    Phase label(const glm::vec3& p, Evaluator::Workspace&) const;
+    /// The phase at a point by the cell's program; p within the cell.
+    Phase label(std::size_t cell, const glm::vec3& p, Evaluator::Workspace&) const;
+
+    const Evaluator& whole() const;
+    float resolution() const;
+    /// How far a cell's box reaches beyond its share of space.
+    float reach() const;
+    CellStatistics statistics() const;
+
+  private:
+    struct Data;
+    std::unique_ptr<const Data> data_;
+};
+
+}  // namespace phasetree

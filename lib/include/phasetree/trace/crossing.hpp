@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "phasetree/model/phase.hpp"
+
+namespace phasetree {
+
+/// A change of phase along a ray, as a bracket: the label is certified at both ends, and nothing that is thicker than
+/// the resolution lies between. A reflected ray starts at p_in and stays in `from`, a refracted one at p_out in `to`;
+/// no offset along a normal, no second evaluation, no self-hit.
+struct Crossing {
+    float t_in = 0;  ///< distances from the ray's origin
+    float t_out = 0;
+    glm::vec3 p_in{0};  ///< the very points that were evaluated
+    glm::vec3 p_out{0};
+    Phase from;
+    Phase to;
+};
+
+/// What tracing cost, for --stats.
+struct TraceCounters {
+    std::uint64_t rays = 0;
+    std::uint64_t batches = 0;   ///< evaluations of sixteen points
+    std::uint64_t phantoms = 0;  ///< steps by the resolution that met no change of label
+};
+
+}  // namespace phasetree

@@ -1,0 +1,111 @@
+#include "program/assemble.hpp"
+
+#include <limits>
+
+#include "phasetree/nodes/list.hpp"
+
+namespace phasetree {
+
+namespace {
+
+constexpr std::uint32_t first_map =
+    static_cast<std::uint32_t>(Op::first_primitive) + static_cast<std::uint32_t>(Primitives::size);
+
+/// Hands out register slots; a freed one is used again.
+class Slots {
+  public:
+    std::uint32_t take(std::uint32_t size) {
+        auto& free = size == 1 ? scalars_ : points_;
+        if (!free.empty()) {
+            const std::uint32_t slot = free.back();
+            free.pop_back();
+            return slot;
+        }
+        const std::uint32_t slot = end_;
+        end_ += size;
+        return slot;
+    }
+    void give_back(std::uint32_t slot, std::uint32_t size) { (size == 1 ? scalars_ : points_).push_back(slot); }
+    std::uint32_t end() const { return end_; }
+
+  private:
+    std::vector<std::uint32_t> scalars_, points_;
+    std::uint32_t end_ = 0;
+};
+
+std::uint32_t size_of(Op op) {
+    return gives_point(op) ? 3 : 1;
+}
+
+Assembly assemble(std::span<const Instruction> code, std::span<const ProgramOutput> outputs, bool keep_all,
+                  std::vector<std::uint32_t>& slot) {
+    constexpr auto forever = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> last_use(code.size(), keep_all ? forever : 0);
+    if (!keep_all) {
+        for (std::uint32_t i = 0; i < code.size(); ++i) {
+            if (operands(code[i].op) > 0) last_use[code[i].a] = i;
+            if (operands(code[i].op) > 1) last_use[code[i].b] = i;
+        }
+        last_use[0] = forever;  // the input keeps slots 0 … 2
+        for (const ProgramOutput& o : outputs) last_use[o.value] = forever;
+    }
+
+    Assembly result;
+    Slots slots;
+    slot.assign(code.size(), 0);
+    result.steps.reserve(code.size());
+    for (std::uint32_t i = 0; i < code.size(); ++i) {
+        const Instruction& in = code[i];
+        const int n = operands(in.op);
+        // A map writes its result one component at a time, so it is placed before its operand's slots are freed.
+        slot[i] = slots.take(size_of(in.op));
+        if (in.op != Op::input)
+            result.steps.push_back(
+                {static_cast<std::uint32_t>(in.op), slot[i], n > 0 ? slot[in.a] : 0, n > 1 ? slot[in.b] : 0, in.data});
+        if (n > 0 && last_use[in.a] == i) slots.give_back(slot[in.a], size_of(code[in.a].op));
+        if (n > 1 && in.b != in.a && last_use[in.b] == i) slots.give_back(slot[in.b], size_of(code[in.b].op));
+    }
+    result.slots = slots.end();
+    for (const ProgramOutput& o : outputs)
+        result.outputs.push_back({slot[o.value], static_cast<float>(o.phase.index), o.negate ? -1.f : 1.f});
+    return result;
+}
+
+}  // namespace
+
+int operands(Op op) {
+    switch (op) {
+        case Op::input:
+            return 0;
+        case Op::add:
+        case Op::subtract:
+        case Op::minimum:
+        case Op::maximum:
+        case Op::smooth_minimum:
+            return 2;
+        default:
+            return 1;
+    }
+}
+
+bool gives_point(Op op) {
+    return op == Op::input || static_cast<std::uint32_t>(op) >= first_map;
+}
+
+Assembly assemble(std::span<const Instruction> code, std::span<const ProgramOutput> outputs) {
+    std::vector<std::uint32_t> slot;
+    return assemble(code, outputs, false, slot);
+}
+
+Assembly assemble_keeping_all(std::span<const Instruction> code, std::span<const ProgramOutput> outputs,
+                              std::vector<std::uint32_t>& slot_of) {
+    return assemble(code, outputs, true, slot_of);
+}
+
+std::vector<ProgramOutput> outputs_of(const Program& program) {
+    std::vector<ProgramOutput> outputs;
+    for (const Output& o : program.outputs) outputs.push_back({o.phase, o.value, false});
+    return outputs;
+}
+
+}  // namespace phasetree

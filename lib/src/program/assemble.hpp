@@ -1,0 +1,42 @@
+#pragma once
+
+#include "kernel/kernel.hpp"
+
+namespace phasetree {
+
+/// An output as it comes out of a program. With `negate` the component is minus the value: where only two phases meet,
+/// one value tells both.
+struct ProgramOutput {
+    Phase phase;
+    std::uint32_t value = 0;
+    bool negate = false;
+};
+
+/// Instructions made ready to run: registers assigned, operations resolved.
+struct Assembly {
+    std::vector<Step> steps;
+    std::vector<OutputSlot> outputs;
+    std::uint32_t slots = 0;
+
+    Routine routine(const float* constants) const {
+        return {steps.data(), steps.size(), constants, outputs.data(), outputs.size()};
+    }
+};
+
+/// Values whose last use is past give their register to later ones.
+Assembly assemble(std::span<const Instruction> code, std::span<const ProgramOutput> outputs);
+/// Every value keeps a register of its own, at slot_of[i], so that all can be read afterwards.
+Assembly assemble_keeping_all(std::span<const Instruction> code, std::span<const ProgramOutput> outputs,
+                              std::vector<std::uint32_t>& slot_of);
+
+std::vector<ProgramOutput> outputs_of(const Program&);
+
+/// How many values an operation takes.
+int operands(Op);
+/// Whether an operation's result is a point and not a number.
+bool gives_point(Op);
+
+/// Gradient of one component at a point, by dual numbers.
+glm::vec3 gradient(const Routine&, std::uint32_t slots, const glm::vec3& p, Phase);
+
+}  // namespace phasetree

@@ -1,0 +1,101 @@
+// Runs the built `phasetree` as a user does: in a directory of its own, with arguments and standard input.
+#pragma once
+
+#include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "output/temporary_directory.hpp"
+
+namespace phasetree::tests {
+
+using tracer::test::bytes_of;
+using tracer::test::TemporaryDirectory;
+using tracer::test::write_text;
+
+struct Outcome {
+    int code = -1;   // exit code; −1 if a signal ended it
+    int signal = 0;  // that signal; SIGKILL also for a run that was given up
+    std::string out, err;
+    double seconds = 0;
+};
+
+// No test of ours runs longer than a few seconds, however loaded the machine.
+inline constexpr auto give_up_after = std::chrono::seconds(60);
+
+// A directory for scenes and images, and the command run there.
+class Shell {
+  public:
+    // `meanwhile` is called every few milliseconds with the process's id.
+    Outcome run(const std::vector<std::string>& arguments, const std::string& input = "",
+                const std::function<void(pid_t)>& meanwhile = {}) const {
+        // Outside of the directory, whose entries are counted.
+        const TemporaryDirectory streams;
+        write_text(streams / "in", input);
+        const std::string in = streams / "in", out = streams / "out", err = streams / "err";
+        std::vector<std::string> words{PHASETREE_COMMAND};
+        words.insert(words.end(), arguments.begin(), arguments.end());
+        std::vector<char*> argv;
+        for (std::string& word : words) argv.push_back(word.data());
+        argv.push_back(nullptr);
+
+        const auto start = std::chrono::steady_clock::now();
+        const pid_t child = ::fork();
+        REQUIRE(child >= 0);
+        if (child == 0) {
+            std::signal(SIGINT, SIG_DFL);
+            const bool ready = ::chdir(directory.path().c_str()) == 0 &&
+                               ::dup2(::open(in.c_str(), O_RDONLY), STDIN_FILENO) >= 0 &&
+                               ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT, 0600), STDOUT_FILENO) >= 0 &&
+                               ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT, 0600), STDERR_FILENO) >= 0;
+            if (ready) {
+                for (const auto& [name, value] : environment) ::setenv(name.c_str(), value.c_str(), 1);
+                if (environment.empty()) ::unsetenv("OCIO");
+                ::execv(argv[0], argv.data());
+            }
+            ::_exit(127);
+        }
+        int status = 0;
+        while (::waitpid(child, &status, WNOHANG) == 0) {
+            if (meanwhile) meanwhile(child);
+            if (std::chrono::steady_clock::now() - start > give_up_after) ::kill(child, SIGKILL);
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+        Outcome outcome;
+        outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        if (WIFEXITED(status)) outcome.code = WEXITSTATUS(status);
+        if (WIFSIGNALED(status)) outcome.signal = WTERMSIG(status);
+        outcome.out = bytes_of(out);
+        outcome.err = bytes_of(err);
+        return outcome;
+    }
+
+    TemporaryDirectory directory;
+    std::vector<std::pair<std::string, std::string>> environment;
+};
+
+// A scene that renders quickly; the parts may be replaced.
+struct SceneText {
+    std::string phases =
+        R"({"glass": {"clear": {"ior": 1.5}}, "water": {"clear": {"ior": 1.33}}, "wood": {"diffuse": {"color": [0.5, 0.4, 0.3]}}})";
+    std::string shapes = R"({"ball": {"sphere": {"radius": 1}}})";
+    std::string tree = R"({"set": {"phase": "glass", "of": "ball"}})";
+    std::string lights = R"([{"constant": {}}])";
+    std::string camera = R"({"position": [0, -5, 0], "look_at": [0, 0, 0]})";
+    std::string rest = R"("render": {"width": 24, "height": 16, "samples": 2})";
+
+    std::string text() const {
+        return "{\"version\": 1,\n\"phases\": " + phases + ",\n\"shapes\": " + shapes + ",\n\"tree\": " + tree +
+               ",\n\"lights\": " + lights + ",\n\"camera\": " + camera + (rest.empty() ? "" : ",\n" + rest) + "}\n";
+    }
+};
+
+}  // namespace phasetree::tests

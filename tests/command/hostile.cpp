@@ -1,0 +1,414 @@
+// Input that is wrong, by mistake or on purpose: one error that says where and what, exit code 2, at once, and nothing
+// left behind. Never a crash, never a hang.
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <regex>
+
+#include "command.hpp"
+#include "phasetree/reading/document.hpp"
+#include "phasetree/reading/error.hpp"
+#include "scene/scene.hpp"
+
+using namespace phasetree::tests;
+
+namespace {
+
+// The promise is a second; a machine that runs other things too gets a few more.
+constexpr double at_once = 5;
+
+std::string nested(const std::string& open, const std::string& middle, const std::string& close, int n) {
+    std::string text;
+    for (int i = 0; i < n; ++i) text += open;
+    text += middle;
+    for (int i = 0; i < n; ++i) text += close;
+    return text;
+}
+
+// One error of one message: "<place>: <what>", then perhaps the line and a caret.
+void check_error(const Outcome& o, const std::string& place, const std::string& message) {
+    CAPTURE(o.err.substr(0, 500));
+    CHECK(o.code == 2);
+    CHECK(o.signal == 0);
+    CHECK(o.out == "");
+    CHECK(o.seconds < at_once);
+    const std::string first = o.err.substr(0, o.err.find('\n'));
+    const bool at_place = std::regex_search(first, std::regex("^" + place));
+    CHECK(at_place);
+    CHECK(first.find(message) != std::string::npos);
+    const auto lines = std::count(o.err.begin(), o.err.end(), '\n');
+    CHECK((lines == 1 || lines == 3));
+    CHECK(o.err.size() < 2000);
+}
+
+const std::string in_text = R"(scene\.json:[0-9]+:[0-9]+: )";
+const std::string of_file = R"(scene\.json: )";
+
+struct Case {
+    std::string name, text, message;
+};
+
+std::vector<Case> wrong_scenes() {
+    std::vector<Case> cases;
+    const auto add = [&](const std::string& name, const std::string& message, auto&& change) {
+        SceneText scene;
+        change(scene);
+        cases.push_back({name, scene.text(), message});
+    };
+    const auto tree = [&](const std::string& name, const std::string& message, const std::string& text) {
+        add(name, message, [&](SceneText& s) { s.tree = text; });
+    };
+    const auto ball = [&](const std::string& name, const std::string& message, const std::string& shape) {
+        add(name, message, [&](SceneText& s) { s.shapes = R"({"ball": )" + shape + "}"; });
+    };
+    const auto camera = [&](const std::string& name, const std::string& message, const std::string& text) {
+        add(name, message, [&](SceneText& s) { s.camera = text; });
+    };
+    const auto light = [&](const std::string& name, const std::string& message, const std::string& text) {
+        add(name, message, [&](SceneText& s) { s.lights = "[" + text + "]"; });
+    };
+    const auto rest = [&](const std::string& name, const std::string& message, const std::string& text) {
+        add(name, message, [&](SceneText& s) { s.rest = text; });
+    };
+    const auto phases = [&](const std::string& name, const std::string& message, const std::string& text) {
+        add(name, message, [&](SceneText& s) { s.phases = text; });
+    };
+
+    // Not JSON, or not this kind.
+    cases.push_back({"empty", "", "empty"});
+    cases.push_back({"blank", " \n\t\n", "empty"});
+    cases.push_back({"an array", "[]", "object"});
+    cases.push_back({"a number", "1", "object"});
+    cases.push_back({"noise", std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16), ""});
+    cases.push_back({"arrays 10⁵ deep", nested("[", "", "]", 100000), "nested"});
+    cases.push_back({"arrays 10⁵ deep, never closed", nested("[", "", "", 100000), "nested"});
+    tree("nodes 10⁵ deep", "nested",
+         nested(R"({"translate": {"by": [0, 0, 1], "of": )", R"({"set": {"phase": "glass", "of": "ball"}})", "}}",
+                100000));
+    cases.push_back({"two scenes", SceneText().text() + SceneText().text(), ""});
+    cases.push_back({"a quote too few", R"({"version: 1})", ""});
+    cases.push_back({"no version", "{}", "version"});
+    cases.push_back({"another version", R"({"version": 2})", "version 1"});
+
+    // Keys, kinds and numbers.
+    rest("unknown key", "did you mean \"background\"", R"("backgruond": [0, 0, 0])");
+    rest("a key twice", "lights", R"("lights": [])");
+    ball("misspelt parameter", "did you mean \"radius\"", R"({"sphere": {"raduis": 1}})");
+    ball("misspelt node", "did you mean \"sphere\"", R"({"shpere": {"radius": 1}})");
+    ball("missing parameter", "radius", R"({"sphere": {}})");
+    ball("not a number", "NaN", R"({"sphere": {"radius": NaN}})");
+    ball("infinite", "", R"({"sphere": {"radius": Infinity}})");
+    ball("too large for a double", "", R"({"sphere": {"radius": 1e999}})");
+    ball("too large for a float", "", R"({"sphere": {"radius": 1e39}})");
+    ball("negative", "radius", R"({"sphere": {"radius": -1}})");
+    ball("zero", "radius", R"({"sphere": {"radius": 0}})");
+    ball("text for a number", "radius", R"({"sphere": {"radius": "1"}})");
+    ball("list for a number", "radius", R"({"sphere": {"radius": [1]}})");
+    ball("number for a node", "node", "1");
+    ball("two nodes in one", "one member", R"({"sphere": {"radius": 1}, "box": {"size": [1, 1, 1]}})");
+    ball("two numbers for three", "three", R"({"box": {"size": [1, 1]}})");
+    ball("no children", "empty", R"({"union": []})");
+    ball("a plane without direction", "direction", R"({"plane": {"normal": [0, 0, 0]}})");
+    phases("no phases", "empty", "{}");
+    phases("vacuum as a phase", "vacuum", R"({"vacuum": {"clear": {"ior": 1}}})");
+    phases("unknown material", "did you mean \"clear\"", R"({"glass": {"claer": {"ior": 1.5}}})");
+    phases("material of two kinds", "one member", R"({"glass": {"clear": {"ior": 1}, "diffuse": {}}})");
+    phases("material without index", "ior", R"({"glass": {"clear": {}}})");
+    phases("index out of range", "ior", R"({"glass": {"clear": {"ior": 0}}})");
+    phases("metal nobody knows", "did you mean \"gold\"", R"({"glass": {"conductor": {"metal": "glod"}}})");
+    phases("too many phases", "63", [] {
+        std::string all = "{";
+        for (int i = 0; i < 80; ++i) all += (i ? ", \"p" : "\"p") + std::to_string(i) + R"(": {"clear": {"ior": 1.5}})";
+        return all + "}";
+    }());
+
+    // The tree.
+    tree("unknown phase", "did you mean \"glass\"", R"({"set": {"phase": "galss", "of": "ball"}})");
+    tree("the vacuum", "vacuum", R"({"set": {"phase": "vacuum", "of": "ball"}})");
+    tree("unknown shape", "did you mean \"ball\"", R"({"set": {"phase": "glass", "of": "bell"}})");
+    tree("a field where phases are needed", "phases", R"("ball")");
+    tree("phases where a field is needed", "plain field",
+         R"({"set": {"phase": "glass", "of": {"set": {"phase": "glass", "of": "ball"}}}})");
+    tree("unbounded", "unbounded", R"({"set": {"phase": "glass", "of": {"plane": {}}}})");
+    tree("a twist of an unbounded object", "",
+         R"({"set": {"phase": "glass", "of": {"twist": {"rate": 10, "of": {"plane": {}}}}}})");
+    tree("empty object", "empty", R"({"set": {"phase": "glass", "of": {"offset": {"by": -2, "of": "ball"}}}})");
+    ball("a shape of itself", "made of itself", R"({"translate": {"by": [0, 0, 1], "of": "ball"}})");
+    add("two shapes of each other", "made of itself",
+        [](SceneText& s) { s.shapes = R"({"ball": {"union": ["other"]}, "other": {"union": ["ball"]}})"; });
+    add("two names of each other", "itself", [](SceneText& s) { s.shapes = R"({"ball": "other", "other": "ball"})"; });
+    add("10⁵ chained shapes", "deeper", [](SceneText& s) {
+        s.shapes = R"({"ball": {"union": ["s1"]})";
+        for (int i = 1; i <= 100000; ++i)
+            s.shapes += ", \"s" + std::to_string(i) + R"(": {"union": ["s)" + std::to_string(i + 1) + "\"]}";
+        s.shapes += R"(, "s100001": {"sphere": {"radius": 1}}})";
+    });
+    add("10⁵ names of names", "", [](SceneText& s) {
+        s.shapes = R"({"ball": "s1")";
+        for (int i = 1; i <= 100000; ++i)
+            s.shapes += ", \"s" + std::to_string(i) + R"(": "s)" + std::to_string(i + 1) + "\"";
+        s.shapes += R"(, "s100001": {"sphere": {"radius": 1}}})";
+    });
+    // Every shape is two of the last, moved apart: 2⁴⁰ spheres.
+    const auto laughs = [](SceneText& s) {
+        s.shapes = R"({"s0": {"sphere": {"radius": 1}})";
+        for (int i = 1; i <= 40; ++i) {
+            const std::string last = "\"s" + std::to_string(i - 1) + "\"";
+            s.shapes += ", \"s" + std::to_string(i) + R"(": {"union": [{"translate": {"by": [0.1, 0, 0], "of": )" +
+                        last + R"(}}, {"rotate": {"angle": 7, "of": )" + last + "}}]}";
+        }
+        s.shapes += R"(, "ball": "s40"})";
+    };
+    add("a billion laughs", "instructions", laughs);
+    add("a billion laughs about the camera", "instructions", [&](SceneText& s) {
+        laughs(s);
+        s.camera = R"({"position": [0.1, 0, 0.3], "look_at": [0, 0, 0]})";
+    });
+    add("a billion laughs in phases", "instructions", [](SceneText& s) {
+        s.shapes = R"({"ball": {"sphere": {"radius": 1}}, "s0": {"set": {"phase": "glass", "of": "ball"}})";
+        for (int i = 1; i <= 40; ++i) {
+            const std::string last = "\"s" + std::to_string(i - 1) + "\"";
+            s.shapes += ", \"s" + std::to_string(i) + R"(": {"under": [{"translate": {"by": [0.1, 0, 0], "of": )" +
+                        last + R"(}}, {"rotate": {"angle": 7, "of": )" + last + "}}]}";
+        }
+        s.shapes += "}";
+        s.tree = "\"s40\"";
+    });
+
+    // Camera, lights, meshes, settings.
+    camera("camera that looks at itself", "", R"({"position": [0, 0, 3], "look_at": [0, 0, 3]})");
+    camera("camera without a place", "position", R"({"look_at": [0, 0, 0]})");
+    camera("camera that sees all", "fov", R"({"position": [0, -5, 0], "look_at": [0, 0, 0], "fov": 180})");
+    camera("camera that sees nothing", "fov", R"({"position": [0, -5, 0], "look_at": [0, 0, 0], "fov": 0})");
+    camera("camera as text", "camera", R"("front")");
+    add("camera in wood", "inside \"wood\"", [](SceneText& s) {
+        s.tree = R"({"set": {"phase": "wood", "of": "ball"}})";
+        s.camera = R"({"position": [0, 0, 0.5], "look_at": [0, 0, 0]})";
+    });
+    light("no lights", "no lights", "");
+    light("unknown light", "did you mean \"sphere\"", R"({"shpere": {"centre": [0, 0, 3], "radius": 1}})");
+    light("a light without size", "radius", R"({"sphere": {"centre": [0, 0, 3], "radius": 0}})");
+    light("negative light", "radiance", R"({"constant": {"radiance": [1, -1, 1]}})");
+    light("an image that is not there", "nowhere.exr", R"({"image": {"file": "nowhere.exr"}})");
+    light("a directory for an image", "", R"({"image": {"file": "."}})");
+    light("the scene for an image", "", R"({"image": {"file": "scene.json"}})");
+    rest("a mesh that is not there", "nowhere.obj",
+         R"("meshes": [{"obj": {"file": "nowhere.obj", "material": {"diffuse": {"color": [1, 1, 1]}}}}])");
+    rest("a directory for a mesh", "not a regular file",
+         R"("meshes": [{"obj": {"file": ".", "material": {"diffuse": {"color": [1, 1, 1]}}}}])");
+    rest("the scene for a mesh", "scene.json",
+         R"("meshes": [{"obj": {"file": "scene.json", "material": {"diffuse": {"color": [1, 1, 1]}}}}])");
+    rest("a mesh of glass", "", R"("meshes": [{"floor": {"material": {"clear": {"ior": 1.5}}}}])");
+    rest("meshes as an object", "list", R"("meshes": {})");
+    rest("no width", "width", R"("render": {"width": 0})");
+    rest("too wide", "width", R"("render": {"width": 1000000})");
+    rest("half a sample", "samples", R"("render": {"samples": 1.5})");
+    rest("no samples", "samples", R"("render": {"samples": 0})");
+    rest("a negative seed", "seed", R"("render": {"seed": -1})");
+    return cases;
+}
+
+}  // namespace
+
+TEST_CASE("wrong scenes: one error with its place, exit code 2, at once, nothing left behind") {
+    for (const Case& c : wrong_scenes()) {
+        CAPTURE(c.name);
+        const Shell shell;
+        write_text(shell.directory / "scene.json", c.text);
+        const Outcome rendered = shell.run({"render", "scene.json", "-o", "a.exr", "-o", "b.png", "--stats", "c.json"});
+        check_error(rendered, in_text, c.message);
+        CHECK(shell.directory.size() == 1);
+        const Outcome checked = shell.run({"check", "scene.json"});
+        CHECK(checked.code == 2);
+        CHECK(checked.err == rendered.err);
+    }
+}
+
+TEST_CASE("eval, trace and info: the same errors of the tree") {
+    Shell shell;
+    for (const Case& c : wrong_scenes()) {
+        for (const char* part : {"deep", "laughs", "itself", "each other", "chained", "unknown phase", "negative"}) {
+            if (c.name.find(part) == std::string::npos || c.name.find("light") != std::string::npos ||
+                c.name.find("seed") != std::string::npos)
+                continue;
+            CAPTURE(c.name);
+            write_text(shell.directory / "scene.json", c.text);
+            for (const char* command : {"eval", "trace", "info"}) {
+                CAPTURE(command);
+                const Outcome o = shell.run({command, "scene.json"}, "0 0 0\n");
+                CHECK(o.code == 2);
+                CHECK(o.seconds < at_once);
+                CHECK(o.err.find(c.message) != std::string::npos);
+            }
+        }
+    }
+}
+
+TEST_CASE("files that are no files") {
+    const Shell shell;
+    std::filesystem::create_directory(shell.directory / "directory");
+    REQUIRE(::mkfifo((shell.directory / "pipe").c_str(), 0600) == 0);
+    struct File {
+        const char *name, *message;
+    };
+    for (const File& f : {File{"nowhere.json", ""}, File{"directory", "directory"}, File{"pipe", ""},
+                          File{"/dev/zero", ""}, File{"nowhere/scene.json", ""}, File{"", ""}}) {
+        CAPTURE(f.name);
+        for (const char* command : {"render", "check", "info", "eval", "trace"}) {
+            CAPTURE(command);
+            const Outcome o = shell.run({command, f.name});
+            CAPTURE(o.err);
+            CHECK(o.code == 2);
+            CHECK(o.out == "");
+            CHECK(o.seconds < at_once);
+            CHECK(o.err.find(f.message) != std::string::npos);
+            CHECK(o.err.size() > 10);
+        }
+    }
+    CHECK(shell.directory.size() == 2);
+}
+
+TEST_CASE("a scene cut off anywhere is an error, never another scene") {
+    SceneText scene;
+    scene.rest = R"("background": [0, 0, 0], // black
+        "meshes": [{"floor": {"height": -1.2, "material": {"coated": {"color": {"wood": {"ring_spacing": 0.1}}}}}}])";
+    const std::string whole = scene.text();
+    CHECK_NOTHROW(phasetree::tracer::read_scene(phasetree::Document::from_text(whole)));
+    for (std::size_t n = 0; n + 2 < whole.size(); ++n) {
+        CAPTURE(n);
+        CHECK_THROWS_AS(phasetree::tracer::read_scene(phasetree::Document::from_text(whole.substr(0, n))),
+                        phasetree::SceneError);
+    }
+    const Shell shell;
+    for (const std::size_t part : {5u, 3u, 2u}) {
+        write_text(shell.directory / "scene.json", whole.substr(0, whole.size() - whole.size() / part));
+        check_error(shell.run({"render", "scene.json", "-o", "a.exr"}), in_text, "");
+    }
+    CHECK(shell.directory.size() == 1);
+}
+
+TEST_CASE("numbers at the ends of their ranges neither crash nor hang") {
+    const std::vector<std::pair<std::string, std::string>> trees{
+        {"tiny", R"({"set": {"phase": "glass", "of": {"sphere": {"radius": 1e-30}}}})"},
+        {"huge", R"({"set": {"phase": "glass", "of": {"sphere": {"radius": 1e30}}}})"},
+        {"hugest", R"({"set": {"phase": "glass", "of": {"sphere": {"radius": 3.4e38}}}})"},
+        {"far away", R"({"set": {"phase": "glass", "of": {"translate": {"by": [1e30, 0, 0], "of": "ball"}}}})"},
+        {"flat", R"({"set": {"phase": "glass", "of": {"box": {"size": [1e15, 1e-15, 1]}}}})"},
+        {"scaled to nothing", R"({"scale": {"factor": 1e-38, "of": {"set": {"phase": "glass", "of": "ball"}}}})"},
+        {"scaled twice",
+         R"({"scale": {"factor": 1e30, "of": {"scale": {"factor": 1e30, "of": {"set": {"phase": "glass", "of": "ball"}}}}}})"},
+        {"wound up",
+         R"({"set": {"phase": "glass", "of": {"twist": {"rate": 1e30, "of": {"box": {"size": [1, 1, 1]}}}}}})"}};
+    const Shell shell;
+    for (const auto& [name, tree] : trees) {
+        CAPTURE(name);
+        SceneText scene;
+        scene.tree = tree;
+        scene.rest = R"("render": {"width": 4, "height": 4, "samples": 1})";
+        write_text(shell.directory / "scene.json", scene.text());
+        const Outcome o = shell.run({"render", "scene.json", "-o", "a.exr", "--quiet"});
+        CAPTURE(o.err);
+        CHECK((o.code == 0 || o.code == 2));
+        CHECK((o.code == 0) == o.err.empty());
+        CHECK(o.seconds < 2 * at_once);
+    }
+}
+
+TEST_CASE("wrong arguments: one error, exit code 2, nothing left behind") {
+    struct Arguments {
+        std::vector<std::string> words;
+        std::string message;
+    };
+    const std::vector<Arguments> wrong{{{"--size", "0x10"}, "--size"},
+                                       {{"--size", "10"}, "--size"},
+                                       {{"--size", "10x"}, "--size"},
+                                       {{"--size", "axb"}, "--size"},
+                                       {{"--size", "10x10x10"}, "--size"},
+                                       {{"--size", "99999x1"}, "--size"},
+                                       {{"--size", "99999999999999x1"}, "--size"},
+                                       {{"--crop", "0,0,0,0"}, "--crop"},
+                                       {{"--crop", "0,0,25,16"}, "--crop"},
+                                       {{"--crop", "5,5,4,6"}, "--crop"},
+                                       {{"--crop", "-1,0,5,5"}, "--crop"},
+                                       {{"--crop", "1,2,3"}, "--crop"},
+                                       {{"--crop", "1,2,3,4,5"}, "--crop"},
+                                       {{"--crop", "a"}, "--crop"},
+                                       {{"--threads", "0"}, "--threads"},
+                                       {{"--threads", "-3"}, "--threads"},
+                                       {{"--threads", "many"}, "--threads"},
+                                       {{"--threads", "1000000000"}, "--threads"},
+                                       {{"--spp", "0"}, "--spp"},
+                                       {{"--spp", "1e3x"}, "--spp"},
+                                       {{"--seed", "-1"}, "--seed"},
+                                       {{"--exposure", "nan"}, "--exposure"},
+                                       {{"--exposure", "1000"}, "--exposure"},
+                                       {{"--view", "Nowhere"}, "Nowhere"},
+                                       {{"--display", "Nowhere"}, "Nowhere"},
+                                       {{"-o", "picture"}, "picture"},
+                                       {{"-o", "picture.gif"}, ".gif"},
+                                       {{"-o", "nowhere/picture.exr"}, "nowhere/picture.exr"},
+                                       {{"-o", "."}, ""},
+                                       {{"-o", ""}, ""},
+                                       {{"-o", "/proc/picture.exr"}, "/proc/picture.exr"},
+                                       {{"--stats", "nowhere/stats.json"}, "nowhere/stats.json"},
+                                       {{"--stats", "."}, ""},
+                                       {{"--nonsense"}, "--nonsense"},
+                                       {{"another.json"}, "another.json"}};
+    const Shell shell;
+    write_text(shell.directory / "scene.json", SceneText().text());
+    for (const Arguments& a : wrong) {
+        CAPTURE(a.words);
+        std::vector<std::string> words{"render", "scene.json"};
+        words.insert(words.end(), a.words.begin(), a.words.end());
+        const Outcome o = shell.run(words);
+        CAPTURE(o.err);
+        CHECK(o.code == 2);
+        CHECK(o.out == "");
+        CHECK(o.err.find(a.message) != std::string::npos);
+        CHECK(o.err.find("Progress") == std::string::npos);  // before an hour of rendering, not after
+        CHECK(o.seconds < at_once);
+        CHECK(shell.directory.size() == 1);
+    }
+    for (const std::vector<std::string>& words : {std::vector<std::string>{},
+                                                  {"rendre", "scene.json"},
+                                                  {"render"},
+                                                  {"check"},
+                                                  {"check", "scene.json", "more"}}) {
+        const Outcome o = shell.run(words);
+        CHECK(o.code == 2);
+        CHECK(o.err != "");
+    }
+    CHECK(shell.run({"--help"}).code == 0);
+    CHECK(shell.run({"render", "--help"}).code == 0);
+    CHECK(shell.run({"--version"}).out.find("phasetree") == 0);
+    CHECK(shell.directory.size() == 1);
+}
+
+TEST_CASE("$OCIO that leads nowhere is an error") {
+    Shell shell;
+    shell.environment = {{"OCIO", "/nowhere/config.ocio"}};
+    write_text(shell.directory / "scene.json", SceneText().text());
+    const Outcome o = shell.run({"render", "scene.json", "-o", "a.png"});
+    CHECK(o.code == 2);
+    CHECK(o.err.find("/nowhere/config.ocio") != std::string::npos);
+    CHECK(shell.directory.size() == 1);
+}
+
+TEST_CASE("lines of numbers that are none") {
+    const Shell shell;
+    write_text(shell.directory / "scene.json", SceneText().text());
+    struct Input {
+        const char *command, *text, *place;
+    };
+    for (const Input& i :
+         {Input{"eval", "1 2\n", "<stdin>:1:"}, Input{"eval", "0 0 0\n\n# so\n1 2 x\n", "<stdin>:4:5:"},
+          Input{"eval", "1 2 3 4\n", "<stdin>:1:7:"}, Input{"eval", "nan 0 0\n", "<stdin>:1:1:"},
+          Input{"eval", "1e99 0 0\n", "<stdin>:1:1:"}, Input{"trace", "0 0 0 1 0\n", "<stdin>:1:"},
+          Input{"trace", "0 0 0 0 0 0\n", "<stdin>:1:"}, Input{"trace", "0 0 0 inf 0 0\n", "<stdin>:1:7:"}}) {
+        CAPTURE(i.text);
+        const Outcome o = shell.run({i.command, "scene.json"}, i.text);
+        CAPTURE(o.err);
+        CHECK(o.code == 2);
+        CHECK(o.err.find(i.place) == 0);
+    }
+}

@@ -1,0 +1,173 @@
+// `phasetree check`, `info`, `eval` and `trace`: what other programs read must stay as it is, to the last digit.
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "command.hpp"
+#include "phasetree/phasetree.hpp"
+#include "phasetree/reading/tree.hpp"
+
+using namespace phasetree::tests;
+
+namespace {
+
+std::vector<std::vector<std::string>> rows_of(const std::string& csv) {
+    std::vector<std::vector<std::string>> rows;
+    for (std::size_t from = 0; from < csv.size();) {
+        const std::size_t to = std::min(csv.find('\n', from), csv.size());
+        std::vector<std::string> cells(1);
+        for (const char c : csv.substr(from, to - from)) {
+            if (c == ',')
+                cells.emplace_back();
+            else
+                cells.back() += c;
+        }
+        rows.push_back(cells);
+        from = to + 1;
+    }
+    return rows;
+}
+
+// The number, which must be written so that it reads back as itself, and no longer than that.
+float number(const std::string& text) {
+    float value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    CHECK(error == std::errc());
+    CHECK(end == text.data() + text.size());
+    CHECK(fmt::format("{}", value) == text);
+    return value;
+}
+
+SceneText half_full() {
+    SceneText scene;
+    scene.tree = R"({"change": {"from": "water", "to": "wood", "shape": {"plane": {}},
+        "of": {"thin_shell": {"of": "ball", "shell": "glass", "inside": "water", "half_thickness": 0.1}}}})";
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE("check says nothing of a good scene") {
+    const Shell shell;
+    write_text(shell.directory / "scene.json", half_full().text());
+    const Outcome o = shell.run({"check", "scene.json"});
+    CHECK(o.code == 0);
+    CHECK(o.out == "");
+    CHECK(o.err == "");
+    CHECK(shell.directory.size() == 1);
+}
+
+TEST_CASE("info, for people and as JSON") {
+    const Shell shell;
+    write_text(shell.directory / "scene.json", half_full().text());
+    const Outcome text = shell.run({"info", "scene.json"});
+    CHECK(text.code == 0);
+    CHECK(text.out.find("glass, water, wood") != std::string::npos);
+    const Outcome o = shell.run({"info", "scene.json", "--json"});
+    REQUIRE(o.code == 0);
+    const nlohmann::json info = nlohmann::json::parse(o.out);
+    CHECK(info.at("nodes") == 4);  // the change, the shell, the ball, the plane
+    CHECK(info.at("depth") == 3);
+    CHECK(info.at("phases") == nlohmann::json({"glass", "water", "wood"}));
+    CHECK(info.at("bounds")[0][2].get<float>() == doctest::Approx(-1.1));
+    CHECK(info.at("bounds")[1][0].get<float>() == doctest::Approx(1.1));
+    CHECK(info.at("instructions").get<int>() > 2);
+    CHECK(info.at("tree_bytes").get<int>() > 0);
+}
+
+TEST_CASE("eval: phases and distances, in full precision") {
+    const Shell shell;
+    const std::string text = half_full().text();
+    write_text(shell.directory / "scene.json", text);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> coordinate(-1.5f, 1.5f);
+    std::string input = "# points\n\n";
+    std::vector<glm::vec3> points{{0, 0, 0}, {1, 0, 0}, {3e-7f, -0.1f, 1e5f}};
+    while (points.size() < 500) points.emplace_back(coordinate(random), coordinate(random), coordinate(random));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const char* const separator = i % 3 == 0 ? " " : i % 3 == 1 ? "," : "\t ";
+        input += fmt::format("{}{}{}{}{}{}", points[i].x, separator, points[i].y, separator, points[i].z,
+                             i % 2 ? "\n" : "\r\n");
+    }
+    const Outcome o = shell.run({"eval", "scene.json"}, input);
+    REQUIRE(o.code == 0);
+    CHECK(o.err == "");
+    CHECK(o.out.substr(0, o.out.find('\n')) == "x,y,z,phase,phi.vacuum,phi.glass,phi.water,phi.wood");
+    const auto rows = rows_of(o.out);
+    REQUIRE(rows.size() == points.size() + 1);
+    const auto tree = phasetree::read_tree(phasetree::Document::from_text(text));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const auto& row = rows[i + 1];
+        REQUIRE(row.size() == 8);
+        for (int k = 0; k < 3; ++k) CHECK(number(row[static_cast<std::size_t>(k)]) == points[i][k]);
+        const auto phi = phasetree::distances(tree.object, points[i]);
+        const float r = glm::length(points[i]);
+        for (int k = 0; k < 4; ++k) {
+            const float printed = number(row[static_cast<std::size_t>(4 + k)]);
+            CHECK(printed == doctest::Approx(phi[k]).epsilon(1e-5));
+        }
+        CHECK(number(row[4]) == doctest::Approx(1.1f - r).epsilon(1e-5));
+        const char* const phase = r > 1.1f ? "vacuum" : r > 0.9f ? "glass" : points[i].z < 0 ? "wood" : "water";
+        if (std::abs(r - 1.1f) > 1e-4f && std::abs(r - 0.9f) > 1e-4f && std::abs(points[i].z) > 1e-4f)
+            CHECK(row[3] == phase);
+    }
+}
+
+TEST_CASE("eval leaves phases that are nowhere empty") {
+    const Shell shell;
+    write_text(shell.directory / "scene.json", SceneText().text());
+    const Outcome o = shell.run({"eval", "scene.json"}, "0 0 0.5\n");
+    CHECK(o.code == 0);
+    CHECK(o.out == "x,y,z,phase,phi.vacuum,phi.glass,phi.water,phi.wood\n0,0,0.5,glass,0.5,-0.5,,\n");
+}
+
+TEST_CASE("trace: every interface along each ray, in order") {
+    const Shell shell;
+    write_text(shell.directory / "scene.json", half_full().text());
+    // Straight down through the middle; the same twice as fast; from inside; past it; within the surface of the wood.
+    const Outcome o = shell.run({"trace", "scene.json"},
+                                "0.1 0.2 3 0 0 -1\n0.1,0.2,3,0,0,-2\n0 0 0.5 1 0 0\n5 5 5 0 0 1\n0.1 0.2 30 0 0 -1\n");
+    REQUIRE(o.code == 0);
+    CHECK(o.err == "");
+    CHECK(o.out.substr(0, o.out.find('\n')) == "ray,t,from,to,nx,ny,nz");
+    struct Row {
+        int ray;
+        double t;
+        const char *from, *to;
+        double nx, nz;
+    };
+    const double outer = std::sqrt(1.1 * 1.1 - 0.05), inner = std::sqrt(0.9 * 0.9 - 0.05);
+    std::vector<Row> expected;
+    for (const auto& [ray, height, speed] : {std::tuple(0, 3, 1), std::tuple(1, 3, 2), std::tuple(4, 30, 1)}) {
+        if (ray == 4) {
+            const double x = std::sqrt(0.9 * 0.9 - 0.25), y = std::sqrt(1.1 * 1.1 - 0.25);
+            expected.push_back({2, x, "water", "glass", x / 0.9, 0.5 / 0.9});
+            expected.push_back({2, y, "glass", "vacuum", y / 1.1, 0.5 / 1.1});
+        }
+        const auto add = [&](double z, const char* from, const char* to, double nx, double nz) {
+            expected.push_back({ray, (height - z) / speed, from, to, nx, nz});
+        };
+        add(outer, "vacuum", "glass", -0.1 / 1.1, -outer / 1.1);
+        add(inner, "glass", "water", -0.1 / 0.9, -inner / 0.9);
+        add(0, "water", "wood", 0, -1);
+        add(-inner, "wood", "glass", 0.1 / 0.9, -inner / 0.9);
+        add(-outer, "glass", "vacuum", 0.1 / 1.1, -outer / 1.1);
+    }
+    const auto rows = rows_of(o.out);
+    REQUIRE(rows.size() == expected.size() + 1);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        CAPTURE(i);
+        const auto& row = rows[i + 1];
+        REQUIRE(row.size() == 7);
+        CHECK(row[0] == std::to_string(expected[i].ray));
+        CHECK(number(row[1]) == doctest::Approx(expected[i].t).epsilon(1e-5));
+        CHECK(row[2] == expected[i].from);
+        CHECK(row[3] == expected[i].to);
+        CHECK(std::abs(number(row[4]) - expected[i].nx) < 1e-4);
+        (void)number(row[5]);
+        CHECK(std::abs(number(row[6]) - expected[i].nz) < 1e-4);
+    }
+}

@@ -1,0 +1,146 @@
+// `phasetree render` from the outside: files, exit codes, progress, interruption.
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "command.hpp"
+
+using namespace phasetree::tests;
+
+namespace {
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    for (std::size_t from = 0; from < text.size();) {
+        const std::size_t to = std::min(text.find('\n', from), text.size());
+        lines.push_back(text.substr(from, to - from));
+        from = to + 1;
+    }
+    return lines;
+}
+
+}  // namespace
+
+TEST_CASE("an image and its twin: the same bytes, whatever the threads") {
+    const Shell shell;
+    write_text(shell.directory / "scene.json", SceneText().text());
+    const std::vector<std::string> names{"a.exr", "a.png", "a.jpg", "a.tif"};
+    std::vector<std::string> first{"render", "scene.json", "--threads", "1", "--quiet"}, second = first;
+    second[3] = "7";
+    for (const std::string& name : names) {
+        first.insert(first.end(), {"-o", name});
+        second.insert(second.end(), {"-o", "twin-" + name});
+    }
+    for (const auto& words : {first, second}) {
+        const Outcome o = shell.run(words);
+        CHECK(o.code == 0);
+        CHECK(o.err == "");
+        CHECK(o.out == "");
+    }
+    for (const std::string& name : names) {
+        CAPTURE(name);
+        const std::string bytes = bytes_of(shell.directory / name);
+        CHECK(bytes.size() > 100);
+        const bool same = bytes == bytes_of(shell.directory / ("twin-" + name));
+        CHECK(same);
+    }
+    CHECK(shell.directory.size() == 9);
+    CHECK(shell.run({"render", "scene.json", "--quiet", "--seed", "7", "-o", "other.exr"}).code == 0);
+    const bool same = bytes_of(shell.directory / "a.exr") == bytes_of(shell.directory / "other.exr");
+    CHECK_FALSE(same);
+}
+
+TEST_CASE("without -o: the scene's name, .exr and .png, here") {
+    const Shell shell;
+    std::filesystem::create_directory(shell.directory / "scenes");
+    write_text(shell.directory / "scenes/ball.json", SceneText().text());
+    CHECK(shell.run({"render", "scenes/ball.json", "--quiet"}).code == 0);
+    CHECK(std::filesystem::exists(shell.directory / "ball.exr"));
+    CHECK(std::filesystem::exists(shell.directory / "ball.png"));
+    CHECK(shell.directory.size() == 3);
+}
+
+TEST_CASE("progress in plain lines where there is no terminal, rising to 100 %") {
+    const Shell shell;
+    write_text(shell.directory / "scene.json", SceneText().text());
+    const Outcome o = shell.run({"render", "scene.json", "-o", "a.exr"});
+    CHECK(o.code == 0);
+    CHECK(o.out == "");
+    int last = 0, count = 0;
+    for (const std::string& line : lines_of(o.err)) {
+        std::smatch match;
+        if (!std::regex_match(line, match, std::regex("Progress: ([0-9]+)%"))) continue;
+        const int percent = std::stoi(match[1]);
+        CHECK(percent > last);
+        last = percent;
+        ++count;
+    }
+    CHECK(last == 100);
+    CHECK(count >= 3);
+    CHECK(lines_of(o.err).back().find("a.exr") == 0);
+    CHECK(o.err.find('\r') == std::string::npos);
+    CHECK(o.err.find('\x1b') == std::string::npos);
+}
+
+TEST_CASE("--stats is JSON and tells what was done") {
+    const Shell shell;
+    write_text(shell.directory / "scene.json", SceneText().text());
+    const Outcome o = shell.run({"render", "scene.json", "-o", "a.exr", "--quiet", "--stats", "stats.json", "--spp",
+                                 "3", "--size", "20x10", "--crop", "5,2,15,8", "--threads", "2"});
+    REQUIRE(o.code == 0);
+    const nlohmann::json stats = nlohmann::json::parse(bytes_of(shell.directory / "stats.json"));
+    CHECK(stats.at("scene") == "scene.json");
+    CHECK(stats.at("width") == 10);
+    CHECK(stats.at("height") == 6);
+    CHECK(stats.at("samples") == 3);
+    CHECK(stats.at("threads") == 2);
+    CHECK(stats.at("paths") == 180);
+    CHECK(stats.at("render_seconds").is_number());
+    CHECK(stats.at("instructions").get<int>() > 0);
+    CHECK(shell.directory.size() == 3);
+}
+
+TEST_CASE("Ctrl-C writes what there is and exits with 1") {
+    const Shell shell;
+    write_text(shell.directory / "scene.json", SceneText().text());
+    bool sent = false;
+    const auto start = std::chrono::steady_clock::now();
+    double asked = 0;
+    const Outcome o = shell.run({"render", "scene.json", "-o", "a.exr", "-o", "a.png", "--quiet", "--spp", "16000000"},
+                                "", [&](pid_t child) {
+                                    const auto passed = std::chrono::steady_clock::now() - start;
+                                    if (sent || passed < std::chrono::seconds(1)) return;
+                                    sent = true;
+                                    asked = std::chrono::duration<double>(passed).count();
+                                    ::kill(child, SIGINT);
+                                });
+    CAPTURE(o.err);
+    CHECK(sent);
+    CHECK(o.code == 1);
+    CHECK(o.signal == 0);
+    CHECK(o.seconds - asked < 3);
+    CHECK(o.err.find("interrupted") != std::string::npos);
+    CHECK(std::regex_search(o.err, std::regex("[1-9][0-9]* of 16000000 samples")));
+    CHECK(shell.directory.size() == 3);
+    // The whole picture: it has the size of one that was not interrupted, but for the compression.
+    CHECK(bytes_of(shell.directory / "a.png").find("IEND") != std::string::npos);
+    CHECK(bytes_of(shell.directory / "a.exr").size() > 500);
+}
+
+// Even a picture of one sample a pixel, cut off in its only pass, is not told to be whole.
+TEST_CASE("Ctrl-C in the first pass exits with 1 too") {
+    const Shell shell;
+    write_text(shell.directory / "scene.json", SceneText().text());
+    bool sent = false;
+    const auto start = std::chrono::steady_clock::now();
+    const Outcome o = shell.run({"render", "scene.json", "-o", "a.exr", "--quiet", "--spp", "1", "--size", "8000x6000"},
+                                "", [&](pid_t child) {
+                                    if (sent || std::chrono::steady_clock::now() - start < std::chrono::seconds(1))
+                                        return;
+                                    sent = true;
+                                    ::kill(child, SIGINT);
+                                });
+    CAPTURE(o.err);
+    CHECK(o.code == 1);
+    CHECK(o.err.find("interrupted") != std::string::npos);
+    CHECK(shell.directory.size() == 2);
+}

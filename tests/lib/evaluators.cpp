@@ -1,0 +1,219 @@
+// All evaluators give the same Φ, bit for bit: the walk over the tree, the recorded program under every SIMD
+// instruction set of the machine, and dual numbers, whose gradients equal central differences.
+#include <doctest/doctest.h>
+
+#include <bit>
+
+#include "phasetree/math/dual.hpp"
+#include "phasetree/model/walk.hpp"
+#include "phasetree/phasetree.hpp"
+#include "support/random_tree.hpp"
+#include "support/set_algebra.hpp"
+
+using namespace phasetree;
+using namespace phasetree::tests;
+
+namespace {
+
+bool same_bits(float a, float b) {
+    return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b) || (std::isnan(a) && std::isnan(b));
+}
+
+struct RestoreTarget {
+    std::string name = simd_target();
+    ~RestoreTarget() { use_simd_target(name); }
+};
+
+/// Points about the object, a few on round coordinates, where ties are, and a few very far.
+glm::vec3 random_point(Random& rng, const Bounds& region) {
+    glm::vec3 p = rng.in(region);
+    if (rng.chance(0.2)) p = glm::round(p * 4.f) / 4.f;
+    if (rng.chance(0.05)) p *= 1e6f;
+    if (rng.chance(0.02)) p *= 1e15f;
+    return p;
+}
+
+struct Points {
+    BatchOfFloats x, y, z;
+    glm::vec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+};
+Points random_points(Random& rng, const Bounds& region) {
+    Points r;
+    for (std::size_t i = 0; i < batch_size; ++i) {
+        const glm::vec3 p = random_point(rng, region);
+        r.x[i] = p.x;
+        r.y[i] = p.y;
+        r.z[i] = p.z;
+    }
+    return r;
+}
+
+/// How many components, labels or interface distances differ between the walk and the program in use.
+int differences(const Phased& object, const Evaluator& evaluator, const Points& points) {
+    Evaluator::Workspace w;
+    const auto& outputs = evaluator.program().outputs;
+    std::vector<BatchOfFloats> out(outputs.size());
+    Samples s;
+    evaluator.evaluate(points.x, points.y, points.z, out, w);
+    evaluator.sample(points.x, points.y, points.z, s, w);
+    int wrong = 0;
+    for (std::size_t i = 0; i < batch_size; ++i) {
+        const Phases<float> expected = distances(object, points[i]);
+        std::uint64_t present = 0;
+        float first = Bounds::infinity, second = 3.402823466e38f;
+        bool nan = false;
+        for (std::size_t k = 0; k < outputs.size(); ++k) {
+            const int phase = outputs[k].phase.index;
+            present |= std::uint64_t{1} << phase;
+            wrong += !expected.has(phase) || !same_bits(out[k][i], expected[phase]);
+            nan = nan || std::isnan(out[k][i]);
+            second = std::min(second, std::max(first, out[k][i]));
+            first = std::min(first, out[k][i]);
+        }
+        wrong += present != expected.present;
+        if (nan) continue;
+        wrong += s.label[i] != static_cast<float>(phasetree::label(expected).index);
+        wrong += s.distance[i] != second;
+    }
+    const Phases<float> one = evaluator.distances(points[0], w);
+    wrong += one.present != distances(object, points[0]).present;
+    wrong += evaluator.label(points[0], w) != phasetree::label(distances(object, points[0]));
+    return wrong;
+}
+
+template <class Check>
+void for_many_objects(std::uint64_t seed, int each, Check&& check) {
+    Random rng(seed);
+    const auto of_type = [&]<class Node>() {
+        for (int n = 0; n < each; ++n) {
+            CAPTURE(Node::info.name);
+            CAPTURE(n);
+            if constexpr (IsFieldNode<Node>)
+                check(Phased(Set{.phase = Phase{1}, .of = random_rooted<Node>(rng, 2 + n % 3)}), rng);
+            else
+                check(random_rooted<Node>(rng, 2 + n % 4), rng);
+        }
+    };
+    for_each_type(FieldNodes(), of_type);
+    for_each_type(PhasedNodes(), of_type);
+}
+
+}  // namespace
+
+TEST_CASE("the program under every instruction set equals the walk over the tree, bit for bit") {
+    const RestoreTarget restore;
+    const auto targets = simd_targets();
+    REQUIRE(!targets.empty());
+    for_many_objects(31, long_tests() ? 1000 : 50, [&](const Phased& object, Random& rng) {
+        const Evaluator evaluator(record(object));
+        const Bounds region = region_of_interest(bounds(object));
+        for (int n = 0; n < 4; ++n) {
+            const Points points = random_points(rng, region);
+            for (const std::string& target : targets) {
+                CAPTURE(target);
+                use_simd_target(target);
+                REQUIRE(differences(object, evaluator, points) == 0);
+            }
+        }
+    });
+}
+
+TEST_CASE("samples along a ray are the samples at origin + t · direction") {
+    const RestoreTarget restore;
+    for_many_objects(32, 5, [&](const Phased& object, Random& rng) {
+        const Evaluator evaluator(record(object));
+        Evaluator::Workspace w;
+        const glm::vec3 o = rng.in(Bounds::centred(glm::vec3(2))), d = rng.direction();
+        BatchOfFloats t;
+        Points at;
+        for (std::size_t i = 0; i < batch_size; ++i) {
+            t[i] = rng.uniform(0, 4);
+            const glm::vec3 p = o + t[i] * d;
+            at.x[i] = p.x;
+            at.y[i] = p.y;
+            at.z[i] = p.z;
+        }
+        for (const std::string& target : simd_targets()) {
+            use_simd_target(target);
+            Samples along, apart;
+            evaluator.sample_ray(o, d, t, along, w);
+            evaluator.sample(at.x, at.y, at.z, apart, w);
+            REQUIRE(along.label.lane == apart.label.lane);
+            REQUIRE(along.distance.lane == apart.distance.lane);
+        }
+    });
+}
+
+TEST_CASE("an unknown instruction set is refused") {
+    CHECK_THROWS_AS(use_simd_target("MMX"), std::invalid_argument);
+}
+
+TEST_CASE("dual numbers carry the same values, and the program's gradients are theirs") {
+    for_many_objects(33, 30, [](const Phased& object, Random& rng) {
+        const Evaluator evaluator(record(object));
+        const Bounds region = region_of_interest(bounds(object));
+        for (int n = 0; n < 10; ++n) {
+            const glm::vec3 p = random_point(rng, region);
+            const Phases<float> plain = distances(object, p);
+            const Phases<Dual> dual =
+                Walk<Dual>().phases(object, {Dual(p.x, 1, 0, 0), Dual(p.y, 0, 1, 0), Dual(p.z, 0, 0, 1)});
+            REQUIRE(plain.present == dual.present);
+            for_each_phase(plain.present, [&](int i) {
+                REQUIRE(same_bits(plain[i], dual[i].value));
+                const glm::vec3 g = evaluator.gradient(p, Phase{static_cast<std::uint8_t>(i)});
+                const bool same =
+                    same_bits(g.x, dual[i].dx) && same_bits(g.y, dual[i].dy) && same_bits(g.z, dual[i].dz);
+                REQUIRE(same);
+            });
+            REQUIRE(evaluator.gradient(p, Phase{63}) == glm::vec3(0));  // absent
+        }
+    });
+}
+
+TEST_CASE("gradients equal central differences away from kinks") {
+    // Differences of the oracle's Φ in double, h = 10⁻⁵: they are off by h² and 10⁻¹⁶/h, about 10⁻¹⁰. A kink shows
+    // itself by one-sided differences that disagree; so does curvature above 50/m, whose share must stay small.
+    constexpr double h = 1e-5;
+    std::size_t compared = 0, skipped = 0;
+    double worst = 0;
+    for_many_objects(34, long_tests() ? 1000 : 60, [&](const Phased& object, Random& rng) {
+        const Evaluator evaluator(record(object));
+        const Bounds region = region_of_interest(bounds(object));
+        for (int n = 0; n < 10; ++n) {
+            const glm::vec3 p = rng.in(region);
+            const glm::dvec3 q(p);
+            const Components at = values(object, q);
+            Components before[3], after[3];
+            for (int axis = 0; axis < 3; ++axis) {
+                glm::dvec3 e(0);
+                e[axis] = h;
+                before[axis] = values(object, q - e);
+                after[axis] = values(object, q + e);
+            }
+            for_each_phase(phases(object).bits, [&](int i) {
+                const auto k = static_cast<std::size_t>(i);
+                glm::dvec3 central;
+                for (int axis = 0; axis < 3; ++axis) {
+                    const double back = (at[k] - before[axis][k]) / h, on = (after[axis][k] - at[k]) / h;
+                    if (std::abs(back - on) > 50 * h) {
+                        ++skipped;
+                        return;
+                    }
+                    central[axis] = 0.5 * (back + on);
+                }
+                const glm::dvec3 g(evaluator.gradient(p, Phase{static_cast<std::uint8_t>(i)}));
+                const double error = glm::length(g - central);
+                ++compared;
+                worst = std::max(worst, error);
+                CAPTURE(i);
+                CAPTURE(p.x);
+                CAPTURE(p.y);
+                CAPTURE(p.z);
+                // Rounding of a position, some 10⁻⁷, turns the gradient by up to curvature times that.
+                REQUIRE(error < 1e-4);
+            });
+        }
+    });
+    MESSAGE(compared, " gradients, ", skipped, " at kinks; largest error ", worst);
+    CHECK(skipped < compared / 20);
+}

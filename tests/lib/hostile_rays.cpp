@@ -1,0 +1,145 @@
+// Rays that no camera sends: nothing is found, and that soon.
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "phasetree/phasetree.hpp"
+#include "support/random_tree.hpp"
+
+using namespace phasetree;
+using namespace phasetree::tests;
+
+namespace {
+
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+const Phased object =
+    Under{.of = {Set{.phase = Phase{1}, .of = Sphere{}}, Set{.phase = Phase{2}, .of = Box{.size = {1, 1, 3}}}}};
+
+/// Batches that a ray may take at most: the resolution doubles for every 32 beyond 128.
+constexpr std::uint64_t most_batches = 2500;
+
+}  // namespace
+
+TEST_CASE("rays that are no rays meet nothing in bounded time") {
+    const InterfaceTracer tracer(object);
+    Evaluator::Workspace w;
+    const float values[] = {not_a_number, infinity, -infinity, 0.f, 0.3f, -0.f, 1e30f, 1e-40f};
+    const float distances[] = {0, 1, 100, 3e38f, infinity, not_a_number, -1};
+    std::size_t crossings = 0;
+    std::uint64_t most = 0;
+    for (int bad = 0; bad < 6; ++bad) {
+        for (const float value : {not_a_number, infinity, -infinity}) {
+            for (const float other : values) {
+                for (const float t_max : distances) {
+                    for (const std::optional<Phase> carried : {std::optional<Phase>(), std::optional(vacuum),
+                                                               std::optional(Phase{1}), std::optional(Phase{2})}) {
+                        float ray[6] = {0.1f, 0.2f, 0.3f, 0, 0.6f, 0.8f};
+                        ray[(bad + 1) % 6] = other;
+                        ray[bad] = value;
+                        TraceCounters c;
+                        crossings += tracer
+                                         .first_crossing({ray[0], ray[1], ray[2]}, {ray[3], ray[4], ray[5]}, 0, t_max,
+                                                         carried, w, &c)
+                                         .has_value();
+                        most = std::max(most, c.batches);
+                    }
+                }
+            }
+        }
+    }
+    CHECK(crossings == 0);
+    CHECK(most < most_batches);
+}
+
+TEST_CASE("a ray without a direction meets nothing") {
+    const InterfaceTracer tracer(object);
+    Evaluator::Workspace w;
+    for (const glm::vec3& o : {glm::vec3(0), glm::vec3(0.9f, 0, 0), glm::vec3(1, 0, 0), glm::vec3(5, 0, 0)}) {
+        for (const float t_max : {1.f, 1e6f, infinity}) {
+            TraceCounters c;
+            CHECK_FALSE(tracer.first_crossing(o, {0, 0, 0}, 0, t_max, {}, w, &c).has_value());
+            CHECK_FALSE(tracer.first_crossing(o, {0, 0, 0}, 0, t_max, tracer.label(o, w), w, &c).has_value());
+            CHECK(c.batches < 2 * most_batches);
+        }
+    }
+}
+
+TEST_CASE("an empty interval holds nothing") {
+    const InterfaceTracer tracer(object);
+    Evaluator::Workspace w;
+    const glm::vec3 o{-5, 0, 0}, d{1, 0, 0};
+    CHECK_FALSE(tracer.first_crossing(o, d, 10, 1, {}, w).has_value());
+    CHECK_FALSE(tracer.first_crossing(o, d, not_a_number, 10, {}, w).has_value());
+    CHECK_FALSE(tracer.first_crossing(o, d, 0, not_a_number, {}, w).has_value());
+    CHECK_FALSE(tracer.first_crossing(o, d, infinity, infinity, {}, w).has_value());
+    CHECK_FALSE(tracer.first_crossing(o, d, 0, 3.9f, {}, w).has_value());
+    CHECK_FALSE(tracer.first_crossing(o, d, 7, 100, {}, w).has_value());
+    CHECK(tracer.first_crossing(o, d, 0, 4.1f, {}, w).has_value());
+    CHECK(tracer.first_crossing(o, d, 0, infinity, {}, w).has_value());
+}
+
+TEST_CASE("distances count from the ray's origin, whatever the interval") {
+    const InterfaceTracer tracer(object);
+    Evaluator::Workspace w;
+    const glm::vec3 d{0, 1, 0};
+    // From inside phase 2: its wall at 0.5, then the ball's at 1.
+    for (const float t_min : {-10.f, -1.f, -0.1f, 0.f, 0.1f, 0.4f}) {
+        CAPTURE(t_min);
+        const auto hit = tracer.first_crossing({0, 0, 0}, d, std::max(t_min, 0.f), 100, {}, w);
+        REQUIRE(hit);
+        CHECK(hit->t_in <= 0.5f);
+        CHECK(hit->t_out >= 0.5f);
+        CHECK(hit->t_out - hit->t_in < 2 * tracer.resolution());
+        CHECK(std::abs(hit->p_out.y - hit->t_out) < 1e-6f);
+        if (t_min < 0) {
+            // The interval reaches behind the origin: the first crossing within it is there.
+            const auto behind = tracer.first_crossing({0, 0, 0}, d, t_min, 100, {}, w);
+            REQUIRE(behind);
+            CHECK(std::abs(behind->p_out.y - behind->t_out) < 1e-5f);
+            CHECK(behind->t_out >= t_min);
+        }
+    }
+}
+
+TEST_CASE("a far origin costs no accuracy beyond its own rounding") {
+    const InterfaceTracer tracer(object);
+    Evaluator::Workspace w;
+    for (const float far : {1e2f, 1e4f, 1e6f}) {
+        const auto hit = tracer.first_crossing({-far, 0.6f, 0}, {1, 0, 0}, 0, infinity, vacuum, w);
+        REQUIRE(hit);
+        CHECK(std::abs(hit->p_out.x + 0.8f) < 4 * tracer.resolution());
+        CHECK(hit->to == Phase{1});
+    }
+}
+
+TEST_CASE("the work of one ray is bounded, also along an interface and for phantom zeros") {
+    Random rng(95);
+    Evaluator::Workspace w;
+    std::uint64_t most = 0;
+    for (int tree = 0; tree < 300; ++tree) {
+        const Phased a = random_object(rng, 3 + tree % 3);
+        std::optional<InterfaceTracer> tracer;
+        try {
+            tracer.emplace(a);
+        } catch (const ModelError&) {
+            continue;
+        }
+        for (int n = 0; n < 100; ++n) {
+            const float size = tracer->bounds().diagonal();
+            glm::vec3 d = rng.direction();
+            glm::vec3 o = rng.in(tracer->bounds()) - d * size;
+            if (rng.chance(0.4)) {
+                d = glm::vec3(0);
+                d[rng.below(3)] = 1;
+                o = glm::round((rng.in(tracer->bounds()) - d * size) * 8.f) / 8.f;
+            }
+            TraceCounters c;
+            (void)tracer->first_crossing(o, d, 0, infinity, {}, w, &c);
+            most = std::max(most, c.batches);
+        }
+    }
+    MESSAGE("most batches of one ray: ", most);
+    CHECK(most < most_batches);
+}

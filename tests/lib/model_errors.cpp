@@ -1,0 +1,252 @@
+// Impossible parameters are refused in words, and deep trees work up to the depth at which they are refused.
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "phasetree/math/dual.hpp"
+#include "phasetree/model/walk.hpp"
+#include "phasetree/phasetree.hpp"
+#include "support/random_tree.hpp"
+
+using namespace phasetree;
+using namespace phasetree::tests;
+
+namespace {
+
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+template <class Node>
+std::string error(Node node) {
+    try {
+        if constexpr (IsFieldNode<Node>)
+            (void)Field(std::move(node));
+        else
+            (void)Phased(std::move(node));
+    } catch (const ModelError& e) {
+        return e.what();
+    }
+    return "no error";
+}
+
+const Field ball = Sphere{};
+const Phased object = Set{.phase = Phase{1}, .of = Sphere{}};
+
+}  // namespace
+
+TEST_CASE("errors name the node, the parameter and what is wrong") {
+    CHECK(error(Sphere{.radius = 0}) == "sphere: \"radius\" must be positive, but is 0");
+    CHECK(error(Sphere{.radius = -1.5f}) == "sphere: \"radius\" must be positive, but is -1.5");
+    CHECK(error(Sphere{.radius = not_a_number}) == "sphere: \"radius\" must be a finite number");
+    CHECK(error(Sphere{.radius = infinity}) == "sphere: \"radius\" must be a finite number");
+    CHECK(error(Box{.size = {1, 0, 1}}) == "box: \"size\" must be positive, but is 0");
+    CHECK(error(Box{.size = {1, 1, not_a_number}}) == "box: \"size\" must be a finite number");
+    CHECK(error(RoundedBox{.size = {1, 1, 1}, .radius = 0.6f}) ==
+          "rounded_box: the radius is more than half the shortest edge");
+    CHECK(error(RoundedBox{.size = {1, 1, 1}, .radius = -0.1f}) ==
+          "rounded_box: \"radius\" must be zero or more, but is -0.1");
+    CHECK(error(CappedCone{.radius_bottom = 0, .radius_top = 0, .height = 1}) == "capped_cone: both radii are zero");
+    CHECK(error(Plane{.normal = {0, 0, 0}}) == "plane: the normal has no direction");
+    CHECK(error(Union{}) == "union: \"of\" must not be empty");
+    CHECK(error(Union{.of = {ball, Field()}}) == "union: \"of\" has an empty entry");
+    CHECK(error(Offset{}) == "offset: \"of\" is missing");
+    CHECK(error(Under{}) == "under: \"of\" must not be empty");
+    CHECK(error(Set{.phase = vacuum, .of = ball}) == "set: \"phase\" must be a phase other than the vacuum");
+    CHECK(error(Set{.phase = Phase{64}, .of = ball}) == "set: \"phase\" must be a phase other than the vacuum");
+    CHECK(error(ThinShell{.of = ball, .shell = Phase{2}, .inside = Phase{2}}) ==
+          "thin_shell: the wall and what it encloses are the same phase");
+    CHECK(error(Change{.of = object, .from = Phase{1}, .to = Phase{1}, .shape = {}}) ==
+          "change: a phase is turned into itself");
+    CHECK(error(Remove{.of = object, .gone = PhaseSet::of(vacuum)}) == "remove: the vacuum cannot be removed");
+    CHECK(error(Merge{.of = object, .phases = PhaseSet::of(Phase{2})}) ==
+          "merge: the object has none of the phases to merge");
+    CHECK(error(WarpedField<Rotate>{{Rotate{.axis = {0, 0, 0}, .angle = 1}, ball, {}}}) ==
+          "rotate: the axis has no direction");
+    CHECK(error(WarpedField<Scale>{{Scale{.factor = 0}, ball, {}}}) == "scale: \"factor\" must be positive, but is 0");
+    CHECK(error(WarpedField<Twist>{{Twist{.rate = 10}, Plane{}, {}}}) == "twist: what is warped must be bounded");
+    CHECK(error(WarpedField<Twist>{{Twist{.rate = 1e6f}, ball, {}}}) ==
+          "twist: more than 800 turns from the origin to an end of the object");
+    CHECK(error(WarpedField<Translate>{{Translate{.by = {0, infinity, 0}}, ball, {}}}) ==
+          "translate: \"by\" must be a finite number");
+}
+
+TEST_CASE("every numeric parameter of every node refuses what its limits exclude, and NaN and infinity") {
+    Random rng(81);
+    const auto check = [&]<class Node>() {
+        Node good;
+        for_each_parameter(
+            good, [&](auto& value, const Parameter& p) { phasetree::tests::detail::fill<Node>(rng, value, p, 1); });
+        int index = 0;
+        for_each_parameter(good, [&](auto& value, const Parameter& p) {
+            using Value = std::remove_cvref_t<decltype(value)>;
+            if constexpr (std::is_same_v<Value, float> || std::is_same_v<Value, glm::vec3>) {
+                std::vector<float> bad{not_a_number, infinity, -infinity};
+                if (p.limits.low > limits::any.low)
+                    bad.push_back(p.limits.low_open ? p.limits.low : std::nextafter(p.limits.low, -infinity));
+                if (p.limits.high < limits::any.high)
+                    bad.push_back(p.limits.high_open ? p.limits.high : std::nextafter(p.limits.high, infinity));
+                for (const float b : bad) {
+                    Node node = good;
+                    int i = 0;
+                    for_each_parameter(node, [&](auto& v, const Parameter&) {
+                        if (i++ != index) return;
+                        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(v)>, float>) v = b;
+                        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(v)>, glm::vec3>) v[1] = b;
+                    });
+                    CAPTURE(Node::info.name);
+                    CAPTURE(p.name);
+                    CAPTURE(b);
+                    CHECK(error(node).find("\"" + std::string(p.name) + "\" must be ") != std::string::npos);
+                }
+            }
+            ++index;
+        });
+    };
+    for_each_type(FieldNodes(), check);
+    for_each_type(PhasedNodes(), check);
+}
+
+TEST_CASE("extreme but legal numbers give finite values or an error, never NaN") {
+    // The smallest and the largest floats that the limits allow, in every number at once or one at a time.
+    Random rng(82);
+    std::size_t built = 0, refused = 0, unusable = 0;
+    std::string which;
+    const auto check = [&]<class Node>() {
+        for (int n = 0; n < 300; ++n) {
+            Node node;
+            for_each_parameter(
+                node, [&](auto& value, const Parameter& p) { phasetree::tests::detail::fill<Node>(rng, value, p, 1); });
+            const auto extreme = [&](float& v, const Parameter& p) {
+                const float choices[] = {1e-45f, 1e-40f, 1e-30f, 1e-20f, 1e-10f, 1e10f, 1e18f, 1e30f, 3e38f, 0.f};
+                const float e = choices[rng.below(10)] * (rng.chance(0.5) ? 1.f : -1.f);
+                if (rng.chance(0.5) && p.limits.contains(e)) v = e;
+            };
+            for_each_parameter(node, [&](auto& value, const Parameter& p) {
+                using Value = std::remove_cvref_t<decltype(value)>;
+                if constexpr (std::is_same_v<Value, float>) extreme(value, p);
+                if constexpr (std::is_same_v<Value, glm::vec3>)
+                    for (int i = 0; i < 3; ++i) extreme(value[i], p);
+            });
+            try {
+                Phased a;
+                if constexpr (IsFieldNode<Node>)
+                    a = Set{.phase = Phase{1}, .of = Field(node)};
+                else
+                    a = Phased(node);
+                ++built;
+                const InterfaceTracer tracer(a);
+                Evaluator::Workspace w;
+                const Phases<float> phi = tracer.evaluator().distances(tracer.bounds().centre(), w);
+                bool bad = !(tracer.resolution() > 0) || !std::isfinite(tracer.resolution());
+                for_each_phase(phi.present, [&](int i) { bad = bad || std::isnan(phi[i]); });
+                if (bad && unusable++ == 0) which = std::string(Node::info.name);
+            } catch (const ModelError&) {
+                ++refused;
+            }
+        }
+    };
+    for_each_type(FieldNodes(), check);
+    for_each_type(PhasedNodes(), check);
+    MESSAGE(built, " built, ", refused, " refused, ", unusable, " with NaN: ", which);
+    CHECK(unusable == 0);
+}
+
+namespace {
+
+/// The node around itself until the tree is as deep as that.
+template <class Node>
+auto chain(std::size_t depth) {
+    using Handle = std::conditional_t<IsFieldNode<Node>, Field, Phased>;
+    Random rng(83);
+    Handle current;
+    if constexpr (IsFieldNode<Node>)
+        current = Sphere{};
+    else
+        current = Set{.phase = Phase{1}, .of = Sphere{}};
+    while (current.node()->depth < depth) {
+        Node node;
+        for_each_parameter(node, [&](auto& value, const Parameter& p) {
+            using Value = std::remove_cvref_t<decltype(value)>;
+            if constexpr (std::is_same_v<Value, Handle>)
+                value = current;
+            else if constexpr (std::is_same_v<Value, std::vector<Handle>>)
+                value = {current};
+            else if constexpr (std::is_same_v<Value, PhaseSet>)
+                value = {};
+            else if constexpr (std::is_same_v<Value, float>)
+                value = p.limits.contains(0.f) ? 0.f : p.unit == "m" ? 1e-4f : 1.f;
+            else
+                phasetree::tests::detail::fill<Node>(rng, value, p, 1);
+        });
+        if constexpr (std::is_same_v<Node, Change>) {
+            node.from = Phase{1};
+            node.to = Phase{2};
+        }
+        // The box around a twisted box is √2 wider, so a chain of twists ends where floats do.
+        if constexpr (NeedsBoundedChild<Node>) {
+            if (bounds(current).diagonal() > 1e15f) break;
+        }
+        current = node;
+    }
+    return current;
+}
+
+template <class Node>
+concept HasChildOfItsKind = requires(Node n) {
+    n.of;
+    requires std::is_same_v<decltype(n.of), std::conditional_t<IsFieldNode<Node>, Field, Phased>> ||
+        std::is_same_v<decltype(n.of), std::vector<std::conditional_t<IsFieldNode<Node>, Field, Phased>>>;
+};
+
+}  // namespace
+
+TEST_CASE("a tree as deep as the limit is walked, recorded, bounded and destroyed") {
+    const auto check = [&]<class Node>() {
+        if constexpr (HasChildOfItsKind<Node>) {
+            CAPTURE(Node::info.name);
+            const auto deep = chain<Node>(max_tree_depth - 1);
+            CHECK((NeedsBoundedChild<Node> || deep.node()->depth == max_tree_depth - 1));
+            Phased a;
+            if constexpr (IsFieldNode<Node>)
+                a = Set{.phase = Phase{1}, .of = deep};
+            else
+                a = deep;
+            (void)bounds(a);
+            (void)statistics(a);
+            const glm::vec3 p{0.1f, 0.2f, 0.3f};
+            const Evaluator evaluator(record(a));
+            Evaluator::Workspace w;
+            CHECK(evaluator.label(p, w) == label(distances(a, p)));
+            (void)Walk<Dual>().phases(a, {Dual(p.x, 1, 0, 0), Dual(p.y, 0, 1, 0), Dual(p.z, 0, 0, 1)});
+        }
+    };
+    for_each_type(FieldNodes(), check);
+    for_each_type(PhasedNodes(), check);
+}
+
+TEST_CASE("a deeper tree is refused") {
+    const auto grow = [](std::size_t depth) {
+        Field f = Sphere{};
+        for (std::size_t i = 1; i < depth; ++i) f = Offset{.of = f, .amount = 0};
+        return f;
+    };
+    CHECK(grow(max_tree_depth).node()->depth == max_tree_depth);
+    CHECK_THROWS_WITH_AS((void)grow(max_tree_depth + 1),
+                         fmt::format("the tree is deeper than {} nodes", max_tree_depth).c_str(), ModelError);
+}
+
+TEST_CASE("an object that cannot be traced says so") {
+    const auto why = [](const Phased& a) -> std::string {
+        try {
+            const InterfaceTracer tracer(a);
+        } catch (const ModelError& e) {
+            return e.what();
+        }
+        return "no error";
+    };
+    CHECK(why(object) == "no error");
+    CHECK(why(Set{.phase = Phase{1}, .of = Plane{}}) ==
+          "the object is unbounded: cut it to size with {\"intersect_shape\": {\"of\": …, \"shape\": …}}");
+    CHECK(why(Set{.phase = Phase{1}, .of = Offset{.of = ball, .amount = -2}}) ==
+          "the object is empty: nothing of it is left");
+}

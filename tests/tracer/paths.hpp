@@ -1,0 +1,54 @@
+// Scenes from text, and estimates of the radiance along one ray: what the tests of the integrator share.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "integrator/path.hpp"
+#include "phasetree/math/float_mode.hpp"
+#include "phasetree/reading/document.hpp"
+#include "render/render.hpp"
+#include "scene/scene.hpp"
+#include "support/statistics.hpp"
+
+namespace phasetree::tracer::tests {
+
+using phasetree::tests::mean_p_value;
+using phasetree::tests::Moments;
+using phasetree::tests::sidak;
+
+inline constexpr const char* white_environment = R"("lights": [{"constant": {}}])";
+
+// `rest` holds further members of the scene, "lights" among them.
+inline Scene scene_of(const std::string& phases, const std::string& tree, const std::string& rest = white_environment) {
+    std::string text = R"({"version": 1, "phases": {)" + phases + R"(}, "tree": )" + tree + ", " + rest;
+    if (rest.find("\"camera\"") == std::string::npos)
+        text += R"(, "camera": {"position": [0, -5, 0], "look_at": [0, 0, 0]})";
+    return read_scene(Document::from_text(text + "}", "test.json"));
+}
+
+// The whole picture.
+inline Image image_of(const World& world, const Scene& scene) {
+    RenderJob job;
+    job.pixels = {0, 0, scene.camera.width, scene.camera.height};
+    return render(world, scene, job).image;
+}
+
+// Radiance along a ray, per colour channel: `count` independent paths (each the first sample of a pixel of its own, so
+// that nothing is stratified and a z-test applies).
+inline std::array<Moments, 3> radiance_along(const World& world, const Scene& scene, const glm::vec3& origin,
+                                             const glm::vec3& direction, std::uint32_t count, std::uint32_t seed = 1) {
+    const FlushSubnormals flush;
+    std::array<Moments, 3> moments;
+    PathCounters counters;
+    const CameraRay ray{origin, glm::normalize(direction)};
+    const Phase phase = world.label(origin);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        Sampler sampler(i & 0xffffu, i >> 16, 0, seed);
+        const glm::vec3 radiance = trace_path(world, scene, ray, phase, sampler, counters);
+        for (int c = 0; c < 3; ++c) moments[static_cast<std::size_t>(c)].add(static_cast<double>(radiance[c]));
+    }
+    return moments;
+}
+
+}  // namespace phasetree::tracer::tests
