@@ -7,8 +7,8 @@ namespace phasetree {
 struct Difference {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"difference", "", "max(f, −min gᵢ)", "A field without others."};
-    Field from;
-    std::vector<Field> subtract;
+    Field from{};
+    std::vector<Field> subtract{};
 
     template <class V>
     static void parameters(V&& v) {

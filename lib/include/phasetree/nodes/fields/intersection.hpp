@@ -7,7 +7,7 @@ namespace phasetree {
 struct Intersection {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"intersection", "", "max fᵢ", "What is in all of the fields."};
-    std::vector<Field> of;
+    std::vector<Field> of{};
 
     template <class V>
     static void parameters(V&& v) {

@@ -7,7 +7,7 @@ namespace phasetree {
 struct Offset {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"offset", "4.1", "f − t", "A field inflated by t (deflated for a negative t)."};
-    Field of;
+    Field of{};
     float amount = 0.1f;
 
     template <class V>

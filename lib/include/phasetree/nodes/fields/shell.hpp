@@ -7,7 +7,7 @@ namespace phasetree {
 struct Shell {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"shell", "4.1", "|f| − t", "A wall of thickness 2t about a field's surface."};
-    Field of;
+    Field of{};
     float half_thickness = 0.05f;
 
     template <class V>

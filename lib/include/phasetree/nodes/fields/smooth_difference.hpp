@@ -8,8 +8,8 @@ struct SmoothDifference {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"smooth_difference", "9.3", "−smin(−f, smin gᵢ)",
                                    "A field without others, its new edges worn."};
-    Field from;
-    std::vector<Field> subtract;
+    Field from{};
+    std::vector<Field> subtract{};
     float radius = 0.1f;
 
     template <class V>

@@ -8,7 +8,7 @@ struct SmoothIntersection {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"smooth_intersection", "9.3", "−smin(−a, −b)",
                                    "Intersection whose edges are worn; folded from the first field to the last."};
-    std::vector<Field> of;
+    std::vector<Field> of{};
     float radius = 0.1f;
 
     template <class V>

@@ -7,7 +7,7 @@ namespace phasetree {
 struct Union {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"union", "", "min fᵢ", "All that is in any of the fields."};
-    std::vector<Field> of;
+    std::vector<Field> of{};
 
     template <class V>
     static void parameters(V&& v) {

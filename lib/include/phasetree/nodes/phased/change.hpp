@@ -9,10 +9,10 @@ struct Change {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"change", "5.2", "φᵢ = max(aᵢ, −f),  φₖ = min(aₖ, max(aᵢ, f)),  φ₀ = a₀",
                                    "Turns one phase into another within a shape (everywhere without one)."};
-    Phased of;
+    Phased of{};
     Phase from{1};
     Phase to{2};
-    Field shape;
+    Field shape{};
 
     template <class V>
     static void parameters(V&& v) {

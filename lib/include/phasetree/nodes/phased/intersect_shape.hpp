@@ -10,9 +10,9 @@ struct IntersectShape {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"intersect_shape", "5.1", "φₖ = max(aₖ, f),  φ₀ = min(a₀, max(aₖ, −f))",
                                    "Keeps what lies within a shape: of all phases, or of some and the rest unchanged."};
-    Phased of;
-    Field shape;
-    PhaseSet phases_cut;
+    Phased of{};
+    Field shape{};
+    PhaseSet phases_cut{};
 
     template <class V>
     static void parameters(V&& v) {

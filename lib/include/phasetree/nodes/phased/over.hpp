@@ -8,7 +8,7 @@ struct Over {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"over", "4.3", "A ∪₊ B = B ∪₋ A",
                                    "Objects together; where several are, an earlier one replaces the later."};
-    std::vector<Phased> of;
+    std::vector<Phased> of{};
 
     template <class V>
     static void parameters(V&& v) {

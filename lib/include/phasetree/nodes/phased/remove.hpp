@@ -8,8 +8,8 @@ struct Remove {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"remove", "5.2", "φₖ absent,  φ₀ = min(a₀, aₖ)",
                                    "Empties phases: vacuum takes their place."};
-    Phased of;
-    PhaseSet gone;
+    Phased of{};
+    PhaseSet gone{};
 
     template <class V>
     static void parameters(V&& v) {

@@ -8,7 +8,7 @@ struct Set {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"set", "4.1", "φₖ = f,  φ₀ = −f", "A field filled with one phase."};
     Phase phase{1};
-    Field of;
+    Field of{};
 
     template <class V>
     static void parameters(V&& v) {

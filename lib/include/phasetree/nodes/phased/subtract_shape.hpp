@@ -8,9 +8,9 @@ struct SubtractShape {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"subtract_shape", "5.1", "φₖ = max(aₖ, −f),  φ₀ = min(a₀, max(aₖ, f))",
                                    "Cuts a shape away: from all phases, or from some and the rest unchanged."};
-    Phased of;
-    Field shape;
-    PhaseSet phases_cut;
+    Phased of{};
+    Field shape{};
+    PhaseSet phases_cut{};
 
     template <class V>
     static void parameters(V&& v) {

@@ -8,7 +8,7 @@ struct ThinShell {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"thin_shell", "4.1", "φᵢ = |f| − t,  φⱼ = f + t,  φ₀ = t − f",
                                    "A wall of thickness 2t about a field's surface, and what it encloses."};
-    Field of;
+    Field of{};
     Phase shell{1};
     Phase inside{2};
     float half_thickness = 0.05f;

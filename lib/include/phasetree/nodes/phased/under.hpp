@@ -33,7 +33,7 @@ struct Under {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"under", "4.3", "φᵢ = max(min(aᵢ, bᵢ), −min over j ≠ i of bⱼ),  φ₀ = max(a₀, b₀)",
                                    "Objects together; where several are, a later one replaces the earlier."};
-    std::vector<Phased> of;
+    std::vector<Phased> of{};
 
     template <class V>
     static void parameters(V&& v) {

@@ -1,0 +1,171 @@
+// Cells against the whole program: the same labels at points, the same interfaces along rays, valid distances. The
+// whole program is itself held to set algebra and analytic roots in tests/lib.
+
+#include "phasetree/cells/cells.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "phasetree/phasetree.hpp"
+#include "phasetree/reading/tree.hpp"
+#include "support/random_tree.hpp"
+
+using namespace phasetree;
+using namespace phasetree::tests;
+
+namespace {
+
+Phased hourglass() {
+    return read_tree(Document::from_file(PHASETREE_SOURCE_DIR "/scenes/hourglass.json")).object;
+}
+
+/// A bounded random object whose bounds are not empty.
+Phased traceable_object(Random& rng, int depth) {
+    for (;;) {
+        Phased object = Phased(
+            IntersectShape{.of = random_object(rng, depth), .shape = Box{.size = glm::vec3(3)}, .phases_cut = {}});
+        const Bounds b = bounds(object);
+        if (!b.empty() && b.finite()) return object;
+    }
+}
+
+std::vector<std::size_t> cells_at(const InterfaceCells& cells, const glm::vec3& p) {
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        if (cells.bounds(i).contains(p)) found.push_back(i);
+    return found;
+}
+
+float interface_distance(const Phases<float>& phi) {
+    std::vector<float> all;
+    for_each_phase(phi.present, [&](int i) { all.push_back(phi[i]); });
+    if (all.size() < 2) return std::numeric_limits<float>::max();
+    std::nth_element(all.begin(), all.begin() + 1, all.end());
+    return all[1];
+}
+
+struct Disagreements {
+    std::size_t points = 0, wrong = 0, between = 0;
+};
+
+/// Labels in every cell at random points of it, a third of them on its faces; and outside the cells, that no label
+/// changes: the whole program's interface distance must not vanish there.
+Disagreements compare_labels(const Phased& object, Random& rng, std::size_t points_a_cell) {
+    const InterfaceCells cells(object);
+    Evaluator::Workspace w;
+    Disagreements result;
+    const float rounding = cells.resolution();
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const Bounds box = cells.bounds(i);
+        for (std::size_t k = 0; k < points_a_cell; ++k) {
+            glm::vec3 p = rng.in(box);
+            if (k % 3 == 0) {
+                const int axis = rng.below(3);
+                p[axis] = rng.chance(0.5) ? box.low[axis] : box.high[axis];
+            }
+            const Phases<float> phi = cells.whole().distances(p, w);
+            if (interface_distance(phi) < rounding) continue;
+            ++result.points;
+            if (cells.label(i, p, w) != label(phi)) ++result.wrong;
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("a cell's program gives the whole object's labels in the cell and on its faces") {
+    Random rng(7);
+    Disagreements d = compare_labels(hourglass(), rng, 200);
+    CHECK(d.points > 100'000);
+    CHECK(d.wrong == 0);
+    const int trees = long_tests() ? 1000 : 60;
+    std::size_t points = 0, wrong = 0;
+    for (int i = 0; i < trees; ++i) {
+        d = compare_labels(traceable_object(rng, 4), rng, 20);
+        points += d.points;
+        wrong += d.wrong;
+    }
+    MESSAGE("points in cells of random trees: ", points);
+    CHECK(points > 20'000);
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("no interface passes outside the cells") {
+    Random rng(11);
+    const Phased object = hourglass();
+    const InterfaceCells cells(object);
+    const InterfaceTracer tracer(object);
+    Evaluator::Workspace w;
+    // Points found on interfaces by tracing the whole program must lie in a cell.
+    std::size_t found = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const glm::vec3 from = rng.in(cells.bounds().inflated(1)), to = rng.in(cells.bounds());
+        const glm::vec3 d = glm::normalize(to - from);
+        glm::vec3 p = from;
+        Phase phase = tracer.label(p, w);
+        while (const auto c = tracer.first_crossing(p, d, 0, 1e6f, phase, w)) {
+            ++found;
+            CHECK(!cells_at(cells, c->p_in).empty());
+            p = c->p_out;
+            phase = c->to;
+        }
+    }
+    CHECK(found > 3000);
+}
+
+TEST_CASE("the nearest crossing over all cells is the whole object's") {
+    Random rng(13);
+    std::vector<Phased> objects{hourglass()};
+    for (int i = 0; i < (long_tests() ? 300 : 12); ++i) objects.push_back(traceable_object(rng, 3));
+    Evaluator::Workspace w;
+    std::size_t rays = 0, crossings = 0, different = 0;
+    for (const Phased& object : objects) {
+        const InterfaceCells cells(object);
+        const InterfaceTracer tracer(object);
+        const float tolerance = 4 * tracer.resolution();
+        for (int i = 0; i < 300; ++i) {
+            glm::vec3 p = rng.in(cells.bounds().inflated(0.5f));
+            const glm::vec3 d = glm::normalize(rng.in(cells.bounds()) - p);
+            Phase phase = tracer.label(p, w);
+            ++rays;
+            for (int n = 0; n < 100; ++n) {
+                const auto expected = tracer.first_crossing(p, d, 0, 1e6f, phase, w);
+                std::optional<Crossing> nearest;
+                TraceCounters counters;
+                for (std::size_t c = 0; c < cells.size(); ++c) {
+                    const auto hit =
+                        cells.first_crossing(c, p, d, 0, nearest ? nearest->t_in : 1e6f, phase, w, counters);
+                    if (hit && (!nearest || hit->t_in < nearest->t_in)) nearest = hit;
+                }
+                if (expected.has_value() != nearest.has_value()) {
+                    ++different;
+                    break;
+                }
+                if (!expected) break;
+                ++crossings;
+                if (nearest->from != expected->from || nearest->to != expected->to ||
+                    std::abs(nearest->t_in - expected->t_in) > tolerance)
+                    ++different;
+                p = expected->p_out;
+                phase = expected->to;
+            }
+        }
+    }
+    MESSAGE(rays, " rays, ", crossings, " crossings, ", different, " different");
+    CHECK(crossings > rays);
+    CHECK(different == 0);
+}
+
+TEST_CASE("cells of a copy are the same, and few") {
+    const InterfaceCells a(hourglass()), b(hourglass());
+    REQUIRE(a.size() == b.size());
+    bool equal = true;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        equal = equal && a.bounds(i).low == b.bounds(i).low && a.bounds(i).high == b.bounds(i).high;
+    CHECK(equal);
+    CHECK(a.statistics().routines < a.size());
+    CHECK(a.statistics().median_instructions < a.whole().program().instructions.size() / 5);
+}
