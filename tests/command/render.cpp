@@ -65,7 +65,7 @@ TEST_CASE("progress in plain lines where there is no terminal, rising to 100 %")
     const Outcome o = shell.run({"render", "scene.json", "-o", "a.exr"});
     CHECK(o.code == 0);
     CHECK(o.out == "");
-    int last = 0, count = 0;
+    int last = -1, count = 0;
     for (const std::string& line : lines_of(o.err)) {
         std::smatch match;
         if (!std::regex_match(line, match, std::regex("Progress: ([0-9]+)%"))) continue;

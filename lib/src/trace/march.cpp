@@ -100,25 +100,29 @@ std::optional<Crossing> march(const Routine& routine, float* registers, const gl
         while (!ahead.empty() && ahead.top().t <= here.t) ahead.pop();
     }
 
+    Waypoint certain = here;  // the last place whose own label is the ray's phase; mostly `here`
+    constexpr float none = -1;
+    Waypoint other{0, 0, none};  // after it, the first place of the label there
     while (!ahead.empty()) {
         const Waypoint next = ahead.top();
         const bool same = next.label == phase;
         const float gap = next.t - here.t;
         if (same && here.distance + next.distance >= gap) {
-            here = next;
+            here = certain = next;
+            other.label = none;
             ahead.pop();
             continue;
         }
         const float fine = effective_resolution(resolution, batches);
         const float low = here.t + std::max(here.distance, 0.f);
         const float high = same ? next.t - std::max(next.distance, 0.f) : next.t;
-        bool resolved = gap <= fine || (same && high - low <= fine) || !ahead.has_room();
+        bool resolved = gap <= (same ? fine : resolution) || (same && high - low <= fine) || !ahead.has_room();
         if (!resolved) {
             BatchOfFloats between;
             if (!same) {
                 const float sum = here.distance + next.distance;
                 const float root = sum > 0 ? here.t + gap * (here.distance / sum) : here.t + 0.5f * gap;
-                between = gather_around(std::clamp(root, here.t, next.t), here.t, next.t, 0.4f * fine);
+                between = gather_around(std::clamp(root, here.t, next.t), here.t, next.t, 0.4f * resolution);
             } else if (here.distance < 4 * fine && gap > 64 * fine) {
                 between = spread_from(here.t, high, fine);
             } else {
@@ -132,25 +136,36 @@ std::optional<Crossing> march(const Routine& routine, float* registers, const gl
         ahead.pop();
         if (same) {
             ++counters.phantoms;
-            here = next;
+            here = certain = next;
+            other.label = none;
             continue;
         }
-        // A change of label. A sliver thinner than the resolution, as rounding leaves where solids abut, is passed.
-        if (next.distance < fine * (1.f / 16)) {
-            BatchOfFloats beyond;
-            for (std::size_t i = 0; i < batch_size; ++i)
-                beyond[i] = std::min(next.t + fine * (1.f / 16) * static_cast<float>(i + 1), length);
-            sample(beyond);
-            std::size_t back = 0;
-            while (back < batch_size && s.label[back] != phase) ++back;
-            if (back < batch_size && beyond[back] > here.t) {
-                ++counters.phantoms;
-                here = {beyond[back], s.distance[back], phase};
-                while (!ahead.empty() && ahead.top().t <= here.t) ahead.pop();
-                continue;
+        // A change of label. Within rounding of an interface labels mean little: solids that abut leave slivers, and a
+        // ray along a face flickers. So a change counts once the new phase is decided: s(p) above rounding, or the same
+        // label for two resolutions. Until then the ray stays in its phase. The bracket is where the label changed.
+        const float rounding = resolution * (1.f / 16);
+        if (other.label != next.label) other = next;
+        if (next.distance >= rounding || next.t - other.t >= 1.5f * resolution)
+            return crossing(certain.t, other.t, phase, next.label);
+        BatchOfFloats beyond;
+        for (std::size_t i = 0; i < batch_size; ++i)
+            beyond[i] = std::min(next.t + resolution * (1.f / 8) * static_cast<float>(i + 1), length);
+        sample(beyond);
+        for (std::size_t i = 0; i < batch_size; ++i) {
+            here = {beyond[i], s.distance[i], phase};
+            bool decided = s.distance[i] >= rounding;
+            if (s.label[i] == phase) {
+                certain = here;
+                other.label = none;
+            } else {
+                if (other.label != s.label[i]) other = {beyond[i], s.distance[i], s.label[i]};
+                decided = decided || here.t - other.t >= 1.5f * resolution;
+                if (decided) return crossing(certain.t, other.t, phase, other.label);
             }
+            if (decided) break;
         }
-        return crossing(here.t, next.t, phase, next.label);
+        ++counters.phantoms;
+        while (!ahead.empty() && ahead.top().t <= here.t) ahead.pop();
     }
     return std::nullopt;
 }
@@ -174,9 +189,12 @@ Interval clip(const Bounds& box, const glm::vec3& origin, const glm::vec3& direc
 std::optional<Crossing> march_within(const Bounds& box, const Routine& routine, float* registers,
                                      const glm::vec3& origin, const glm::vec3& direction, float t_min, float t_max,
                                      float resolution, std::optional<Phase> carried, TraceCounters& counters) {
+    const glm::dvec3 unit(direction);
+    if (!(std::abs(glm::dot(unit, unit) - 1) < 1e-3) || !std::isfinite(glm::dot(glm::dvec3(origin), glm::dvec3(1))))
+        return std::nullopt;
     const Interval span = clip(box, origin, direction, static_cast<double>(t_min), static_cast<double>(t_max));
     if (!(span.low <= span.high) || !std::isfinite(span.high)) return std::nullopt;
-    const glm::vec3 start = span.low > 0 ? glm::vec3(glm::dvec3(origin) + span.low * glm::dvec3(direction)) : origin;
+    const glm::vec3 start = span.low != 0 ? glm::vec3(glm::dvec3(origin) + span.low * glm::dvec3(direction)) : origin;
     auto hit = march(routine, registers, start, direction, static_cast<float>(span.high - span.low), resolution,
                      carried, counters);
     if (hit) {

@@ -17,6 +17,8 @@ TraceableObject prepare_to_trace(const Phased& object, float resolution) {
     // Coordinates are known to half an ulp; a field's value to a few ulps of the coordinates it is made of.
     const float farthest = std::max({std::abs(b.low.x), std::abs(b.low.y), std::abs(b.low.z), std::abs(b.high.x),
                                      std::abs(b.high.y), std::abs(b.high.z)});
+    if (!(farthest < 1e15f) || !(b.diagonal() > 1e-15f))
+        throw ModelError("the object's size or place is beyond what 32-bit floats can trace (10⁻¹⁵ to 10¹⁵)");
     const float r = resolution > 0 ? resolution : std::max(2e-6f * b.diagonal(), 1e-6f * farthest);
     return {b.inflated(8 * r), r};
 }

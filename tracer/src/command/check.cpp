@@ -4,7 +4,6 @@
 
 #include "command/commands.hpp"
 #include "command/load.hpp"
-#include "phasetree/phasetree.hpp"
 
 namespace phasetree::tracer {
 
@@ -15,8 +14,7 @@ void add_check(CLI::App& app, Run& run) {
     command->add_option("scene", *file, "The scene file")->required();
     command->callback([file, &run] {
         run = [file] {
-            const Scene scene = load_scene(*file);
-            const Program program = record(scene.object);  // finds an object that is too large
+            (void)load_scene(*file);
             return 0;
         };
     });

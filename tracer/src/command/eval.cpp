@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "command/commands.hpp"
+#include "command/load.hpp"
 #include "command/numbers.hpp"
 #include "phasetree/math/float_mode.hpp"
 #include "phasetree/phasetree.hpp"
@@ -15,14 +16,15 @@ namespace {
 
 // Phases that the object never has are left empty.
 int eval(const std::string& file) {
-    const SceneTree tree = read_tree(Document::from_file(file));
-    const Evaluator evaluator(record(tree.object));
+    const Document document = Document::from_file(file);
+    const SceneTree tree = read_tree(document);
+    const Evaluator evaluator(record_tree(document, tree.object));
     Evaluator::Workspace workspace;
     const FlushSubnormals flush;
     std::string header = "x,y,z,phase";
     for (const std::string& name : tree.phases.names) header += ",phi." + name;
     fmt::print("{}\n", header);
-    for_each_line_of_numbers(std::cin, 3, [&](const std::array<float, 6>& v) {
+    for_each_line_of_numbers(std::cin, 3, [&](const std::array<float, 6>& v, std::size_t) {
         const Phases<float> phi = evaluator.distances({v[0], v[1], v[2]}, workspace);
         std::string line = fmt::format("{},{},{},{}", v[0], v[1], v[2], tree.phases[label(phi)]);
         for (std::size_t i = 0; i < tree.phases.names.size(); ++i)

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command/commands.hpp"
+#include "command/load.hpp"
 #include "phasetree/phasetree.hpp"
 #include "phasetree/reading/tree.hpp"
 
@@ -12,10 +13,11 @@ namespace phasetree::tracer {
 namespace {
 
 int info(const std::string& file, bool as_json) {
-    const SceneTree tree = read_tree(Document::from_file(file));
+    const Document document = Document::from_file(file);
+    const SceneTree tree = read_tree(document);
     const TreeStatistics s = statistics(tree.object);
     const Bounds b = bounds(tree.object);
-    const Evaluator evaluator(record(tree.object));
+    const Evaluator evaluator(record_tree(document, tree.object));
     const Program& program = evaluator.program();
     const PhaseSet there = phases(tree.object);
 

@@ -4,6 +4,7 @@
 #include <new>
 
 #include "command/commands.hpp"
+#include "command/numbers.hpp"
 #include "output/error.hpp"
 #include "phasetree/phasetree.hpp"
 #include "phasetree/reading/error.hpp"
@@ -27,6 +28,8 @@ int main(int argc, char** argv) {
     try {
         return run();
     } catch (const SceneError& e) {
+        fmt::print(stderr, "{}\n", e.what());
+    } catch (const tracer::InputError& e) {
         fmt::print(stderr, "{}\n", e.what());
     } catch (const ModelError& e) {
         fmt::print(stderr, "phasetree: {}\n", e.what());

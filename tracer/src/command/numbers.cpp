@@ -5,12 +5,11 @@
 #include <charconv>
 #include <cmath>
 #include <istream>
-#include <stdexcept>
 
 namespace phasetree::tracer {
 
 void for_each_line_of_numbers(std::istream& in, std::size_t count,
-                              const std::function<void(const std::array<float, 6>&)>& use) {
+                              const std::function<void(const std::array<float, 6>&, std::size_t)>& use) {
     std::string line;
     for (std::size_t number = 1; std::getline(in, line); ++number) {
         const char* p = line.data();
@@ -24,15 +23,14 @@ void for_each_line_of_numbers(std::istream& in, std::size_t count,
         for (std::size_t i = 0; i < count; ++i) {
             const auto [rest, error] = std::from_chars(p, end, values[i]);
             if (error != std::errc() || !std::isfinite(values[i]))
-                throw std::runtime_error(
+                throw InputError(
                     fmt::format("<stdin>:{}:{}: expected {} finite numbers", number, p - line.data() + 1, count));
             p = rest;
             skip();
         }
         if (p != end)
-            throw std::runtime_error(
-                fmt::format("<stdin>:{}:{}: more than {} numbers", number, p - line.data() + 1, count));
-        use(values);
+            throw InputError(fmt::format("<stdin>:{}:{}: more than {} numbers", number, p - line.data() + 1, count));
+        use(values, number);
     }
 }
 

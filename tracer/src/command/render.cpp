@@ -1,6 +1,7 @@
 #include "render/render.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <charconv>
 #include <cstdio>
@@ -60,6 +61,15 @@ PixelRange pixels(const Options& options, const Scene& scene) {
     return range;
 }
 
+// Before an hour of rendering, and without a trace.
+void check_stats_writable(const std::filesystem::path& path) {
+    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(folder, ignored) || std::filesystem::is_directory(path, ignored) ||
+        ::access((std::filesystem::exists(path, ignored) ? path : folder).c_str(), W_OK) != 0)
+        throw OutputError(fmt::format("{}: cannot be written", path.string()));
+}
+
 void write_stats(const std::string& path, const Options& options, const World& world, const Rendering& r) {
     const auto per_visit = [&](std::uint64_t n) {
         return r.counters.trace.rays ? static_cast<double>(n) / static_cast<double>(r.counters.trace.rays) : 0.0;
@@ -109,6 +119,7 @@ int render_scene(const Options& options) {
         outputs = {stem + ".exr", stem + ".png"};
     }
     for (const std::string& output : outputs) check_writable(output);
+    if (options.stats) check_stats_writable(*options.stats);
     const DisplayTransform display(options.display, options.view ? options.view : scene.settings.view,
                                    options.exposure.value_or(scene.settings.exposure_ev));
     RenderJob job;
@@ -139,9 +150,9 @@ int render_scene(const Options& options) {
             fmt::print(stderr, "{} ({}x{}, {} samples a pixel, {:.1f} s)\n", output, rendering.image.width,
                        rendering.image.height, rendering.samples, rendering.seconds);
     }
-    if (rendering.samples < scene.settings.samples) {
-        fmt::print(stderr, "phasetree: interrupted; the image has {} of {} samples a pixel\n", rendering.samples,
-                   scene.settings.samples);
+    if (rendering.cancelled) {
+        fmt::print(stderr, "phasetree: interrupted; the image has {} of {} samples a pixel{}\n", rendering.samples,
+                   scene.settings.samples, scene.settings.samples == 1 ? ", in part" : "");
         return 1;
     }
     return 0;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "command/commands.hpp"
+#include "command/load.hpp"
 #include "command/numbers.hpp"
 #include "phasetree/math/float_mode.hpp"
 #include "phasetree/phasetree.hpp"
@@ -16,16 +17,18 @@ namespace {
 
 // t counts in units of the direction as it was given, so that origin + t·direction is the place.
 int trace(const std::string& file) {
-    const SceneTree tree = read_tree(Document::from_file(file));
-    const InterfaceTracer tracer(tree.object);
+    const Document document = Document::from_file(file);
+    const SceneTree tree = read_tree(document);
+    (void)record_tree(document, tree.object);
+    const InterfaceTracer tracer = made_of_tree(document, [&] { return InterfaceTracer(tree.object); });
     Evaluator::Workspace workspace;
     const FlushSubnormals flush;
     fmt::print("ray,t,from,to,nx,ny,nz\n");
     std::size_t ray = 0;
-    for_each_line_of_numbers(std::cin, 6, [&](const std::array<float, 6>& v) {
+    for_each_line_of_numbers(std::cin, 6, [&](const std::array<float, 6>& v, std::size_t line) {
         const glm::vec3 origin(v[0], v[1], v[2]), given(v[3], v[4], v[5]);
         const double length = glm::length(glm::dvec3(given));
-        if (!(length > 0)) throw std::runtime_error(fmt::format("ray {} has no direction", ray));
+        if (!(length > 0)) throw InputError(fmt::format("<stdin>:{}:1: the ray has no direction", line));
         const glm::vec3 direction(glm::dvec3(given) / length);
         glm::vec3 start = origin;
         Phase phase = tracer.label(origin, workspace);

@@ -82,6 +82,7 @@ Rendering render(const World& world, const Scene& scene, const RenderJob& job) {
         arena.execute(run_passes);
     }
 
+    result.cancelled = stopped;
     result.image.width = range.width();
     result.image.height = range.height();
     result.image.pixels.reserve(sum.size());

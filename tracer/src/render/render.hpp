@@ -26,6 +26,7 @@ struct RenderJob {
 struct Rendering {
     Image image;
     int samples = 0;  // per pixel that the image holds: fewer than asked if cancelled
+    bool cancelled = false;
     double seconds = 0;
     int threads = 0;
     PathCounters counters;

@@ -8,9 +8,10 @@
 
 namespace phasetree {
 
-/// A change of phase along a ray, as a bracket: the label is certified at both ends, and nothing that is thicker than
-/// the resolution lies between. A reflected ray starts at p_in and stays in `from`, a refracted one at p_out in `to`;
-/// no offset along a normal, no second evaluation, no self-hit.
+/// A change of phase along a ray, as a bracket no longer than the resolution, whose ends are certified to have the two
+/// labels. (Where solids abut, rounding can leave a sliver of a third phase between them: a bracket may pass over one,
+/// and is then up to 2.7 resolutions long.) A reflected ray starts at p_in and stays in `from`, a refracted one at
+/// p_out in `to`; no offset along a normal, no second evaluation, no self-hit.
 struct Crossing {
     float t_in = 0;  ///< distances from the ray's origin
     float t_out = 0;

@@ -31,6 +31,7 @@ struct Plane {
     Bounds bounds(BoundsQuery&, float level) const {
         Bounds b = Bounds::everything();
         for (int i = 0; i < 3; ++i) {
+            if (normal[(i + 1) % 3] != 0.f || normal[(i + 2) % 3] != 0.f) continue;
             if (normal[i] == 1.f) b.high[i] = offset + level;
             if (normal[i] == -1.f) b.low[i] = -(offset + level);
         }
