@@ -77,14 +77,14 @@ TEST_CASE("lights: a direction that several lights can propose counts all of the
     const Lights lights = everything();
     const glm::vec3 p(0.0f);
     // Fluences, and from them the shares: environment, sun, rectangle, sphere.
-    const double rectangle_angle =
-        RectangleLight::facing({-0.5f, 0.0f, 2.0f}, {-0.5f, 0.0f, 0.0f}, 1.5f, 1.0f, {}).solid_angle(p);
+    const auto lamp = RectangleLight::facing({-0.5f, 0.0f, 2.0f}, {-0.5f, 0.0f, 0.0f}, 1.5f, 1.0f, {});
+    const double rectangle_angle = lamp.solid_angle(p);
     const double sphere_angle = SphereLight({0.3f, 0.0f, 1.0f}, 0.25f, {}).solid_angle(p);
     const double sun_radius = 10.0 * half_turn / 180.0;
     const double sun_angle = 2.0 * half_turn * (1.0 - std::cos(sun_radius));
     const double environment = 0.5 * 4.0 * half_turn;
     const double sun = sun_angle / (half_turn * std::pow(std::sin(sun_radius), 2.0));
-    const double rectangle = 3.0 * rectangle_angle;
+    const double rectangle = 3.0 * lamp.rough_solid_angle(p);
     const double sphere = 2.0 * sphere_angle;
     const double total = environment + sun + rectangle + sphere;
 

@@ -46,7 +46,7 @@ float effective_resolution(float resolution, std::uint64_t batches) {
 
 std::optional<Crossing> march(const Routine& routine, float* registers, const glm::vec3& origin,
                               const glm::vec3& direction, float length, float resolution, std::optional<Phase> carried,
-                              TraceCounters& counters) {
+                              bool on_interface, TraceCounters& counters) {
     const auto sample_ray = active_kernel().sample_ray;
     std::uint64_t batches = 0;
     Samples s;
@@ -65,8 +65,8 @@ std::optional<Crossing> march(const Routine& routine, float* registers, const gl
                         Phase{static_cast<std::uint8_t>(to)}};
     };
 
-    // The start, and the first batch behind it. A ray that carries a phase mostly starts on an interface.
-    BatchOfFloats t = carried && *carried != vacuum ? spread_from(0, length, resolution) : spread_evenly(0, length);
+    // The start, and the first batch behind it.
+    BatchOfFloats t = on_interface ? spread_from(0, length, resolution) : spread_evenly(0, length);
     for (std::size_t i = batch_size - 1; i > 0; --i) t[i] = t[i - 1];
     t[0] = 0;
     t[batch_size - 1] = length;
@@ -195,8 +195,10 @@ std::optional<Crossing> march_within(const Bounds& box, const Routine& routine, 
     const Interval span = clip(box, origin, direction, static_cast<double>(t_min), static_cast<double>(t_max));
     if (!(span.low <= span.high) || !std::isfinite(span.high)) return std::nullopt;
     const glm::vec3 start = span.low != 0 ? glm::vec3(glm::dvec3(origin) + span.low * glm::dvec3(direction)) : origin;
+    // What starts here and carries a phase has mostly just crossed or left an interface.
+    const bool on_interface = carried && span.low == static_cast<double>(t_min);
     auto hit = march(routine, registers, start, direction, static_cast<float>(span.high - span.low), resolution,
-                     carried, counters);
+                     carried, on_interface, counters);
     if (hit) {
         hit->t_in = static_cast<float>(span.low + static_cast<double>(hit->t_in));
         hit->t_out = static_cast<float>(span.low + static_cast<double>(hit->t_out));

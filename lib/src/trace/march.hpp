@@ -20,9 +20,11 @@ BatchOfFloats spread_from(float low, float high, float smallest);
 BatchOfFloats gather_around(float root, float low, float high, float smallest);
 
 /// First change of label along origin + t·direction, 0 ≤ t ≤ length. The t of the result count from origin.
-/// `registers` has room for the routine's slots.
+/// `registers` has room for the routine's slots. `on_interface` tells that the ray most likely starts on one: a hint
+/// where to look first.
 std::optional<Crossing> march(const Routine&, float* registers, const glm::vec3& origin, const glm::vec3& direction,
-                              float length, float resolution, std::optional<Phase> carried, TraceCounters&);
+                              float length, float resolution, std::optional<Phase> carried, bool on_interface,
+                              TraceCounters&);
 
 struct Interval {
     double low, high;

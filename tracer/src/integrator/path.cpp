@@ -58,10 +58,17 @@ glm::vec3 emission_through_chain(const World& world, const Scene& scene, CameraR
     }
 }
 
-// What the last place where light was sampled leaves to its path: the weight of emission found at the end of a chain.
+// What the last place where light was sampled leaves to its path: what the weight of emission found at the end of a
+// chain depends on.
 struct Chain {
-    float weight = 1;  // of the path's own technique, for the direction with which it began
+    std::optional<float> pdf;  // of the BSDF, for the direction with which the chain began; none: no light was sampled
+    glm::vec3 origin{0}, direction{0};
     int length = 0;
+
+    float weight(const Lights& lights) const {
+        if (!pdf || length > longest_chain) return 1;
+        return power_heuristic(*pdf, lights.pdf(origin, direction));
+    }
 };
 
 }  // namespace
@@ -74,7 +81,7 @@ glm::vec3 trace_path(const World& world, const Scene& scene, CameraRay ray, Phas
     const float camera_ior = medium(phase)->ior;
 
     glm::vec3 radiance(0.0f), throughput(1.0f);
-    Chain chain;  // none before the camera: its weight is 1
+    Chain chain;
     bool camera_ray = true;
 
     for (int depth = 0; depth < scene.settings.max_depth;) {
@@ -83,8 +90,8 @@ glm::vec3 trace_path(const World& world, const Scene& scene, CameraRay ray, Phas
         const glm::vec3& absorption = medium(phase)->absorption;
 
         const auto add = [&](const Lights::Emission& light) {
-            const float weight = chain.length > longest_chain ? 1.0f : chain.weight;
-            radiance += throughput * weight * transmittance(absorption, light.distance) * light.radiance;
+            radiance +=
+                throughput * chain.weight(scene.lights) * transmittance(absorption, light.distance) * light.radiance;
         };
         if (const auto lamp = scene.lights.intersect(ray.origin, ray.direction, distance, camera_ray)) {
             add(*lamp);
@@ -133,7 +140,7 @@ glm::vec3 trace_path(const World& world, const Scene& scene, CameraRay ray, Phas
         phase = next->transmitted ? surface->far_phase : surface->near_phase;
         if (!medium(phase)) break;
         if (!next->delta)
-            chain = {power_heuristic(next->pdf, scene.lights.pdf(surface->near_origin, ray.direction)), 0};
+            chain = {next->pdf, surface->near_origin, ray.direction, 0};
         else if (links(bsdf, *surface))
             ++chain.length;
         else

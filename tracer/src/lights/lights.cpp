@@ -44,7 +44,12 @@ float Lights::fluences(const glm::vec3& p, std::span<float> fluence) const {
     for (const AreaLight& any : area_) {
         fluence[index] = std::visit(
             [&](const auto& light) {
-                return static_cast<float>(static_cast<double>(luminance(light.radiance())) * light.solid_angle(p));
+                double seen = 0;
+                if constexpr (requires { light.rough_solid_angle(p); })
+                    seen = light.rough_solid_angle(p);
+                else
+                    seen = light.solid_angle(p);
+                return static_cast<float>(static_cast<double>(luminance(light.radiance())) * seen);
             },
             any);
         total += fluence[index++];

@@ -10,8 +10,8 @@
 // pair of densities.
 //
 // cᵢ(x) is proportional to the luminance the light sends through x from all directions if nothing is in the way (its
-// fluence, the mean luminance times the solid angle). Unlike emitted power it needs no extent of the scene to compare
-// an environment with a lamp, and a lamp that is far away or turned away takes no samples.
+// fluence, the mean luminance times the solid angle; of a rectangle, roughly). Unlike emitted power it needs no extent
+// of the scene to compare an environment with a lamp, and a lamp that is far away or turned away takes no samples.
 //
 // Area lights hide what is behind them, and nothing else: rectangles from their emitting side, spheres from everywhere.
 #pragma once

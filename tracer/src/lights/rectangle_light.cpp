@@ -113,6 +113,18 @@ double RectangleLight::solid_angle(const glm::vec3& p) const {
     return seen_from(p).solid_angle;
 }
 
+// A cos θ/d² far away, 2π close by; r, the radius of a disk as large, tells the one from the other.
+double RectangleLight::rough_solid_angle(const glm::vec3& p) const {
+    const glm::dvec3 offset = centre_ - glm::dvec3(p);
+    const double depth = -glm::dot(offset, axis_n_);
+    if (!(depth > 0.0)) return 0.0;
+    const double area = 4.0 * half_u_ * half_v_;
+    const double squared = glm::dot(offset, offset);
+    const double r = std::sqrt(area / std::numbers::pi);
+    const double cosine = (depth + r) / (std::sqrt(squared) + r);
+    return area * cosine / (squared + area / (2.0 * std::numbers::pi));
+}
+
 glm::vec3 RectangleLight::sample(const glm::vec3& p, const glm::vec2& u) const {
     const View view = seen_from(p);
     double x = 0.0;

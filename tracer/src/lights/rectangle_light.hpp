@@ -28,6 +28,8 @@ class RectangleLight {
 
     // Steradians seen from p; 0 from behind.
     double solid_angle(const glm::vec3& p) const;
+    // About as much, without a trigonometric function: what a choice among lights needs. 0 where solid_angle() is 0.
+    double rough_solid_angle(const glm::vec3& p) const;
     // A direction from p towards the light; p must see it.
     glm::vec3 sample(const glm::vec3& p, const glm::vec2& u) const;
     // The density of sample() per steradian.
