@@ -14,5 +14,6 @@ void add_check(CLI::App& app, Run& run);
 void add_info(CLI::App& app, Run& run);
 void add_eval(CLI::App& app, Run& run);
 void add_trace(CLI::App& app, Run& run);
+void add_nodes(CLI::App& app, Run& run);
 
 }  // namespace phasetree::tracer

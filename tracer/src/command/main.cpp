@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
     tracer::add_info(app, run);
     tracer::add_eval(app, run);
     tracer::add_trace(app, run);
+    tracer::add_nodes(app, run);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
