@@ -21,6 +21,11 @@ namespace {
 
 /// Samples ahead of the ray, the nearest on top.
 class Ahead {
+    using Stack = std::array<Waypoint, 64 * batch_size>;
+    struct Lifted : Stack {
+        Lifted() {}  // unset on purpose
+    };
+
   public:
     Ahead() {}
     bool empty() const { return size_ == 0; }
@@ -28,10 +33,31 @@ class Ahead {
     const Waypoint& top() const { return stack_[size_ - 1]; }
     const Waypoint* second() const { return size_ > 1 ? &stack_[size_ - 2] : nullptr; }
     void pop() { --size_; }
+    /// Puts a batch of samples, in rising order, among those ahead; none at or before `after`, none twice.
+    void merge(const BatchOfFloats& t, const Samples& s, float after) {
+        // Those ahead that are no farther than the batch's end are lifted off, and laid back with the batch's.
+        const std::size_t end = size_;
+        while (size_ > 0 && stack_[size_ - 1].t <= t[batch_size - 1]) --size_;
+        Lifted lifted;
+        const std::size_t count = end - size_;
+        std::copy(stack_.begin() + static_cast<std::ptrdiff_t>(size_),
+                  stack_.begin() + static_cast<std::ptrdiff_t>(end), lifted.begin());
+        std::size_t old = 0;  // the farthest of the lifted comes first
+        float before = Bounds::infinity;
+        const auto lay = [&](const Waypoint& w) {
+            if (w.t > after && w.t < before) push(w);
+            before = std::min(before, w.t);
+        };
+        for (std::size_t i = batch_size; i-- > 0;) {
+            while (old < count && lifted[old].t >= t[i]) lay(lifted[old++]);
+            lay({t[i], s.distance[i], s.label[i]});
+        }
+        while (old < count) lay(lifted[old++]);
+    }
     void push(const Waypoint& w) { stack_[size_++] = w; }
 
   private:
-    std::array<Waypoint, 64 * batch_size> stack_;  // unset on purpose: most rays use a few
+    Stack stack_;  // unset on purpose: most rays use a few
     std::size_t size_ = 0;
 };
 
@@ -123,8 +149,12 @@ std::optional<Crossing> march(const Routine& routine, float* registers, const gl
                 const float sum = here.distance + next.distance;
                 const float root = sum > 0 ? here.t + gap * (here.distance / sum) : here.t + 0.5f * gap;
                 between = gather_around(std::clamp(root, here.t, next.t), here.t, next.t, 0.4f * resolution);
-            } else if (here.distance < 4 * fine && gap > 64 * fine) {
-                between = spread_from(here.t, high, fine);
+            } else if (const float slope = (next.distance - here.distance) / gap; slope > 0.02f) {
+                // The ray leaves an interface it started on, at a low angle: one batch for many of the gaps ahead.
+                between = spread_growing(here.t, length, std::max(here.distance, 0.25f * fine), std::min(slope, 1.f));
+                sample(between);
+                ahead.merge(between, s, here.t);
+                continue;
             } else {
                 between = spread_evenly(std::min(low, high), high);
             }

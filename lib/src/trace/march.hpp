@@ -17,6 +17,8 @@ struct Waypoint {
 /// spread geometrically from there. `root`: a place where the label probably changes; samples gather around it.
 BatchOfFloats spread_evenly(float low, float high);
 BatchOfFloats spread_from(float low, float high, float smallest);
+/// From low on, as far as the steps reach that the distance s, growing by `slope` for each unit, is expected to cover.
+BatchOfFloats spread_growing(float low, float high, float s, float slope);
 BatchOfFloats gather_around(float root, float low, float high, float smallest);
 
 /// First change of label along origin + t·direction, 0 ≤ t ≤ length. The t of the result count from origin.

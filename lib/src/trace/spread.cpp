@@ -23,6 +23,20 @@ BatchOfFloats spread_from(float low, float high, float smallest) {
     return t;
 }
 
+BatchOfFloats spread_growing(float low, float high, float s, float slope) {
+    // Two balls cover a step d if d ≤ s + (s + slope·d); a tenth less, for what is not straight.
+    const float growth = 1.8f / (1.f - 0.9f * slope);
+    BatchOfFloats t;
+    float at = low;
+    for (std::size_t i = 0; i < batch_size; ++i) {
+        const float step = growth * s;
+        at = std::min(at + step, high);
+        s += slope * step;
+        t[i] = at;
+    }
+    return t;
+}
+
 BatchOfFloats gather_around(float root, float low, float high, float smallest) {
     constexpr std::size_t half = batch_size / 2;
     BatchOfFloats t;
