@@ -91,6 +91,9 @@ void intersect(const RTCIntersectFunctionNArguments* arguments) noexcept {
         RTCHitN_primID(hits, n, i) = arguments->primID;
         RTCHitN_geomID(hits, n, i) = arguments->geomID;
         RTCHitN_instID(hits, n, i, 0) = arguments->context->instID[0];
+#if defined(RTC_GEOMETRY_INSTANCE_ARRAY)
+        RTCHitN_instPrimID(hits, n, i, 0) = arguments->context->instPrimID[0];
+#endif
         if (query) query->crossing = c;
     }
 }
