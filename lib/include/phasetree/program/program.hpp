@@ -52,8 +52,8 @@ struct Program {
 
 /// Records an object. Throws ModelError if it grows past `limit` instructions (a tree of shared subtrees under
 /// different transforms can be exponentially larger than its nodes).
-Program record(const Phased&, std::size_t limit = 1'000'000);
+Program record(const Phased&, std::size_t limit = 500'000);
 /// Records a plain field as the phase 1 with its vacuum.
-Program record(const Field&, std::size_t limit = 1'000'000);
+Program record(const Field&, std::size_t limit = 500'000);
 
 }  // namespace phasetree
