@@ -162,7 +162,7 @@ auto chain(std::size_t depth) {
     if constexpr (IsFieldNode<Node>)
         current = Sphere{};
     else
-        current = Set{.phase = Phase{1}, .of = Sphere{}};
+        current = ThinShell{.of = Sphere{}, .shell = Phase{1}, .inside = Phase{2}};
     while (current.node()->depth < depth) {
         Node node;
         for_each_parameter(node, [&](auto& value, const Parameter& p) {
@@ -181,6 +181,10 @@ auto chain(std::size_t depth) {
         if constexpr (std::is_same_v<Node, Change>) {
             node.from = Phase{1};
             node.to = Phase{2};
+        }
+        if constexpr (std::is_same_v<Node, Interface>) {
+            node.phase_a = Phase{1};
+            node.phase_b = Phase{2};
         }
         // The box around a twisted box is √2 wider, so a chain of twists ends where floats do.
         if constexpr (NeedsBoundedChild<Node>) {

@@ -115,6 +115,9 @@ void fill(Random& rng, Value& value, const Parameter& p, int depth) {
         value = PhaseSet{(rng.bits() & ((1u << (random_phases + 1)) - 1)) & ~std::uint64_t{rng.chance(0.8)}};
     } else if constexpr (std::is_same_v<Value, Field> || std::is_same_v<Value, Phased>) {
         draw(value);
+    } else if constexpr (std::is_same_v<Value, std::vector<float>> || std::is_same_v<Value, std::vector<Phase>>) {
+        value.resize(3);  // all of one length, because a node's lists belong together
+        for (auto& item : value) fill<Node>(rng, item, p, depth);
     } else {
         // Mostly two or three, now and then the single child that a fold over the rest must survive.
         value.resize(static_cast<std::size_t>(rng.chance(0.1) ? 1 : 2 + rng.below(2)));
@@ -136,8 +139,9 @@ auto random_rooted(Random& rng, int depth) {
     using Handle = std::conditional_t<IsFieldNode<Node>, Field, Phased>;
     for (int attempt = 0;; ++attempt) {
         Node node;
-        for_each_parameter(node,
-                           [&](auto& value, const Parameter& p) { detail::fill<Node>(rng, value, p, depth - 1); });
+        // What a shallow tree never has, such as two phases, a deeper one has.
+        const int below = depth - 1 + attempt / 20;
+        for_each_parameter(node, [&](auto& value, const Parameter& p) { detail::fill<Node>(rng, value, p, below); });
         try {
             return Handle(node);
         } catch (const ModelError&) {

@@ -287,6 +287,93 @@ inline Phase region(const Remove& n, const dvec3& p) {
     const Phase l = label(n.of, p);
     return n.gone.contains(l) ? vacuum : l;
 }
+/// Signed depth in the union of some phases (of all if none are named): how far everything else is.
+inline double depth(const Components& a, PhaseSet among) {
+    double inside = absent, outside = absent;
+    for (std::size_t i = 0; i < Components::size; ++i) {
+        const bool is_in = i > 0 && (among.empty() || among.contains(static_cast<int>(i)));
+        (is_in ? inside : outside) = std::min(is_in ? inside : outside, a[i]);
+    }
+    return outside < absent ? -outside : inside;
+}
+/// Where a phase of K meets one of L, the deeper wins; elsewhere the last of the objects that are here.
+inline Phase region(const Contact& n, const dvec3& p) {
+    const Phase a = label(n.a, p), b = label(n.b, p);
+    if (a != n.phase_a || b != n.phase_b) return b == vacuum ? a : b;
+    const double weighted_a = n.alpha * values(n.a, p)[a.index], weighted_b = (1 - n.alpha) * values(n.b, p)[b.index];
+    return weighted_a < weighted_b ? a : b;
+}
+inline Phase region(const Contacts& n, const dvec3& p) {
+    const Phase a = label(n.a, p), b = label(n.b, p);
+    if (a == vacuum || b == vacuum) return b == vacuum ? a : b;
+    if ((!n.phases_a.empty() && !n.phases_a.contains(a)) || (!n.phases_b.empty() && !n.phases_b.contains(b))) return b;
+    const double weighted_a = n.alpha * depth(values(n.a, p), n.phases_a);
+    return weighted_a < (1 - n.alpha) * depth(values(n.b, p), n.phases_b) ? a : b;
+}
+/// Outside, the layer within whose reach the point is.
+inline Phase region(const LayeredSequence& n, const dvec3& p) {
+    const Phase l = label(n.of, p);
+    if (l != vacuum) return l;
+    double away = -values(n.of, p)[0];
+    for (std::size_t i = 0; i < n.layers.size(); ++i) {
+        away -= n.thicknesses[i];
+        if (away < 0) return n.layers[i];
+    }
+    return vacuum;
+}
+/// The phases' fields blended one after the other.
+inline double all_blended(const Components& a, double r) {
+    double result = absent;
+    for (std::size_t i = 1; i < Components::size; ++i)
+        if (a[i] < absent) result = result < absent ? smooth_minimum(result, a[i], r) : a[i];
+    return result;
+}
+inline Phase region(const SmoothLayered& n, const dvec3& p) {
+    const Phase l = label(n.of, p);
+    return l == vacuum && all_blended(values(n.of, p), n.radius) < n.thickness ? n.phase : l;
+}
+inline Phase region(const UniteShapeBelow& n, const dvec3& p) {
+    const Phase l = label(n.of, p);
+    return l == vacuum && inside(n.shape, p) ? n.phase : l;
+}
+/// The field of a phase and a shape, blended.
+template <class N>
+double blended_pair(const N& n, const dvec3& p) {
+    const double a = values(n.of, p)[n.phase.index], f = value(n.shape, p);
+    return a < absent ? smooth_minimum(a, f, n.radius) : f;
+}
+inline Phase region(const SmoothUniteShape& n, const dvec3& p) {
+    return blended_pair(n, p) < 0 ? n.phase : label(n.of, p);
+}
+inline Phase region(const SmoothUniteShapeBelow& n, const dvec3& p) {
+    const Phase l = label(n.of, p);
+    return l == vacuum && blended_pair(n, p) < 0 ? n.phase : l;
+}
+/// The smooth intersection of a phase with what is kept, a field.
+inline bool worn_away(const Phased& of, Phase k, double kept, double r, const dvec3& p) {
+    return label(of, p) == k && -smooth_minimum(-values(of, p)[k.index], -kept, r) > 0;
+}
+inline Phase region(const SmoothIntersectShape& n, const dvec3& p) {
+    return worn_away(n.of, n.phase, value(n.shape, p), n.radius, p) ? vacuum : label(n.of, p);
+}
+inline Phase region(const SmoothSubtractShape& n, const dvec3& p) {
+    return worn_away(n.of, n.phase, -value(n.shape, p), n.radius, p) ? vacuum : label(n.of, p);
+}
+/// What lies in one phase of the pair, nearer than ε to the other.
+inline Phase region(const Interface& n, const dvec3& p) {
+    const Phase l = label(n.of, p);
+    if (l != n.phase_a && l != n.phase_b) return vacuum;
+    const Phase other = l == n.phase_a ? n.phase_b : n.phase_a;
+    return values(n.of, p)[other.index] < n.half_thickness ? l : vacuum;
+}
+/// What lies in a phase, nearer than ε to any other.
+inline Phase region(const Interfaces& n, const dvec3& p) {
+    const Phase l = label(n.of, p);
+    const Components a = values(n.of, p);
+    for (std::size_t i = 1; i < Components::size; ++i)
+        if (i != l.index && a[i] < n.half_thickness) return l;
+    return vacuum;
+}
 
 // Objects: Φ as numbers. With infinite absent phases the equations of the table hold without a special case.
 
@@ -367,6 +454,102 @@ inline Components components(const Remove& n, const dvec3& p) {
         a[0] = std::min(a[0], a[i]);
         a[i] = absent;
     }
+    return a;
+}
+/// Bⱼ retreats to f = 0, and replaces A with what is left.
+inline Components in_contact(const Components& a, Components b, PhaseSet l, double f) {
+    for (std::size_t j = 1; j < Components::size; ++j)
+        if (b[j] < absent && (l.empty() || l.contains(static_cast<int>(j)))) b[j] = std::max(b[j], -f);
+    return replaced(a, b);
+}
+inline Components components(const Contact& n, const dvec3& p) {
+    const Components a = values(n.a, p), b = values(n.b, p);
+    const double f = n.alpha * a[n.phase_a.index] - (1.0 - n.alpha) * b[n.phase_b.index];
+    return in_contact(a, b, PhaseSet::of(n.phase_b), f);
+}
+inline Components components(const Contacts& n, const dvec3& p) {
+    const Components a = values(n.a, p), b = values(n.b, p);
+    return in_contact(a, b, n.phases_b, n.alpha * depth(a, n.phases_a) - (1.0 - n.alpha) * depth(b, n.phases_b));
+}
+inline Components components(const LayeredSequence& n, const dvec3& p) {
+    Components a = values(n.of, p);
+    if (!(a[0] < absent)) return a;
+    for (std::size_t i = 0; i < n.layers.size(); ++i) {
+        double& layer = a[n.layers[i].index];
+        layer = std::min(layer, std::max(-a[0] - n.thicknesses[i], a[0]));
+        a[0] += n.thicknesses[i];
+    }
+    return a;
+}
+inline Components components(const SmoothLayered& n, const dvec3& p) {
+    Components a = values(n.of, p);
+    const double m = all_blended(a, n.radius) - n.thickness;
+    if (!(a[0] < absent) || !(m < absent)) return a;
+    a[n.phase.index] = std::min(a[n.phase.index], std::max(m, a[0]));
+    a[0] = std::max(a[0], -m);
+    return a;
+}
+/// Phase k becomes what is within s but in no other phase.
+inline Components grown_below(Components a, Phase k, double s) {
+    double others = absent;
+    for (std::size_t i = 1; i < Components::size; ++i)
+        if (i != k.index) others = std::min(others, a[i]);
+    a[k.index] = std::max(s, -others);
+    if (a[0] < absent) a[0] = std::max(a[0], -s);
+    return a;
+}
+/// S filled with the phase, under the object.
+inline Components components(const UniteShapeBelow& n, const dvec3& p) {
+    Components shape;
+    shape[n.phase.index] = value(n.shape, p);
+    shape[0] = -shape[n.phase.index];
+    return replaced(shape, values(n.of, p));
+}
+inline Components components(const SmoothUniteShapeBelow& n, const dvec3& p) {
+    return grown_below(values(n.of, p), n.phase, blended_pair(n, p));
+}
+/// The blended shape over the object.
+inline Components components(const SmoothUniteShape& n, const dvec3& p) {
+    Components shape, rest = values(n.of, p);
+    shape[n.phase.index] = blended_pair(n, p);
+    shape[0] = -shape[n.phase.index];
+    rest[n.phase.index] = absent;
+    return replaced(rest, shape);
+}
+inline Components smoothly_cut(Components a, Phase k, double kept, double r) {
+    if (!(a[k.index] < absent)) return a;
+    const double s = -smooth_minimum(-a[k.index], -kept, r);
+    a[0] = std::min(a[0], std::max({a[k.index], -s, -kept - r}));
+    a[k.index] = s;
+    return a;
+}
+inline Components components(const SmoothIntersectShape& n, const dvec3& p) {
+    return smoothly_cut(values(n.of, p), n.phase, value(n.shape, p), n.radius);
+}
+inline Components components(const SmoothSubtractShape& n, const dvec3& p) {
+    return smoothly_cut(values(n.of, p), n.phase, -value(n.shape, p), n.radius);
+}
+inline Components components(const Interface& n, const dvec3& p) {
+    const Components a = values(n.of, p);
+    const double s = std::max(a[n.phase_a.index], a[n.phase_b.index]) - n.half_thickness;
+    Components r;
+    r[0] = -s;
+    for (std::size_t i = 0; i < Components::size; ++i)
+        if (i == n.phase_a.index || i == n.phase_b.index)
+            r[i] = std::max(a[i], s);
+        else
+            r[0] = std::min(r[0], a[i]);
+    return r;
+}
+inline Components components(const Interfaces& n, const dvec3& p) {
+    Components a = values(n.of, p);
+    double s = absent;
+    for (std::size_t i = 1; i < Components::size; ++i)
+        for (std::size_t j = 1; j < i; ++j) s = std::min(s, std::max(a[i], a[j]));
+    s -= n.half_thickness;
+    for (std::size_t i = 1; i < Components::size; ++i)
+        if (a[i] < absent) a[i] = std::max(a[i], s);
+    a[0] = std::min(a[0], -s);
     return a;
 }
 

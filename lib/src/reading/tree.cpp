@@ -199,6 +199,10 @@ class Reader {
             for (const Value item : value) target.push_back(read<typename T::value_type>(item));
         } else if constexpr (std::is_same_v<T, Phase>) {
             target = phase(value, what);
+        } else if constexpr (std::is_same_v<T, std::vector<Phase>>) {
+            if (!value.is_array())
+                throw document_.error(value, fmt::format("{} must be a list, but is {}", what, name_of(value.kind())));
+            for (const Value item : value) target.push_back(phase(item, what));
         } else if constexpr (std::is_same_v<T, PhaseSet>) {
             if (value.is_string()) {
                 target = PhaseSet::of(phase(value, what));

@@ -23,14 +23,25 @@
 #include "phasetree/nodes/fields/torus.hpp"
 #include "phasetree/nodes/fields/union.hpp"
 #include "phasetree/nodes/phased/change.hpp"
+#include "phasetree/nodes/phased/contact.hpp"
+#include "phasetree/nodes/phased/contacts.hpp"
+#include "phasetree/nodes/phased/interface.hpp"
+#include "phasetree/nodes/phased/interfaces.hpp"
 #include "phasetree/nodes/phased/intersect_shape.hpp"
 #include "phasetree/nodes/phased/layered.hpp"
+#include "phasetree/nodes/phased/layered_sequence.hpp"
 #include "phasetree/nodes/phased/over.hpp"
 #include "phasetree/nodes/phased/remove.hpp"
 #include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/nodes/phased/smooth_intersect_shape.hpp"
+#include "phasetree/nodes/phased/smooth_layered.hpp"
+#include "phasetree/nodes/phased/smooth_subtract_shape.hpp"
+#include "phasetree/nodes/phased/smooth_unite_shape.hpp"
+#include "phasetree/nodes/phased/smooth_unite_shape_below.hpp"
 #include "phasetree/nodes/phased/subtract_shape.hpp"
 #include "phasetree/nodes/phased/thin_shell.hpp"
 #include "phasetree/nodes/phased/under.hpp"
+#include "phasetree/nodes/phased/unite_shape_below.hpp"
 #include "phasetree/nodes/warps/rotate.hpp"
 #include "phasetree/nodes/warps/scale.hpp"
 #include "phasetree/nodes/warps/translate.hpp"
@@ -43,7 +54,9 @@ using Warps = TypeList<Translate, Rotate, Scale, Twist>;
 using PlainFields = TypeList<Sphere, Box, RoundedBox, Cylinder, CappedCone, Capsule, Torus, Plane, Union, Intersection,
                              Difference, SmoothUnion, SmoothIntersection, SmoothDifference, Offset, Shell, Merge>;
 
-using Objects = TypeList<Set, ThinShell, Under, Over, Layered, IntersectShape, SubtractShape, Change, Remove>;
+using Objects = TypeList<Set, ThinShell, Under, Over, Layered, IntersectShape, SubtractShape, Change, Remove, Contact,
+                         Contacts, LayeredSequence, SmoothLayered, UniteShapeBelow, SmoothUniteShape,
+                         SmoothUniteShapeBelow, SmoothIntersectShape, SmoothSubtractShape, Interface, Interfaces>;
 
 // What follows is derived.
 

@@ -59,19 +59,24 @@ inline void check(float v, std::string_view node, const Parameter& p) {
 inline void check(const glm::vec3& v, std::string_view node, const Parameter& p) {
     for (int i = 0; i < 3; ++i) check(v[i], node, p);
 }
+inline void check(Phase v, std::string_view node, const Parameter& p) {
+    require(v != vacuum && v.index < Phase::capacity, node, p, "must be a phase other than the vacuum");
+}
 inline void check(const Field& f, std::string_view node, const Parameter& p) {
     require(p.optional || f, node, p, "is missing");
 }
 inline void check(const Phased& f, std::string_view node, const Parameter& p) {
     require(p.optional || f, node, p, "is missing");
 }
-template <class Child>
-void check(const std::vector<Child>& list, std::string_view node, const Parameter& p) {
+template <class Item>
+void check(const std::vector<Item>& list, std::string_view node, const Parameter& p) {
     require(p.optional || !list.empty(), node, p, "must not be empty");
-    for (const Child& c : list) require(static_cast<bool>(c), node, p, "has an empty entry");
-}
-inline void check(Phase v, std::string_view node, const Parameter& p) {
-    require(v != vacuum && v.index < Phase::capacity, node, p, "must be a phase other than the vacuum");
+    for (const Item& item : list) {
+        if constexpr (std::is_same_v<Item, Field> || std::is_same_v<Item, Phased>)
+            require(static_cast<bool>(item), node, p, "has an empty entry");
+        else
+            check(item, node, p);
+    }
 }
 inline void check(PhaseSet, std::string_view, const Parameter&) {}
 

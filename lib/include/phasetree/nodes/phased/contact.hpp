@@ -1,0 +1,71 @@
+#pragma once
+
+#include "phasetree/nodes/phased/under.hpp"
+
+namespace phasetree {
+
+namespace detail {
+/// A ∪₋ B, except that where a part A_K of A meets a part B_L of B, the two press against each other and share the
+/// overlap: B_L loses A_K ∩ {f < 0} to A,
+///
+///     f = α a_K − (1 − α) b_L,    a_K < 0 within A_K,  b_L < 0 within B_L,  b_L ≤ bⱼ for j in L.
+///
+/// That is A ∪₋ B with b'ⱼ = max(bⱼ, −f) in place of bⱼ, j ∈ L. Within A_K ∩ B_L, f decides; in B_L outside A_K both
+/// terms of −f are negative, so that B keeps it; outside Bⱼ, b'ⱼ ≥ bⱼ > 0. φ₀ = max(a₀, b₀): what B loses is within A.
+/// I1: f is a convex combination. I2: b' ≥ b keeps the proof for ∪₋, also with φ₀, since φ₀ ≥ b₀.
+///
+/// Of two objects of one phase each it is max(aᵢ, f) and max(bⱼ, −f): ∪₋ gives φᵢ = max(aᵢ, min(−bⱼ, f)), and
+/// f = aᵢ − (1 − α)(aᵢ + bⱼ) = −bⱼ + α(aᵢ + bⱼ) is at most aᵢ where aᵢ + bⱼ ≥ 0 and at most −bⱼ elsewhere.
+template <class S>
+Phases<S> contact(const Phases<S>& a, const S& a_k, const Phases<S>& b, const S& b_l, PhaseSet l, float alpha) {
+    const S f = a_k * alpha - b_l * (1.f - alpha);
+    Phases<S> retreated = b;
+    // In this order, because so far away that distances overflow f is ∞ − ∞, and max takes the second operand of NaN.
+    for_each_phase(b.present & l.bits, [&](int j) { retreated.set(j, max(-f, b[j])); });
+    return under(a, retreated);
+}
+inline constexpr Parameter contact_a{"a", "", "The object A."};
+inline constexpr Parameter contact_b{"b", "", "The object B, which replaces A where they are not in contact."};
+inline constexpr Parameter contact_alpha{"alpha", "",
+                                         "Where in the overlap they meet: at 0 B has all of it, at 1 A, at 1/2 both "
+                                         "are as deep in it.",
+                                         limits::fraction};
+}  // namespace detail
+
+/// The printed φᵢ = max(aᵢ, −f), φⱼ = max(bⱼ, f) empty most of A ∪ B; and α → 0 makes f tend to −bⱼ.
+/// What the contact does not decide is as in A ∪₋ B: the other phases of A and B stay, and B's replace A's.
+struct Contact {
+    static constexpr bool is_phased_node = true;
+    static constexpr NodeInfo info{"contact", "4.4",
+                                   "f = α aᵢ − (1 − α) bⱼ,  φᵢ = max(aᵢ, f),  φⱼ = max(bⱼ, −f),  φ₀ = max(a₀, b₀)",
+                                   "Two phases pressed against each other: they share the space that both claim."};
+    Phased a{};
+    Phase phase_a{1};
+    Phased b{};
+    Phase phase_b{2};
+    float alpha = 0.5f;
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&Contact::a, detail::contact_a);
+        v(&Contact::phase_a, Parameter{"phase_a", "", "The phase of A that is in contact."});
+        v(&Contact::b, detail::contact_b);
+        v(&Contact::phase_b, Parameter{"phase_b", "", "The phase of B that is in contact."});
+        v(&Contact::alpha, detail::contact_alpha);
+    }
+    void prepare() const {
+        if (phase_a == phase_b) throw ModelError("contact: a phase does not make contact with itself");
+        if (!phasetree::phases(a).contains(phase_a)) throw ModelError("contact: \"a\" has nothing of \"phase_a\"");
+        if (!phasetree::phases(b).contains(phase_b)) throw ModelError("contact: \"b\" has nothing of \"phase_b\"");
+    }
+    template <class D>
+    Phases<typename D::Scalar> evaluate(D& d, const typename D::Point& p) const {
+        const auto first = d.phases(a, p), second = d.phases(b, p);
+        return detail::contact(first, first[phase_a.index], second, second[phase_b.index], PhaseSet::of(phase_b),
+                               alpha);
+    }
+    PhaseSet phases() const { return detail::united_phases(std::array{a, b}); }
+    Bounds bounds(BoundsQuery& q, float level) const { return unite(q(a, level), q(b, level)); }
+};
+
+}  // namespace phasetree

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "phasetree/nodes/phased/shape_cut.hpp"
+
+namespace phasetree {
+
+/// The smallest over all pairs of max(aᵢ, aⱼ) is the second smallest of all, found in one pass. The vacuum is no
+/// partner, as printed: the surface of the object is not among its interfaces.
+struct Interfaces {
+    static constexpr bool is_phased_node = true;
+    static constexpr NodeInfo info{"interfaces", "7.4",
+                                   "S = (second smallest of a₁ … aₙ) − ε,  φᵢ = max(aᵢ, S),  φ₀ = min(a₀, −S)",
+                                   "The thin volumes about all interfaces between phases."};
+    Phased of{};
+    float half_thickness = 0.05f;
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&Interfaces::of, Parameter{"of", "", "The object, of two phases at least."});
+        v(&Interfaces::half_thickness,
+          Parameter{"half_thickness", "m", "How deep in either phase, ε.", limits::positive});
+    }
+    void prepare() const {
+        if (PhaseSet{phasetree::phases(of).bits & ~std::uint64_t{1}}.size() < 2)
+            throw ModelError("interfaces: the object has fewer than two phases");
+    }
+    template <class D>
+    Phases<typename D::Scalar> evaluate(D& d, const typename D::Point& p) const {
+        const auto a = d.phases(of, p);
+        std::optional<typename D::Scalar> first, second;
+        for_each_phase(a.materials(), [&](int i) {
+            if (first) {
+                const auto later = max(*first, a[i]);
+                second = second ? min(*second, later) : later;
+            }
+            first = first ? min(*first, a[i]) : a[i];
+        });
+        return detail::cut(a, *second - half_thickness, {});
+    }
+    PhaseSet phases() const { return phasetree::phases(of) | PhaseSet::of(vacuum); }
+    Bounds bounds(BoundsQuery& q, float level) const { return q(of, level); }
+};
+
+}  // namespace phasetree
