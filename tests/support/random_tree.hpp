@@ -77,6 +77,9 @@ inline float random_number(Random& rng, const Parameter& p) {
     const auto rounded = [&](float v, float unit) { return round ? std::round(v / unit) * unit : v; };
     if (p.unit == "degrees") return allowed(rounded(rng.uniform(-180, 180), 45), p.limits, rng);
     if (p.unit == "degrees/m") return allowed(rounded(rng.uniform(-150, 150), 45), p.limits, rng);
+    // Counts; and waves long enough that an object has not thousands of them.
+    if (p.unit.empty() && p.limits.low > 2) return std::floor(rng.uniform(p.limits.low, p.limits.low + 6));
+    if (p.name == "period" || p.name == "scale") return rounded(rng.uniform(0.4f, 1.5f), 0.25f);
     if (p.unit == "m" && !negative) {
         const float u = rng.uniform(0, 1);
         return allowed(rounded(0.04f + 1.2f * u * u, 0.25f), p.limits, rng);

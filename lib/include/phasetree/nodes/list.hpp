@@ -7,21 +7,37 @@
 
 #include "phasetree/nodes/fields/box.hpp"
 #include "phasetree/nodes/fields/capped_cone.hpp"
+#include "phasetree/nodes/fields/capped_torus.hpp"
 #include "phasetree/nodes/fields/capsule.hpp"
 #include "phasetree/nodes/fields/cylinder.hpp"
 #include "phasetree/nodes/fields/difference.hpp"
+#include "phasetree/nodes/fields/displace.hpp"
+#include "phasetree/nodes/fields/ellipsoid.hpp"
+#include "phasetree/nodes/fields/gyroid.hpp"
 #include "phasetree/nodes/fields/intersection.hpp"
+#include "phasetree/nodes/fields/link.hpp"
 #include "phasetree/nodes/fields/merge.hpp"
+#include "phasetree/nodes/fields/octahedron.hpp"
 #include "phasetree/nodes/fields/offset.hpp"
 #include "phasetree/nodes/fields/plane.hpp"
+#include "phasetree/nodes/fields/prism.hpp"
+#include "phasetree/nodes/fields/pyramid.hpp"
+#include "phasetree/nodes/fields/round_cone.hpp"
 #include "phasetree/nodes/fields/rounded_box.hpp"
+#include "phasetree/nodes/fields/rounded_cylinder.hpp"
+#include "phasetree/nodes/fields/schwarz_d.hpp"
+#include "phasetree/nodes/fields/schwarz_p.hpp"
 #include "phasetree/nodes/fields/shell.hpp"
 #include "phasetree/nodes/fields/smooth_difference.hpp"
 #include "phasetree/nodes/fields/smooth_intersection.hpp"
 #include "phasetree/nodes/fields/smooth_union.hpp"
 #include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/fields/spherical_cap.hpp"
+#include "phasetree/nodes/fields/tetrahedron.hpp"
 #include "phasetree/nodes/fields/torus.hpp"
+#include "phasetree/nodes/fields/tube.hpp"
 #include "phasetree/nodes/fields/union.hpp"
+#include "phasetree/nodes/fields/wedge.hpp"
 #include "phasetree/nodes/phased/change.hpp"
 #include "phasetree/nodes/phased/contact.hpp"
 #include "phasetree/nodes/phased/contacts.hpp"
@@ -52,7 +68,9 @@ namespace phasetree {
 using Warps = TypeList<Translate, Rotate, Scale, Twist>;
 
 using PlainFields = TypeList<Sphere, Box, RoundedBox, Cylinder, CappedCone, Capsule, Torus, Plane, Union, Intersection,
-                             Difference, SmoothUnion, SmoothIntersection, SmoothDifference, Offset, Shell, Merge>;
+                             Difference, SmoothUnion, SmoothIntersection, SmoothDifference, Offset, Shell, Merge,
+                             Ellipsoid, CappedTorus, Link, Tube, RoundedCylinder, RoundCone, SphericalCap, Prism, Wedge,
+                             Pyramid, Octahedron, Tetrahedron, Gyroid, SchwarzP, SchwarzD, Displace>;
 
 using Objects = TypeList<Set, ThinShell, Under, Over, Layered, IntersectShape, SubtractShape, Change, Remove, Contact,
                          Contacts, LayeredSequence, SmoothLayered, UniteShapeBelow, SmoothUniteShape,
@@ -97,8 +115,8 @@ using MapOf = typename W::Map;
 using FieldNodes = detail::Concat<PlainFields, detail::Map<WarpedField, Warps>::type>::type;
 using PhasedNodes = detail::Concat<Objects, detail::Map<WarpedPhased, Warps>::type>::type;
 
-/// The primitives, each one instruction of the program; a local warp's bound is one too.
-using Primitives = detail::Concat<TypeList<BoundingBox>, detail::OnlyPrimitives<PlainFields>::type>::type;
+/// The primitives, each one instruction of the program; a local warp's bound and the noise of displacements are, too.
+using Primitives = detail::Concat<TypeList<BoundingBox, FractalNoise>, detail::OnlyPrimitives<PlainFields>::type>::type;
 /// The maps of space, each one instruction.
 using PointMaps = detail::Concat<TypeList<ClampToBox>, detail::Map<detail::MapOf, Warps>::type>::type;
 

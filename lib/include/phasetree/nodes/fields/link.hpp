@@ -1,0 +1,37 @@
+#pragma once
+
+#include "phasetree/nodes/fields/profile.hpp"
+
+namespace phasetree {
+
+/// A torus cut in two and moved apart along y, with straight rods between. The centre line's nearest point to p with
+/// |py| ≤ l/2 is on a rod at p's own y, elsewhere on a half circle about (0, ±l/2, 0); both are the torus' equation
+/// once y is shortened by what the rods take.
+struct Link {
+    static constexpr bool is_field_node = true;
+    static constexpr NodeInfo info{"link", "", "y = max(|py| − l/2, 0);  |(|(px, y)| − R, pz)| − r",
+                                   "A link of a chain in the xy plane, long along y; exact where the rod is not wider "
+                                   "than the ring."};
+    float length = 1;
+    float major = 0.5f;
+    float minor = 0.15f;
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&Link::length, Parameter{"length", "m", "Length of the straight part.", limits::non_negative});
+        v(&Link::major, Parameter{"major", "m", "Radius of the half rings' centre line.", limits::positive});
+        v(&Link::minor, Parameter{"minor", "m", "Radius of the rod.", limits::positive});
+    }
+    template <class T>
+    T distance(const Vec3<T>& p) const {
+        const T y = max(abs(p.y) - length * 0.5f, T(0.f));
+        return phasetree::length(phasetree::length(p.x, y) - major, p.z) - minor;
+    }
+    Bounds bounds(BoundsQuery&, float level) const {
+        const float r = minor + level;
+        if (r < 0) return {};
+        return Bounds::centred({major + r, length * 0.5f + major + r, r});
+    }
+};
+
+}  // namespace phasetree

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "phasetree/nodes/fields/profile.hpp"
+
+namespace phasetree {
+
+/// The ball's part above z = c. Its boundary in (ρ, z), ρ = |pxy|, is the disk ρ ≤ w = √(r² − c²) at z = c and the arc
+/// above it. The nearest point of the whole circle, r p/|p|, is on that arc where r pz ≥ c|p|; elsewhere the nearest
+/// of the arc is the rim, which belongs to the disk too, so the disk alone decides.
+struct SphericalCap {
+    static constexpr bool is_field_node = true;
+    static constexpr NodeInfo info{"spherical_cap", "", "± min(distance to the disk, ||p| − r| where r pz ≥ c |p|)",
+                                   "What a plane leaves of a ball about the origin: the part above z = c; exact."};
+    float radius = 1;
+    float cut = 0;
+    float rim = 1;  ///< radius of the disk, derived
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&SphericalCap::radius, Parameter{"radius", "m", "Radius of the ball.", limits::positive});
+        v(&SphericalCap::cut,
+          Parameter{"cut", "m", "Height z of the plane; 0 leaves a hemisphere.", limits::any, true});
+    }
+    void prepare() {
+        detail::require_usable(info.name, {radius});
+        if (!(std::abs(cut) < radius)) throw ModelError("spherical_cap: the plane does not cut the ball");
+        rim = std::sqrt((radius - cut) * (radius + cut));
+    }
+    template <class T>
+    T distance(const Vec3<T>& p) const {
+        const T rho = length(p.x, p.y), from_centre = length(p);
+        const T to_ball = from_centre - radius, below = cut - p.z;
+        const T to_disk = length(max(rho - rim, T(0.f)), below);
+        const T d = select(less(p.z * radius, from_centre * cut), to_disk, min(to_disk, abs(to_ball)));
+        return select(less(max(to_ball, below), T(0.f)), -d, d);
+    }
+    Bounds bounds(BoundsQuery&, float level) const {
+        const float side = cut > 0 ? rim : radius;
+        return Bounds{{-side, -side, cut}, {side, side, radius}}.inflated(level);
+    }
+};
+
+}  // namespace phasetree

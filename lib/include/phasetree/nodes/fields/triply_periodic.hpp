@@ -1,0 +1,43 @@
+#pragma once
+
+#include "phasetree/nodes/fields/profile.hpp"
+
+/// What the triply periodic sheets share. g is a trigonometric polynomial of k·p, k = 2π/period, whose zero set
+/// is near a minimal surface. For each of them sup‖∇g‖ = √3 (in units of k; the proof is at the node), so
+///     f = |g(k p)|/(√3 k) − t/2
+/// is 1-Lipschitz, and the wall is nowhere thinner than t, for f changes by t/2 over a distance of t/2 at least.
+namespace phasetree::detail {
+
+/// Sine and cosine of the three angles k·p; whole periods are taken off first, so that any p will do.
+template <class T>
+struct Angles {
+    SineCosine<T> x, y, z;
+};
+template <class T>
+Angles<T> angles(const Vec3<T>& p, float period) {
+    const auto of = [inverse = 1.f / period](const T& v) {
+        const T turns = v * inverse;
+        return sine_cosine((turns - floor(turns)) * 6.2831853f);
+    };
+    return {of(p.x), of(p.y), of(p.z)};
+}
+
+/// 1/(√3 k).
+inline float sheet_scale(float period) {
+    return period * 0.09188814f;
+}
+
+inline constexpr Parameter sheet_period{"period", "m", "Edge of the cube that repeats.", limits::positive};
+inline constexpr Parameter sheet_thickness{"thickness", "m", "Least thickness of the wall.", limits::positive};
+
+/// `most`: the largest value of |g|.
+inline void check_sheet(std::string_view node, float period, float thickness, float most) {
+    require_usable(node, {period, thickness});
+    if (thickness * 0.5f >= most * sheet_scale(period))
+        throw ModelError(std::string(node) + ": the wall is so thick that it fills all space");
+}
+inline Bounds sheet_bounds(float thickness, float level) {
+    return thickness * 0.5f + level < 0 ? Bounds() : Bounds::everything();
+}
+
+}  // namespace phasetree::detail
