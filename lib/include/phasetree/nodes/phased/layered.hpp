@@ -28,7 +28,10 @@ struct Layered {
         a.set(0, outside + thickness);
         return a;
     }
-    PhaseSet phases() const { return phasetree::phases(of) | PhaseSet::of(phase); }
+    PhaseSet phases() const {
+        const PhaseSet there = phasetree::phases(of);
+        return there.contains(vacuum) ? there | PhaseSet::of(phase) : there;
+    }
     Bounds bounds(BoundsQuery& q, float level) const { return q(of, level + thickness); }
 };
 
