@@ -124,7 +124,14 @@ void fill(Random& rng, Value& value, const Parameter& p, int depth) {
     } else {
         // Mostly two or three, now and then the single child that a fold over the rest must survive.
         value.resize(static_cast<std::size_t>(rng.chance(0.1) ? 1 : 2 + rng.below(2)));
-        for (auto& child : value) draw(child);
+        using Entry = typename Value::value_type;
+        if constexpr (std::is_same_v<Entry, Field> || std::is_same_v<Entry, Phased>) {
+            for (auto& child : value) draw(child);
+        } else {
+            Parameter each = p;
+            each.optional = false;
+            for (auto& v : value) fill<Node>(rng, v, each, depth);
+        }
     }
 }
 

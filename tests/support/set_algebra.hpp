@@ -636,6 +636,40 @@ inline Phase region(const Interfaces& n, const dvec3& p) {
     return vacuum;
 }
 
+/// Counted by walking from cube to cube: each step changes the phase.
+inline Phase region(const Checker& n, const dvec3& p) {
+    bool even = true;
+    for (int i = 0; i < 3; ++i) {
+        const auto steps = static_cast<long long>(std::floor((p[i] - n.origin[i]) / n.size));
+        even = even == (((steps % 2) + 2) % 2 == 0);
+    }
+    return even ? n.even : n.odd;
+}
+/// Which layer of the listed ones a height above the first one's beginning is in.
+template <class N>
+Phase layer_at(const N& n, double height) {
+    std::size_t i = 0;
+    while (i + 1 < n.of_phases.size() && height >= n.thicknesses[n.thicknesses.size() == 1 ? 0 : i])
+        height -= n.thicknesses[n.thicknesses.size() == 1 ? 0 : i++];
+    return n.of_phases[i];
+}
+template <class N>
+double along(const N& n, const dvec3& p) {
+    return glm::dot(p, glm::normalize(dvec3(n.direction))) - n.offset;
+}
+inline double period(const Layers& n) {
+    double sum = 0;
+    for (std::size_t i = 0; i < n.of_phases.size(); ++i) sum += n.thicknesses[n.thicknesses.size() == 1 ? 0 : i];
+    return sum;
+}
+inline Phase region(const Layers& n, const dvec3& p) {
+    const double height = along(n, p);
+    return layer_at(n, height - period(n) * std::floor(height / period(n)));
+}
+inline Phase region(const Strata& n, const dvec3& p) {
+    return layer_at(n, along(n, p));
+}
+
 // Objects: Φ as numbers. With infinite absent phases the equations of the table hold without a special case.
 
 inline Components components(const Set& n, const dvec3& p) {
@@ -812,6 +846,45 @@ inline Components components(const Interfaces& n, const dvec3& p) {
         if (a[i] < absent) a[i] = std::max(a[i], s);
     a[0] = std::min(a[0], -s);
     return a;
+}
+
+inline Components components(const Checker& n, const dvec3& p) {
+    double face = absent;
+    for (int i = 0; i < 3; ++i) face = std::min(face, std::abs(std::remainder(p[i] - n.origin[i], n.size)));
+    Components r;
+    const bool even = region(n, p) == n.even;
+    r[n.even.index] = even ? -face : face;
+    r[n.odd.index] = even ? face : -face;
+    return r;
+}
+/// The signed distance to an interval, over those of the listed layers in a few periods.
+inline void fill_layer(Components& r, Phase k, double height, double low, double high) {
+    r[k.index] = std::min(r[k.index], std::max(low - height, height - high));
+}
+inline Components components(const Layers& n, const dvec3& p) {
+    Components r;
+    const double P = period(n), height = std::remainder(along(n, p), P);
+    for (int repeat = -2; repeat <= 2; ++repeat) {
+        double low = repeat * P;
+        for (std::size_t i = 0; i < n.of_phases.size(); ++i) {
+            const double t = n.thicknesses[n.thicknesses.size() == 1 ? 0 : i];
+            fill_layer(r, n.of_phases[i], height, low, low + t);
+            low += t;
+        }
+    }
+    return r;
+}
+inline Components components(const Strata& n, const dvec3& p) {
+    Components r;
+    double low = -absent;
+    double top = 0;
+    for (std::size_t i = 0; i < n.of_phases.size(); ++i) {
+        const bool last = i + 1 == n.of_phases.size();
+        if (!last) top += n.thicknesses[n.thicknesses.size() == 1 ? 0 : i];
+        fill_layer(r, n.of_phases[i], along(n, p), low, last ? absent : top);
+        low = top;
+    }
+    return r;
 }
 
 // Warps. λ is the node's choice, which the tests of slopes hold to be large enough.

@@ -197,6 +197,12 @@ class Reader {
                 throw document_.error(value, fmt::format("{} must be a list, but is {}", what, name_of(value.kind())));
             if (value.size() == 0) throw document_.error(value, fmt::format("{} must not be empty", what));
             for (const Value item : value) target.push_back(read<typename T::value_type>(item));
+        } else if constexpr (std::is_same_v<T, std::vector<float>> || std::is_same_v<T, std::vector<glm::vec3>> ||
+                             std::is_same_v<T, std::vector<Phase>>) {
+            if (!value.is_array())
+                throw document_.error(value, fmt::format("{} must be a list, but is {}", what, name_of(value.kind())));
+            if (value.size() == 0) throw document_.error(value, fmt::format("{} must not be empty", what));
+            for (const Value item : value) read_value(target.emplace_back(), item, p);
         } else if constexpr (std::is_same_v<T, Phase>) {
             target = phase(value, what);
         } else if constexpr (std::is_same_v<T, std::vector<Phase>>) {

@@ -39,6 +39,7 @@
 #include "phasetree/nodes/fields/union.hpp"
 #include "phasetree/nodes/fields/wedge.hpp"
 #include "phasetree/nodes/phased/change.hpp"
+#include "phasetree/nodes/phased/checker.hpp"
 #include "phasetree/nodes/phased/contact.hpp"
 #include "phasetree/nodes/phased/contacts.hpp"
 #include "phasetree/nodes/phased/interface.hpp"
@@ -46,6 +47,7 @@
 #include "phasetree/nodes/phased/intersect_shape.hpp"
 #include "phasetree/nodes/phased/layered.hpp"
 #include "phasetree/nodes/phased/layered_sequence.hpp"
+#include "phasetree/nodes/phased/layers.hpp"
 #include "phasetree/nodes/phased/over.hpp"
 #include "phasetree/nodes/phased/remove.hpp"
 #include "phasetree/nodes/phased/set.hpp"
@@ -54,6 +56,7 @@
 #include "phasetree/nodes/phased/smooth_subtract_shape.hpp"
 #include "phasetree/nodes/phased/smooth_unite_shape.hpp"
 #include "phasetree/nodes/phased/smooth_unite_shape_below.hpp"
+#include "phasetree/nodes/phased/strata.hpp"
 #include "phasetree/nodes/phased/subtract_shape.hpp"
 #include "phasetree/nodes/phased/thin_shell.hpp"
 #include "phasetree/nodes/phased/under.hpp"
@@ -72,9 +75,10 @@ using PlainFields = TypeList<Sphere, Box, RoundedBox, Cylinder, CappedCone, Caps
                              Ellipsoid, CappedTorus, Link, Tube, RoundedCylinder, RoundCone, SphericalCap, Prism, Wedge,
                              Pyramid, Octahedron, Tetrahedron, Gyroid, SchwarzP, SchwarzD, Displace>;
 
-using Objects = TypeList<Set, ThinShell, Under, Over, Layered, IntersectShape, SubtractShape, Change, Remove, Contact,
-                         Contacts, LayeredSequence, SmoothLayered, UniteShapeBelow, SmoothUniteShape,
-                         SmoothUniteShapeBelow, SmoothIntersectShape, SmoothSubtractShape, Interface, Interfaces>;
+using Objects =
+    TypeList<Set, ThinShell, Under, Over, Layered, IntersectShape, SubtractShape, Change, Remove, Contact, Contacts,
+             LayeredSequence, SmoothLayered, UniteShapeBelow, SmoothUniteShape, SmoothUniteShapeBelow,
+             SmoothIntersectShape, SmoothSubtractShape, Interface, Interfaces, Checker, Layers, Strata>;
 
 // What follows is derived.
 
@@ -102,6 +106,29 @@ struct OnlyPrimitives<TypeList<Ts...>>
     : Concat<TypeList<>, std::conditional_t<Primitive<Ts>, TypeList<Ts>, TypeList<>>...> {};
 
 template <class List>
+struct OnlyPointMaps;
+template <class... Ts>
+struct OnlyPointMaps<TypeList<Ts...>>
+    : Concat<TypeList<>, std::conditional_t<PointMap<Ts>, TypeList<Ts>, TypeList<>>...> {};
+
+/// The instructions of its own that a node names: `using Parts = TypeList<…>` of primitives and maps of space.
+template <class N>
+struct PartsOf {
+    using type = TypeList<>;
+};
+template <class N>
+requires requires {
+    typename N::Parts;
+}
+struct PartsOf<N> {
+    using type = typename N::Parts;
+};
+template <class List>
+struct AllParts;
+template <class... Ts>
+struct AllParts<TypeList<Ts...>> : Concat<TypeList<>, typename PartsOf<Ts>::type...> {};
+
+template <class List>
 struct Variant;
 template <class... Ts>
 struct Variant<TypeList<Ts...>> {
@@ -115,10 +142,15 @@ using MapOf = typename W::Map;
 using FieldNodes = detail::Concat<PlainFields, detail::Map<WarpedField, Warps>::type>::type;
 using PhasedNodes = detail::Concat<Objects, detail::Map<WarpedPhased, Warps>::type>::type;
 
-/// The primitives, each one instruction of the program; a local warp's bound and the noise of displacements are, too.
-using Primitives = detail::Concat<TypeList<BoundingBox, FractalNoise>, detail::OnlyPrimitives<PlainFields>::type>::type;
+/// The primitives, each one instruction of the program; so are a local warp's bound, the noise of displacements and
+/// nodes' parts.
+using Primitives = detail::Concat<TypeList<BoundingBox, FractalNoise>, detail::OnlyPrimitives<PlainFields>::type,
+                                  detail::OnlyPrimitives<detail::AllParts<FieldNodes>::type>::type,
+                                  detail::OnlyPrimitives<detail::AllParts<PhasedNodes>::type>::type>::type;
 /// The maps of space, each one instruction.
-using PointMaps = detail::Concat<TypeList<ClampToBox>, detail::Map<detail::MapOf, Warps>::type>::type;
+using PointMaps = detail::Concat<TypeList<ClampToBox>, detail::Map<detail::MapOf, Warps>::type,
+                                 detail::OnlyPointMaps<detail::AllParts<FieldNodes>::type>::type,
+                                 detail::OnlyPointMaps<detail::AllParts<PhasedNodes>::type>::type>::type;
 
 /// Calls f.template operator()<T>() for each type of a list.
 template <class... Ts, class F>

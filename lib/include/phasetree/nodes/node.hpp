@@ -79,6 +79,12 @@ void check(const std::vector<Item>& list, std::string_view node, const Parameter
     }
 }
 inline void check(PhaseSet, std::string_view, const Parameter&) {}
+template <class Value>
+requires(std::is_same_v<Value, float> || std::is_same_v<Value, glm::vec3> || std::is_same_v<Value, Phase>)
+void check(const std::vector<Value>& list, std::string_view node, const Parameter& p) {
+    require(p.optional || !list.empty(), node, p, "must not be empty");
+    for (const Value& v : list) check(v, node, p);
+}
 
 template <class Node>
 std::size_t checked_depth(Node& node) {

@@ -25,7 +25,7 @@ struct IntersectShape {
         const auto a = d.phases(of, p);
         return detail::cut(a, d.field(shape, p), phases_cut);
     }
-    PhaseSet phases() const { return phasetree::phases(of) | PhaseSet::of(vacuum); }
+    PhaseSet phases() const { return detail::phases_after_cut(phasetree::phases(of), phases_cut); }
     Bounds bounds(BoundsQuery& q, float level) const {
         const bool all = phases_cut.empty() || (phasetree::phases(of).bits & ~std::uint64_t{1} & ~phases_cut.bits) == 0;
         return all ? intersect(q(of, level), q(shape, level)) : q(of, level);

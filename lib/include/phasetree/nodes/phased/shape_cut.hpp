@@ -27,6 +27,11 @@ Phases<S> cut(const Phases<S>& a, const S& kept, PhaseSet chosen) {
     return result;
 }
 
+/// Where nothing is cut, an object that fills space stays one.
+inline PhaseSet phases_after_cut(PhaseSet there, PhaseSet chosen) {
+    return chosen.empty() || (there.bits & chosen.bits & ~std::uint64_t{1}) != 0 ? there | PhaseSet::of(vacuum) : there;
+}
+
 inline constexpr Parameter cut_object{"of", "", "The object."};
 inline constexpr Parameter cut_phases{"phases", "", "The phases that are cut; all if left out.", limits::any, true};
 

@@ -23,7 +23,7 @@ struct SubtractShape {
         const auto a = d.phases(of, p);
         return detail::cut(a, -d.field(shape, p), phases_cut);
     }
-    PhaseSet phases() const { return phasetree::phases(of) | PhaseSet::of(vacuum); }
+    PhaseSet phases() const { return detail::phases_after_cut(phasetree::phases(of), phases_cut); }
     Bounds bounds(BoundsQuery& q, float level) const { return q(of, level); }
 };
 

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <vector>
+
+#include "phasetree/nodes/fields/plane.hpp"
+
+namespace phasetree {
+
+/// A phase that is listed several times is the union of its layers.
+struct Strata {
+    static constexpr bool is_phased_node = true;
+    static constexpr NodeInfo info{"strata", "9.1", "φₖ = max(hₖ₋₁ − u, u − hₖ),  u = p·n − o,  hₖ = t₁ + … + tₖ",
+                                   "Parallel layers of several phases, filling space: the first and the last have no "
+                                   "end."};
+    std::vector<Phase> of_phases{};
+    std::vector<float> thicknesses{};
+    glm::vec3 direction{0, 0, 1};
+    float offset = 0;
+    std::vector<float> heights{};  ///< hₖ from the first layer's top on, derived
+    Plane base{};                  ///< u, derived
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&Strata::of_phases, Parameter{"phases", "", "The phases in their order, two or more."});
+        v(&Strata::thicknesses,
+          Parameter{"thicknesses", "m",
+                    "The layers' thicknesses, the last layer's left out; one number stands for all.",
+                    limits::positive});
+        v(&Strata::direction,
+          Parameter{"direction", "", "Where the layers follow each other; any length but zero.", limits::any, true});
+        v(&Strata::offset, Parameter{"offset", "m", "From where along it the first layer is measured, from the origin.",
+                                     limits::any, true});
+    }
+    void prepare() {
+        if (of_phases.size() < 2) throw ModelError("strata: two phases at least are needed");
+        if (thicknesses.size() != 1 && thicknesses.size() + 1 != of_phases.size())
+            throw ModelError("strata: one thickness less than phases is needed, or one for all");
+        if (!(glm::length(direction) > 0)) throw ModelError("strata: the direction has no direction");
+        base = Plane{.normal = direction, .offset = offset};
+        base.prepare();
+        heights.clear();
+        double height = 0;
+        for (std::size_t i = 0; i + 1 < of_phases.size(); ++i) {
+            height += thicknesses[thicknesses.size() == 1 ? 0 : i];
+            heights.push_back(static_cast<float>(height));
+        }
+        if (!std::isfinite(heights.back())) throw ModelError("strata: the thicknesses are too large");
+    }
+    template <class D>
+    Phases<typename D::Scalar> evaluate(D& d, const typename D::Point& p) const {
+        const auto u = d.primitive(base, p);
+        Phases<typename D::Scalar> result;
+        for (std::size_t i = 0; i < of_phases.size(); ++i) {
+            const auto f = i == 0                ? u - heights.front()
+                           : i == heights.size() ? heights.back() - u
+                                                 : max(heights[i - 1] - u, u - heights[i]);
+            const int k = of_phases[i].index;
+            result.set(k, result.has(k) ? min(result[k], f) : f);
+        }
+        return result;
+    }
+    PhaseSet phases() const {
+        PhaseSet all;
+        for (const Phase k : of_phases) all = all | PhaseSet::of(k);
+        return all;
+    }
+    Bounds bounds(BoundsQuery&, float) const { return Bounds::everything(); }
+};
+
+}  // namespace phasetree
