@@ -72,6 +72,41 @@ inline dvec3 back(const Twist& w, const dvec3& p) {
     const double a = -glm::radians(static_cast<double>(w.rate)) * p.z;
     return {p.x * std::cos(a) - p.y * std::sin(a), p.x * std::sin(a) + p.y * std::cos(a), p.z};
 }
+inline dvec3 back(const Stretch& w, const dvec3& p) {
+    return p / dvec3(w.factors);
+}
+inline dvec3 back(const Mirror& w, const dvec3& p) {
+    const dvec3 n = glm::normalize(dvec3(w.normal));
+    return glm::dot(p, n) < 0 ? glm::reflect(p, n) : p;
+}
+/// Beyond the apex is nowhere.
+inline dvec3 back(const Taper& w, const dvec3& p) {
+    const double s = 1 + static_cast<double>(w.rate) * p.z;
+    return s > 0 ? dvec3(p.x / s, p.y / s, p.z) : dvec3(1e9);
+}
+/// About the centre of the arc, which is at height 1/k.
+inline dvec3 back(const Bend& w, const dvec3& p) {
+    const double k = glm::radians(static_cast<double>(w.rate));
+    if (std::abs(k) < 1e-12) return p;
+    const double centre = 1 / k, sign = k > 0 ? 1 : -1;
+    const double r = std::hypot(p.x, centre - p.z), angle = std::atan2(p.x, sign * (centre - p.z));
+    return {angle / std::abs(k), p.y, sign * (std::abs(centre) - r)};
+}
+
+// Where a local warp's bounds reach beyond what it warps, the map is the node's choice.
+
+inline dvec3 extended(const Taper& w, const dvec3& p) {
+    const dvec3 q = back(w, p);
+    return {std::clamp<double>(q.x, w.inverse.low_x, w.inverse.high_x),
+            std::clamp<double>(q.y, w.inverse.low_y, w.inverse.high_y), q.z};
+}
+inline dvec3 extended(const Bend& w, const dvec3& p) {
+    dvec3 q = back(w, p);
+    if (w.inverse.k == 0) return q;
+    const double sign = w.inverse.side, near = w.inverse.near, r = 1 - w.inverse.k * sign * q.z;
+    if (r < near) return {q.x * r / near, q.y, sign * w.inverse.highest};
+    return q;
+}
 
 // Primitives: membership.
 
@@ -645,12 +680,15 @@ inline Phase region(const Checker& n, const dvec3& p) {
     }
     return even ? n.even : n.odd;
 }
+template <class N>
+double thickness(const N& n, std::size_t i) {
+    return n.thicknesses.size() == 1 ? n.thicknesses[0] : n.thicknesses[i];
+}
 /// Which layer of the listed ones a height above the first one's beginning is in.
 template <class N>
 Phase layer_at(const N& n, double height) {
     std::size_t i = 0;
-    while (i + 1 < n.of_phases.size() && height >= n.thicknesses[n.thicknesses.size() == 1 ? 0 : i])
-        height -= n.thicknesses[n.thicknesses.size() == 1 ? 0 : i++];
+    for (; i + 1 < n.of_phases.size() && height >= thickness(n, i); ++i) height -= thickness(n, i);
     return n.of_phases[i];
 }
 template <class N>
@@ -659,7 +697,7 @@ double along(const N& n, const dvec3& p) {
 }
 inline double period(const Layers& n) {
     double sum = 0;
-    for (std::size_t i = 0; i < n.of_phases.size(); ++i) sum += n.thicknesses[n.thicknesses.size() == 1 ? 0 : i];
+    for (std::size_t i = 0; i < n.of_phases.size(); ++i) sum += thickness(n, i);
     return sum;
 }
 inline Phase region(const Layers& n, const dvec3& p) {
@@ -867,7 +905,7 @@ inline Components components(const Layers& n, const dvec3& p) {
     for (int repeat = -2; repeat <= 2; ++repeat) {
         double low = repeat * P;
         for (std::size_t i = 0; i < n.of_phases.size(); ++i) {
-            const double t = n.thicknesses[n.thicknesses.size() == 1 ? 0 : i];
+            const double t = thickness(n, i);
             fill_layer(r, n.of_phases[i], height, low, low + t);
             low += t;
         }
@@ -880,7 +918,7 @@ inline Components components(const Strata& n, const dvec3& p) {
     double top = 0;
     for (std::size_t i = 0; i < n.of_phases.size(); ++i) {
         const bool last = i + 1 == n.of_phases.size();
-        if (!last) top += n.thicknesses[n.thicknesses.size() == 1 ? 0 : i];
+        if (!last) top += thickness(n, i);
         fill_layer(r, n.of_phases[i], along(n, p), low, last ? absent : top);
         low = top;
     }
@@ -908,7 +946,11 @@ template <class N>
 dvec3 evaluated_at(const N& n, const dvec3& p) {
     if constexpr (LocalWarp<decltype(n.warp)>) {
         const dvec3 centre(n.bound.centre), half(n.bound.half);
-        return back(n.warp, glm::clamp(p, centre - half, centre + half));
+        const dvec3 within = glm::clamp(p, centre - half, centre + half);
+        if constexpr (requires { extended(n.warp, within); })
+            return extended(n.warp, within);
+        else
+            return back(n.warp, within);
     } else {
         return back(n.warp, p);
     }

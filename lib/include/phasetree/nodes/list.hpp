@@ -61,14 +61,18 @@
 #include "phasetree/nodes/phased/thin_shell.hpp"
 #include "phasetree/nodes/phased/under.hpp"
 #include "phasetree/nodes/phased/unite_shape_below.hpp"
+#include "phasetree/nodes/warps/bend.hpp"
+#include "phasetree/nodes/warps/mirror.hpp"
 #include "phasetree/nodes/warps/rotate.hpp"
 #include "phasetree/nodes/warps/scale.hpp"
+#include "phasetree/nodes/warps/stretch.hpp"
+#include "phasetree/nodes/warps/taper.hpp"
 #include "phasetree/nodes/warps/translate.hpp"
 #include "phasetree/nodes/warps/twist.hpp"
 
 namespace phasetree {
 
-using Warps = TypeList<Translate, Rotate, Scale, Twist>;
+using Warps = TypeList<Translate, Rotate, Scale, Twist, Stretch, Mirror, Taper, Bend>;
 
 using PlainFields = TypeList<Sphere, Box, RoundedBox, Cylinder, CappedCone, Capsule, Torus, Plane, Union, Intersection,
                              Difference, SmoothUnion, SmoothIntersection, SmoothDifference, Offset, Shell, Merge,

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "phasetree/nodes/warps/warped.hpp"
+
+namespace phasetree {
+
+/// What lies where p·n < 0 gives way to the image of the other half. The map folds space along the plane: it is
+/// continuous and an isometry on either side, so λ = 1.
+struct Mirror {
+    static constexpr NodeInfo info{"mirror", "6", "φ(p − 2 min(p·n, 0) n)",
+                                   "Makes symmetric to a plane through the origin: the half that the normal points to "
+                                   "is kept and reflected."};
+    glm::vec3 normal{1, 0, 0};
+
+    struct Map {
+        glm::vec3 normal;
+        template <class T>
+        Vec3<T> operator()(const Vec3<T>& p) const {
+            const T twice = min(dot(p, normal), T(0.f)) * 2.f;
+            return {p.x - twice * normal.x, p.y - twice * normal.y, p.z - twice * normal.z};
+        }
+    };
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&Mirror::normal, Parameter{"normal", "",
+                                     "Direction that points into the half that is kept; any length but "
+                                     "zero.",
+                                     limits::any, true});
+    }
+    void prepare() {
+        const glm::dvec3 n(normal);
+        if (!(glm::length(n) > 0)) throw ModelError("mirror: the normal has no direction");
+        normal = glm::vec3(glm::normalize(n));
+    }
+    Map map() const { return {normal}; }
+    float value_scale() const { return 1; }
+    Bounds image(const Bounds& b) const {
+        const Bounds reflected =
+            image_of_corners(b, [&](const glm::vec3& p) { return p - 2 * glm::dot(p, normal) * normal; });
+        return unite(b, reflected.inflated(1e-6f * (b.finite() ? b.diagonal() + glm::length(b.centre()) : 0.f)));
+    }
+};
+
+}  // namespace phasetree

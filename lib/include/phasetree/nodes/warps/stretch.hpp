@@ -1,0 +1,34 @@
+#pragma once
+
+#include "phasetree/nodes/warps/warped.hpp"
+
+namespace phasetree {
+
+/// J of ω⁻¹ is diag(1/s), whose norm is one over the smallest factor everywhere.
+struct Stretch {
+    static constexpr NodeInfo info{"stretch", "6", "φ(x/sx, y/sy, z/sz) · min(sx, sy, sz)",
+                                   "Makes larger or smaller by a factor of its own along each axis."};
+    glm::vec3 factors{1};
+
+    struct Map {
+        glm::vec3 inverse;
+        template <class T>
+        Vec3<T> operator()(const Vec3<T>& p) const {
+            return {p.x * inverse.x, p.y * inverse.y, p.z * inverse.z};
+        }
+    };
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&Stretch::factors, Parameter{"factors", "", "The factors along x, y and z.", limits::positive});
+    }
+    void prepare() const {
+        for (int i = 0; i < 3; ++i)
+            if (!std::isfinite(1.f / factors[i])) throw ModelError("stretch: a factor is too small");
+    }
+    Map map() const { return {1.f / factors}; }
+    float value_scale() const { return std::min({factors.x, factors.y, factors.z}); }
+    Bounds image(const Bounds& b) const { return b.empty() ? b : Bounds{b.low * factors, b.high * factors}; }
+};
+
+}  // namespace phasetree
