@@ -175,6 +175,12 @@ auto chain(std::size_t depth) {
                 value = {};
             else if constexpr (std::is_same_v<Value, float>)
                 value = p.limits.contains(0.f) ? 0.f : p.unit == "m" ? 1e-4f : 1.f;
+            else if constexpr (std::is_same_v<Value, int>)
+                value = 1;  // one copy of a copy, else they are 2⁴⁰⁰
+            else if constexpr (std::is_same_v<Value, std::vector<glm::vec3>>)
+                value = {glm::vec3(0.001f)};
+            else if constexpr (std::is_same_v<Value, std::vector<float>>)
+                value = {1.f};
             else
                 phasetree::tests::detail::fill<Node>(rng, value, p, 1);
         });

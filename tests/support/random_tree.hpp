@@ -110,6 +110,8 @@ void fill(Random& rng, Value& value, const Parameter& p, int depth) {
     if (p.optional && rng.chance(0.3)) return;
     if constexpr (std::is_same_v<Value, float>) {
         value = random_number(rng, p);
+    } else if constexpr (std::is_same_v<Value, int>) {
+        value = 1 + rng.below(2);  // counts multiply, in a grid and down the tree
     } else if constexpr (std::is_same_v<Value, glm::vec3>) {
         for (int i = 0; i < 3; ++i) value[i] = random_number(rng, p);
     } else if constexpr (std::is_same_v<Value, Phase>) {

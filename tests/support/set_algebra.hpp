@@ -972,6 +972,79 @@ Components components(const WarpedPhased<W>& n, const dvec3& p) {
     return a;
 }
 
+// Copies: each is where its inverse transform leads into the child.
+
+struct Copy {
+    dvec3 by;
+    double turn, scale;  ///< turn in degrees
+
+    dvec3 back(const dvec3& p) const {
+        const double a = -glm::radians(turn);
+        const dvec3 q = p - by;
+        return dvec3(q.x * std::cos(a) - q.y * std::sin(a), q.x * std::sin(a) + q.y * std::cos(a), q.z) / scale;
+    }
+};
+template <class Child>
+std::vector<Copy> copies(const Instances<Child>& n) {
+    std::vector<Copy> all;
+    for (const glm::vec3& v : n.positions) {
+        const std::size_t i = all.size();
+        const double turn = n.turns.empty() ? 0 : n.turns[n.turns.size() == 1 ? 0 : i];
+        const double scale = n.scales.empty() ? 1 : n.scales[n.scales.size() == 1 ? 0 : i];
+        all.push_back({dvec3(v), turn, scale});
+    }
+    return all;
+}
+template <class Child>
+std::vector<Copy> copies(const PolarArray<Child>& n) {
+    std::vector<Copy> all;
+    for (int i = 0; i < n.count; ++i) all.push_back({dvec3(0), static_cast<double>(n.angle) * i / n.count, 1});
+    return all;
+}
+/// The last along z is the last of all, then along y.
+template <class Child>
+std::vector<Copy> copies(const Grid<Child>& n) {
+    std::vector<Copy> all;
+    for (int i = 0; i < n.count_x * n.count_y * n.count_z; ++i) {
+        const dvec3 index(i % n.count_x, i / n.count_x % n.count_y, i / (n.count_x * n.count_y));
+        all.push_back({index * dvec3(n.spacing), 0, 1});
+    }
+    return all;
+}
+template <class N>
+concept IsCopies = requires(const N& n) {
+    copies(n);
+};
+
+template <IsCopies N>
+bool member(const N& n, const dvec3& p) {
+    const auto all = copies(n);
+    return std::any_of(all.begin(), all.end(), [&](const Copy& c) { return inside(n.of, c.back(p)); });
+}
+template <IsCopies N>
+double signed_value(const N& n, const dvec3& p) {
+    double result = absent;
+    for (const Copy& c : copies(n)) result = std::min(result, value(n.of, c.back(p)) * c.scale);
+    return result;
+}
+template <IsCopies N>
+Phase region(const N& n, const dvec3& p) {
+    Phase result = vacuum;
+    for (const Copy& c : copies(n))
+        if (const Phase l = label(n.of, c.back(p)); l != vacuum) result = l;
+    return result;
+}
+template <IsCopies N>
+Components components(const N& n, const dvec3& p) {
+    std::optional<Components> result;
+    for (const Copy& c : copies(n)) {
+        Components a = values(n.of, c.back(p));
+        for (double& v : a.phi) v *= c.scale;
+        result = result ? replaced(*result, a) : a;
+    }
+    return *result;
+}
+
 }  // namespace oracle
 
 inline bool inside(const Field& f, const glm::dvec3& p) {

@@ -5,6 +5,9 @@
 
 #include <variant>
 
+#include "phasetree/nodes/copies/grid.hpp"
+#include "phasetree/nodes/copies/instances.hpp"
+#include "phasetree/nodes/copies/polar_array.hpp"
 #include "phasetree/nodes/fields/box.hpp"
 #include "phasetree/nodes/fields/capped_cone.hpp"
 #include "phasetree/nodes/fields/capped_torus.hpp"
@@ -74,15 +77,16 @@ namespace phasetree {
 
 using Warps = TypeList<Translate, Rotate, Scale, Twist, Stretch, Mirror, Taper, Bend>;
 
-using PlainFields = TypeList<Sphere, Box, RoundedBox, Cylinder, CappedCone, Capsule, Torus, Plane, Union, Intersection,
-                             Difference, SmoothUnion, SmoothIntersection, SmoothDifference, Offset, Shell, Merge,
-                             Ellipsoid, CappedTorus, Link, Tube, RoundedCylinder, RoundCone, SphericalCap, Prism, Wedge,
-                             Pyramid, Octahedron, Tetrahedron, Gyroid, SchwarzP, SchwarzD, Displace>;
+using PlainFields =
+    TypeList<Sphere, Box, RoundedBox, Cylinder, CappedCone, Capsule, Torus, Plane, Union, Intersection, Difference,
+             SmoothUnion, SmoothIntersection, SmoothDifference, Offset, Shell, Merge, Ellipsoid, CappedTorus, Link,
+             Tube, RoundedCylinder, RoundCone, SphericalCap, Prism, Wedge, Pyramid, Octahedron, Tetrahedron, Gyroid,
+             SchwarzP, SchwarzD, Displace, FieldInstances, FieldPolarArray, FieldGrid>;
 
-using Objects =
-    TypeList<Set, ThinShell, Under, Over, Layered, IntersectShape, SubtractShape, Change, Remove, Contact, Contacts,
-             LayeredSequence, SmoothLayered, UniteShapeBelow, SmoothUniteShape, SmoothUniteShapeBelow,
-             SmoothIntersectShape, SmoothSubtractShape, Interface, Interfaces, Checker, Layers, Strata>;
+using Objects = TypeList<Set, ThinShell, Under, Over, Layered, IntersectShape, SubtractShape, Change, Remove, Contact,
+                         Contacts, LayeredSequence, SmoothLayered, UniteShapeBelow, SmoothUniteShape,
+                         SmoothUniteShapeBelow, SmoothIntersectShape, SmoothSubtractShape, Interface, Interfaces,
+                         Checker, Layers, Strata, PhasedInstances, PhasedPolarArray, PhasedGrid>;
 
 // What follows is derived.
 

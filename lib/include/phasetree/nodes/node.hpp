@@ -56,6 +56,10 @@ inline void check(float v, std::string_view node, const Parameter& p) {
     require(std::isfinite(v), node, p, "must be a finite number");
     if (!p.limits.contains(v)) require(false, node, p, fmt::format("must be {}, but is {}", describe(p.limits), v));
 }
+inline void check(int v, std::string_view node, const Parameter& p) {
+    if (!p.limits.contains(static_cast<float>(v)))
+        require(false, node, p, fmt::format("must be {}, but is {}", describe(p.limits), v));
+}
 inline void check(const glm::vec3& v, std::string_view node, const Parameter& p) {
     for (int i = 0; i < 3; ++i) check(v[i], node, p);
 }
@@ -80,8 +84,9 @@ void check(const std::vector<Item>& list, std::string_view node, const Parameter
 }
 inline void check(PhaseSet, std::string_view, const Parameter&) {}
 template <class Value>
-requires(std::is_same_v<Value, float> || std::is_same_v<Value, glm::vec3> || std::is_same_v<Value, Phase>)
-void check(const std::vector<Value>& list, std::string_view node, const Parameter& p) {
+requires(std::is_same_v<Value, float> || std::is_same_v<Value, glm::vec3> ||
+         std::is_same_v<Value, Phase>) void check(const std::vector<Value>& list, std::string_view node,
+                                                  const Parameter& p) {
     require(p.optional || !list.empty(), node, p, "must not be empty");
     for (const Value& v : list) check(v, node, p);
 }

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "phasetree/nodes/copies/placed.hpp"
+
+namespace phasetree {
+
+template <class Child>
+struct Grid : Copies<Child> {
+    static constexpr NodeInfo info{
+        "grid", "", "min over i, j, k of φ(p − (i dx, j dy, k dz)); of objects, the later over the earlier",
+        "Copies in rows along x, y and z; the first stays where it is. They may overlap."};
+    glm::vec3 spacing{1};
+    int count_x = 1, count_y = 1, count_z = 1;
+
+    template <class V>
+    static void parameters(V&& v) {
+        constexpr Limits counts{.low = 1, .high = 10000};
+        v(&Grid::of, detail::copied);
+        v(&Grid::spacing, Parameter{"spacing", "m", "From one copy to the next along x, y and z."});
+        v(&Grid::count_x, Parameter{"count_x", "", "How many along x.", counts, true});
+        v(&Grid::count_y, Parameter{"count_y", "", "How many along y.", counts, true});
+        v(&Grid::count_z, Parameter{"count_z", "", "How many along z.", counts, true});
+    }
+    void prepare() {
+        if (static_cast<double>(count_x) * count_y * count_z > detail::most_copies)
+            throw ModelError("grid: too many copies");
+        this->placements.clear();
+        for (int k = 0; k < count_z; ++k)
+            for (int j = 0; j < count_y; ++j)
+                for (int i = 0; i < count_x; ++i) {
+                    const glm::vec3 by = spacing * glm::vec3(glm::ivec3(i, j, k));
+                    if (!(glm::length(by) < 1e9f)) throw ModelError("grid: the spacing is too large");
+                    this->placements.push_back(Placement::at(by, 0, 1));
+                }
+    }
+};
+
+struct FieldGrid : Grid<Field> {
+    static constexpr bool is_field_node = true;
+};
+struct PhasedGrid : Grid<Phased> {
+    static constexpr bool is_phased_node = true;
+};
+
+}  // namespace phasetree

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "phasetree/nodes/copies/placed.hpp"
+
+namespace phasetree {
+
+template <class Child>
+struct Instances : Copies<Child> {
+    static constexpr NodeInfo info{"instances", "",
+                                   "min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); of objects, the later over the earlier",
+                                   "Copies at listed positions, each turned about the z axis and scaled if that is "
+                                   "listed too."};
+    std::vector<glm::vec3> positions{};
+    std::vector<float> turns{};
+    std::vector<float> scales{};
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&Instances::of, detail::copied);
+        v(&Instances::positions, Parameter{"positions", "m", "Where the copies' origins go."});
+        v(&Instances::turns, Parameter{"turns", "degrees",
+                                       "Angle of each copy about its own z axis; one number stands "
+                                       "for all.",
+                                       limits::any, true});
+        v(&Instances::scales,
+          Parameter{"scales", "", "Factor of each copy's size; one number stands for all.", limits::positive, true});
+    }
+    void prepare() {
+        if (positions.size() > static_cast<std::size_t>(detail::most_copies))
+            throw ModelError("instances: too many positions");
+        const auto fits = [&](const std::vector<float>& list) {
+            return list.size() <= 1 || list.size() == positions.size();
+        };
+        if (!fits(turns) || !fits(scales))
+            throw ModelError("instances: \"turns\" and \"scales\" need an entry for each position, or one for all");
+        const auto entry = [](const std::vector<float>& list, std::size_t i, float otherwise) {
+            return list.empty() ? otherwise : list.size() == 1 ? list[0] : list[i];
+        };
+        this->placements.clear();
+        for (std::size_t i = 0; i < positions.size(); ++i)
+            this->placements.push_back(Placement::at(positions[i], entry(turns, i, 0), entry(scales, i, 1)));
+    }
+};
+
+struct FieldInstances : Instances<Field> {
+    static constexpr bool is_field_node = true;
+};
+struct PhasedInstances : Instances<Phased> {
+    static constexpr bool is_phased_node = true;
+};
+
+}  // namespace phasetree

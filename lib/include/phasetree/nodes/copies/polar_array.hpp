@@ -1,0 +1,38 @@
+#pragma once
+
+#include "phasetree/nodes/copies/placed.hpp"
+
+namespace phasetree {
+
+template <class Child>
+struct PolarArray : Copies<Child> {
+    static constexpr NodeInfo info{"polar_array", "",
+                                   "min over i < n of φ(R(−i a/n) p); of objects, the later over the earlier",
+                                   "Copies turned about the z axis by equal angles."};
+    int count = 6;
+    float angle = 360;
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&PolarArray::of, detail::copied);
+        v(&PolarArray::count, Parameter{"count", "", "How many.", {.low = 1, .high = 10000}});
+        v(&PolarArray::angle,
+          Parameter{"angle", "degrees", "What they share: copy i is turned by i/count of it. Default: all around.",
+                    limits::any, true});
+    }
+    void prepare() {
+        this->placements.clear();
+        for (int i = 0; i < count; ++i)
+            this->placements.push_back(
+                Placement::at(glm::vec3(0), std::fmod(static_cast<double>(angle), 360.0 * count) * i / count, 1));
+    }
+};
+
+struct FieldPolarArray : PolarArray<Field> {
+    static constexpr bool is_field_node = true;
+};
+struct PhasedPolarArray : PolarArray<Phased> {
+    static constexpr bool is_phased_node = true;
+};
+
+}  // namespace phasetree
