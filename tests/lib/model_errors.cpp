@@ -180,7 +180,9 @@ auto chain(std::size_t depth) {
             else if constexpr (std::is_same_v<Value, std::vector<glm::vec3>>)
                 value = {glm::vec3(0.001f)};
             else if constexpr (std::is_same_v<Value, std::vector<float>>)
-                value = {1.f};
+                value = {p.unit == "m" ? 1e-4f : 1.f};
+            else if constexpr (std::is_same_v<Value, std::vector<Phase>>)
+                value = {Phase{1}};  // as many as there are numbers
             else
                 phasetree::tests::detail::fill<Node>(rng, value, p, 1);
         });

@@ -121,8 +121,12 @@ void fill(Random& rng, Value& value, const Parameter& p, int depth) {
     } else if constexpr (std::is_same_v<Value, Field> || std::is_same_v<Value, Phased>) {
         draw(value);
     } else if constexpr (std::is_same_v<Value, std::vector<float>> || std::is_same_v<Value, std::vector<Phase>>) {
-        value.resize(3);  // all of one length, because a node's lists belong together
-        for (auto& item : value) fill<Node>(rng, item, p, depth);
+        // A node's lists belong together, one as long as the other, or one shorter, or one for all: it refuses the
+        // rest.
+        value.resize(static_cast<std::size_t>(1 + rng.below(3)));
+        Parameter each = p;
+        each.optional = false;
+        for (auto& item : value) fill<Node>(rng, item, each, depth);
     } else {
         // Mostly two or three, now and then the single child that a fold over the rest must survive.
         value.resize(static_cast<std::size_t>(rng.chance(0.1) ? 1 : 2 + rng.below(2)));

@@ -35,6 +35,9 @@ Json list_of(Json items) {
 TypeOf type_of(float v, const Limits& l) {
     return {"number", fmt::format("{}", v), with_limits({{"type", "number"}}, l)};
 }
+TypeOf type_of(int v, const Limits& l) {
+    return {"whole number", fmt::format("{}", v), with_limits({{"type", "integer"}}, l)};
+}
 TypeOf type_of(const glm::vec3& v, const Limits& l) {
     return {"[x, y, z]",
             fmt::format("[{}, {}, {}]", v.x, v.y, v.z),
