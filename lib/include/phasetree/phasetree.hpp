@@ -3,10 +3,10 @@
 /// PhaseTree: multiphase signed distance fields. This header is the model, its program and tracing; scene files are in
 /// phasetree/reading, Embree geometry in phasetree/embree.hpp.
 
+#include "phasetree/cells/cells.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/nodes/node.hpp"
 #include "phasetree/program/evaluator.hpp"
 #include "phasetree/program/program.hpp"
-#include "phasetree/cells/cells.hpp"
 #include "phasetree/trace/tracer.hpp"
 #include "phasetree/version.hpp"
