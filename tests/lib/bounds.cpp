@@ -34,15 +34,11 @@ double slack(const glm::vec3& p) {
 TEST_CASE("nothing of an object lies outside its bounds") {
     Random rng(61);
     const int trees = long_tests() ? 2000 : 60;
-    const auto check = [&]<class Node>() {
+    for (const NodeKind& kind : node_kinds()) {
         for (int tree = 0; tree < trees; ++tree) {
-            CAPTURE(Node::info.name);
+            CAPTURE(kind.name);
             CAPTURE(tree);
-            Phased object;
-            if constexpr (IsFieldNode<Node>)
-                object = Set{.phase = Phase{1}, .of = random_rooted<Node>(rng, 1 + tree % 4)};
-            else
-                object = random_rooted<Node>(rng, 2 + tree % 4);
+            const Phased object = kind.object(rng, 2 + tree % 4);
             const Bounds b = bounds(object);
             for (int n = 0; n < 100; ++n) {
                 const glm::vec3 p = probe(rng, b);
@@ -55,17 +51,15 @@ TEST_CASE("nothing of an object lies outside its bounds") {
                 REQUIRE(tests::label(object, glm::dvec3(p)) == vacuum);
             }
         }
-    };
-    for_each_type(FieldNodes(), check);
-    for_each_type(PhasedNodes(), check);
+    }
 }
 
 TEST_CASE("at every level, what is within the level of a field lies within the bounds") {
     Random rng(62);
     const int trees = long_tests() ? 2000 : 60;
-    const auto check = [&]<class Node>() {
+    for (const NodeKind& kind : node_kinds()) {
         for (int tree = 0; tree < trees; ++tree) {
-            CAPTURE(Node::info.name);
+            CAPTURE(kind.name);
             CAPTURE(tree);
             const float level = rng.uniform(-0.3f, 0.6f);
             BoundsQuery query;
@@ -80,20 +74,18 @@ TEST_CASE("at every level, what is within the level of a field lies within the b
                     REQUIRE(smallest(glm::dvec3(p)) > level - slack(p));
                 }
             };
-            if constexpr (IsFieldNode<Node>) {
-                const Field f = random_rooted<Node>(rng, 1 + tree % 4);
+            if (kind.is_field) {
+                const Field f = kind.field(rng, 1 + tree % 4);
                 outside(query(f, level), [&](const glm::dvec3& p) { return value(f, p); });
             } else {
-                const Phased a = random_rooted<Node>(rng, 2 + tree % 4);
+                const Phased a = kind.object(rng, 2 + tree % 4);
                 outside(query(a, level), [&](const glm::dvec3& p) {
                     const Components phi = values(a, p);
                     return *std::min_element(phi.phi.begin() + 1, phi.phi.end());
                 });
             }
         }
-    };
-    for_each_type(FieldNodes(), check);
-    for_each_type(PhasedNodes(), check);
+    }
 }
 
 TEST_CASE("primitives' bounds touch them") {

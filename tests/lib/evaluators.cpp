@@ -84,18 +84,13 @@ int differences(const Phased& object, const Evaluator& evaluator, const Points& 
 template <class Check>
 void for_many_objects(std::uint64_t seed, int each, Check&& check) {
     Random rng(seed);
-    const auto of_type = [&]<class Node>() {
+    for (const NodeKind& kind : node_kinds()) {
         for (int n = 0; n < each; ++n) {
-            CAPTURE(Node::info.name);
+            CAPTURE(kind.name);
             CAPTURE(n);
-            if constexpr (IsFieldNode<Node>)
-                check(Phased(Set{.phase = Phase{1}, .of = random_rooted<Node>(rng, 2 + n % 3)}), rng);
-            else
-                check(random_rooted<Node>(rng, 2 + n % 4), rng);
+            check(kind.object(rng, 2 + n % 4), rng);
         }
-    };
-    for_each_type(FieldNodes(), of_type);
-    for_each_type(PhasedNodes(), of_type);
+    }
 }
 
 }  // namespace
