@@ -17,7 +17,7 @@
 
 #include "phasetree/phasetree.hpp"
 #include "support/random_tree.hpp"
-#include "support/set_algebra.hpp"
+#include "support/set_algebra/transforms.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;

@@ -5,7 +5,7 @@
 #include "phasetree/model/walk.hpp"
 #include "phasetree/phasetree.hpp"
 #include "support/random_tree.hpp"
-#include "support/set_algebra.hpp"
+#include "support/set_algebra/textures.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;

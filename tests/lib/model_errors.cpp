@@ -6,7 +6,8 @@
 #include "phasetree/math/dual.hpp"
 #include "phasetree/model/walk.hpp"
 #include "phasetree/phasetree.hpp"
-#include "support/random_tree.hpp"
+#include "phasetree/reading/write.hpp"
+#include "support/random_node.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;
@@ -139,7 +140,7 @@ TEST_CASE("extreme but legal numbers give finite values or an error, never NaN")
                 const Phases<float> phi = tracer.evaluator().distances(tracer.bounds().centre(), w);
                 bool bad = !(tracer.resolution() > 0) || !std::isfinite(tracer.resolution());
                 for_each_phase(phi.present, [&](int i) { bad = bad || std::isnan(phi[i]); });
-                if (bad && unusable++ == 0) which = std::string(Node::info.name);
+                if (bad && unusable++ == 0) which = write_tree({{{"vacuum", "1", "2", "3", "4"}}, a});
             } catch (const ModelError&) {
                 ++refused;
             }
@@ -172,13 +173,13 @@ auto chain(std::size_t depth) {
             else if constexpr (std::is_same_v<Value, std::vector<Handle>>)
                 value = {current};
             else if constexpr (std::is_same_v<Value, PhaseSet>)
-                value = {};
+                value = PhaseSet{p.optional ? 0u : 16u};
             else if constexpr (std::is_same_v<Value, float>)
-                value = p.limits.contains(0.f) ? 0.f : p.unit == "m" ? 1e-4f : 1.f;
+                value = p.optional ? value : p.limits.contains(0.f) ? 0.f : p.unit == "m" ? 1e-4f : 1.f;
             else if constexpr (std::is_same_v<Value, int>)
                 value = 1;  // one copy of a copy, else they are 2⁴⁰⁰
             else if constexpr (std::is_same_v<Value, std::vector<glm::vec3>>)
-                value = {glm::vec3(0.001f)};
+                value = std::vector<glm::vec3>(p.optional ? 0 : 1, glm::vec3(0.001f));
             else if constexpr (std::is_same_v<Value, std::vector<float>>)
                 value = {p.unit == "m" ? 1e-4f : 1.f};
             else if constexpr (std::is_same_v<Value, std::vector<Phase>>)
@@ -193,6 +194,11 @@ auto chain(std::size_t depth) {
         if constexpr (std::is_same_v<Node, Interface>) {
             node.phase_a = Phase{1};
             node.phase_b = Phase{2};
+        }
+        if constexpr (requires { node.surface; }) node.surface = Sphere{};
+        if constexpr (IsEndlessGrid<Node>) {
+            if (!bounds(current).finite()) break;
+            node.spacing = glm::vec3(1.1f * bounds(current).extent().x + 0.01f, 0, 0);
         }
         // The box around a twisted box is √2 wider, so a chain of twists ends where floats do.
         if constexpr (NeedsBoundedChild<Node>) {

@@ -73,7 +73,9 @@ std::vector<Leaf> divide(const Share& share, const Division& d);
 /// The cells of a share: itself, or those of its parts where that is cheaper.
 std::vector<Leaf> cells_of(const Share& share, const Division& d) {
     const std::size_t instructions = share.program.code.size();
-    const float whole = cost(share.box, instructions);
+    // Through copies without end a ray goes on and on.
+    const float copies = 1 + 4 * share.box.diagonal() / finest_jump(share.program, d.constants);
+    const float whole = cost(share.box, instructions) * copies;
     const bool final = instructions <= d.options.short_program + 1 || share.depth >= d.options.deepest ||
                        share.stale >= d.options.patience || share.box.diagonal() < 64 * d.reach;
     if (!final) {
@@ -111,7 +113,9 @@ std::vector<Leaf> divide(const Share& share, const Division& d) {
         const float radius = 0.5f * children[i].inflated(d.reach).diagonal() * (1 + 1e-5f);
         std::optional<WorkingProgram> pruned = prune(program, d.constants, value, radius, d.rounding);
         if (!pruned) return;
-        const int stale = pruned->code.size() < program.code.size() ? 0 : share.stale + 1;
+        const bool is_shorter = pruned->code.size() < program.code.size();
+        const bool is_too_coarse = children[i].diagonal() > 0.25f * finest_jump(*pruned, d.constants);
+        const int stale = is_shorter || is_too_coarse ? 0 : share.stale + 1;
         found[i] = cells_of({children[i], std::move(*pruned), share.depth + 1, stale}, d);
     };
     // The order of the leaves is that of the parts, whichever thread finds them.

@@ -1,6 +1,10 @@
 #include "cells/prune.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
+
+#include "phasetree/nodes/copies/endless_grid.hpp"
 
 /// Two kinds of pruning, in one backward sweep over the program.
 ///
@@ -21,6 +25,9 @@ struct Demand {
     float tau = 0;
 };
 
+/// A slope above this has a jump in it.
+constexpr float half_a_jump = 0x1p20f;
+
 class Pruner {
   public:
     Pruner(const WorkingProgram& program, std::span<const float> constants, std::span<const float> value, float radius,
@@ -30,6 +37,7 @@ class Pruner {
           value_(value),
           radius_(radius),
           rounding_(rounding),
+          slope_(local_slopes()),
           demand_(program.code.size()),
           instead_(program.code.size()),
           op_(program.code.size()) {}
@@ -67,7 +75,7 @@ class Pruner {
     }
 
   private:
-    float slack(std::uint32_t i) const { return program_.lipschitz[i] * radius_ + rounding_; }
+    float slack(std::uint32_t i) const { return slope_[i] * radius_ + rounding_; }
     float low(std::uint32_t i) const { return value_[i] - slack(i); }
     float high(std::uint32_t i) const { return value_[i] + slack(i); }
 
@@ -105,17 +113,7 @@ class Pruner {
                 ask(in.b, d);
                 return;
             case Op::maximum:
-                if (value_[in.a] - value_[in.b] > slack(in.a) + slack(in.b)) return replace(i, in.a);
-                if (value_[in.b] - value_[in.a] > slack(in.a) + slack(in.b)) return replace(i, in.b);
-                if (relative) {
-                    if (high(in.a) < d.tau) return replace(i, in.b);
-                    if (high(in.b) < d.tau) return replace(i, in.a);
-                    if (low(in.a) > d.tau) return replace(i, in.a);
-                    if (low(in.b) > d.tau) return replace(i, in.b);
-                }
-                ask(in.a, d);
-                ask(in.b, d);
-                return;
+                return resolve_maximum(i, d);
             case Op::smooth_minimum: {
                 const float r = constant();
                 if (value_[in.b] - value_[in.a] > slack(in.a) + slack(in.b) + r) return replace(i, in.a);
@@ -131,6 +129,25 @@ class Pruner {
                 ask(in.b, {Demand::value, 0});
                 return;
             }
+            case Op::guarded: {
+                const float half = 0.5f * constant();
+                if (low(in.a) > half || (relative && d.tau == 0 && low(in.a) > 0)) return replace(i, in.a);
+                // Without a jump the plain intersection has the same sign.
+                if (relative && d.tau == 0 && slope_[in.b] <= 2 * slope_[in.a]) {
+                    op_[i] = Op::maximum;
+                    return resolve_maximum(i, d);
+                }
+                ask(in.a, {Demand::value, 0});
+                ask(in.b, {Demand::value, 0});
+                return;
+            }
+            case Op::add:
+                // A skeleton out of reach adds nothing.
+                if (is_zero(in.a)) return replace(i, in.b);
+                if (is_zero(in.b)) return replace(i, in.a);
+                ask(in.a, {Demand::value, 0});
+                ask(in.b, {Demand::value, 0});
+                return;
             case Op::absolute:
                 if (low(in.a) > 0) return replace(i, in.a);
                 if (high(in.a) < 0) {
@@ -153,6 +170,27 @@ class Pruner {
         }
     }
 
+    void resolve_maximum(std::uint32_t i, const Demand& d) {
+        const Instruction& in = program_.code[i];
+        if (value_[in.a] - value_[in.b] > slack(in.a) + slack(in.b)) return replace(i, in.a);
+        if (value_[in.b] - value_[in.a] > slack(in.a) + slack(in.b)) return replace(i, in.b);
+        if (d.kind == Demand::threshold) {
+            if (high(in.a) < d.tau) return replace(i, in.b);
+            if (high(in.b) < d.tau) return replace(i, in.a);
+            if (low(in.a) > d.tau) return replace(i, in.a);
+            if (low(in.b) > d.tau) return replace(i, in.b);
+        }
+        ask(in.a, d);
+        ask(in.b, d);
+    }
+
+    /// Whether a value is exactly zero throughout the ball.
+    bool is_zero(std::uint32_t i) const {
+        const Instruction& in = program_.code[i];
+        if (in.op == Op::multiply_constant) return is_zero(in.a);
+        return in.op == Op::falloff && low(in.a) > constants_[in.data];
+    }
+
     WorkingProgram compact(std::span<const ProgramOutput> outputs) const {
         WorkingProgram result;
         const std::size_t n = program_.code.size();
@@ -171,7 +209,7 @@ class Pruner {
             in.a = renumbered[in.a];
             in.b = renumbered[in.b];
             result.code.push_back(in);
-            result.lipschitz.push_back(program_.lipschitz[i]);
+            result.lipschitz.push_back(slope_[i]);
         }
         for (const ProgramOutput& o : outputs) result.outputs.push_back({o.phase, renumbered[o.value], o.negate});
         return result;
@@ -190,16 +228,57 @@ class Pruner {
         return second.code.size() < first.code.size() ? second : first;
     }
 
+    /// Slopes within the ball. A fold of space jumps, which is recorded as a slope of FoldMap::jump; in a ball that
+    /// touches none of its jumps that factor goes from all that follows. The guard above the fold tells: its bound is
+    /// more than half of `far` wherever the fold jumps.
+    std::vector<float> local_slopes() const {
+        std::vector<float> slope = program_.lipschitz;
+        if (std::none_of(slope.begin(), slope.end(), [](float l) { return l > half_a_jump; })) return slope;
+        const auto size = static_cast<std::uint32_t>(program_.code.size());
+        std::vector<char> is_still(size, 0);  // folds without a jump in the ball
+        for (std::uint32_t i = 1; i < size; ++i) {
+            const Instruction& guard = program_.code[i];
+            if (guard.op != Op::guarded || value_.empty()) continue;
+            // The bound's own slope is that of its point.
+            const float high = value_[guard.a] + slope[guard.a] * radius_ + rounding_;
+            if (!(high < 0.5f * constants_[guard.data])) continue;
+            for (std::uint32_t k = 1; k < i; ++k)
+                if (is_fold(program_.code[k].op) && program_.code[k].a == program_.code[guard.a].a) is_still[k] = 1;
+        }
+        std::vector<char> jumps(size, 0);
+        for (std::uint32_t i = 1; i < size; ++i) {
+            const Instruction& in = program_.code[i];
+            if (slope[i] <= half_a_jump) continue;
+            const int n = operands(in.op);
+            jumps[i] = (n > 0 && jumps[in.a]) || (n > 1 && jumps[in.b]) || (is_fold(in.op) && !is_still[i]);
+            while (!jumps[i] && slope[i] > half_a_jump) slope[i] /= FoldMap::jump;
+        }
+        return slope;
+    }
+
     const WorkingProgram& program_;
     std::span<const float> constants_;
     std::span<const float> value_;
     float radius_, rounding_;
+    std::vector<float> slope_;
     std::vector<Demand> demand_;
     std::vector<std::uint32_t> instead_;
     std::vector<Op> op_;
 };
 
 }  // namespace
+
+float finest_jump(const WorkingProgram& program, std::span<const float> constants) {
+    float finest = Bounds::infinity;
+    for (std::size_t i = 0; i < program.code.size(); ++i) {
+        if (!is_fold(program.code[i].op) || program.lipschitz[i] <= half_a_jump) continue;
+        FoldMap fold;
+        std::memcpy(static_cast<void*>(&fold), constants.data() + program.code[i].data, sizeof fold);
+        for (int axis = 0; axis < 3; ++axis)
+            if (fold.spacing[axis] > 0) finest = std::min(finest, fold.spacing[axis]);
+    }
+    return finest;
+}
 
 std::optional<WorkingProgram> prune(const WorkingProgram& program, std::span<const float> constants,
                                     std::span<const float> value, float radius, float rounding) {

@@ -19,4 +19,8 @@ struct WorkingProgram {
 std::optional<WorkingProgram> prune(const WorkingProgram&, std::span<const float> constants,
                                     std::span<const float> value, float radius, float rounding);
 
+/// The smallest period of what is folded in a program and still jumps, infinity if nothing does: larger cells cannot be
+/// pruned of it.
+float finest_jump(const WorkingProgram&, std::span<const float> constants);
+
 }  // namespace phasetree

@@ -112,6 +112,11 @@ HWY_INLINE Batch sqrt(const Batch& a) {
 HWY_INLINE Batch floor(const Batch& a) {
     return each([&](std::size_t i) { return hn::Floor(a.v[i]); });
 }
+HWY_INLINE Batch lookup(const float* table, const Batch& index) {
+    return each([&](std::size_t i) {
+        return hn::GatherIndex(Tag(), table, hn::ConvertTo(hn::RebindToSigned<Tag>(), index.v[i]));
+    });
+}
 
 #undef PHASETREE_EACH
 

@@ -36,6 +36,11 @@ HWY_FLATTEN void run_primitive(const Step& s, const float* constants, float* reg
     store(constants_of<P>(s, constants).distance(load_point(registers, s.a)), at(registers, s.to));
 }
 
+template <class P>
+HWY_FLATTEN void run_data_primitive(const Step& s, const float* constants, float* registers) {
+    store(P::distance(constants + s.data, load_point(registers, s.a)), at(registers, s.to));
+}
+
 template <class M>
 HWY_FLATTEN void run_map(const Step& s, const float* constants, float* registers) {
     const Vec3<Batch> q = constants_of<M>(s, constants)(load_point(registers, s.a));
@@ -45,13 +50,13 @@ HWY_FLATTEN void run_map(const Step& s, const float* constants, float* registers
     store(q.z, to + 2 * batch_size);
 }
 
-template <class PrimitiveList, class MapList>
+template <class PrimitiveList, class DataPrimitiveList, class MapList>
 struct Table;
-template <class... Ps, class... Ms>
-struct Table<TypeList<Ps...>, TypeList<Ms...>> {
-    static constexpr Handler handlers[] = {run_primitive<Ps>..., run_map<Ms>...};
+template <class... Ps, class... Ds, class... Ms>
+struct Table<TypeList<Ps...>, TypeList<Ds...>, TypeList<Ms...>> {
+    static constexpr Handler handlers[] = {run_primitive<Ps>..., run_data_primitive<Ds>..., run_map<Ms>...};
 };
-using Handlers = Table<Primitives, PointMaps>;
+using Handlers = Table<Primitives, DataPrimitives, PointMaps>;
 
 HWY_FLATTEN void run(const Routine& routine, float* registers) {
     const float* constants = routine.constants;
@@ -91,6 +96,12 @@ HWY_FLATTEN void run(const Routine& routine, float* registers) {
                 break;
             case Op::smooth_minimum:
                 store(smooth_min(load(a), load(b), constants[s->data]), to);
+                break;
+            case Op::guarded:
+                store(guarded(load(a), load(b), constants[s->data]), to);
+                break;
+            case Op::falloff:
+                store(falloff(load(a), constants[s->data]), to);
                 break;
             default:
                 Handlers::handlers[s->op - static_cast<std::uint32_t>(Op::first_primitive)](*s, constants, registers);

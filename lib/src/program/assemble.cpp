@@ -8,8 +8,8 @@ namespace phasetree {
 
 namespace {
 
-constexpr std::uint32_t first_map =
-    static_cast<std::uint32_t>(Op::first_primitive) + static_cast<std::uint32_t>(Primitives::size);
+constexpr std::uint32_t first_map = static_cast<std::uint32_t>(Op::first_primitive) +
+                                    static_cast<std::uint32_t>(Primitives::size + DataPrimitives::size);
 
 /// Hands out register slots; a freed one is used again.
 class Slots {
@@ -82,6 +82,7 @@ int operands(Op op) {
         case Op::minimum:
         case Op::maximum:
         case Op::smooth_minimum:
+        case Op::guarded:
             return 2;
         default:
             return 1;
@@ -90,6 +91,10 @@ int operands(Op op) {
 
 bool gives_point(Op op) {
     return op == Op::input || static_cast<std::uint32_t>(op) >= first_map;
+}
+
+bool is_fold(Op op) {
+    return static_cast<std::uint32_t>(op) == first_map + static_cast<std::uint32_t>(index_in<FoldMap>(PointMaps()));
 }
 
 Assembly assemble(std::span<const Instruction> code, std::span<const ProgramOutput> outputs) {

@@ -36,6 +36,9 @@ int operands(Op);
 /// Whether an operation's result is a point and not a number.
 bool gives_point(Op);
 
+/// Whether an operation is a fold of space, which jumps.
+bool is_fold(Op);
+
 /// Gradient of one component at a point, by dual numbers.
 glm::vec3 gradient(const Routine&, std::uint32_t slots, const glm::vec3& p, Phase);
 

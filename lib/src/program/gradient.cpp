@@ -75,14 +75,24 @@ glm::vec3 gradient(const Routine& routine, std::uint32_t slots, const glm::vec3&
             case Op::smooth_minimum:
                 to = smooth_min(a, b, *c);
                 break;
+            case Op::guarded:
+                to = guarded(a, b, *c);
+                break;
+            case Op::falloff:
+                to = falloff(a, *c);
+                break;
             default: {
                 const Vec3<Dual> point{registers[s.a], registers[s.a + 1], registers[s.a + 2]};
                 const std::uint32_t index = s.op - first_primitive;
                 if (index < Primitives::size) {
                     dispatch(Primitives(), index,
                              [&]<class P>() { to = constants_of<P>(s, routine.constants).distance(point); });
+                } else if (index < Primitives::size + DataPrimitives::size) {
+                    dispatch(DataPrimitives(), index - static_cast<std::uint32_t>(Primitives::size),
+                             [&]<class P>() { to = P::distance(c, point); });
                 } else {
-                    dispatch(PointMaps(), index - static_cast<std::uint32_t>(Primitives::size), [&]<class M>() {
+                    constexpr auto before = static_cast<std::uint32_t>(Primitives::size + DataPrimitives::size);
+                    dispatch(PointMaps(), index - before, [&]<class M>() {
                         const Vec3<Dual> q = constants_of<M>(s, routine.constants)(point);
                         registers[s.to] = q.x;
                         registers[s.to + 1] = q.y;

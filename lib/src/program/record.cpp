@@ -40,7 +40,8 @@ class Recorder {
         if (const auto found = fields_.find(key); found != fields_.end()) return found->second;
         const Recorded r = std::visit(
             [&](const auto& n) {
-                if constexpr (Primitive<std::remove_cvref_t<decltype(n)>>)
+                using N = std::remove_cvref_t<decltype(n)>;
+                if constexpr (Primitive<N> || DataPrimitive<N>)
                     return primitive(n, p);
                 else
                     return n.evaluate(*this, p);
@@ -65,15 +66,18 @@ class Recorder {
 
     template <class P>
     Recorded primitive(const P& primitive, const RecordedPoint& p) {
-        const auto op = static_cast<Op>(static_cast<std::size_t>(Op::first_primitive) + index_in<P>(Primitives()));
-        return emit(op, p.id, 0, floats(primitive), lipschitz(p.id));
+        if constexpr (DataPrimitive<P>) {
+            const auto index = Primitives::size + index_in<P>(DataPrimitives());
+            return emit(derived(index), p.id, 0, primitive.data(), lipschitz(p.id));
+        } else {
+            return emit(derived(index_in<P>(Primitives())), p.id, 0, floats(primitive), lipschitz(p.id));
+        }
     }
 
     template <class M>
     RecordedPoint map(const M& m, const RecordedPoint& p, float stretch) {
-        const auto op = static_cast<Op>(static_cast<std::size_t>(Op::first_primitive) + Primitives::size +
-                                        index_in<M>(PointMaps()));
-        return {emit(op, p.id, 0, floats(m), lipschitz(p.id) * stretch).id};
+        const auto index = Primitives::size + DataPrimitives::size + index_in<M>(PointMaps());
+        return {emit(derived(index), p.id, 0, floats(m), lipschitz(p.id) * stretch).id};
     }
 
     /// Hash-consing: an instruction that is already there is not written again.
@@ -96,6 +100,11 @@ class Recorder {
         }
     }
 
+    Recorded one_lipschitz(Recorded value, const RecordedPoint& p) {
+        program_.lipschitz[value.id] = std::min(lipschitz(value), lipschitz(p.id));
+        return value;
+    }
+
     float lipschitz(std::uint32_t id) const { return program_.lipschitz[id]; }
     float lipschitz(Recorded a) const { return lipschitz(a.id); }
     float largest(Recorded a, Recorded b) const { return std::max(lipschitz(a), lipschitz(b)); }
@@ -112,13 +121,19 @@ class Recorder {
         std::size_t operator()(const Key& k) const { return std::hash<const void*>()(k.node) * 31 + k.point; }
     };
 
+    /// The opcode of what is derived from the list of nodes.
+    static Op derived(std::size_t index) {
+        return static_cast<Op>(static_cast<std::size_t>(Op::first_primitive) + index);
+    }
     static std::uint64_t mix(std::uint64_t h, std::uint64_t v) {
         h = (h ^ v) * 0x9e3779b97f4a7c15u;
         return h ^ (h >> 29);
     }
     bool is_same(std::uint32_t i, Op op, std::uint32_t a, std::uint32_t b, std::span<const float> data) const {
         const Instruction& in = program_.instructions[i];
-        return in.op == op && in.a == a && in.b == b &&
+        const std::size_t end =
+            i + 1 < program_.instructions.size() ? program_.instructions[i + 1].data : program_.constants.size();
+        return in.op == op && in.a == a && in.b == b && end - in.data == data.size() &&
                std::memcmp(program_.constants.data() + in.data, data.data(), data.size_bytes()) == 0;
     }
 
@@ -169,6 +184,12 @@ Recorded abs(Recorded a) {
 }
 Recorded smooth_min(Recorded a, Recorded b, float r) {
     return a.recorder->emit(Op::smooth_minimum, a.id, b.id, {&r, 1}, a.recorder->largest(a, b));
+}
+[[maybe_unused]] Recorded guarded(Recorded bound, Recorded f, float far) {
+    return bound.recorder->emit(Op::guarded, bound.id, f.id, {&far, 1}, bound.recorder->lipschitz(bound));
+}
+[[maybe_unused]] Recorded falloff(Recorded d, float reach) {
+    return d.recorder->emit(Op::falloff, d.id, 0, {&reach, 1}, d.recorder->lipschitz(d) * (steepest_falloff / reach));
 }
 Recorded smooth_max(Recorded a, Recorded b, float r) {
     return -smooth_min(-a, -b, r);

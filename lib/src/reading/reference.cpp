@@ -43,6 +43,15 @@ TypeOf type_of(const glm::vec3& v, const Limits& l) {
             fmt::format("[{}, {}, {}]", v.x, v.y, v.z),
             {{"type", "array"}, {"minItems", 3}, {"maxItems", 3}, {"items", with_limits({{"type", "number"}}, l)}}};
 }
+[[maybe_unused]] TypeOf type_of(const glm::vec2& v, const Limits& l) {
+    return {"[x, y]",
+            fmt::format("[{}, {}]", v.x, v.y),
+            {{"type", "array"}, {"minItems", 2}, {"maxItems", 2}, {"items", with_limits({{"type", "number"}}, l)}}};
+}
+template <class Content>
+TypeOf type_of(const FromFile<Content>&, const Limits&) {
+    return {"name of a file", "none", {{"type", "string"}, {"minLength", 1}}};
+}
 TypeOf type_of(const Field&, const Limits&) {
     return {"field", "none", reference_to("field")};
 }
@@ -101,7 +110,7 @@ std::vector<Chapter> chapters() {
     return {{"Fields", "A field is one signed distance, negative inside.", pages_of(PlainFields())},
             {"Objects", "An object has several phases, of which exactly one is at any point.", pages_of(Objects())},
             {"Warps", "A warp deforms a field or an object, and is what its child is.",
-             pages_of(detail::Map<WarpedField, Warps>::type())}};
+             pages_of(detail::Map<WarpedPhased, Warps>::type())}};
 }
 
 std::string limits_of(const Described& d) {

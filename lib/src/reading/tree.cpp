@@ -38,8 +38,8 @@ bool has_node(std::string_view name) {
 
 class Reader {
   public:
-    Reader(const Document& document, PhaseNames names, std::optional<Value> shapes)
-        : document_(document), names_(std::move(names)), shapes_(shapes) {}
+    Reader(const Document& document, PhaseNames names, std::optional<Value> shapes, const FileReaders& files)
+        : document_(document), names_(std::move(names)), shapes_(shapes), files_(files) {}
 
     template <class Handle>
     Handle read(Value value) {
@@ -197,29 +197,62 @@ class Reader {
                 throw document_.error(value, fmt::format("{} must be a list, but is {}", what, name_of(value.kind())));
             if (value.size() == 0) throw document_.error(value, fmt::format("{} must not be empty", what));
             for (const Value item : value) target.push_back(read<typename T::value_type>(item));
-        } else if constexpr (std::is_same_v<T, std::vector<float>> || std::is_same_v<T, std::vector<glm::vec3>> ||
-                             std::is_same_v<T, std::vector<Phase>>) {
+        } else if constexpr (std::is_same_v<T, std::vector<float>> || std::is_same_v<T, std::vector<glm::vec2>> ||
+                             std::is_same_v<T, std::vector<glm::vec3>> || std::is_same_v<T, std::vector<Phase>>) {
             if (!value.is_array())
                 throw document_.error(value, fmt::format("{} must be a list, but is {}", what, name_of(value.kind())));
             if (value.size() == 0) throw document_.error(value, fmt::format("{} must not be empty", what));
             for (const Value item : value) read_value(target.emplace_back(), item, p);
         } else if constexpr (std::is_same_v<T, Phase>) {
             target = phase(value, what);
-        } else if constexpr (std::is_same_v<T, std::vector<Phase>>) {
-            if (!value.is_array())
-                throw document_.error(value, fmt::format("{} must be a list, but is {}", what, name_of(value.kind())));
-            for (const Value item : value) target.push_back(phase(item, what));
+        } else if constexpr (requires { target.content; }) {
+            target.path = as<std::string>(document_, value, what);
+            if (target.path.empty()) throw document_.error(value, fmt::format("{} must not be empty", what));
+            read_file(target, value);
         } else if constexpr (std::is_same_v<T, PhaseSet>) {
             if (value.is_string()) {
-                target = PhaseSet::of(phase(value, what));
+                target = PhaseSet::of(phase_or_vacuum(value, what));
             } else if (value.is_array() && value.size() > 0) {
-                for (const Value item : value) target = target | PhaseSet::of(phase(item, what));
+                for (const Value item : value) target = target | PhaseSet::of(phase_or_vacuum(item, what));
             } else {
                 throw document_.error(value, fmt::format("{} must be the name of a phase or a list of names", what));
             }
         } else {
             target = as<T>(document_, value, what, range_of(p.limits));
         }
+    }
+
+    /// Each file once.
+    template <class Content>
+    void read_file(FromFile<Content>& target, Value value) {
+        const std::filesystem::path path = std::filesystem::path(document_.name()).parent_path() / target.path;
+        std::map<std::string, std::shared_ptr<const Content>, std::less<>>* known = nullptr;
+        if constexpr (std::is_same_v<Content, SirenNetwork>)
+            known = &networks_;
+        else
+            known = &height_grids_;
+        if (const auto found = known->find(target.path); found != known->end()) {
+            target.content = found->second;
+            return;
+        }
+        try {
+            if constexpr (std::is_same_v<Content, SirenNetwork>) {
+                target.content = std::make_shared<const Content>(read_siren(path));
+            } else {
+                if (!files_.height_grid) throw std::runtime_error("this program reads no images");
+                target.content = std::make_shared<const Content>(files_.height_grid(path));
+            }
+        } catch (const SceneError&) {
+            throw;  // it tells its own place
+        } catch (const std::exception& e) {
+            throw document_.error(value, e.what());
+        }
+        known->emplace(target.path, target.content);
+    }
+
+    /// In a set the vacuum may be; the nodes that have no use for it refuse it themselves.
+    Phase phase_or_vacuum(Value value, const std::string& what) const {
+        return value.is_string() && value.string() == names_.names[0] ? vacuum : phase(value, what);
     }
 
     Phase phase(Value value, const std::string& what) const {
@@ -256,6 +289,9 @@ class Reader {
     const Document& document_;
     PhaseNames names_;
     std::optional<Value> shapes_;
+    const FileReaders& files_;
+    std::map<std::string, std::shared_ptr<const SirenNetwork>, std::less<>> networks_;
+    std::map<std::string, std::shared_ptr<const HeightGrid>, std::less<>> height_grids_;
     std::map<std::string, Field, std::less<>> fields_;
     std::map<std::string, Phased, std::less<>> objects_;
     std::vector<std::string> open_;  ///< shapes being read, to find cycles
@@ -281,7 +317,7 @@ PhaseNames read_phases(const Document& document, Value root) {
 
 }  // namespace
 
-SceneTree read_tree(const Document& document) {
+SceneTree read_tree(const Document& document, const FileReaders& files) {
     const Value root = document.root();
     if (!root.is_object())
         throw document.error(root, fmt::format("a scene is an object, but this is {}", name_of(root.kind())));
@@ -291,7 +327,7 @@ SceneTree read_tree(const Document& document) {
         throw document.error(*shapes, fmt::format("\"shapes\" must be an object, but is {}", name_of(shapes->kind())));
     const std::optional<Value> tree = root.find("tree");
     if (!tree) throw document.error(root, "the scene needs \"tree\"");
-    Reader reader(document, names, shapes);
+    Reader reader(document, names, shapes, files);
     SceneTree result{names, reader.read<Phased>(*tree)};
     reader.read_unused();
     return result;

@@ -7,7 +7,7 @@
 #include "command/load.hpp"
 #include "command/numbers.hpp"
 #include "phasetree/math/float_mode.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/program/evaluator.hpp"
 #include "phasetree/reading/tree.hpp"
 
 namespace phasetree::tracer {

@@ -5,7 +5,8 @@
 
 #include "command/commands.hpp"
 #include "command/load.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/program/evaluator.hpp"
 #include "phasetree/reading/tree.hpp"
 
 namespace phasetree::tracer {

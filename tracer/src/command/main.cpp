@@ -6,8 +6,8 @@
 #include "command/commands.hpp"
 #include "command/numbers.hpp"
 #include "output/error.hpp"
-#include "phasetree/phasetree.hpp"
 #include "phasetree/reading/error.hpp"
+#include "phasetree/version.hpp"
 
 int main(int argc, char** argv) {
     using namespace phasetree;

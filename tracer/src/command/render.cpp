@@ -13,7 +13,7 @@
 #include "output/interrupt.hpp"
 #include "output/progress.hpp"
 #include "output/write.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/cells/cells.hpp"
 
 namespace phasetree::tracer {
 

@@ -8,8 +8,9 @@
 #include "command/load.hpp"
 #include "command/numbers.hpp"
 #include "phasetree/math/float_mode.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/program/evaluator.hpp"
 #include "phasetree/reading/tree.hpp"
+#include "phasetree/trace/tracer.hpp"
 
 namespace phasetree::tracer {
 

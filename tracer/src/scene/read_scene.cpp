@@ -14,7 +14,7 @@ Scene read_scene(const Document& document) {
 
     Scene scene;
     scene.file = document.name();
-    SceneTree tree = read_tree(document);
+    SceneTree tree = read_tree(document, {.height_grid = read_height_grid});
     scene.phases = std::move(tree.phases);
     scene.object = std::move(tree.object);
     scene.materials.push_back(vacuum());

@@ -66,6 +66,9 @@ inline Dual max(const Dual& a, const Dual& b) {
 inline Dual abs(const Dual& a) {
     return std::signbit(a.value) ? -a : a;
 }
+inline Dual lookup(const float* table, const Dual& index) {
+    return Dual(table[static_cast<int>(index.value)]);
+}
 inline Dual floor(const Dual& a) {
     return Dual(std::floor(a.value));
 }

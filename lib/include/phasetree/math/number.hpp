@@ -35,6 +35,12 @@ namespace phasetree {
     return std::floor(a);
 }
 
+/// table[index] for a whole index within the table; see clamp() for one that may be NaN.
+[[gnu::always_inline]] inline float lookup(const float* table, float index) {
+    return table[static_cast<int>(index)];
+}
+
+/// A NaN becomes `low`, because comparisons with it are false.
 template <class T>
 T clamp(const T& x, const T& low, const T& high) {
     return min(max(x, low), high);
@@ -53,6 +59,24 @@ template <class T>
 T smooth_max(const T& a, const T& b, float r) {
     return -smooth_min(-a, -b, r);
 }
+
+/// A field above a discontinuity (lib/README.md): max(b, min(f, D − b)) for a bound {f ≤ 0} ⊂ {b ≤ 0}. It has the sign
+/// of f, is b where b ≥ D/2, and 1-Lipschitz if f is so where b < D/2, whatever f does elsewhere.
+template <class T>
+T guarded(const T& bound, const T& f, float far) {
+    return max(bound, min(f, far - bound));
+}
+
+/// The contribution of a skeleton at the distance d to a blob: (1 − (d/R)²)³, zero beyond R (Wyvill et al., "Data
+/// Structure for Soft Objects", 1986, with the square for their cubic).
+template <class T>
+T falloff(const T& d, float reach) {
+    const T x = max(d, T(0.f)) * (1.f / reach);
+    const T y = max(1.f - x * x, T(0.f));
+    return y * y * y;
+}
+/// sup of |derivative| of falloff times R: at x² = 1/5, 6x(1 − x²)².
+inline constexpr float steepest_falloff = 1.7172838f;
 
 template <class T>
 struct SineCosine {

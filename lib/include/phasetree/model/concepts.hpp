@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <type_traits>
 
 #include "phasetree/model/handle.hpp"
@@ -16,6 +17,14 @@ struct TypeList {
 template <class N>
 concept Primitive = std::is_trivially_copyable_v<N> && requires(const N& n, const Vec3<float>& p) {
     { n.distance(p) } -> std::same_as<float>;
+};
+
+/// A primitive with as many floats as it needs (a polygon's corners, a network's weights): one instruction too. A
+/// node's static distance() sees only what data() gave.
+template <class N>
+concept DataPrimitive = requires(const N& n, const float* data, const Vec3<float>& p) {
+    { n.data() } -> std::same_as<std::span<const float>>;
+    { N::distance(data, p) } -> std::same_as<float>;
 };
 
 /// A map of space: a plain struct of floats, p ↦ ω⁻¹(p), one instruction.

@@ -13,8 +13,9 @@ struct Walk {
     T field(const Field& f, const Point& p) const {
         return std::visit(
             [&](const auto& n) {
-                if constexpr (requires { n.distance(p); })
-                    return n.distance(p);
+                using N = std::remove_cvref_t<decltype(n)>;
+                if constexpr (Primitive<N> || DataPrimitive<N>)
+                    return primitive(n, p);
                 else
                     return n.evaluate(*this, p);
             },
@@ -27,6 +28,12 @@ struct Walk {
     T primitive(const P& primitive, const Point& p) const {
         return primitive.distance(p);
     }
+    template <DataPrimitive P>
+    T primitive(const P& primitive, const Point& p) const {
+        return P::distance(primitive.data().data(), p);
+    }
+    /// Tells the recorder that a value is 1-Lipschitz in p, where it would derive less.
+    T one_lipschitz(const T& value, const Point&) const { return value; }
     template <PointMap M>
     Point map(const M& m, const Point& p, float /*lipschitz*/) const {
         return m(p);

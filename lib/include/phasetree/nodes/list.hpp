@@ -5,9 +5,14 @@
 
 #include <variant>
 
+#include "phasetree/nodes/copies/endless_grid.hpp"
+#include "phasetree/nodes/copies/fibonacci_disk.hpp"
+#include "phasetree/nodes/copies/fibonacci_sphere.hpp"
 #include "phasetree/nodes/copies/grid.hpp"
 #include "phasetree/nodes/copies/instances.hpp"
 #include "phasetree/nodes/copies/polar_array.hpp"
+#include "phasetree/nodes/copies/scatter.hpp"
+#include "phasetree/nodes/fields/blob.hpp"
 #include "phasetree/nodes/fields/box.hpp"
 #include "phasetree/nodes/fields/capped_cone.hpp"
 #include "phasetree/nodes/fields/capped_torus.hpp"
@@ -17,12 +22,14 @@
 #include "phasetree/nodes/fields/displace.hpp"
 #include "phasetree/nodes/fields/ellipsoid.hpp"
 #include "phasetree/nodes/fields/gyroid.hpp"
+#include "phasetree/nodes/fields/height_map.hpp"
 #include "phasetree/nodes/fields/intersection.hpp"
 #include "phasetree/nodes/fields/link.hpp"
 #include "phasetree/nodes/fields/merge.hpp"
 #include "phasetree/nodes/fields/octahedron.hpp"
 #include "phasetree/nodes/fields/offset.hpp"
 #include "phasetree/nodes/fields/plane.hpp"
+#include "phasetree/nodes/fields/polyline.hpp"
 #include "phasetree/nodes/fields/prism.hpp"
 #include "phasetree/nodes/fields/pyramid.hpp"
 #include "phasetree/nodes/fields/round_cone.hpp"
@@ -31,6 +38,7 @@
 #include "phasetree/nodes/fields/schwarz_d.hpp"
 #include "phasetree/nodes/fields/schwarz_p.hpp"
 #include "phasetree/nodes/fields/shell.hpp"
+#include "phasetree/nodes/fields/siren.hpp"
 #include "phasetree/nodes/fields/smooth_difference.hpp"
 #include "phasetree/nodes/fields/smooth_intersection.hpp"
 #include "phasetree/nodes/fields/smooth_union.hpp"
@@ -40,6 +48,7 @@
 #include "phasetree/nodes/fields/torus.hpp"
 #include "phasetree/nodes/fields/tube.hpp"
 #include "phasetree/nodes/fields/union.hpp"
+#include "phasetree/nodes/fields/voronoi_cells.hpp"
 #include "phasetree/nodes/fields/wedge.hpp"
 #include "phasetree/nodes/phased/change.hpp"
 #include "phasetree/nodes/phased/checker.hpp"
@@ -64,7 +73,10 @@
 #include "phasetree/nodes/phased/thin_shell.hpp"
 #include "phasetree/nodes/phased/under.hpp"
 #include "phasetree/nodes/phased/unite_shape_below.hpp"
+#include "phasetree/nodes/phased/voronoi.hpp"
+#include "phasetree/nodes/warps/affine.hpp"
 #include "phasetree/nodes/warps/bend.hpp"
+#include "phasetree/nodes/warps/distort.hpp"
 #include "phasetree/nodes/warps/mirror.hpp"
 #include "phasetree/nodes/warps/rotate.hpp"
 #include "phasetree/nodes/warps/scale.hpp"
@@ -75,18 +87,20 @@
 
 namespace phasetree {
 
-using Warps = TypeList<Translate, Rotate, Scale, Twist, Stretch, Mirror, Taper, Bend>;
+using Warps = TypeList<Translate, Rotate, Scale, Twist, Stretch, Mirror, Taper, Bend, Affine, Distort>;
 
 using PlainFields =
     TypeList<Sphere, Box, RoundedBox, Cylinder, CappedCone, Capsule, Torus, Plane, Union, Intersection, Difference,
              SmoothUnion, SmoothIntersection, SmoothDifference, Offset, Shell, Merge, Ellipsoid, CappedTorus, Link,
              Tube, RoundedCylinder, RoundCone, SphericalCap, Prism, Wedge, Pyramid, Octahedron, Tetrahedron, Gyroid,
-             SchwarzP, SchwarzD, Displace, FieldInstances, FieldPolarArray, FieldGrid>;
+             SchwarzP, SchwarzD, Displace, FieldInstances, FieldPolarArray, FieldGrid, Polyline, FieldEndlessGrid, Blob,
+             VoronoiCells, Siren, HeightMap, FieldFibonacciDisk, FieldFibonacciSphere, FieldScatter>;
 
 using Objects = TypeList<Set, ThinShell, Under, Over, Layered, IntersectShape, SubtractShape, Change, Remove, Contact,
                          Contacts, LayeredSequence, SmoothLayered, UniteShapeBelow, SmoothUniteShape,
                          SmoothUniteShapeBelow, SmoothIntersectShape, SmoothSubtractShape, Interface, Interfaces,
-                         Checker, Layers, Strata, PhasedInstances, PhasedPolarArray, PhasedGrid>;
+                         Checker, Layers, Strata, PhasedInstances, PhasedPolarArray, PhasedGrid, PhasedEndlessGrid,
+                         Voronoi, PhasedFibonacciDisk, PhasedFibonacciSphere, PhasedScatter>;
 
 // What follows is derived.
 
@@ -112,6 +126,12 @@ struct OnlyPrimitives;
 template <class... Ts>
 struct OnlyPrimitives<TypeList<Ts...>>
     : Concat<TypeList<>, std::conditional_t<Primitive<Ts>, TypeList<Ts>, TypeList<>>...> {};
+
+template <class List>
+struct OnlyDataPrimitives;
+template <class... Ts>
+struct OnlyDataPrimitives<TypeList<Ts...>>
+    : Concat<TypeList<>, std::conditional_t<DataPrimitive<Ts>, TypeList<Ts>, TypeList<>>...> {};
 
 template <class List>
 struct OnlyPointMaps;
@@ -155,6 +175,10 @@ using PhasedNodes = detail::Concat<Objects, detail::Map<WarpedPhased, Warps>::ty
 using Primitives = detail::Concat<TypeList<BoundingBox, FractalNoise>, detail::OnlyPrimitives<PlainFields>::type,
                                   detail::OnlyPrimitives<detail::AllParts<FieldNodes>::type>::type,
                                   detail::OnlyPrimitives<detail::AllParts<PhasedNodes>::type>::type>::type;
+/// Primitives with data of their own, each one instruction.
+using DataPrimitives = detail::Concat<detail::OnlyDataPrimitives<PlainFields>::type,
+                                      detail::OnlyDataPrimitives<detail::AllParts<FieldNodes>::type>::type,
+                                      detail::OnlyDataPrimitives<detail::AllParts<PhasedNodes>::type>::type>::type;
 /// The maps of space, each one instruction.
 using PointMaps = detail::Concat<TypeList<ClampToBox>, detail::Map<detail::MapOf, Warps>::type,
                                  detail::OnlyPointMaps<detail::AllParts<FieldNodes>::type>::type,

@@ -63,6 +63,9 @@ inline void check(int v, std::string_view node, const Parameter& p) {
 inline void check(const glm::vec3& v, std::string_view node, const Parameter& p) {
     for (int i = 0; i < 3; ++i) check(v[i], node, p);
 }
+inline void check(const glm::vec2& v, std::string_view node, const Parameter& p) {
+    for (int i = 0; i < 2; ++i) check(v[i], node, p);
+}
 inline void check(Phase v, std::string_view node, const Parameter& p) {
     require(v != vacuum && v.index < Phase::capacity, node, p, "must be a phase other than the vacuum");
 }
@@ -82,9 +85,15 @@ void check(const std::vector<Item>& list, std::string_view node, const Parameter
             check(item, node, p);
     }
 }
-inline void check(PhaseSet, std::string_view, const Parameter&) {}
+inline void check(PhaseSet set, std::string_view node, const Parameter& p) {
+    require(p.optional || !set.empty(), node, p, "must not be empty");
+}
+template <class Content>
+void check(const FromFile<Content>& file, std::string_view node, const Parameter& p) {
+    require(file.content != nullptr, node, p, "is missing");
+}
 template <class Value>
-requires(std::is_same_v<Value, float> || std::is_same_v<Value, glm::vec3> ||
+requires(std::is_same_v<Value, float> || std::is_same_v<Value, glm::vec2> || std::is_same_v<Value, glm::vec3> ||
          std::is_same_v<Value, Phase>) void check(const std::vector<Value>& list, std::string_view node,
                                                   const Parameter& p) {
     require(p.optional || !list.empty(), node, p, "must not be empty");
@@ -106,7 +115,7 @@ PhaseSet phases_of(const Node& node) {
     if constexpr (requires { node.phases(); })
         return node.phases();
     else
-        return phasetree::phases(node.of);  // a warp
+        return phasetree::phases(node.of);  // copies
 }
 
 }  // namespace detail

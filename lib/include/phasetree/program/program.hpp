@@ -8,7 +8,7 @@
 namespace phasetree {
 
 /// The operations of a program. Primitives and maps of space follow, one a type of the node list, each a single
-/// instruction: opcode = first_primitive + index in Primitives, then PointMaps.
+/// instruction: opcode = first_primitive + index in Primitives, then DataPrimitives, then PointMaps.
 enum class Op : std::uint16_t {
     input,              ///< the point itself
     negate,             ///< −a
@@ -21,6 +21,8 @@ enum class Op : std::uint16_t {
     constant_minus,     ///< c − a
     multiply_constant,  ///< a · c
     smooth_minimum,     ///< smin(a, b, r = c)
+    guarded,            ///< max(a, min(b, c − a))
+    falloff,            ///< (1 − (a/c)²)³, zero for a > c
     first_primitive
 };
 

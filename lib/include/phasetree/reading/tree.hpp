@@ -1,10 +1,14 @@
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/height_grid.hpp"
+#include "phasetree/nodes/fields/siren_network.hpp"
 #include "phasetree/reading/document.hpp"
 
 namespace phasetree {
@@ -24,6 +28,15 @@ struct SceneTree {
     Phased object;
 };
 
+/// What reads the files that nodes name. This library knows no images; whoever does gives it a reader for them. A
+/// reader throws any std::exception whose what() says what is wrong with the file.
+struct FileReaders {
+    std::function<HeightGrid(const std::filesystem::path&)> height_grid{};
+};
+
+/// The weights of a network: {"radius": R, "layers": [{"weights": [[…], …], "bias": […]}, …]}. Throws SceneError.
+SirenNetwork read_siren(const std::filesystem::path&);
+
 /// Reads the model of a scene document; the rest of the file is not looked at.
 ///
 ///     "phases": {"glass": …, "water": …},
@@ -33,6 +46,7 @@ struct SceneTree {
 /// A node is an object of one member: the node's name, and its parameters; a node whose one required parameter is a
 /// list of children takes the list in place of the parameters. A string is a named shape. Names of phases are
 /// strings, sets of phases lists of them. Throws SceneError, at the place in the text.
-SceneTree read_tree(const Document&);
+/// Files are sought from the scene file's folder.
+SceneTree read_tree(const Document&, const FileReaders& = {});
 
 }  // namespace phasetree

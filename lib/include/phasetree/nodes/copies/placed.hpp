@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <glm/mat3x3.hpp>
 #include <glm/trigonometric.hpp>
+#include <optional>
 #include <vector>
 
 #include "phasetree/nodes/phased/under.hpp"
@@ -26,10 +29,23 @@ struct PlacementMap {
     }
 };
 
+/// p ↦ R⁻¹(p − v)/s for any turn R.
+struct StandingMap {
+    glm::vec3 by{0};
+    glm::vec3 row[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< the columns of R, divided by s
+
+    template <class T>
+    Vec3<T> operator()(const Vec3<T>& p) const {
+        const Vec3<T> q = p - by;
+        return {dot(q, row[0]), dot(q, row[1]), dot(q, row[2])};
+    }
+};
+
 /// Where a copy stands.
 struct Placement {
     PlacementMap map;
     float scale = 1;
+    std::optional<glm::mat3> frame{};  ///< R of a copy that is not turned about the z axis only
 
     /// `turn` in degrees.
     static Placement at(const glm::vec3& by, double turn, float scale) {
@@ -39,9 +55,29 @@ struct Placement {
         if (!std::isfinite(result.map.inverse)) throw ModelError("a copy's scale is too small");
         return result;
     }
+    /// Its z axis along a unit vector, turned about that by so many degrees.
+    static Placement standing(const glm::vec3& by, const glm::dvec3& normal, double turn, float scale) {
+        Placement result = at(by, 0, scale);
+        // Any axes across the normal will do, if they are the same for the same normal (Duff et al., "Building an
+        // Orthonormal Basis, Revisited", 2017).
+        const double sign = std::copysign(1.0, normal.z), a = -1 / (sign + normal.z), b = normal.x * normal.y * a;
+        const glm::dvec3 u(1 + sign * normal.x * normal.x * a, sign * b, -sign * normal.x);
+        const glm::dvec3 v(b, sign + normal.y * normal.y * a, -normal.y);
+        const double c = std::cos(glm::radians(turn)), s = std::sin(glm::radians(turn));
+        result.frame = glm::mat3(glm::dmat3(u * c + v * s, v * c - u * s, normal));
+        return result;
+    }
+    StandingMap standing_map() const {
+        const glm::mat3& r = *frame;
+        return {map.by, {r[0] * map.inverse, r[1] * map.inverse, r[2] * map.inverse}};
+    }
     bool is_moved_only() const { return map.cosine == 1 && map.sine == 0 && scale == 1; }
     Bounds image(const Bounds& b) const {
         if (b.empty()) return b;
+        if (frame) {
+            const Bounds turned = image_of_corners(b, [&](const glm::vec3& p) { return *frame * p * scale + map.by; });
+            return turned.inflated(turned.finite() ? 1e-6f * (turned.diagonal() + glm::length(turned.centre())) : 0.f);
+        }
         if (map.sine == 0 && map.cosine > 0) return {b.low * scale + map.by, b.high * scale + map.by};
         const Bounds turned = image_of_corners(b, [&](const glm::vec3& p) {
             const float c = map.cosine * scale, s = map.sine * scale;
@@ -54,7 +90,7 @@ struct Placement {
 /// Copies of a field or an object: a node's base that evaluates what `placements` says.
 template <class Child>
 struct Copies {
-    using Parts = TypeList<PlacementMap>;
+    using Parts = TypeList<PlacementMap, StandingMap>;
     Child of;
     std::vector<Placement> placements;  ///< derived
 
@@ -78,8 +114,10 @@ struct Copies {
   private:
     template <class D>
     auto one(D& d, const Placement& at, const typename D::Point& p) const {
-        const typename D::Point q = at.is_moved_only() ? d.map(Translate::Map{at.map.by}, p, 1.f)
-                                                       : d.map(at.map, p, at.map.inverse * (1 + 2e-7f));
+        const float stretch = at.map.inverse * (1 + 2e-7f);
+        const typename D::Point q = at.frame             ? d.map(at.standing_map(), p, stretch * (1 + 2e-7f))
+                                    : at.is_moved_only() ? d.map(Translate::Map{at.map.by}, p, 1.f)
+                                                         : d.map(at.map, p, stretch);
         if constexpr (std::is_same_v<Child, Field>) {
             const auto f = d.field(of, q);
             return at.scale == 1 ? f : f * at.scale;
@@ -95,6 +133,13 @@ namespace detail {
 inline constexpr Parameter copied{"of", "", "What is copied: a field or an object."};
 /// More copies than that would not pass the limit of instructions anyway.
 inline constexpr int most_copies = 500'000;
+/// In [0, 1), by SplitMix64 (Steele, Lea, Flood, OOPSLA 2014).
+inline double next_random(std::uint64_t& state) {
+    std::uint64_t z = (state += 0x9e3779b97f4a7c15u);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
 }  // namespace detail
 
 }  // namespace phasetree

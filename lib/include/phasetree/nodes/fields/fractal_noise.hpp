@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/nodes/fields/lattice_hash.hpp"
 #include "phasetree/nodes/fields/profile.hpp"
 
 namespace phasetree {
@@ -18,12 +19,8 @@ namespace phasetree {
 ///
 /// *Octaves* of half the size and half the weight add 15/4 each. The weights' sum is 1, the range [−1, 1].
 ///
-/// *Hash.* Whole numbers modulo 289 = 17². x ↦ (34x + 5)x permutes them (a polynomial does modulo a square of a prime
-/// p if it does modulo p and its derivative does not vanish modulo p; here it is 5x modulo 17). All intermediate
-/// results are whole and below 2²², and (x + ½)/289 is farther from a whole number than its rounding, so floats
-/// compute it exactly, whatever the instruction set. The idea of hashing in this way is that of McEwan et al.,
-/// "Efficient Computational Noise in GLSL", 2012. Positions are projected onto a cube of 2¹⁷ sizes, which lengthens
-/// nothing; beyond it the noise is constant along the cube's normals.
+/// *Positions* are projected onto a cube of 2¹⁷ sizes, which lengthens nothing; beyond it the noise is constant along
+/// the cube's normals. So the lattice's hash (lattice_hash.hpp) gets numbers that it computes exactly.
 ///
 /// distance() is the noise divided by its slope's bound, hence 1-Lipschitz, as every primitive.
 struct FractalNoise {
@@ -68,22 +65,9 @@ struct FractalNoise {
     };
     template <class T>
     static Coordinate<T> coordinate(const T& u) {
-        const T whole = floor(u), t = u - whole, low = wrapped(whole);
+        const T whole = floor(u), t = u - whole, low = lattice::wrapped(whole);
         const T next = low + 1.f;
         return {low, select(less(T(288.5f), next), T(0.f), next), t * t * t * (t * (t * 6.f - 15.f) + 10.f)};
-    }
-    template <class T>
-    static T wrapped(const T& n) {
-        return n - floor((n + 0.5f) * (1.f / 289.f)) * 289.f;
-    }
-    template <class T>
-    static T hashed(const T& n) {
-        return wrapped((n * 34.f + 5.f) * n);
-    }
-    template <class T>
-    static T sum(const T& a, const T& b) {
-        const T s = a + b;
-        return select(less(T(288.5f), s), s - 289.f, s);
     }
     template <class T>
     static T mix(const T& a, const T& b, const T& blend) {
@@ -91,6 +75,7 @@ struct FractalNoise {
     }
     template <class T>
     static T value(const Vec3<T>& p) {
+        using lattice::hashed, lattice::sum;
         const Coordinate<T> x = coordinate(p.x), y = coordinate(p.y), z = coordinate(p.z);
         const auto along_z = [&](const T& row) {
             return mix(hashed(sum(row, z.low)), hashed(sum(row, z.high)), z.blend);

@@ -45,4 +45,15 @@ std::optional<S> minimum_of(const Phases<S>& a, const Phases<S>& b, int i) {
     return std::nullopt;
 }
 
+/// Vacuum takes the place of the phases `gone`.
+template <class S>
+Phases<S> emptied(Phases<S> a, std::uint64_t gone) {
+    for_each_phase(a.materials() & gone, [&](int i) {
+        const S value = a[i];
+        a.set(0, a.has(0) ? min(a[0], value) : value);
+        a.remove(i);
+    });
+    return a;
+}
+
 }  // namespace phasetree::detail

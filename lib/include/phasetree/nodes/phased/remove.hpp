@@ -21,13 +21,7 @@ struct Remove {
     }
     template <class D>
     Phases<typename D::Scalar> evaluate(D& d, const typename D::Point& p) const {
-        auto a = d.phases(of, p);
-        for_each_phase(a.present & gone.bits, [&](int i) {
-            const auto emptied = a[i];
-            a.set(0, a.has(0) ? min(a[0], emptied) : emptied);
-            a.remove(i);
-        });
-        return a;
+        return detail::emptied(d.phases(of, p), gone.bits);
     }
     PhaseSet phases() const {
         const PhaseSet there = phasetree::phases(of);

@@ -21,6 +21,9 @@ struct Scale {
     static void parameters(V&& v) {
         v(&Scale::factor, Parameter{"factor", "", "The factor.", limits::positive});
     }
+    void prepare() const {
+        if (!std::isfinite(1.f / factor)) throw ModelError("scale: the factor is too small");
+    }
     Map map() const { return {1.f / factor}; }
     float value_scale() const { return factor; }
     Bounds image(const Bounds& b) const { return b.empty() ? b : Bounds{b.low * factor, b.high * factor}; }

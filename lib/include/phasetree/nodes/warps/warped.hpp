@@ -1,6 +1,7 @@
 #pragma once
 
 #include "phasetree/nodes/fields/box.hpp"
+#include "phasetree/nodes/phased/under.hpp"
 
 /// A warp deforms space: ω(A) has Φ(p) = Φ_A(ω⁻¹(p)) / λ with λ ≥ sup ‖J of ω⁻¹‖ (paper, Section 6). A warp is written
 /// once, as a struct with its parameters and
@@ -113,9 +114,54 @@ template <class Warp>
 struct WarpedField : Warped<Warp, Field> {
     static constexpr bool is_field_node = true;
 };
+/// Objects can be warped in part: W, the warped object of the chosen phases, over or under R, the rest as it was. The
+/// printed equations of D(A, k) are this for one phase, over.
 template <class Warp>
 struct WarpedPhased : Warped<Warp, Phased> {
     static constexpr bool is_phased_node = true;
+    using Whole = Warped<Warp, Phased>;
+    PhaseSet over{}, under{};
+
+    template <class V>
+    static void parameters(V&& v) {
+        Whole::parameters(v);
+        v(&WarpedPhased::over, Parameter{"over", "",
+                                         "Of an object: only these phases are warped, and replace the others where "
+                                         "they come to lie.",
+                                         limits::any, true});
+        v(&WarpedPhased::under, Parameter{"under", "",
+                                          "Of an object: only these phases are warped, and the others stay where "
+                                          "they are.",
+                                          limits::any, true});
+    }
+    void prepare() {
+        Whole::prepare();
+        const std::string name(Whole::info.name);
+        if (!over.empty() && !under.empty()) throw ModelError(name + ": \"over\" and \"under\" exclude each other");
+        if (chosen().contains(vacuum)) throw ModelError(name + ": the vacuum cannot be warped on its own");
+    }
+    template <class D>
+    Phases<typename D::Scalar> evaluate(D& d, const typename D::Point& p) const {
+        auto warped = Whole::evaluate(d, p);
+        if (chosen().empty()) return warped;
+        warped = detail::emptied(std::move(warped), ~chosen().bits);
+        const auto rest = detail::emptied(d.phases(this->of, p), chosen().bits);
+        return under.empty() ? detail::under(rest, warped) : detail::under(warped, rest);
+    }
+    PhaseSet phases() const {
+        const PhaseSet there = phasetree::phases(this->of);
+        const std::uint64_t materials = there.bits & ~std::uint64_t{1};
+        // Without vacuum it appears where something went or came from.
+        const bool is_split = (materials & chosen().bits) != 0 && (materials & ~chosen().bits) != 0;
+        return is_split ? there | PhaseSet::of(vacuum) : there;
+    }
+    Bounds bounds(BoundsQuery& q, float level) const {
+        const Bounds warped = Whole::bounds(q, level);
+        return chosen().empty() ? warped : unite(warped, q(this->of, level));
+    }
+
+  private:
+    PhaseSet chosen() const { return over | under; }
 };
 
 /// `warped(Translate{{1, 0, 0}}, ball)`: the usual way to apply a warp.
@@ -125,7 +171,7 @@ Field warped(Warp warp, Field child) {
 }
 template <class Warp>
 Phased warped(Warp warp, Phased child) {
-    return WarpedPhased<Warp>{{warp, std::move(child), {}}};
+    return WarpedPhased<Warp>{{warp, std::move(child), {}}, {}, {}};
 }
 
 }  // namespace phasetree

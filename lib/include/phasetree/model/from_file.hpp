@@ -1,0 +1,16 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace phasetree {
+
+/// A parameter that a file holds: the file's name as the scene gives it, and what was read. A program that makes the
+/// content itself leaves the name empty.
+template <class Content>
+struct FromFile {
+    std::string path{};
+    std::shared_ptr<const Content> content{};
+};
+
+}  // namespace phasetree

@@ -1,0 +1,117 @@
+#pragma once
+
+#include "phasetree/nodes/copies/placed.hpp"
+
+namespace phasetree {
+
+/// p ↦ the same place in the cell about `centre`. It jumps at the cells' faces, so its slope is unbounded: `jump`
+/// stands for that. Where a cell of the object touches no face, pruning divides by it again (src/cells/prune.cpp).
+struct FoldMap {
+    glm::vec3 centre{0};
+    glm::vec3 spacing{1};
+    glm::vec3 inverse{1};  ///< 0 along an axis without copies
+
+    static constexpr float jump = 0x1p40f;
+
+    template <class T>
+    Vec3<T> operator()(const Vec3<T>& p) const {
+        return {folded(p.x, 0), folded(p.y, 1), folded(p.z, 2)};
+    }
+
+  private:
+    template <class T>
+    T folded(const T& x, int axis) const {
+        return x - floor((x - centre[axis]) * inverse[axis] + 0.5f) * spacing[axis];
+    }
+};
+
+/// Distance to the endless rows of boxes that the copies are in. A box stands in the middle of its cell, so it is the
+/// nearest one throughout the cell, and the distance is exact and continuous.
+struct FoldedBox {
+    FoldMap fold{};
+    glm::vec3 half{1};
+
+    template <class T>
+    T distance(const Vec3<T>& p) const {
+        return box_distance(fold(p) - fold.centre, half);
+    }
+};
+
+/// Endless copies in one cell's worth of instructions. With b the distance to the copies' boxes and g the smallest
+/// clearance between a box and its cell's face, b ≥ g on the faces, where the folded field jumps; and
+///     max(b, min(f, 2g − b))
+/// is b wherever b ≥ g. So it is continuous, 1-Lipschitz, and has the sign of f. (This is the bounding node that the
+/// design asks for above a discontinuity, and the reason why the copies must not touch their cells' faces.)
+template <class Child>
+struct EndlessGrid {
+    static constexpr NodeInfo info{
+        "endless_grid", "",
+        "max(b, min(φ(q), 2g − b)),  q = p − s ⌊(p − c)/s + ½⌋,  b = distance to the copies' "
+        "boxes,  g = half the smallest gap between boxes",
+        "Copies without end along the axes; they must not touch."};
+    using Parts = TypeList<FoldMap, FoldedBox>;
+    Child of{};
+    glm::vec3 spacing{0};
+    FoldedBox boxes{};    ///< derived
+    float clearance = 0;  ///< derived
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&EndlessGrid::of, detail::copied);
+        v(&EndlessGrid::spacing,
+          Parameter{"spacing", "m", "From one copy to the next along x, y and z; 0 for no copies along that axis.",
+                    limits::non_negative});
+    }
+    void prepare() {
+        const Bounds b = phasetree::bounds(of);
+        if (b.empty()) throw ModelError("endless_grid: what is copied is empty");
+        if (!b.finite()) throw ModelError("endless_grid: what is copied must be bounded");
+        boxes.fold = {b.centre(), spacing, glm::vec3(0)};
+        boxes.half = b.extent() * (0.5f * (1 + 1e-6f));
+        clearance = Bounds::infinity;
+        for (int i = 0; i < 3; ++i) {
+            if (spacing[i] == 0) continue;
+            boxes.fold.inverse[i] = 1 / spacing[i];
+            clearance = std::min(clearance, 0.5f * spacing[i] - boxes.half[i]);
+            if (!(spacing[i] < 1e9f)) throw ModelError("endless_grid: the spacing is too large");
+            if (!(clearance > 1e-4f * spacing[i]))
+                throw ModelError("endless_grid: the copies touch, but there must be some space between their boxes");
+        }
+        if (!std::isfinite(clearance)) throw ModelError("endless_grid: \"spacing\" is zero along every axis");
+    }
+    template <class D>
+    auto evaluate(D& d, const typename D::Point& p) const {
+        const auto b = d.primitive(boxes, p);
+        const typename D::Point q = d.map(boxes.fold, p, FoldMap::jump);
+        if constexpr (std::is_same_v<Child, Field>) {
+            return guarded(b, d.field(of, q), 2 * clearance);
+        } else {
+            auto a = d.phases(of, q);
+            for_each_phase(a.present, [&](int i) {
+                a.set(i, i == 0 ? -guarded(b, -a[i], 2 * clearance) : guarded(b, a[i], 2 * clearance));
+            });
+            return a;
+        }
+    }
+    PhaseSet phases() const { return phasetree::phases(of); }
+    Bounds bounds(BoundsQuery&, float level) const {
+        const glm::vec3 half = boxes.half + level;
+        Bounds all{boxes.fold.centre - half, boxes.fold.centre + half};
+        if (all.empty()) return all;
+        for (int i = 0; i < 3; ++i)
+            if (spacing[i] > 0) {
+                all.low[i] = -Bounds::infinity;
+                all.high[i] = Bounds::infinity;
+            }
+        return all;
+    }
+};
+
+struct FieldEndlessGrid : EndlessGrid<Field> {
+    static constexpr bool is_field_node = true;
+};
+struct PhasedEndlessGrid : EndlessGrid<Phased> {
+    static constexpr bool is_phased_node = true;
+};
+
+}  // namespace phasetree

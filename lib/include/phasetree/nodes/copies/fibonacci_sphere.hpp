@@ -1,0 +1,43 @@
+#pragma once
+
+#include "phasetree/nodes/copies/fibonacci_disk.hpp"
+
+namespace phasetree {
+
+/// Equal shares of the sphere's area, from the north pole to the south.
+template <class Child>
+struct FibonacciSphere : Copies<Child> {
+    static constexpr NodeInfo info{
+        "fibonacci_sphere", "7.7",
+        "copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis "
+        "along nᵢ; of objects, the later over the earlier",
+        "Copies spread evenly over a sphere, on a Fibonacci spiral, standing on it."};
+    int count = 10;
+    float radius = 1;
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&FibonacciSphere::of, detail::copied);
+        v(&FibonacciSphere::count, Parameter{"count", "", "How many.", {.low = 1, .high = 100'000}});
+        v(&FibonacciSphere::radius,
+          Parameter{"radius", "m", "Of the sphere that the copies' origins are on.", limits::positive});
+    }
+    void prepare() {
+        this->placements.clear();
+        for (int i = 0; i < count; ++i) {
+            const double z = 1 - (2.0 * i + 1) / count, rho = std::sqrt(1 - z * z);
+            const double a = std::fmod(i * detail::golden_angle, 2 * 3.14159265358979323846);
+            const glm::dvec3 n(rho * std::cos(a), rho * std::sin(a), z);
+            this->placements.push_back(Placement::standing(glm::vec3(n * static_cast<double>(radius)), n, 0, 1));
+        }
+    }
+};
+
+struct FieldFibonacciSphere : FibonacciSphere<Field> {
+    static constexpr bool is_field_node = true;
+};
+struct PhasedFibonacciSphere : FibonacciSphere<Phased> {
+    static constexpr bool is_phased_node = true;
+};
+
+}  // namespace phasetree

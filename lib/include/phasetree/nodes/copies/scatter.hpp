@@ -1,0 +1,61 @@
+#pragma once
+
+#include "phasetree/nodes/copies/placed.hpp"
+
+namespace phasetree {
+
+namespace detail {
+struct SurfacePoint {
+    glm::vec3 position;
+    glm::dvec3 normal;  ///< outward
+};
+/// Up to `count` points of a bounded field's surface, evenly by area, none nearer to another than `spacing`: where
+/// random lines cross it (a uniformly random line crosses any two pieces of equal area equally often). The same for the
+/// same seed. Throws ModelError if the surface is unbounded or no line met it.
+std::vector<SurfacePoint> scattered(const Field& surface, int count, float spacing, int seed);
+}  // namespace detail
+
+template <class Child>
+struct Scatter : Copies<Child> {
+    static constexpr NodeInfo info{"scatter", "",
+                                   "copies at random points of the surface f = 0, their z axis along ∇f; of objects, "
+                                   "the later over the earlier",
+                                   "Copies strewn over a field's surface, standing on it, each turned at random."};
+    Field surface{};
+    int count = 10;
+    float spacing = 0;
+    float smallest = 1;
+    int seed = 1;
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&Scatter::of, detail::copied);
+        v(&Scatter::surface, Parameter{"on", "", "The field on whose surface they stand; it must be bounded."});
+        v(&Scatter::count,
+          Parameter{"count", "", "How many; fewer if there is not space.", {.low = 1, .high = 100'000}});
+        v(&Scatter::spacing,
+          Parameter{"spacing", "m", "The least distance between two copies' origins.", limits::non_negative, true});
+        v(&Scatter::smallest, Parameter{"smallest", "", "Sizes are random between this factor and 1.",
+                                        Limits{.low = 0.01f, .high = 1}, true});
+        v(&Scatter::seed, Parameter{"seed", "", "Another number, other places.", {.low = 0, .high = 1'000'000}, true});
+    }
+    void prepare() {
+        this->placements.clear();
+        std::uint64_t state = static_cast<std::uint64_t>(seed);
+        for (const detail::SurfacePoint& at : detail::scattered(surface, count, spacing, seed)) {
+            const double turn = 360 * detail::next_random(state);
+            const double size =
+                static_cast<double>(smallest) + (1 - static_cast<double>(smallest)) * detail::next_random(state);
+            this->placements.push_back(Placement::standing(at.position, at.normal, turn, static_cast<float>(size)));
+        }
+    }
+};
+
+struct FieldScatter : Scatter<Field> {
+    static constexpr bool is_field_node = true;
+};
+struct PhasedScatter : Scatter<Phased> {
+    static constexpr bool is_phased_node = true;
+};
+
+}  // namespace phasetree

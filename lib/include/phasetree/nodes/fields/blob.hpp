@@ -1,0 +1,123 @@
+#pragma once
+
+#include <vector>
+
+#include "phasetree/nodes/fields/profile.hpp"
+
+namespace phasetree {
+
+/// A BlobTree's sum of skeletons with compact support. With dᵢ the distance to skeleton i, gᵢ its falloff(dᵢ, Rᵢ)
+/// and b = Σ wᵢ gᵢ, the solid is b > T.
+///
+/// *Slope.* (T − b)/λ is 1-Lipschitz for λ ≥ sup ‖∇b‖. The sum of the falloffs' own bounds would do, but skeletons of
+/// which no two are steep at one place would make it many times too large. blob_slope() (src/model/blob.cpp) bounds
+/// Σ wᵢ |gᵢ′| over all of space by subdivision.
+///
+/// *Outside.* The paper (9.2) adds the distance to the support. Nearer, and as safe: where b ≥ T, at least one wᵢ gᵢ is
+/// its share wᵢ T/Σw or more, hence some gᵢ ≥ T/Σw, hence dᵢ ≤ rᵢ with gᵢ(rᵢ) = T/Σw. So max((T − b)/λ, min (dᵢ − rᵢ))
+/// has the sign of T − b, and far away the slope 1. rᵢ < Rᵢ, so it is the larger of the two bounds.
+struct Blob {
+    static constexpr bool is_field_node = true;
+    static constexpr NodeInfo info{"blob", "7.5, 9.2",
+                                   "max((T − Σ wᵢ (1 − (dᵢ/Rᵢ)²)³)/λ, min dᵢ − rᵢ),  rᵢ = Rᵢ √(1 − ∛(T/Σw)),  "
+                                   "λ ≥ sup ‖∇Σ‖",
+                                   "A BlobTree: points, a chain of segments and other fields as skeletons, whose "
+                                   "compactly supported contributions add up and melt into each other."};
+    /// The distance to a point.
+    struct Point {
+        glm::vec3 at{0};
+
+        template <class T>
+        T distance(const Vec3<T>& p) const {
+            return length(p - at);
+        }
+    };
+    /// The distance to a segment.
+    struct Segment {
+        glm::vec3 from{0};
+        glm::vec3 along{0, 0, 1};
+        float inverse = 1;  ///< 1/|along|², 0 for a point
+
+        template <class T>
+        T distance(const Vec3<T>& p) const {
+            const Vec3<T> q = p - from;
+            const T t = clamp(dot(q, along) * inverse, T(0.f), T(1.f));
+            return length(Vec3<T>{q.x - t * along.x, q.y - t * along.y, q.z - t * along.z});
+        }
+    };
+    using Parts = TypeList<Point, Segment>;
+
+    std::vector<glm::vec3> points{};
+    std::vector<glm::vec3> polyline{};
+    std::vector<Field> of{};
+    std::vector<float> radii{};
+    std::vector<float> weights{};
+    float threshold = 0.5f;
+    float slope = 1;                  ///< λ, derived
+    float level = 0.5f;               ///< T/Σw, derived
+    std::vector<Segment> segments{};  ///< derived
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&Blob::points, Parameter{"points", "m", "Point skeletons.", limits::any, true});
+        v(&Blob::polyline,
+          Parameter{"polyline", "m", "A chain of points, one skeleton as a whole.", limits::any, true});
+        v(&Blob::of, Parameter{"of", "", "Fields as skeletons: their distance, zero inside.", limits::any, true});
+        v(&Blob::radii, Parameter{"radii", "m",
+                                  "How far each skeleton reaches: one number for all, or one for each of the points, "
+                                  "then the polyline, then the fields.",
+                                  limits::positive});
+        v(&Blob::weights,
+          Parameter{"weights", "", "The skeletons' weights, in the same way; 1 if absent.", limits::positive, true});
+        v(&Blob::threshold,
+          Parameter{"threshold", "", "T; the larger, the smaller the solid.", limits::positive, true});
+    }
+
+    /// How many skeletons there are.
+    std::size_t count() const { return points.size() + (polyline.empty() ? 0 : 1) + of.size(); }
+    float reach(std::size_t i) const { return radii[radii.size() == 1 ? 0 : i]; }
+    float weight(std::size_t i) const { return weights.empty() ? 1.f : weights[weights.size() == 1 ? 0 : i]; }
+
+    void prepare();
+
+    template <class D>
+    typename D::Scalar evaluate(D& d, const typename D::Point& p) const {
+        std::optional<typename D::Scalar> sum, nearest;
+        std::size_t i = 0;
+        const auto add = [&](const typename D::Scalar& distance) {
+            const float w = weight(i), r = radius_at(reach(i), level);
+            auto g = falloff(distance, reach(i));
+            if (w != 1) g = g * w;
+            sum = sum ? *sum + g : g;
+            nearest = nearest ? min(*nearest, distance - r) : distance - r;
+            ++i;
+        };
+        for (const glm::vec3& at : points) add(d.primitive(Point{at}, p));
+        if (!segments.empty()) {
+            typename D::Scalar chain = d.primitive(segments[0], p);
+            for (std::size_t k = 1; k < segments.size(); ++k) chain = min(chain, d.primitive(segments[k], p));
+            add(chain);
+        }
+        for (const Field& f : of) add(d.field(f, p));
+        return max(d.one_lipschitz((threshold - *sum) * (1 / slope), p), *nearest);
+    }
+    Bounds bounds(BoundsQuery& q, float at_level) const {
+        Bounds all;
+        std::size_t i = 0;
+        const auto reached = [&] { return radius_at(reach(i++), level) + at_level; };
+        const auto add = [&](const std::vector<glm::vec3>& some, float by) {
+            Bounds b;
+            for (const glm::vec3& v : some) b = unite(b, Bounds{v, v});
+            if (by >= 0) all = unite(all, b.inflated(by));
+        };
+        for (const glm::vec3& v : points) add({v}, reached());
+        if (!polyline.empty()) add(polyline, reached());
+        for (const Field& f : of) all = unite(all, q(f, reached()));
+        return all;
+    }
+
+    /// Where falloff(·, R) falls below the level.
+    static float radius_at(float reach, float level) { return reach * std::sqrt(1 - std::cbrt(level)) * (1 + 1e-6f); }
+};
+
+}  // namespace phasetree

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+namespace phasetree {
+
+/// Heights on a rectangular grid, from 0 to 1: row after row, the first at the largest y, as an image is seen from
+/// above.
+struct HeightGrid {
+    int width = 0, height = 0;
+    std::vector<float> values;
+};
+
+}  // namespace phasetree

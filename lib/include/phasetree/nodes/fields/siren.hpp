@@ -1,0 +1,86 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "phasetree/model/from_file.hpp"
+#include "phasetree/nodes/fields/profile.hpp"
+#include "phasetree/nodes/fields/siren_network.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+
+namespace phasetree {
+
+/// A neural field, divided by a bound λ of its slope. Outside the ball in which it was learned it may be anything:
+/// there the distance to the ball takes over, which is the larger anyway because f/λ is small. So max(|p| − R, f/λ) is
+/// the intersection of both, 1-Lipschitz, and where the ball is decided the network need not be evaluated.
+struct Siren {
+    static constexpr bool is_field_node = true;
+    static constexpr NodeInfo info{"siren", "7.5, 9.4", "max(|p| − R, f(p)/λ),  λ = Π ‖Wᵢ‖₂",
+                                   "A neural field with sinusoidal layers, from a file of weights."};
+    /// f/λ within the cube about the ball; the projection onto the cube lengthens nothing.
+    struct Network {
+        std::vector<float> values{};
+
+        std::span<const float> data() const { return values; }
+        template <class T>
+        static T distance(const float* data, const Vec3<T>& p) {
+            const int layers = static_cast<int>(data[0]);
+            const float radius = data[1];
+            const float* at = data + 2;
+            std::array<T, SirenNetwork::widest> now, next;
+            now[0] = clamp(p.x, T(-radius), T(radius));
+            now[1] = clamp(p.y, T(-radius), T(radius));
+            now[2] = clamp(p.z, T(-radius), T(radius));
+            for (int layer = 0; layer < layers; ++layer) {
+                const auto inputs = static_cast<std::size_t>(at[0]), outputs = static_cast<std::size_t>(at[1]);
+                const float *weight = at + 2, *bias = weight + inputs * outputs;
+                for (std::size_t o = 0; o < outputs; ++o, weight += inputs) {
+                    T sum(bias[o]);
+                    for (std::size_t i = 0; i < inputs; ++i) sum = sum + now[i] * weight[i];
+                    next[o] = layer + 1 < layers ? sine_cosine(sum).sine : sum;
+                }
+                for (std::size_t o = 0; o < outputs; ++o) now[o] = next[o];
+                at = bias + outputs;
+            }
+            return now[0];
+        }
+    };
+    using Parts = TypeList<Network>;
+
+    FromFile<SirenNetwork> file{};
+    int samples = 0;
+    Network network{};    ///< derived
+    float lipschitz = 1;  ///< λ, derived
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&Siren::file, Parameter{"file", "",
+                                  "The weights: JSON, {\"radius\": R, \"layers\": [{\"weights\": [[…], …], "
+                                  "\"bias\": […]}, …]} with the frequencies multiplied in."});
+        v(&Siren::samples,
+          Parameter{"samples",
+                    "",
+                    "0: λ is the product of the layers' spectral norms, which is proven. More: λ is the "
+                    "steepest slope at so many points and a tenth, tighter and faster, but without "
+                    "proof.",
+                    {.low = 0, .high = 10'000'000},
+                    true});
+    }
+    void prepare() {
+        if (const char* mistake = file.content->mistake()) throw ModelError(std::string("siren: ") + mistake);
+        const double slope = samples > 0 ? file.content->sampled_slope(samples) : file.content->spectral_bound();
+        if (!(slope > 1e-6 && slope < 1e9)) throw ModelError("siren: the network is too steep or flat");
+        lipschitz = static_cast<float>(slope);
+        network.values = file.content->table(static_cast<float>(1 / slope));
+    }
+    template <class D>
+    typename D::Scalar evaluate(D& d, const typename D::Point& p) const {
+        return max(d.primitive(Sphere{.radius = file.content->radius}, p), d.primitive(network, p));
+    }
+    Bounds bounds(BoundsQuery&, float level) const {
+        const float r = file.content->radius + level;
+        return r < 0 ? Bounds{} : Bounds::centred(glm::vec3(r));
+    }
+};
+
+}  // namespace phasetree

@@ -1,0 +1,92 @@
+#pragma once
+
+#include "phasetree/nodes/phased/voronoi_sites.hpp"
+
+namespace phasetree {
+
+/// The cells of a Voronoi pattern, each shrunk by half the gap and with edges rounded: the blocks of a rock wall, the
+/// stones of a pavement. With site s the nearest, the distance to the bisector of s and t is
+/// bₜ = (|p − t|² − |p − s|²)/(2|t − s|). v is the minimum over t, or the rounded one
+///     v = (Σ (bₜ + c)⁻⁸)^(−1/8) − c,
+/// which is at most the minimum, does not depend on the order of the sites, and is 1-Lipschitz: its derivatives by the
+/// bₜ are (v + c)⁹/(bₜ + c)⁹, positive and together at most 1. On a cell's faces v ≤ 0, so g/2 − max(v, 0) is
+/// continuous from cell to cell whatever v does there.
+///
+/// Sites that are not looked at (voronoi_sites.hpp) have bisectors that are at least half of (their distance − the
+/// nearest one's) away. All bₜ are cut off there, so nothing jumps when the point moves on and other sites are looked
+/// at.
+struct VoronoiCells {
+    static constexpr bool is_field_node = true;
+    static constexpr NodeInfo info{"voronoi_cells", "4.3, 9.1",
+                                   "g/2 − max(v, 0),  v = (Σ over t ≠ s of (bₜ + c)⁻⁸)^(−1/8) − c,  "
+                                   "bₜ = (|p − t|² − |p − s|²)/(2|t − s|),  s the nearest site",
+                                   "Blocks with gaps between them, filling space: the cells of an irregular lattice of "
+                                   "sites."};
+    float size = 1;
+    float gap = 0.05f;
+    float rounding = 0;
+    float jitter = 0.9f;
+    float seed = 0;
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&VoronoiCells::size, detail::voronoi_size);
+        v(&VoronoiCells::gap, Parameter{"gap", "m", "Between blocks.", limits::positive});
+        v(&VoronoiCells::rounding,
+          Parameter{"rounding", "m", "Of the edges, c; 0 for sharp ones.", limits::non_negative, true});
+        v(&VoronoiCells::jitter, detail::voronoi_jitter);
+        v(&VoronoiCells::seed, detail::voronoi_seed);
+    }
+    void prepare() {
+        detail::require_usable(info.name, {size});
+        seed = std::floor(seed);
+        if (!(gap < 1.8f * seen() * size))
+            throw ModelError("voronoi_cells: the gap must be less than a tenth of the size");
+        if (!(gap > 1e-5f * size)) throw ModelError("voronoi_cells: the gap is too small");
+        if (!(rounding <= size)) throw ModelError("voronoi_cells: the rounding must not be more than the size");
+    }
+    template <class T>
+    T distance(const Vec3<T>& p) const {
+        const VoronoiSites sites{jitter, seed};
+        const float scale = 1 / size;
+        std::array<Vec3<T>, VoronoiSites::neighbours> to;
+        std::size_t count = 0;
+        Vec3<T> nearest{T(0.f), T(0.f), T(0.f)};
+        T least(1e9f);
+        sites.for_each(p * scale, [&](const Vec3<T>& offset, const T&) {
+            const T squared = dot(offset, offset);
+            const auto nearer = less(squared, least);
+            nearest = {select(nearer, offset.x, nearest.x), select(nearer, offset.y, nearest.y),
+                       select(nearer, offset.z, nearest.z)};
+            least = min(squared, least);
+            to[count++] = offset;
+        });
+        const float c = rounding * scale;
+        const T far(seen());
+        T v = far, sum(0.f);
+        for (const Vec3<T>& offset : to) {
+            const Vec3<T> between = offset - nearest;
+            const T apart = dot(between, between);
+            const T bisector = dot(between, offset + nearest) * 0.5f / sqrt(max(apart, T(1e-12f)));
+            // The nearest site itself is no neighbour of its own.
+            const T counted = select(less(apart, T(1e-10f)), far, min(bisector, far));
+            if (rounding > 0) {
+                const T x = max(counted + c, T(1e-4f)), x2 = x * x, x4 = x2 * x2;
+                sum = sum + T(1.f) / (x4 * x4);
+            } else {
+                v = min(v, counted);
+            }
+        }
+        if (rounding > 0) v = T(1.f) / sqrt(sqrt(sqrt(sum))) - c;
+        return gap * 0.5f - max(v, T(0.f)) * size;
+    }
+    Bounds bounds(BoundsQuery&, float) const { return Bounds::everything(); }
+
+    /// Bisectors of sites that are not looked at are farther than that, in cubes.
+    float seen() const {
+        const VoronoiSites sites{jitter, seed};
+        return 0.5f * (sites.unseen() - sites.nearest()) * 0.999f;
+    }
+};
+
+}  // namespace phasetree

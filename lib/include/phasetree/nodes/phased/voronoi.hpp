@@ -1,0 +1,86 @@
+#pragma once
+
+#include <vector>
+
+#include "phasetree/nodes/phased/combine.hpp"
+#include "phasetree/nodes/phased/voronoi_sites.hpp"
+
+namespace phasetree {
+
+/// The cells of a Voronoi pattern in several phases, filling space. Dₖ is the distance to the nearest site of phase k,
+/// 1-Lipschitz and, cut off where other sites than those looked at could matter, continuous. Φ is half the difference
+/// to the nearest site of any other phase: 1-Lipschitz, and φᵢ + φⱼ = (Dᵢ − min Dₘ + Dⱼ − min Dₘ)/2 ≥ 0 because either
+/// minimum is at most the other's D. There is no vacuum.
+struct Voronoi {
+    static constexpr bool is_phased_node = true;
+    static constexpr NodeInfo info{
+        "voronoi", "4.3, 9.1", "φₖ = (Dₖ − min over m ≠ k of Dₘ)/2,  Dₖ = distance to the nearest site of phase k",
+        "Blocks of several phases, filling space: the cells of an irregular lattice of sites, "
+        "each with one of the phases. With the same size, jitter and seed they are those of "
+        "voronoi_cells."};
+    /// The distance to the nearest site of one kind.
+    struct Nearest {
+        float size = 1;
+        float jitter = 1;
+        float seed = 0;
+        float kinds = 2;
+        float kind = 0;
+
+        template <class T>
+        T distance(const Vec3<T>& p) const {
+            const VoronoiSites sites{jitter, seed};
+            T least(sites.unseen() * sites.unseen());
+            const float low = 289 * kind / kinds - 0.5f, high = 289 * (kind + 1) / kinds - 0.5f;
+            sites.for_each(p * (1 / size), [&](const Vec3<T>& offset, const T& hash) {
+                const T squared =
+                    select(less(hash, T(low)), least, select(less(hash, T(high)), dot(offset, offset), least));
+                least = min(squared, least);
+            });
+            return sqrt(least) * size;
+        }
+    };
+    using Parts = TypeList<Nearest>;
+
+    std::vector<Phase> of_phases{};
+    float size = 1;
+    float jitter = 0.9f;
+    float seed = 0;
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&Voronoi::of_phases,
+          Parameter{"phases", "",
+                    "Two at least; a cell has each of them as likely, or more so if it is listed twice."});
+        v(&Voronoi::size, detail::voronoi_size);
+        v(&Voronoi::jitter, detail::voronoi_jitter);
+        v(&Voronoi::seed, detail::voronoi_seed);
+    }
+    void prepare() {
+        detail::require_usable(info.name, {size});
+        seed = std::floor(seed);
+        if (phases().size() < 2) throw ModelError("voronoi: it needs two different phases at least");
+        if (of_phases.size() > 16) throw ModelError("voronoi: it takes up to 16 phases");
+    }
+    template <class D>
+    Phases<typename D::Scalar> evaluate(D& d, const typename D::Point& p) const {
+        const auto kinds = static_cast<float>(of_phases.size());
+        Phases<typename D::Scalar> sites;
+        for (std::size_t k = 0; k < of_phases.size(); ++k) {
+            const int phase = of_phases[k].index;
+            const auto distance = d.primitive(Nearest{size, jitter, seed, kinds, static_cast<float>(k)}, p);
+            sites.set(phase, sites.has(phase) ? min(sites[phase], distance) : distance);
+        }
+        Phases<typename D::Scalar> result;
+        detail::minimum_of_others(sites, sites.present, sites.present,
+                                  [&](int i, const auto& others) { result.set(i, (sites[i] - *others) * 0.5f); });
+        return result;
+    }
+    PhaseSet phases() const {
+        PhaseSet all;
+        for (const Phase p : of_phases) all = all | PhaseSet::of(p);
+        return all;
+    }
+    Bounds bounds(BoundsQuery&, float) const { return Bounds::everything(); }
+};
+
+}  // namespace phasetree
