@@ -155,3 +155,21 @@ TEST_CASE("asking for bounds of shared subtrees takes no longer than the tree is
     CHECK(b.finite());
     CHECK(b.high.x >= 1.19f);
 }
+
+TEST_CASE("a profile without end in z stays bounded in x and y when it is turned about z, mirrored or copied") {
+    const Field square = Rectangle{.width = 2, .height = 2};
+    const auto check = [](const Field& f, float reach) {
+        const Bounds b = bounds(Extrude{.of = f, .height = 1});
+        REQUIRE(b.finite());
+        CHECK(b.high.x == doctest::Approx(reach).epsilon(1e-4));
+        CHECK(b.high.z == doctest::Approx(0.5f).epsilon(1e-4));
+    };
+    check(square, 1);
+    check(warped(Rotate{.angle = 45}, square), std::sqrt(2.f));
+    check(warped(Mirror{.normal = {0, -1, 0}}, warped(Translate{{0.5f, 0.25f, 0}}, square)), 1.5f);
+    FieldPolarArray array;
+    array.of = square;
+    array.count = 8;
+    check(array, std::sqrt(2.f));
+    CHECK(!bounds(warped(Rotate{.axis = {1, 0, 0}, .angle = 30}, square)).finite());
+}

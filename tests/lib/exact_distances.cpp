@@ -90,6 +90,18 @@ TEST_CASE("exact primitives are as far from their surface as a search by members
         Pyramid{.base = 0.8f, .height = 1.5f},
         Octahedron{.radius = 1},
         Tetrahedron{.radius = 1},
+        Dodecahedron{.radius = 1},
+        Icosahedron{.radius = 1},
+        BoxFrame{.size = {1, 1.5f, 0.8f}, .thickness = 0.2f},
+        Bowl{.radius = 1, .cut = 0.4f, .thickness = 0.25f},
+        Bowl{.radius = 1, .cut = -0.4f, .thickness = 0.25f},
+        Helix{.radius = 1, .pitch = 0.7f, .turns = 2.4f, .wire = 0.15f},
+        Helix{.radius = 0.5f, .pitch = -1.5f, .turns = 1.3f, .wire = 0.2f},
+        Extrude{.of = Star{.points = 5, .radius = 1, .inner_radius = 0.5f}, .height = 0.8f},
+        Extrude{.of = Star{.points = 4, .radius = 1, .inner_radius = 0.3f}, .height = 1},
+        Extrude{.of = Rectangle{.width = 1, .height = 1.6f, .corner_radius = 0.3f}, .height = 0.7f},
+        Revolve{.of = Rectangle{.width = 0.6f, .height = 1, .corner_radius = 0.1f}, .offset = 0.7f},
+        Revolve{.of = Circle{.radius = 0.4f}, .offset = 1},
     };
     int index = 0;
     for (const Field& f : fields) {
@@ -122,6 +134,17 @@ TEST_CASE("their bounds touch them, at every level outside") {
         Pyramid{.base = 1.5f, .height = 1},
         Octahedron{.radius = 1},
         Tetrahedron{.radius = 1},
+        Dodecahedron{.radius = 1},
+        Icosahedron{.radius = 1},
+        BoxFrame{.size = {1, 1.5f, 0.8f}, .thickness = 0.2f},
+        Bowl{.radius = 1, .cut = 0.4f, .thickness = 0.25f},
+        Bowl{.radius = 1, .cut = -0.4f, .thickness = 0.25f},
+        Extrude{.of = Star{.points = 3, .radius = 1, .inner_radius = 0.3f}},
+        Extrude{.of = Star{.points = 3, .radius = 1, .inner_radius = 0.8f}},
+        Extrude{.of = Star{.points = 5, .radius = 1, .inner_radius = 0.5f}},
+        Extrude{.of = Star{.points = 4, .radius = 1, .inner_radius = 0.3f}},
+        Extrude{.of = Rectangle{.width = 1, .height = 1.6f, .corner_radius = 0.3f}, .height = 0.7f},
+        Revolve{.of = Rectangle{.width = 0.6f, .height = 1}, .offset = 0.7f},
         Ellipsoid{.radii = {1, 0.7f, 0.3f}},
     };
     int index = 0;
@@ -174,6 +197,16 @@ TEST_CASE("sides and octaves are whole numbers, shapes are possible") {
     CHECK_THROWS_WITH_AS((void)Field(Prism{.sides = 4.5f}), "prism: \"sides\" must be a whole number", ModelError);
     CHECK_THROWS_WITH_AS((void)Field(Displace{.of = Sphere{}, .octaves = 1.5f}),
                          "displace: \"octaves\" must be a whole number", ModelError);
+    CHECK_THROWS_WITH_AS((void)Field(Star{.points = 5.5f}), "star: \"points\" must be a whole number", ModelError);
+    CHECK_THROWS_AS((void)Field(Star{.radius = 1, .inner_radius = 1}), ModelError);
+    CHECK_THROWS_AS((void)Field(Rectangle{.width = 1, .height = 2, .corner_radius = 0.6f}), ModelError);
+    CHECK_THROWS_AS((void)Field(BoxFrame{.size = {1, 2, 3}, .thickness = 0.5f}), ModelError);
+    CHECK_THROWS_AS((void)Field(Bowl{.radius = 1, .cut = -1}), ModelError);
+    CHECK_THROWS_AS((void)Field(Helix{.pitch = 0}), ModelError);
+    CHECK_THROWS_AS((void)Field(Helix{.turns = 0.5f}), ModelError);
+    CHECK_THROWS_WITH_AS((void)Field(Heightfield{.octaves = 1.5f}), "heightfield: \"octaves\" must be a whole number",
+                         ModelError);
+    CHECK_THROWS_AS((void)Field(Heightfield{.seed = 0.5f}), ModelError);
     CHECK_THROWS_AS((void)Field(RoundCone{.radius_from = 3}), ModelError);
     CHECK_THROWS_AS((void)Field(Tube{.radius = 1, .inner_radius = 1}), ModelError);
     CHECK_THROWS_AS((void)Field(SphericalCap{.radius = 1, .cut = 1}), ModelError);

@@ -106,8 +106,9 @@ void fill(Random& rng, Value& value, const Parameter& p, int depth) {
         for (auto& item : value) fill<Node>(rng, item, each, depth);
     } else {
         // Mostly two or three, now and then the single child that a fold over the rest must survive.
-        value.resize(static_cast<std::size_t>(rng.chance(0.1) ? 1 : 2 + rng.below(2)));
         using Entry = typename Value::value_type;
+        const bool is_outline = std::is_same_v<Entry, glm::vec2>;
+        value.resize(static_cast<std::size_t>(is_outline ? 3 + rng.below(4) : rng.chance(0.1) ? 1 : 2 + rng.below(2)));
         if constexpr (std::is_same_v<Entry, Field> || std::is_same_v<Entry, Phased>) {
             for (auto& child : value) draw(child);
         } else {

@@ -148,6 +148,23 @@ class Pruner {
                 ask(in.a, {Demand::value, 0});
                 ask(in.b, {Demand::value, 0});
                 return;
+            case Op::corner: {
+                // Where one is negative and the smaller, the corner is the other.
+                if (high(in.a) < 0 && value_[in.b] - value_[in.a] > slack(in.a) + slack(in.b)) return replace(i, in.b);
+                if (high(in.b) < 0 && value_[in.a] - value_[in.b] > slack(in.a) + slack(in.b)) return replace(i, in.a);
+                if (relative) {
+                    const float below = std::min(d.tau, 0.f);
+                    if (high(in.a) < below) return replace(i, in.b);
+                    if (high(in.b) < below) return replace(i, in.a);
+                    if (low(in.a) > d.tau) return replace(i, in.a);
+                    if (low(in.b) > d.tau) return replace(i, in.b);
+                }
+                // Up to 0 it is the maximum, and so relative to a τ ≤ 0 it has the sign that the maximum has.
+                const Demand each = relative && d.tau <= 0 ? d : Demand{Demand::value, 0};
+                ask(in.a, each);
+                ask(in.b, each);
+                return;
+            }
             case Op::absolute:
                 if (low(in.a) > 0) return replace(i, in.a);
                 if (high(in.a) < 0) {

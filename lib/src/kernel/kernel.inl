@@ -103,6 +103,9 @@ HWY_FLATTEN void run(const Routine& routine, float* registers) {
             case Op::falloff:
                 store(falloff(load(a), constants[s->data]), to);
                 break;
+            case Op::corner:
+                store(corner(load(a), load(b)), to);
+                break;
             default:
                 Handlers::handlers[s->op - static_cast<std::uint32_t>(Op::first_primitive)](*s, constants, registers);
         }

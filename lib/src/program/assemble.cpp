@@ -83,6 +83,7 @@ int operands(Op op) {
         case Op::maximum:
         case Op::smooth_minimum:
         case Op::guarded:
+        case Op::corner:
             return 2;
         default:
             return 1;

@@ -81,6 +81,9 @@ glm::vec3 gradient(const Routine& routine, std::uint32_t slots, const glm::vec3&
             case Op::falloff:
                 to = falloff(a, *c);
                 break;
+            case Op::corner:
+                to = corner(a, b);
+                break;
             default: {
                 const Vec3<Dual> point{registers[s.a], registers[s.a + 1], registers[s.a + 2]};
                 const std::uint32_t index = s.op - first_primitive;

@@ -191,6 +191,10 @@ Recorded smooth_min(Recorded a, Recorded b, float r) {
 [[maybe_unused]] Recorded falloff(Recorded d, float reach) {
     return d.recorder->emit(Op::falloff, d.id, 0, {&reach, 1}, d.recorder->lipschitz(d) * (steepest_falloff / reach));
 }
+/// No steeper than the steeper one, because a and b vary along orthogonal directions.
+[[maybe_unused]] Recorded corner(Recorded a, Recorded b) {
+    return a.recorder->emit(Op::corner, a.id, b.id, {}, a.recorder->largest(a, b));
+}
 Recorded smooth_max(Recorded a, Recorded b, float r) {
     return -smooth_min(-a, -b, r);
 }

@@ -43,7 +43,7 @@ TypeOf type_of(const glm::vec3& v, const Limits& l) {
             fmt::format("[{}, {}, {}]", v.x, v.y, v.z),
             {{"type", "array"}, {"minItems", 3}, {"maxItems", 3}, {"items", with_limits({{"type", "number"}}, l)}}};
 }
-[[maybe_unused]] TypeOf type_of(const glm::vec2& v, const Limits& l) {
+TypeOf type_of(const glm::vec2& v, const Limits& l) {
     return {"[x, y]",
             fmt::format("[{}, {}]", v.x, v.y),
             {{"type", "array"}, {"minItems", 2}, {"maxItems", 2}, {"items", with_limits({{"type", "number"}}, l)}}};

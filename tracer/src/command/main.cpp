@@ -6,6 +6,7 @@
 #include "command/commands.hpp"
 #include "command/numbers.hpp"
 #include "output/error.hpp"
+#include "phasetree/model/handle.hpp"
 #include "phasetree/reading/error.hpp"
 #include "phasetree/version.hpp"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
@@ -54,17 +55,25 @@ inline Bounds intersect(const Bounds& a, const Bounds& b) {
     return c.empty() ? Bounds{} : c;
 }
 
-/// The box of a box under a map that takes boxes' corners to the image's extremes (any affine map).
-template <class Map>
-Bounds image_of_corners(const Bounds& box, Map&& map) {
+/// The box of a box under a linear map, with a margin for rounding. A side at infinity makes infinite what the map
+/// makes depend on it, and nothing else: a profile without end in z stays bounded when it is turned about z.
+inline Bounds image_of(const Bounds& box, const glm::mat3& map) {
     if (box.empty()) return {};
-    if (!box.finite()) return Bounds::everything();
-    Bounds result;
-    for (int i = 0; i < 8; ++i) {
-        const glm::vec3 p = map(box.corner(i));
-        result = unite(result, {p, p});
+    Bounds result{glm::vec3(0), glm::vec3(0)};
+    for (int column = 0; column < 3; ++column) {
+        for (int row = 0; row < 3; ++row) {
+            const float k = map[column][row];
+            if (k == 0) continue;
+            const float a = k * box.low[column], b = k * box.high[column];
+            result.low[row] += std::min(a, b);
+            result.high[row] += std::max(a, b);
+        }
     }
-    return result;
+    float largest = 0;
+    for (int i = 0; i < 3; ++i)
+        for (const float side : {result.low[i], result.high[i]})
+            if (std::isfinite(side)) largest = std::max(largest, std::abs(side));
+    return result.inflated(2e-6f * largest);
 }
 
 }  // namespace phasetree

@@ -78,6 +78,16 @@ T falloff(const T& d, float reach) {
 /// sup of |derivative| of falloff times R: at x² = 1/5, 6x(1 − x²)².
 inline constexpr float steepest_falloff = 1.7172838f;
 
+/// Signed distances a and b along orthogonal directions, each exact, give that of the intersection: for a profile and
+/// the slab of an extrusion, or for the two sides of a rectangle. Its gradient is a combination of theirs whose
+/// weights' squares sum to 1 at most; so it is no steeper than the steeper of the two. Its sign is that of max(a, b).
+template <class T>
+T corner(const T& a, const T& b) {
+    const T zero(0.f);
+    const T past_a = max(a, zero), past_b = max(b, zero);
+    return sqrt(past_a * past_a + past_b * past_b) + min(max(a, b), zero);
+}
+
 template <class T>
 struct SineCosine {
     T sine, cosine;

@@ -13,16 +13,22 @@
 #include "phasetree/nodes/copies/polar_array.hpp"
 #include "phasetree/nodes/copies/scatter.hpp"
 #include "phasetree/nodes/fields/blob.hpp"
+#include "phasetree/nodes/fields/bowl.hpp"
 #include "phasetree/nodes/fields/box.hpp"
+#include "phasetree/nodes/fields/box_frame.hpp"
 #include "phasetree/nodes/fields/capped_cone.hpp"
 #include "phasetree/nodes/fields/capped_torus.hpp"
 #include "phasetree/nodes/fields/capsule.hpp"
 #include "phasetree/nodes/fields/cylinder.hpp"
 #include "phasetree/nodes/fields/difference.hpp"
 #include "phasetree/nodes/fields/displace.hpp"
+#include "phasetree/nodes/fields/dodecahedron.hpp"
 #include "phasetree/nodes/fields/ellipsoid.hpp"
 #include "phasetree/nodes/fields/gyroid.hpp"
 #include "phasetree/nodes/fields/height_map.hpp"
+#include "phasetree/nodes/fields/heightfield.hpp"
+#include "phasetree/nodes/fields/helix.hpp"
+#include "phasetree/nodes/fields/icosahedron.hpp"
 #include "phasetree/nodes/fields/intersection.hpp"
 #include "phasetree/nodes/fields/link.hpp"
 #include "phasetree/nodes/fields/merge.hpp"
@@ -39,6 +45,7 @@
 #include "phasetree/nodes/fields/schwarz_p.hpp"
 #include "phasetree/nodes/fields/shell.hpp"
 #include "phasetree/nodes/fields/siren.hpp"
+#include "phasetree/nodes/fields/slab.hpp"
 #include "phasetree/nodes/fields/smooth_difference.hpp"
 #include "phasetree/nodes/fields/smooth_intersection.hpp"
 #include "phasetree/nodes/fields/smooth_union.hpp"
@@ -74,6 +81,13 @@
 #include "phasetree/nodes/phased/under.hpp"
 #include "phasetree/nodes/phased/unite_shape_below.hpp"
 #include "phasetree/nodes/phased/voronoi.hpp"
+#include "phasetree/nodes/profiles/bezier.hpp"
+#include "phasetree/nodes/profiles/circle.hpp"
+#include "phasetree/nodes/profiles/extrude.hpp"
+#include "phasetree/nodes/profiles/polygon.hpp"
+#include "phasetree/nodes/profiles/rectangle.hpp"
+#include "phasetree/nodes/profiles/revolve.hpp"
+#include "phasetree/nodes/profiles/star.hpp"
 #include "phasetree/nodes/warps/affine.hpp"
 #include "phasetree/nodes/warps/bend.hpp"
 #include "phasetree/nodes/warps/distort.hpp"
@@ -94,7 +108,9 @@ using PlainFields =
              SmoothUnion, SmoothIntersection, SmoothDifference, Offset, Shell, Merge, Ellipsoid, CappedTorus, Link,
              Tube, RoundedCylinder, RoundCone, SphericalCap, Prism, Wedge, Pyramid, Octahedron, Tetrahedron, Gyroid,
              SchwarzP, SchwarzD, Displace, FieldInstances, FieldPolarArray, FieldGrid, Polyline, FieldEndlessGrid, Blob,
-             VoronoiCells, Siren, HeightMap, FieldFibonacciDisk, FieldFibonacciSphere, FieldScatter>;
+             VoronoiCells, Siren, HeightMap, FieldFibonacciDisk, FieldFibonacciSphere, FieldScatter, Extrude, Revolve,
+             Circle, Rectangle, Star, Slab, BoxFrame, Bowl, Dodecahedron, Icosahedron, Helix, Heightfield, Polygon,
+             Bezier>;
 
 using Objects = TypeList<Set, ThinShell, Under, Over, Layered, IntersectShape, SubtractShape, Change, Remove, Contact,
                          Contacts, LayeredSequence, SmoothLayered, UniteShapeBelow, SmoothUniteShape,

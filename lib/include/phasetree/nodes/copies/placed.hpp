@@ -74,16 +74,11 @@ struct Placement {
     bool is_moved_only() const { return map.cosine == 1 && map.sine == 0 && scale == 1; }
     Bounds image(const Bounds& b) const {
         if (b.empty()) return b;
-        if (frame) {
-            const Bounds turned = image_of_corners(b, [&](const glm::vec3& p) { return *frame * p * scale + map.by; });
-            return turned.inflated(turned.finite() ? 1e-6f * (turned.diagonal() + glm::length(turned.centre())) : 0.f);
-        }
-        if (map.sine == 0 && map.cosine > 0) return {b.low * scale + map.by, b.high * scale + map.by};
-        const Bounds turned = image_of_corners(b, [&](const glm::vec3& p) {
-            const float c = map.cosine * scale, s = map.sine * scale;
-            return glm::vec3(p.x * c - p.y * s, p.x * s + p.y * c, p.z) * scale + map.by;
-        });
-        return turned.inflated(turned.finite() ? 1e-6f * (turned.diagonal() + glm::length(turned.centre())) : 0.f);
+        if (!frame && map.sine == 0 && map.cosine > 0) return {b.low * scale + map.by, b.high * scale + map.by};
+        const float c = map.cosine * scale * scale, s = map.sine * scale * scale;
+        const Bounds turned = image_of(b, frame ? *frame * scale : glm::mat3(c, s, 0, -s, c, 0, 0, 0, scale));
+        const float far = glm::length(map.by);
+        return Bounds{turned.low + map.by, turned.high + map.by}.inflated(1e-6f * far);
     }
 };
 

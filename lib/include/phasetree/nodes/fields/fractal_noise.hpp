@@ -52,6 +52,19 @@ struct FractalNoise {
         return sum;
     }
 
+    /// One octave over the plane, of the same range and slope: for each whole number another one.
+    template <class T>
+    static T in_plane(const T& x, const T& y, float which) {
+        using lattice::hashed, lattice::sum, lattice::wrapped;
+        const Coordinate<T> cx = coordinate(x), cy = coordinate(y);
+        const T plane(hashed(wrapped(which)));
+        const auto along_y = [&](const T& row) {
+            return mix(hashed(sum(row, cy.low)), hashed(sum(row, cy.high)), cy.blend);
+        };
+        const T low = along_y(hashed(sum(plane, cx.low))), high = along_y(hashed(sum(plane, cx.high)));
+        return mix(low, high, cx.blend) * (1.f / 144.f) - 1.f;
+    }
+
   private:
     static constexpr float steepest = 3.75f;
 

@@ -8,12 +8,9 @@
 /// What primitives share that are made from a plane profile.
 namespace phasetree::detail {
 
-/// Two signed distances a and b along orthogonal directions, each exact, give that of the intersection: for a profile
-/// and the slab of an extrusion, or for the two sides of a rectangle.
-template <class T>
-T corner_distance(const T& a, const T& b) {
-    const T zero(0.f);
-    return length(max(a, zero), max(b, zero)) + min(max(a, b), zero);
+/// What is a box in the plane, grown by d (shrunk for a negative one), at every z.
+inline Bounds at_every_height(const Bounds& b, float d) {
+    return {{b.low.x - d, b.low.y - d, -Bounds::infinity}, {b.high.x + d, b.high.y + d, Bounds::infinity}};
 }
 
 /// Squares and reciprocals of such sizes stay far from the ends of the floats' range.

@@ -25,7 +25,7 @@ struct RoundedCylinder {
     }
     template <class T>
     T distance(const Vec3<T>& p) const {
-        return detail::corner_distance(length(p.x, p.y) - (radius - edge), abs(p.z) - (height * 0.5f - edge)) - edge;
+        return corner(length(p.x, p.y) - (radius - edge), abs(p.z) - (height * 0.5f - edge)) - edge;
     }
     Bounds bounds(BoundsQuery&, float level) const {
         return Bounds::centred(glm::vec3{radius, radius, height * 0.5f} + level);

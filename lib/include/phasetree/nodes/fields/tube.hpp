@@ -29,7 +29,7 @@ struct Tube {
     template <class T>
     T distance(const Vec3<T>& p) const {
         const float middle = (radius + inner_radius) * 0.5f, half_wall = (radius - inner_radius) * 0.5f;
-        return detail::corner_distance(abs(length(p.x, p.y) - middle) - half_wall, abs(p.z) - height * 0.5f);
+        return corner(abs(length(p.x, p.y) - middle) - half_wall, abs(p.z) - height * 0.5f);
     }
     Bounds bounds(BoundsQuery&, float level) const {
         if ((radius - inner_radius) * 0.5f + level < 0) return {};

@@ -40,7 +40,7 @@ struct Wedge {
         const T d = sqrt(min(above * above + along * along,
                              min(left * left + past_left * past_left, below * below + past_below * past_below)));
         const T triangle = select(less(max(above, max(left, below)), zero), -d, d);
-        return detail::corner_distance(triangle, abs(p.y) - size.y * 0.5f);
+        return corner(triangle, abs(p.y) - size.y * 0.5f);
     }
     /// What is level below the surface is a smaller triangle, within the box that is smaller by as much.
     Bounds bounds(BoundsQuery&, float level) const { return Bounds::centred(size * 0.5f + level); }

@@ -57,8 +57,9 @@ struct Affine {
     }
     float value_scale() const { return scale; }
     Bounds image(const Bounds& b) const {
-        const Bounds moved = image_of_corners(b, [&](const glm::vec3& p) { return x * p.x + y * p.y + z * p.z + by; });
-        return moved.inflated(moved.finite() ? 1e-6f * (moved.diagonal() + glm::length(moved.centre())) : 0.f);
+        if (b.empty()) return b;
+        const Bounds turned = image_of(b, glm::mat3(x, y, z));
+        return Bounds{turned.low + by, turned.high + by}.inflated(1e-6f * glm::length(by));
     }
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <glm/matrix.hpp>
+
 #include "phasetree/nodes/warps/warped.hpp"
 
 namespace phasetree {
@@ -36,9 +38,7 @@ struct Mirror {
     Map map() const { return {normal}; }
     float value_scale() const { return 1; }
     Bounds image(const Bounds& b) const {
-        const Bounds reflected =
-            image_of_corners(b, [&](const glm::vec3& p) { return p - 2 * glm::dot(p, normal) * normal; });
-        return unite(b, reflected.inflated(1e-6f * (b.finite() ? b.diagonal() + glm::length(b.centre()) : 0.f)));
+        return unite(b, image_of(b, glm::mat3(1) - 2.f * glm::outerProduct(normal, normal)));
     }
 };
 

@@ -34,10 +34,7 @@ struct Rotate {
     }
     Map map() const { return {{matrix[0], matrix[1], matrix[2]}}; }
     float value_scale() const { return 1; }
-    Bounds image(const Bounds& b) const {
-        return image_of_corners(b, [&](const glm::vec3& p) { return matrix * p; })
-            .inflated(1e-6f * (b.finite() ? b.diagonal() : 0.f));
-    }
+    Bounds image(const Bounds& b) const { return image_of(b, matrix); }
 };
 
 }  // namespace phasetree

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "phasetree/nodes/fields/profile.hpp"
+
+/// Folding by the mirrors of a symmetry group: reflections, hence isometries, into the part of space between some of
+/// the mirrors. A point and the nearest point of a symmetric set's boundary may be taken on the same side of each
+/// mirror, so distances to the set are kept.
+namespace phasetree::detail {
+
+/// The mirrors of a regular polygon of n sides, at the angles kπ/n. |y| leaves the angles [0, nπ/n]; where [0, mπ/n] is
+/// left, the mirror at kπ/n, k = ⌈m/2⌉, maps [kπ/n, mπ/n] into [0, kπ/n]. After ⌈log₂ n⌉ such reflections [0, π/n] is
+/// left.
+struct PolygonMirrors {
+    static constexpr int most_folds = 6;  ///< for 64 sides
+    float folds = 0;
+    float cosine[most_folds] = {};
+    float sine[most_folds] = {};
+
+    static PolygonMirrors of(float sides) {
+        PolygonMirrors result;
+        const double step = 3.14159265358979323846 / static_cast<double>(sides);
+        int count = 0;
+        for (int m = static_cast<int>(sides); m > 1; ++count) {
+            m = (m + 1) / 2;
+            result.cosine[count] = static_cast<float>(std::cos(step * m));
+            result.sine[count] = static_cast<float>(std::sin(step * m));
+        }
+        result.folds = static_cast<float>(count);
+        return result;
+    }
+    template <class T>
+    void fold(T& x, T& y) const {
+        y = abs(y);
+        for (int i = 0; i < static_cast<int>(folds); ++i) {
+            const T beyond = max(y * cosine[i] - x * sine[i], T(0.f)) * 2.f;
+            x = x + beyond * sine[i];
+            y = y - beyond * cosine[i];
+        }
+    }
+};
+
+/// The 15 mirrors of the regular icosahedron and dodecahedron: the coordinate planes, and what they make of the plane
+/// across n = (−φ, 1/φ, −1)/2. Between x = 0, z = 0 and that one is a chamber of the group, whose edges are axes of
+/// order two (0, 1, 0), three (1/φ, φ, 0) and five (0, φ, 1). Its three reflections s, taken in turn where the point is
+/// on the mirror's other side, reach it: (s₁ s₂ s₃)⁵ is the group's longest element. But after the first three
+/// coordinate mirrors only a few of the 120 chambers are left, and three turns suffice.
+struct IcosahedralMirrors {
+    static constexpr float golden = 1.6180340f;
+
+    template <class T>
+    static void fold(Vec3<T>& p) {
+        for (int i = 0; i < 3; ++i) {
+            p = {abs(p.x), abs(p.y), abs(p.z)};
+            const T beyond = min(p.y * (0.5f / golden) - p.x * (0.5f * golden) - p.z * 0.5f, T(0.f)) * 2.f;
+            p = {p.x + beyond * (0.5f * golden), p.y - beyond * (0.5f / golden), p.z + beyond * 0.5f};
+        }
+    }
+};
+
+}  // namespace phasetree::detail

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "phasetree/model/concepts.hpp"
+
+namespace phasetree {
+
+/// (x, y, z) ↦ (√(x² + y²) − offset, z, 0): into the half plane that turns about the axis. It lengthens nothing.
+struct IntoHalfPlane {
+    float offset = 0;
+
+    template <class T>
+    Vec3<T> operator()(const Vec3<T>& p) const {
+        return {length(p.x, p.y) - offset, p.z, T(0.f)};
+    }
+};
+
+/// The nearest point of a body of revolution is in the half plane of the point itself. So the field stays exact if its
+/// cross-section lies on one side of the axis, or is symmetric about it.
+struct Revolve {
+    static constexpr bool is_field_node = true;
+    static constexpr NodeInfo info{"revolve", "", "f(|pxy| − o, z, 0)",
+                                   "A field's cross-section at z = 0 turned about its y axis, which becomes the z "
+                                   "axis; exact where the field is the exact distance to its cross-section and that "
+                                   "does not cross the axis."};
+    using Parts = TypeList<IntoHalfPlane>;
+    Field of{};
+    float offset = 0;
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&Revolve::of, Parameter{"of", "", "The field; what its section has beyond the axis is cut off."});
+        v(&Revolve::offset,
+          Parameter{"offset", "m", "How far the section is moved away from the axis first.", limits::any, true});
+    }
+    template <class D>
+    typename D::Scalar evaluate(D& d, const typename D::Point& p) const {
+        return d.field(of, d.map(IntoHalfPlane{offset}, p, 1.f));
+    }
+    Bounds bounds(BoundsQuery& q, float level) const {
+        const Bounds b = q(of, level);
+        const float reach = (b.high.x + offset) * (1 + 1e-6f);
+        if (b.empty() || b.low.z > 0 || b.high.z < 0 || reach < 0) return {};
+        return {{-reach, -reach, b.low.y}, {reach, reach, b.high.y}};
+    }
+};
+
+}  // namespace phasetree

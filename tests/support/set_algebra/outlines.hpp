@@ -1,0 +1,61 @@
+#pragma once
+
+/// The oracle's part for outlines of many points: polygons and Bézier curves. See set_algebra.hpp.
+
+#include <array>
+
+#include "support/set_algebra/profiles.hpp"
+
+namespace phasetree::tests::oracle {
+
+inline bool member(const Polygon& n, const dvec3& p) {
+    return in_polygon({n.points.begin(), n.points.end()}, p);
+}
+inline double signed_value(const Polygon& n, const dvec3& p) {
+    return to_outline({n.points.begin(), n.points.end()}, p);
+}
+/// De Casteljau's construction.
+struct Quadratic {
+    dvec2 a, b, c;
+
+    dvec2 at(double t) const { return glm::mix(glm::mix(a, b, t), glm::mix(b, c, t), t); }
+    std::array<Quadratic, 2> halves() const {
+        const dvec2 ab = (a + b) / 2.0, bc = (b + c) / 2.0, middle = (ab + bc) / 2.0;
+        return {{{a, ab, middle}, {middle, bc, c}}};
+    }
+};
+inline std::vector<Quadratic> curves(const Bezier& n) {
+    std::vector<Quadratic> all;
+    for (std::size_t i = 0; i + 1 < n.points.size(); i += 2)
+        all.push_back({n.points[i], n.points[i + 1], n.points[(i + 2) % n.points.size()]});
+    return all;
+}
+/// A curve is within the triangle of its points: from outside of that it is seen as its chord is. On an edge of the
+/// triangle, an end is seen opposite to the other.
+inline double seen(const dvec2& p, const Quadratic& q, int depth = 0) {
+    const double turns[] = {seen(p, q.a, q.b), seen(p, q.b, q.c), seen(p, q.c, q.a)};
+    const bool on_edge = std::any_of(std::begin(turns), std::end(turns), [](double a) { return std::abs(a) > 3.14; });
+    if (depth == 50 || (!on_edge && std::abs(turns[0] + turns[1] + turns[2]) < 3)) return seen(p, q.a, q.c);
+    const auto halves = q.halves();
+    return seen(p, halves[0], depth + 1) + seen(p, halves[1], depth + 1);
+}
+inline double to_curves(const Bezier& n, const dvec2& p) {
+    double squared = absent;
+    for (const Quadratic& q : curves(n)) {
+        squared = std::min(squared, least([&](double t) { return glm::dot(q.at(t) - p, q.at(t) - p); }, 0, 1));
+    }
+    return std::sqrt(squared);
+}
+inline bool member(const Bezier& n, const dvec3& p) {
+    if (n.thickness > 0) return 2 * to_curves(n, p) < n.thickness;
+    double angle = 0;
+    for (const Quadratic& q : curves(n)) angle += seen(p, q);
+    return is_around(angle);
+}
+inline double signed_value(const Bezier& n, const dvec3& p) {
+    const double d = to_curves(n, p);
+    if (n.thickness > 0) return d - n.thickness / 2.0;
+    return member(n, p) ? -d : d;
+}
+
+}  // namespace phasetree::tests::oracle
