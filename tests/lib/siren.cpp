@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "phasetree/nodes/node.hpp"
+#include "phasetree/reading/tree.hpp"
 
 using namespace phasetree;
 
@@ -61,4 +62,32 @@ TEST_CASE("networks that do not fit together are refused") {
     n = diagonal(1e5f, 1, 1);
     CHECK(mistake(n) == "a layer's weights are too large");
     CHECK(mistake(SirenNetwork{}) == "the network has no layers");
+}
+
+TEST_CASE("the bunny is what its training said") {
+    const Siren bunny = node_of(read_siren(PHASETREE_SOURCE_DIR "/scenes/assets/bunny.siren.json"), 0);
+    CHECK(bunny.lipschitz == doctest::Approx(6.316).epsilon(2e-3));
+    const double sampled = bunny.file.content->sampled_slope(20'000) / 1.1;
+    CHECK(sampled > 1.1);
+    CHECK(sampled < 1.3);
+    const Field field = bunny;
+    // The middle of the body, and the places about it that are air: above the back, before the feet, between the ears
+    // and the back.
+    CHECK(distance(field, {0.1f, 0, -0.3f}) < 0);
+    CHECK(distance(field, {0.5f, 0, 0.4f}) > 0);
+    CHECK(distance(field, {-0.7f, -0.4f, -0.6f}) > 0);
+    CHECK(distance(field, {0, 0, 0.95f}) > 0);
+    // Its volume, by a grid, is that of the scan in its scale.
+    int inside = 0;
+    for (int i = 0; i < 64; ++i)
+        for (int j = 0; j < 64; ++j)
+            for (int k = 0; k < 64; ++k) {
+                const auto at = [](int n) { return (static_cast<float>(n) + 0.5f) / 32 - 1; };
+                inside += distance(field, {at(i), at(j), at(k)}) < 0;
+            }
+    CHECK(inside / 32768.0 == doctest::Approx(0.6309).epsilon(0.02));
+}
+
+TEST_CASE("a file of weights that is wrong says where") {
+    CHECK_THROWS_AS((void)read_siren("/nonexistent/weights.json"), SceneError);
 }

@@ -129,8 +129,11 @@ class Reader {
             }
             if (!shape.is_object() || shape.size() != 1) return true;
             const std::string_view name = shape[0].key();
-            if (!has_node<PhasedNodes>(name)) return true;
-            if (!has_node<FieldNodes>(name)) return false;
+            const bool may_be_field = has_node<FieldNodes>(name), may_be_object = has_node<PhasedNodes>(name);
+            // Here, and not as a field where an object is needed.
+            if (!may_be_field && !may_be_object) throw unknown_node(shape[0], names_of(FieldNodes(), PhasedNodes()));
+            if (!may_be_object) return true;
+            if (!may_be_field) return false;
             const std::optional<Value> child = shape[0].find("of");
             if (!child) return true;
             shape = *child;
@@ -273,10 +276,17 @@ class Reader {
         if (has_node<NodesOf<Other>>(member.key()))
             return document_.error(member.key_offset(), fmt::format("\"{}\" makes {}, but {} is needed here",
                                                                     member.key(), kind_name<Other>, kind_name<Handle>));
-        std::vector<std::string> all;
-        for_each_type(NodesOf<Handle>(), [&]<class N>() { all.emplace_back(N::info.name); });
+        return unknown_node(member, names_of(NodesOf<Handle>()));
+    }
+    SceneError unknown_node(Value member, const std::vector<std::string>& known) const {
         return document_.error(member.key_offset(), fmt::format("there is no node \"{}\"", member.key()),
-                               closest(member.key(), all));
+                               closest(member.key(), known));
+    }
+    template <class... Lists>
+    static std::vector<std::string> names_of(Lists... lists) {
+        std::vector<std::string> all;
+        (for_each_type(lists, [&]<class N>() { all.emplace_back(N::info.name); }), ...);
+        return all;
     }
 
     std::vector<std::string> shape_names() const {
