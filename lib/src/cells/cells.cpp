@@ -60,12 +60,14 @@ float cost(const Bounds& box, std::size_t instructions) {
     return (e.x * e.y + e.y * e.z + e.z * e.x) * (visit_cost + static_cast<float>(instructions));
 }
 
-/// A box with its program, and for how many divisions the program has not become shorter.
+/// A box with its program, and for how many divisions nothing was won. A program that loses an instruction now and then
+/// would else be divided to the end, and all for nothing.
 struct Share {
     Bounds box;
     WorkingProgram program;
     int depth = 0;
     int stale = 0;
+    float left = 1;  ///< what is left of the cost since something was won
 };
 
 std::vector<Leaf> divide(const Share& share, const Division& d);
@@ -106,23 +108,34 @@ std::vector<Leaf> divide(const Share& share, const Division& d) {
     active_kernel().evaluate(all.routine(d.constants.data()), x.lane.data(), y.lane.data(), z.lane.data(),
                              registers.data()->lane.data(), out.data()->lane.data());
 
-    std::vector<std::vector<Leaf>> found(children.size());
-    const auto treat = [&](std::size_t i) {
+    std::vector<std::optional<WorkingProgram>> pruned(children.size());
+    const auto shorten = [&](std::size_t i) {
         std::vector<float> value(program.code.size());
         for (std::size_t k = 0; k < value.size(); ++k) value[k] = registers[slot[k]][i];
         const float radius = 0.5f * children[i].inflated(d.reach).diagonal() * (1 + 1e-5f);
-        std::optional<WorkingProgram> pruned = prune(program, d.constants, value, radius, d.rounding);
-        if (!pruned) return;
-        const bool is_shorter = pruned->code.size() < program.code.size();
-        const bool is_too_coarse = children[i].diagonal() > 0.25f * finest_jump(*pruned, d.constants);
-        const int stale = is_shorter || is_too_coarse ? 0 : share.stale + 1;
-        found[i] = cells_of({children[i], std::move(*pruned), share.depth + 1, stale}, d);
+        pruned[i] = prune(program, d.constants, value, radius, d.rounding);
     };
     // The order of the leaves is that of the parts, whichever thread finds them.
-    if (share.depth < 3)
-        tbb::parallel_for(std::size_t{0}, children.size(), treat);
-    else
-        for (std::size_t i = 0; i < children.size(); ++i) treat(i);
+    const auto each = [&](auto&& f) {
+        if (share.depth < 3)
+            tbb::parallel_for(std::size_t{0}, children.size(), f);
+        else
+            for (std::size_t i = 0; i < children.size(); ++i) f(i);
+    };
+    each(shorten);
+    float sum = 0;
+    for (std::size_t i = 0; i < children.size(); ++i)
+        if (pruned[i]) sum += cost(children[i], pruned[i]->code.size());
+    const float left = share.left * sum / cost(share.box, program.code.size());
+    const bool is_won = left < d.options.gain;
+
+    std::vector<std::vector<Leaf>> found(children.size());
+    each([&](std::size_t i) {
+        if (!pruned[i]) return;
+        const bool is_too_coarse = children[i].diagonal() > 0.25f * finest_jump(*pruned[i], d.constants);
+        const int stale = is_won || is_too_coarse ? 0 : share.stale + 1;
+        found[i] = cells_of({children[i], std::move(*pruned[i]), share.depth + 1, stale, is_won ? 1.f : left}, d);
+    });
     std::vector<Leaf> leaves;
     for (auto& some : found) std::move(some.begin(), some.end(), std::back_inserter(leaves));
     return leaves;

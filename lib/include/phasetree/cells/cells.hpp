@@ -12,7 +12,8 @@ struct CellOptions {
     float resolution = 0;           ///< see InterfaceTracer
     std::size_t short_program = 6;  ///< a cell whose program is no longer is not divided
     int deepest = 14;               ///< divisions from the bounds to the smallest cell
-    int patience = 2;               ///< divisions without a shorter program before dividing ends
+    float gain = 0.5f;  ///< dividing goes on as long as what rays spend falls below this share of itself …
+    int patience = 7;   ///< … within so many divisions
 };
 
 struct CellStatistics {
