@@ -72,7 +72,8 @@ Disagreements compare_labels(const Phased& object, Random& rng, std::size_t poin
                 p[axis] = rng.chance(0.5) ? box.low[axis] : box.high[axis];
             }
             const Phases<float> phi = cells.whole().distances(p, w);
-            if (interface_distance(phi) < rounding) continue;
+            // Nor where a phase meets itself: its component is zero there, and the label a matter of rounding.
+            if (interface_distance(phi) < rounding || phi[label(phi).index] > -rounding) continue;
             ++result.points;
             if (cells.label(i, p, w) != label(phi)) ++result.wrong;
         }
@@ -105,10 +106,12 @@ TEST_CASE("a cell's program gives the whole object's labels with each kind of no
     for (const NodeKind& kind : node_kinds()) {
         CAPTURE(kind.name);
         std::size_t points = 0;
-        for (int i = 0; i < trees; ++i) {
+        for (int i = 0, attempt = 0; i < trees && attempt < 50 * trees; ++attempt) {
             CAPTURE(i);
             const Phased object = cut_to_size(kind.object(rng, 2 + i % 3));
-            if (bounds(object).empty()) continue;
+            // Some draws are empty.
+            if (bounds(object).empty() || InterfaceCells(object).size() == 0) continue;
+            ++i;
             const Disagreements d = compare_labels(object, rng, 8);
             REQUIRE(d.wrong == 0);
             points += d.points;
