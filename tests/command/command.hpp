@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -26,6 +27,7 @@ struct Outcome {
     int signal = 0;  // that signal; SIGKILL also for a run that was given up
     std::string out, err;
     double seconds = 0;
+    double processor_seconds = 0;  // how long it takes on a busy machine says nothing of the program
 };
 
 // No test of ours runs longer than a few seconds, however loaded the machine.
@@ -64,13 +66,18 @@ class Shell {
             ::_exit(127);
         }
         int status = 0;
-        while (::waitpid(child, &status, WNOHANG) == 0) {
+        rusage used{};
+        while (::wait4(child, &status, WNOHANG, &used) == 0) {
             if (meanwhile) meanwhile(child);
             if (std::chrono::steady_clock::now() - start > give_up_after) ::kill(child, SIGKILL);
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
         Outcome outcome;
+        const auto seconds = [](const timeval& t) {
+            return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+        };
         outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        outcome.processor_seconds = seconds(used.ru_utime) + seconds(used.ru_stime);
         if (WIFEXITED(status)) outcome.code = WEXITSTATUS(status);
         if (WIFSIGNALED(status)) outcome.signal = WTERMSIG(status);
         outcome.out = bytes_of(out);

@@ -71,6 +71,7 @@ void count(const Handle& handle, std::unordered_set<const void*>& seen, TreeStat
             s.bytes += sizeof(n) + 2 * sizeof(void*);
             for_each_parameter(n, [&](const auto& value, const Parameter&) {
                 if constexpr (requires { value.capacity(); }) s.bytes += value.size() * sizeof(value[0]);
+                if constexpr (requires { value.content; }) s.bytes += value.content->bytes();
             });
             if constexpr (DataPrimitive<std::remove_cvref_t<decltype(n)>>) s.bytes += n.data().size_bytes();
             for_each_child(n, [&](const auto& child) { count(child, seen, s); });

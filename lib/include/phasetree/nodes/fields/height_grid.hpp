@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace phasetree {
@@ -9,6 +10,8 @@ namespace phasetree {
 struct HeightGrid {
     int width = 0, height = 0;
     std::vector<float> values;
+
+    std::size_t bytes() const { return values.size() * sizeof(float); }
 };
 
 }  // namespace phasetree

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace phasetree {
@@ -25,6 +26,11 @@ struct SirenNetwork {
     /// The steepest gradient at so many points of the ball, a tenth added. *Not a bound*: between the points it may be
     /// steeper.
     double sampled_slope(int points) const;
+    std::size_t bytes() const {
+        std::size_t numbers = 0;
+        for (const Layer& layer : layers) numbers += layer.weights.size() + layer.bias.size();
+        return numbers * sizeof(float);
+    }
     /// As the program carries it: how many layers, and for each inputs, outputs, W, b; the last one scaled.
     std::vector<float> table(float scale) const;
 };
