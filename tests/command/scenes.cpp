@@ -1,0 +1,55 @@
+// The scenes that come with the project: each is sound, has its picture, and is what the README's gallery says of it.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "command/command.hpp"
+
+using namespace phasetree::tests;
+
+namespace {
+
+const std::filesystem::path root = PHASETREE_SOURCE_DIR;
+
+std::vector<std::filesystem::path> scenes() {
+    std::vector<std::filesystem::path> all;
+    for (const auto& entry : std::filesystem::directory_iterator(root / "scenes"))
+        if (entry.path().extension() == ".json" && entry.path().filename() != "scene.schema.json")
+            all.push_back(entry.path());
+    return all;
+}
+
+}  // namespace
+
+TEST_CASE("every scene is sound, has a picture, and is quoted in the gallery with its own numbers") {
+    const std::string readme = bytes_of(root / "README.md");
+    const Shell shell;
+    CHECK(scenes().size() >= 20);
+    for (const std::filesystem::path& scene : scenes()) {
+        const std::string name = scene.stem().string();
+        CAPTURE(name);
+        const Outcome check = shell.run({"check", scene.string()});
+        CHECK(check.code == 0);
+        CHECK(check.err == "");
+        const Outcome info = shell.run({"info", "--json", scene.string()});
+        REQUIRE(info.code == 0);
+        const auto numbers = nlohmann::json::parse(info.out);
+        const std::string said =
+            fmt::format("{} phases, {} nodes, {:.1f} kB", numbers.at("phases").size(), numbers.at("nodes").get<int>(),
+                        numbers.at("tree_bytes").get<double>() / 1000);
+        CAPTURE(said);
+        const std::size_t at = readme.find(fmt::format("(scenes/{}.json)<br>", name));
+        REQUIRE(at != std::string::npos);
+        CHECK(readme.substr(at, readme.find('|', at) - at).find(said) != std::string::npos);
+        CHECK(std::filesystem::exists(root / "scenes" / "gallery" / (name + ".jpg")));
+    }
+}
+
+TEST_CASE("the gallery's pictures are below six megabytes together") {
+    std::uintmax_t bytes = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(root / "scenes" / "gallery"))
+        bytes += entry.file_size();
+    CHECK(bytes < 6'000'000);
+}
