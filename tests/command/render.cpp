@@ -126,6 +126,31 @@ TEST_CASE("Ctrl-C writes what there is and exits with 1") {
     CHECK(bytes_of(shell.directory / "a.exr").size() > 500);
 }
 
+TEST_CASE("Ctrl-C while the object is prepared ends it at once and writes nothing") {
+    const Shell shell;
+    // Noise as fine as dust on a lattice of bars: millions of cells.
+    SceneText scene;
+    scene.tree = R"({"set": {"phase": "glass", "of": {"displace": {"amplitude": 0.02, "scale": 0.02, "octaves": 6, "of":
+        {"intersection": [{"gyroid": {"period": 0.1, "thickness": 0.02}}, "ball"]}}}}})";
+    write_text(shell.directory / "scene.json", scene.text());
+    bool sent = false;
+    const auto start = std::chrono::steady_clock::now();
+    double asked = 0;
+    const Outcome o = shell.run({"render", "scene.json", "-o", "a.exr", "--quiet"}, "", [&](pid_t child) {
+        const auto passed = std::chrono::steady_clock::now() - start;
+        if (sent || passed < std::chrono::seconds(1)) return;
+        sent = true;
+        asked = std::chrono::duration<double>(passed).count();
+        ::kill(child, SIGTERM);
+    });
+    CAPTURE(o.err);
+    CHECK(sent);
+    CHECK(o.code == 1);
+    CHECK(o.seconds - asked < 3);
+    CHECK(o.err == "phasetree: interrupted while the object was being prepared; nothing is written\n");
+    CHECK(shell.directory.size() == 1);
+}
+
 // Even a picture of one sample a pixel, cut off in its only pass, is not told to be whole.
 TEST_CASE("Ctrl-C in the first pass exits with 1 too") {
     const Shell shell;

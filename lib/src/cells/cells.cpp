@@ -92,6 +92,7 @@ std::vector<Leaf> cells_of(const Share& share, const Division& d) {
 }
 
 std::vector<Leaf> divide(const Share& share, const Division& d) {
+    if (d.options.cancelled && d.options.cancelled()) throw BuildCancelled();
     const WorkingProgram& program = share.program;
     const std::vector<Bounds> children = parts(share.box);
     std::vector<std::uint32_t> slot;

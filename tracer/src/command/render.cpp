@@ -128,7 +128,14 @@ int render_scene(const Options& options) {
     job.cancelled = [] { return interrupted(); };
 
     const InterruptGuard guard;
-    const World world(scene);
+    std::optional<World> prepared;
+    try {
+        prepared.emplace(scene, job.cancelled);
+    } catch (const BuildCancelled&) {
+        fmt::print(stderr, "phasetree: interrupted while the object was being prepared; nothing is written\n");
+        return 1;
+    }
+    const World& world = *prepared;
     const auto total = static_cast<std::uint64_t>(job.pixels.width()) *
                        static_cast<std::uint64_t>(job.pixels.height()) *
                        static_cast<std::uint64_t>(scene.settings.samples);

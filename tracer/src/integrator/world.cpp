@@ -26,8 +26,10 @@ RTCRay ray_of(const glm::vec3& origin, const glm::vec3& direction, float far) {
 
 }  // namespace
 
-World::World(const Scene& scene) : scene_(scene), interfaces_(scene.materials) {
-    object_ = std::make_shared<const InterfaceCells>(scene.object);
+World::World(const Scene& scene, std::function<bool()> cancelled) : scene_(scene), interfaces_(scene.materials) {
+    CellOptions options;
+    options.cancelled = std::move(cancelled);
+    object_ = std::make_shared<const InterfaceCells>(scene.object, options);
     device_ = rtcNewDevice(nullptr);
     if (!device_) throw std::runtime_error("Embree cannot be started");
     embree_ = rtcNewScene(device_);

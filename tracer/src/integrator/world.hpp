@@ -1,6 +1,7 @@
 // The scene in Embree: the object as user geometry, and the meshes beside it.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -24,8 +25,9 @@ struct Surface {
 
 class World {
   public:
-    // Refers to the scene, which must outlive it. Throws ModelError for an object that cannot be traced.
-    explicit World(const Scene& scene);
+    // Refers to the scene, which must outlive it. Throws ModelError for an object that cannot be traced, BuildCancelled
+    // once `cancelled` says so.
+    explicit World(const Scene& scene, std::function<bool()> cancelled = {});
     ~World();
     World(const World&) = delete;
     World& operator=(const World&) = delete;

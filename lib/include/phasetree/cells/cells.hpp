@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 #include "phasetree/program/evaluator.hpp"
@@ -8,12 +10,19 @@
 
 namespace phasetree {
 
+/// Thrown by a build that CellOptions::cancelled has stopped.
+class BuildCancelled : public std::runtime_error {
+  public:
+    BuildCancelled() : std::runtime_error("the building of cells was cancelled") {}
+};
+
 struct CellOptions {
     float resolution = 0;           ///< see InterfaceTracer
     std::size_t short_program = 6;  ///< a cell whose program is no longer is not divided
     int deepest = 14;               ///< divisions from the bounds to the smallest cell
     float gain = 0.5f;  ///< dividing goes on as long as what rays spend falls below this share of itself …
     int patience = 7;   ///< … within so many divisions
+    std::function<bool()> cancelled{};  ///< asked now and then, by any thread; true ends the build
 };
 
 struct CellStatistics {

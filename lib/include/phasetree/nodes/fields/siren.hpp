@@ -34,12 +34,29 @@ struct Siren {
             for (int layer = 0; layer < layers; ++layer) {
                 const auto inputs = static_cast<std::size_t>(at[0]), outputs = static_cast<std::size_t>(at[1]);
                 const float *weight = at + 2, *bias = weight + inputs * outputs;
-                for (std::size_t o = 0; o < outputs; ++o, weight += inputs) {
+                const auto activated = [&](const T& sum) { return layer + 1 < layers ? sine_cosine(sum).sine : sum; };
+                // Four sums at a time: one alone waits for each of its additions.
+                std::size_t o = 0;
+                for (; o + 4 <= outputs; o += 4, weight += 4 * inputs) {
+                    T a(bias[o]), b(bias[o + 1]), c(bias[o + 2]), d(bias[o + 3]);
+                    for (std::size_t i = 0; i < inputs; ++i) {
+                        const T& x = now[i];
+                        a = a + x * weight[i];
+                        b = b + x * weight[inputs + i];
+                        c = c + x * weight[2 * inputs + i];
+                        d = d + x * weight[3 * inputs + i];
+                    }
+                    next[o] = activated(a);
+                    next[o + 1] = activated(b);
+                    next[o + 2] = activated(c);
+                    next[o + 3] = activated(d);
+                }
+                for (; o < outputs; ++o, weight += inputs) {
                     T sum(bias[o]);
                     for (std::size_t i = 0; i < inputs; ++i) sum = sum + now[i] * weight[i];
-                    next[o] = layer + 1 < layers ? sine_cosine(sum).sine : sum;
+                    next[o] = activated(sum);
                 }
-                for (std::size_t o = 0; o < outputs; ++o) now[o] = next[o];
+                for (o = 0; o < outputs; ++o) now[o] = next[o];
                 at = bias + outputs;
             }
             return now[0];
