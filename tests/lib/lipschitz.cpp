@@ -61,7 +61,7 @@ void look(const Phased& object, Random& rng, int pairs, Slopes& s) {
 }  // namespace
 
 TEST_CASE("components of every node are 1-Lipschitz and do not overlap") {
-    const int trees = 50, pairs = long_tests() ? 20'000 : 60;
+    const int trees = 50, pairs = long_tests() ? 20'000 : 200;
     Random rng(51);
     std::size_t total = 0;
     for (const NodeKind& kind : node_kinds()) {
@@ -86,7 +86,7 @@ TEST_CASE("components of every node are 1-Lipschitz and do not overlap") {
         CHECK(s.steepest > (sheet ? 0.8 : 0.99));
     }
     MESSAGE(total, " pairs");
-    CHECK(total >= 100'000);
+    CHECK(total >= 1'000'000);
 }
 
 TEST_CASE("a twist's slope stays below one far outside and at the corners of its bounds") {
