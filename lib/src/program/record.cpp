@@ -134,7 +134,7 @@ class Recorder {
         const std::size_t end =
             i + 1 < program_.instructions.size() ? program_.instructions[i + 1].data : program_.constants.size();
         return in.op == op && in.a == a && in.b == b && end - in.data == data.size() &&
-               std::memcmp(program_.constants.data() + in.data, data.data(), data.size_bytes()) == 0;
+               (data.empty() || std::memcmp(program_.constants.data() + in.data, data.data(), data.size_bytes()) == 0);
     }
 
     template <class Struct>
