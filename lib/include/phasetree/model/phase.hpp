@@ -23,6 +23,11 @@ struct PhaseSet {
     std::uint64_t bits = 0;
 
     static constexpr PhaseSet of(Phase p) { return {std::uint64_t{1} << p.index}; }
+    static constexpr PhaseSet of(std::span<const Phase> list) {
+        PhaseSet all;
+        for (const Phase p : list) all = all | of(p);
+        return all;
+    }
     constexpr bool contains(Phase p) const { return (bits >> p.index) & 1; }
     constexpr bool contains(int i) const { return (bits >> i) & 1; }
     constexpr bool empty() const { return bits == 0; }

@@ -4,11 +4,8 @@
 
 namespace phasetree {
 
-/// Mirrors fold it to one chamber (mirrors.hpp), which has one face, within a right triangle: from its centre, on the
-/// axis n of order three, to the middle of an edge, on the y axis, to a corner. Let a be the height above the face's
-/// plane, b how far p is beyond the edge's line, along e, and c how far beyond the corner, along the edge (the z axis).
-/// In the chamber b > 0 only where a > 0, and c > 0 only where b > 0; so the distance is a inside and |max((a, b, c),
-/// 0)| outside.
+/// Mirrors fold it to one chamber (mirrors.hpp), which has one face: its centre is on the axis of order three, an
+/// edge's middle on the y axis, and the edge runs along z.
 struct Icosahedron {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"icosahedron", "", "fold to one chamber;  |max((a, b, c), 0)| + min(a, 0)",
@@ -28,8 +25,7 @@ struct Icosahedron {
         const T a = q.x * 0.35682209f + q.y * 0.934172359f - radius * 0.794654472f;
         const T b = q.y * 0.35682209f - q.x * 0.934172359f - radius * 0.303530999f;
         const T c = q.z - radius * 0.525731112f;
-        const T zero(0.f);
-        return length(Vec3<T>{max(a, zero), max(b, zero), max(c, zero)}) + min(a, zero);
+        return detail::IcosahedralMirrors::to_face(a, b, c);
     }
     /// (0, φ, 1) and its cyclic permutations are corners.
     Bounds bounds(BoundsQuery&, float level) const { return Bounds::centred(glm::vec3(radius * 0.850651659f + level)); }

@@ -55,6 +55,15 @@ struct IcosahedralMirrors {
             p = {p.x + beyond * (0.5f * golden), p.y - beyond * (0.5f / golden), p.z + beyond * 0.5f};
         }
     }
+    /// The distance to a solid with one face in the chamber, within a right triangle from the face's centre to the
+    /// middle of an edge to a corner: a is the height above the face's plane, b how far the point is beyond the edge's
+    /// line, c how far beyond the corner, along the edge. In the chamber b > 0 only where a > 0, and c > 0 only where b
+    /// > 0.
+    template <class T>
+    static T to_face(const T& a, const T& b, const T& c) {
+        const T zero(0.f);
+        return length(Vec3<T>{max(a, zero), max(b, zero), max(c, zero)}) + min(a, zero);
+    }
 };
 
 }  // namespace phasetree::detail

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "phasetree/nodes/phased/voronoi_sites.hpp"
+#include "phasetree/nodes/fields/voronoi_sites.hpp"
 
 namespace phasetree {
 

@@ -45,6 +45,12 @@ std::optional<S> minimum_of(const Phases<S>& a, const Phases<S>& b, int i) {
     return std::nullopt;
 }
 
+/// Adds a part to a phase, which may be absent so far.
+template <class S>
+void add_part(Phases<S>& a, int i, const S& part) {
+    a.set(i, a.has(i) ? min(a[i], part) : part);
+}
+
 /// Vacuum takes the place of the phases `gone`.
 template <class S>
 Phases<S> emptied(Phases<S> a, std::uint64_t gone) {

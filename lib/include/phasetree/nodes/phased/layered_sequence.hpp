@@ -45,10 +45,8 @@ struct LayeredSequence {
         return a;
     }
     PhaseSet phases() const {
-        PhaseSet all = phasetree::phases(of);
-        if (all.contains(vacuum))
-            for (const Phase layer : layers) all = all | PhaseSet::of(layer);
-        return all;
+        const PhaseSet there = phasetree::phases(of);
+        return there.contains(vacuum) ? there | PhaseSet::of(layers) : there;
     }
     Bounds bounds(BoundsQuery& q, float level) const {
         float total = 0;

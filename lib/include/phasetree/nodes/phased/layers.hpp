@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "phasetree/model/concepts.hpp"
+#include "phasetree/nodes/phased/combine.hpp"
 
 namespace phasetree {
 
@@ -78,17 +78,12 @@ struct Layers {
             if (slabs.size() == 2 && i == 1 && !result.has(k)) {
                 result.set(k, -result[of_phases[0].index]);  // of two, one is what the other is not
             } else {
-                const auto f = d.primitive(slabs[i], p);
-                result.set(k, result.has(k) ? min(result[k], f) : f);
+                detail::add_part(result, k, d.primitive(slabs[i], p));
             }
         }
         return result;
     }
-    PhaseSet phases() const {
-        PhaseSet all;
-        for (const Phase k : of_phases) all = all | PhaseSet::of(k);
-        return all;
-    }
+    PhaseSet phases() const { return PhaseSet::of(of_phases); }
     Bounds bounds(BoundsQuery&, float) const { return Bounds::everything(); }
 
   private:

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "phasetree/nodes/fields/plane.hpp"
+#include "phasetree/nodes/phased/combine.hpp"
 
 namespace phasetree {
 
@@ -54,16 +55,11 @@ struct Strata {
             const auto f = i == 0                ? u - heights.front()
                            : i == heights.size() ? heights.back() - u
                                                  : max(heights[i - 1] - u, u - heights[i]);
-            const int k = of_phases[i].index;
-            result.set(k, result.has(k) ? min(result[k], f) : f);
+            detail::add_part(result, of_phases[i].index, f);
         }
         return result;
     }
-    PhaseSet phases() const {
-        PhaseSet all;
-        for (const Phase k : of_phases) all = all | PhaseSet::of(k);
-        return all;
-    }
+    PhaseSet phases() const { return PhaseSet::of(of_phases); }
     Bounds bounds(BoundsQuery&, float) const { return Bounds::everything(); }
 };
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "phasetree/nodes/fields/voronoi_sites.hpp"
 #include "phasetree/nodes/phased/combine.hpp"
-#include "phasetree/nodes/phased/voronoi_sites.hpp"
 
 namespace phasetree {
 
@@ -68,18 +68,14 @@ struct Voronoi {
         for (std::size_t k = 0; k < of_phases.size(); ++k) {
             const int phase = of_phases[k].index;
             const auto distance = d.primitive(Nearest{size, jitter, seed, kinds, static_cast<float>(k)}, p);
-            sites.set(phase, sites.has(phase) ? min(sites[phase], distance) : distance);
+            detail::add_part(sites, phase, distance);
         }
         Phases<typename D::Scalar> result;
         detail::minimum_of_others(sites, sites.present, sites.present,
                                   [&](int i, const auto& others) { result.set(i, (sites[i] - *others) * 0.5f); });
         return result;
     }
-    PhaseSet phases() const {
-        PhaseSet all;
-        for (const Phase p : of_phases) all = all | PhaseSet::of(p);
-        return all;
-    }
+    PhaseSet phases() const { return PhaseSet::of(of_phases); }
     Bounds bounds(BoundsQuery&, float) const { return Bounds::everything(); }
 };
 
