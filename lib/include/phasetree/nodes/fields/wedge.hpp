@@ -37,8 +37,14 @@ struct Wedge {
         const T along = max(abs(p.z * slope_x - p.x * slope_z) - half_length, zero);
         const T left = -p.x - a, below = -p.z - b;
         const T past_left = max(abs(p.z) - b, zero), past_below = max(abs(p.x) - a, zero);
-        const T d = sqrt(min(above * above + along * along,
-                             min(left * left + past_left * past_left, below * below + past_below * past_below)));
+        const T nearest = min(above * above + along * along,
+                              min(left * left + past_left * past_left, below * below + past_below * past_below));
+        // Outside, the side that p is before is the nearest, alone. By its corner another one ties with it within
+        // rounding, and the gradient is that of the one which is taken.
+        const auto before = [&](const T& height, const T& past, const T& otherwise) {
+            return select(less(zero, height), select(less(zero, past), otherwise, height * height), otherwise);
+        };
+        const T d = sqrt(before(above, along, before(left, past_left, before(below, past_below, nearest))));
         const T triangle = select(less(max(above, max(left, below)), zero), -d, d);
         return corner(triangle, abs(p.y) - size.y * 0.5f);
     }
