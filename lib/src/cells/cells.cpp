@@ -67,7 +67,8 @@ struct Share {
     WorkingProgram program;
     int depth = 0;
     int stale = 0;
-    float left = 1;  ///< what is left of the cost since something was won
+    float left = 1;                   ///< what is left of the cost since something was won
+    float period = Bounds::infinity;  ///< of the finest fold that still jumps
 };
 
 std::vector<Leaf> divide(const Share& share, const Division& d);
@@ -76,7 +77,7 @@ std::vector<Leaf> divide(const Share& share, const Division& d);
 std::vector<Leaf> cells_of(const Share& share, const Division& d) {
     const std::size_t instructions = share.program.code.size();
     // Through copies without end a ray goes on and on.
-    const float copies = 1 + 4 * share.box.diagonal() / finest_jump(share.program, d.constants);
+    const float copies = 1 + 4 * share.box.diagonal() / share.period;
     const float whole = cost(share.box, instructions) * copies;
     const bool final = instructions <= d.options.short_program + 1 || share.depth >= d.options.deepest ||
                        share.stale >= d.options.patience || share.box.diagonal() < 64 * d.reach;
@@ -133,9 +134,11 @@ std::vector<Leaf> divide(const Share& share, const Division& d) {
     std::vector<std::vector<Leaf>> found(children.size());
     each([&](std::size_t i) {
         if (!pruned[i]) return;
-        const bool is_too_coarse = children[i].diagonal() > 0.25f * finest_jump(*pruned[i], d.constants);
+        const float period = std::isfinite(share.period) ? finest_jump(*pruned[i], d.constants) : Bounds::infinity;
+        const bool is_too_coarse = children[i].diagonal() > 0.25f * period;
         const int stale = is_won || is_too_coarse ? 0 : share.stale + 1;
-        found[i] = cells_of({children[i], std::move(*pruned[i]), share.depth + 1, stale, is_won ? 1.f : left}, d);
+        found[i] =
+            cells_of({children[i], std::move(*pruned[i]), share.depth + 1, stale, is_won ? 1.f : left, period}, d);
     });
     std::vector<Leaf> leaves;
     for (auto& some : found) std::move(some.begin(), some.end(), std::back_inserter(leaves));
@@ -205,7 +208,9 @@ InterfaceCells::InterfaceCells(const Phased& object, const CellOptions& options)
 
     const Program& program = data->whole.program();
     const Division division{options, program.constants, data->reach, 0.5f * traceable.resolution};
-    data->add(divide({data->bounds, {program.instructions, program.lipschitz, outputs_of(program)}, 0, 0}, division));
+    Share root{data->bounds, {program.instructions, program.lipschitz, outputs_of(program)}};
+    root.period = finest_jump(root.program, program.constants);
+    data->add(divide(root, division));
     data->build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     data_ = std::move(data);
 }

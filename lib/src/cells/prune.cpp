@@ -37,7 +37,8 @@ class Pruner {
           value_(value),
           radius_(radius),
           rounding_(rounding),
-          slope_(local_slopes()),
+          still_(local_slopes()),
+          slope_(still_.empty() ? std::span<const float>(program.lipschitz) : still_),
           demand_(program.code.size()),
           instead_(program.code.size()),
           op_(program.code.size()) {}
@@ -247,10 +248,10 @@ class Pruner {
 
     /// Slopes within the ball. A fold of space jumps, which is recorded as a slope of FoldMap::jump; in a ball that
     /// touches none of its jumps that factor goes from all that follows. The guard above the fold tells: its bound is
-    /// more than half of `far` wherever the fold jumps.
+    /// more than half of `far` wherever the fold jumps. Nothing if nothing jumps.
     std::vector<float> local_slopes() const {
+        if (std::ranges::none_of(program_.lipschitz, [](float l) { return l > half_a_jump; })) return {};
         std::vector<float> slope = program_.lipschitz;
-        if (std::none_of(slope.begin(), slope.end(), [](float l) { return l > half_a_jump; })) return slope;
         const auto size = static_cast<std::uint32_t>(program_.code.size());
         std::vector<char> is_still(size, 0);  // folds without a jump in the ball
         for (std::uint32_t i = 1; i < size; ++i) {
@@ -277,7 +278,8 @@ class Pruner {
     std::span<const float> constants_;
     std::span<const float> value_;
     float radius_, rounding_;
-    std::vector<float> slope_;
+    std::vector<float> still_;  ///< slopes, if any differs from the program's
+    std::span<const float> slope_;
     std::vector<Demand> demand_;
     std::vector<std::uint32_t> instead_;
     std::vector<Op> op_;
