@@ -126,8 +126,8 @@ TEST_CASE("endless copies are pruned as single ones are, away from the faces whe
                                      Set{.phase = Phase{2}, .of = Box{.size = glm::vec3(0.15f, 0.15f, 0.5f)}},
                                      Set{.phase = Phase{3}, .of = Torus{.major = 0.25f, .minor = 0.05f}}}};
     const Phased endless = cut_to_size(PhasedEndlessGrid{{.of = ball, .spacing = glm::vec3(0.7f)}});
-    const Phased listed = cut_to_size(
-        warped(Translate{glm::vec3(-2.1f)}, PhasedGrid{{{.of = ball, .placements = {}}, glm::vec3(0.7f), 7, 7, 7}}));
+    const Phased listed =
+        cut_to_size(warped(Translate{glm::vec3(-2.1f)}, PhasedGrid{{{.of = ball}, glm::vec3(0.7f), 7, 7, 7}}));
     const CellStatistics a = InterfaceCells(endless).statistics(), b = InterfaceCells(listed).statistics();
     MESSAGE("endless: ", a.cells, " cells of ", a.median_instructions, " instructions, ", a.routines,
             " routines; listed: ", b.cells, " of ", b.median_instructions, ", ", b.routines);

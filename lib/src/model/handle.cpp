@@ -73,7 +73,13 @@ void count(const Handle& handle, std::unordered_set<const void*>& seen, TreeStat
                 if constexpr (requires { value.capacity(); }) s.bytes += value.size() * sizeof(value[0]);
                 if constexpr (requires { value.content; }) s.bytes += value.content->bytes();
             });
-            if constexpr (DataPrimitive<std::remove_cvref_t<decltype(n)>>) s.bytes += n.data().size_bytes();
+            // What is derived and kept.
+            if constexpr (requires { n.data(); }) s.bytes += n.data().size_bytes();
+            if constexpr (requires { n.network; }) s.bytes += n.network.data().size_bytes();
+            if constexpr (requires { n.found; }) s.bytes += n.found.size() * sizeof(n.found[0]);
+            if constexpr (requires { n.slabs; }) s.bytes += n.slabs.size() * sizeof(n.slabs[0]);
+            if constexpr (requires { n.heights; }) s.bytes += n.heights.size() * sizeof(n.heights[0]);
+            if constexpr (requires { n.segments; }) s.bytes += n.segments.size() * sizeof(n.segments[0]);
             for_each_child(n, [&](const auto& child) { count(child, seen, s); });
         },
         handle.node()->node);

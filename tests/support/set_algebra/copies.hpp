@@ -65,7 +65,7 @@ std::vector<Copy> copies(const FibonacciSphere<Child>& n) {
     for (int i = 0; i < n.count; ++i) {
         const double z = 1 - (2.0 * i + 1) / n.count;
         const dvec3 normal = spiral(i, std::sqrt(1 - z * z), z);
-        glm::dmat3 frame(*n.placements[static_cast<std::size_t>(i)].frame);
+        glm::dmat3 frame(*n.placement(static_cast<std::size_t>(i)).frame);
         frame[2] = normal;
         all.push_back({normal * static_cast<double>(n.radius), 0, 1, frame});
     }
@@ -75,7 +75,7 @@ std::vector<Copy> copies(const FibonacciSphere<Child>& n) {
 template <class Child>
 std::vector<Copy> copies(const Scatter<Child>& n) {
     std::vector<Copy> all;
-    for (const Placement& at : n.placements) all.push_back({dvec3(at.map.by), 0, at.scale, glm::dmat3(*at.frame)});
+    for (const Placement& at : n.found) all.push_back({dvec3(at.map.by), 0, at.scale, glm::dmat3(*at.frame)});
     return all;
 }
 template <class N>

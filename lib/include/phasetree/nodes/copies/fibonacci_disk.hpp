@@ -5,13 +5,15 @@
 namespace phasetree {
 
 namespace detail {
-/// π(3 − √5), by which consecutive points of a Fibonacci spiral are turned.
-inline constexpr double golden_angle = 2.39996322972865332;
+/// The angle of point i of a Fibonacci spiral: each is turned by π(3 − √5) from the one before.
+inline double golden_turn(std::size_t i) {
+    return std::fmod(static_cast<double>(i) * 2.39996322972865332, 2 * 3.14159265358979323846);
+}
 }  // namespace detail
 
 /// The points of a sunflower: equal shares of the disk's area, no two in one direction.
 template <class Child>
-struct FibonacciDisk : Copies<Child> {
+struct FibonacciDisk : Copies<FibonacciDisk<Child>, Child> {
     static constexpr NodeInfo info{"fibonacci_disk", "7.7",
                                    "copies at ρᵢ = R √((i + ½)/n), θᵢ = i π(3 − √5); of objects, the later over the "
                                    "earlier",
@@ -29,14 +31,11 @@ struct FibonacciDisk : Copies<Child> {
         v(&FibonacciDisk::turned,
           Parameter{"turned", "", "1: each copy's x axis points away from the middle.", {.low = 0, .high = 1}, true});
     }
-    void prepare() {
-        this->placements.clear();
-        for (int i = 0; i < count; ++i) {
-            const double r = static_cast<double>(radius) * std::sqrt((i + 0.5) / count);
-            const double a = std::fmod(i * detail::golden_angle, 2 * 3.14159265358979323846);
-            this->placements.push_back(
-                Placement::at(glm::vec3(r * std::cos(a), r * std::sin(a), 0), turned == 1 ? glm::degrees(a) : 0, 1));
-        }
+    std::size_t many() const { return static_cast<std::size_t>(count); }
+    Placement placement(std::size_t i) const {
+        const double r = static_cast<double>(radius) * std::sqrt((static_cast<double>(i) + 0.5) / count);
+        const double a = detail::golden_turn(i);
+        return Placement::at(glm::vec3(r * std::cos(a), r * std::sin(a), 0), turned == 1 ? glm::degrees(a) : 0, 1);
     }
 };
 

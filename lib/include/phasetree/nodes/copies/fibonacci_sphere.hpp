@@ -6,7 +6,7 @@ namespace phasetree {
 
 /// Equal shares of the sphere's area, from the north pole to the south.
 template <class Child>
-struct FibonacciSphere : Copies<Child> {
+struct FibonacciSphere : Copies<FibonacciSphere<Child>, Child> {
     static constexpr NodeInfo info{
         "fibonacci_sphere", "7.7",
         "copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis "
@@ -22,14 +22,12 @@ struct FibonacciSphere : Copies<Child> {
         v(&FibonacciSphere::radius,
           Parameter{"radius", "m", "Of the sphere that the copies' origins are on.", limits::positive});
     }
-    void prepare() {
-        this->placements.clear();
-        for (int i = 0; i < count; ++i) {
-            const double z = 1 - (2.0 * i + 1) / count, rho = std::sqrt(1 - z * z);
-            const double a = std::fmod(i * detail::golden_angle, 2 * 3.14159265358979323846);
-            const glm::dvec3 n(rho * std::cos(a), rho * std::sin(a), z);
-            this->placements.push_back(Placement::standing(glm::vec3(n * static_cast<double>(radius)), n, 0, 1));
-        }
+    std::size_t many() const { return static_cast<std::size_t>(count); }
+    Placement placement(std::size_t i) const {
+        const double z = 1 - (2 * static_cast<double>(i) + 1) / count, rho = std::sqrt(1 - z * z);
+        const double a = detail::golden_turn(i);
+        const glm::dvec3 n(rho * std::cos(a), rho * std::sin(a), z);
+        return Placement::standing(glm::vec3(n * static_cast<double>(radius)), n, 0, 1);
     }
 };
 

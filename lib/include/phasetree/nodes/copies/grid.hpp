@@ -5,7 +5,7 @@
 namespace phasetree {
 
 template <class Child>
-struct Grid : Copies<Child> {
+struct Grid : Copies<Grid<Child>, Child> {
     static constexpr NodeInfo info{
         "grid", "", "min over i, j, k of φ(p − (i dx, j dy, k dz)); of objects, the later over the earlier",
         "Copies in rows along x, y and z; the first stays where it is. They may overlap."};
@@ -21,17 +21,16 @@ struct Grid : Copies<Child> {
         v(&Grid::count_y, Parameter{"count_y", "", "How many along y.", counts, true});
         v(&Grid::count_z, Parameter{"count_z", "", "How many along z.", counts, true});
     }
-    void prepare() {
+    void prepare() const {
         if (static_cast<double>(count_x) * count_y * count_z > detail::most_copies)
             throw ModelError("grid: too many copies");
-        this->placements.clear();
-        for (int k = 0; k < count_z; ++k)
-            for (int j = 0; j < count_y; ++j)
-                for (int i = 0; i < count_x; ++i) {
-                    const glm::vec3 by = spacing * glm::vec3(glm::ivec3(i, j, k));
-                    if (!(glm::length(by) < 1e9f)) throw ModelError("grid: the spacing is too large");
-                    this->placements.push_back(Placement::at(by, 0, 1));
-                }
+        if (!(glm::length(placement(many() - 1).map.by) < 1e9f)) throw ModelError("grid: the spacing is too large");
+    }
+    std::size_t many() const { return static_cast<std::size_t>(count_x * count_y * count_z); }
+    Placement placement(std::size_t n) const {
+        const int i = static_cast<int>(n);
+        const glm::ivec3 index(i % count_x, i / count_x % count_y, i / (count_x * count_y));
+        return Placement::at(spacing * glm::vec3(index), 0, 1);
     }
 };
 

@@ -5,7 +5,7 @@
 namespace phasetree {
 
 template <class Child>
-struct Instances : Copies<Child> {
+struct Instances : Copies<Instances<Child>, Child> {
     static constexpr NodeInfo info{"instances", "",
                                    "min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); of objects, the later over the earlier",
                                    "Copies at listed positions, each turned about the z axis and scaled if that is "
@@ -25,7 +25,7 @@ struct Instances : Copies<Child> {
         v(&Instances::scales,
           Parameter{"scales", "", "Factor of each copy's size; one number stands for all.", limits::positive, true});
     }
-    void prepare() {
+    void prepare() const {
         if (positions.size() > static_cast<std::size_t>(detail::most_copies))
             throw ModelError("instances: too many positions");
         const auto fits = [&](const std::vector<float>& list) {
@@ -33,12 +33,14 @@ struct Instances : Copies<Child> {
         };
         if (!fits(turns) || !fits(scales))
             throw ModelError("instances: \"turns\" and \"scales\" need an entry for each position, or one for all");
-        const auto entry = [](const std::vector<float>& list, std::size_t i, float otherwise) {
+        for (std::size_t i = 0; i < many(); ++i) (void)placement(i);  // it throws for a scale that is too small
+    }
+    std::size_t many() const { return positions.size(); }
+    Placement placement(std::size_t i) const {
+        const auto entry = [&](const std::vector<float>& list, float otherwise) {
             return list.empty() ? otherwise : list.size() == 1 ? list[0] : list[i];
         };
-        this->placements.clear();
-        for (std::size_t i = 0; i < positions.size(); ++i)
-            this->placements.push_back(Placement::at(positions[i], entry(turns, i, 0), entry(scales, i, 1)));
+        return Placement::at(positions[i], entry(turns, 0), entry(scales, 1));
     }
 };
 

@@ -82,27 +82,32 @@ struct Placement {
     }
 };
 
-/// Copies of a field or an object: a node's base that evaluates what `placements` says.
-template <class Child>
+/// Copies of a field or an object: the base of a node of type Node that says how many() there are and the placement(i)
+/// of each. Placements are computed when they are asked for, so that a thousand copies weigh as much as one.
+template <class Node, class Child>
 struct Copies {
     using Parts = TypeList<PlacementMap, StandingMap>;
     Child of;
-    std::vector<Placement> placements;  ///< derived
 
     template <class D>
     auto evaluate(D& d, const typename D::Point& p) const {
-        auto result = one(d, placements.front(), p);
-        for (std::size_t i = 1; i < placements.size(); ++i) {
+        const Node& node = static_cast<const Node&>(*this);
+        auto result = one(d, node.placement(0), p);
+        for (std::size_t i = 1, n = node.many(); i < n; ++i) {
             if constexpr (std::is_same_v<Child, Field>)
-                result = min(result, one(d, placements[i], p));
+                result = min(result, one(d, node.placement(i), p));
             else
-                result = detail::under(result, one(d, placements[i], p));
+                result = detail::under(result, one(d, node.placement(i), p));
         }
         return result;
     }
     Bounds bounds(BoundsQuery& q, float level) const {
+        const Node& node = static_cast<const Node&>(*this);
         Bounds all;
-        for (const Placement& at : placements) all = unite(all, at.image(q(of, level / at.scale)));
+        for (std::size_t i = 0, n = node.many(); i < n; ++i) {
+            const Placement at = node.placement(i);
+            all = unite(all, at.image(q(of, level / at.scale)));
+        }
         return all;
     }
 

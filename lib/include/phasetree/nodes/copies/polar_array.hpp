@@ -5,7 +5,7 @@
 namespace phasetree {
 
 template <class Child>
-struct PolarArray : Copies<Child> {
+struct PolarArray : Copies<PolarArray<Child>, Child> {
     static constexpr NodeInfo info{"polar_array", "",
                                    "min over i < n of φ(R(−i a/n) p); of objects, the later over the earlier",
                                    "Copies turned about the z axis by equal angles."};
@@ -20,11 +20,10 @@ struct PolarArray : Copies<Child> {
           Parameter{"angle", "degrees", "What they share: copy i is turned by i/count of it. Default: all around.",
                     limits::any, true});
     }
-    void prepare() {
-        this->placements.clear();
-        for (int i = 0; i < count; ++i)
-            this->placements.push_back(
-                Placement::at(glm::vec3(0), std::fmod(static_cast<double>(angle), 360.0 * count) * i / count, 1));
+    std::size_t many() const { return static_cast<std::size_t>(count); }
+    Placement placement(std::size_t i) const {
+        return Placement::at(glm::vec3(0),
+                             std::fmod(static_cast<double>(angle), 360.0 * count) * static_cast<double>(i) / count, 1);
     }
 };
 

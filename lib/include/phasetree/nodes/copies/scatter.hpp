@@ -16,7 +16,7 @@ std::vector<SurfacePoint> scattered(const Field& surface, int count, float spaci
 }  // namespace detail
 
 template <class Child>
-struct Scatter : Copies<Child> {
+struct Scatter : Copies<Scatter<Child>, Child> {
     static constexpr NodeInfo info{"scatter", "",
                                    "copies at random points of the surface f = 0, their z axis along ∇f; of objects, "
                                    "the later over the earlier",
@@ -26,6 +26,7 @@ struct Scatter : Copies<Child> {
     float spacing = 0;
     float smallest = 1;
     int seed = 1;
+    std::vector<Placement> found{};  ///< derived, and kept: the search is long
 
     template <class V>
     static void parameters(V&& v) {
@@ -40,15 +41,17 @@ struct Scatter : Copies<Child> {
         v(&Scatter::seed, Parameter{"seed", "", "Another number, other places.", {.low = 0, .high = 1'000'000}, true});
     }
     void prepare() {
-        this->placements.clear();
+        found.clear();
         std::uint64_t state = static_cast<std::uint64_t>(seed);
         for (const detail::SurfacePoint& at : detail::scattered(surface, count, spacing, seed)) {
             const double turn = 360 * detail::next_random(state);
             const double size =
                 static_cast<double>(smallest) + (1 - static_cast<double>(smallest)) * detail::next_random(state);
-            this->placements.push_back(Placement::standing(at.position, at.normal, turn, static_cast<float>(size)));
+            found.push_back(Placement::standing(at.position, at.normal, turn, static_cast<float>(size)));
         }
     }
+    std::size_t many() const { return found.size(); }
+    const Placement& placement(std::size_t i) const { return found[i]; }
 };
 
 struct FieldScatter : Scatter<Field> {
