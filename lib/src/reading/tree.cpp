@@ -228,7 +228,7 @@ class Reader {
     /// Each file once.
     template <class Content>
     void read_file(FromFile<Content>& target, Value value) {
-        const std::filesystem::path path = std::filesystem::path(document_.name()).parent_path() / target.path;
+        const std::filesystem::path path = document_.beside(target.path);
         std::map<std::string, std::shared_ptr<const Content>, std::less<>>* known = nullptr;
         if constexpr (std::is_same_v<Content, SirenNetwork>)
             known = &networks_;

@@ -24,8 +24,4 @@ Value chosen(const Document& document, Value value, std::string_view what, std::
                          closest(member.key(), kinds));
 }
 
-std::filesystem::path resolved(const Document& document, const std::string& path) {
-    return std::filesystem::path(document.name()).parent_path() / path;
-}
-
 }  // namespace phasetree::tracer

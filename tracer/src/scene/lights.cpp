@@ -24,7 +24,7 @@ void read_image(ObjectReader& reader, Lights& lights) {
     const float rotation = reader.optional("rotation", 0.0f);
     const float intensity = reader.optional("intensity", 1.0f, Range::not_negative());
     try {
-        lights.add(load_environment(resolved(reader.document(), name).string(), rotation, intensity));
+        lights.add(load_environment(reader.document().beside(name).string(), rotation, intensity));
     } catch (const std::runtime_error& e) {
         throw reader.document().error(file, e.what());
     }

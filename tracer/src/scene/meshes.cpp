@@ -95,7 +95,7 @@ Mesh read_obj(ObjectReader& reader) {
     const Document& document = reader.document();
     const Value file = reader.required_value("file");
     const std::string name = as<std::string>(document, file, "\"file\"");
-    const std::filesystem::path path = resolved(document, name);
+    const std::filesystem::path path = document.beside(name);
     tinyobj::ObjReader obj;
     tinyobj::ObjReaderConfig config;
     config.triangulate = true;

@@ -23,9 +23,6 @@ std::vector<Mesh> read_meshes(const Document& document, Value list);
 // Image size, in the camera's parameters, and all else.
 RenderSettings read_settings(const Document& document, Value value, ThinLensParameters& camera);
 
-// A path of the scene file, relative to the file's directory.
-std::filesystem::path resolved(const Document& document, const std::string& path);
-
 // The first channel of an image, as stored: integers of any width from 0 to 1, without a transfer function. Throws
 // std::runtime_error.
 HeightGrid read_height_grid(const std::filesystem::path&);

@@ -117,6 +117,11 @@ class Document {
     /// What errors call the file: the path as it was given.
     const std::string& name() const;
 
+    /// A path that the text names: relative to the text's file.
+    std::filesystem::path beside(const std::filesystem::path& named) const {
+        return std::filesystem::path(name()).parent_path() / named;
+    }
+
     /// An error at a byte offset, or at the first character of a value.
     SceneError error(std::size_t offset, std::string message, std::optional<std::string> suggestion = {}) const;
     SceneError error(Value value, std::string message, std::optional<std::string> suggestion = {}) const;
