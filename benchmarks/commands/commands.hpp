@@ -1,0 +1,11 @@
+// The subcommands of phasetree-bench, one file each.
+#pragma once
+
+#include "measure/report.hpp"
+#include "settings.hpp"
+
+namespace phasetree::bench {
+
+Report scaling(const Settings&);
+
+}  // namespace phasetree::bench

@@ -1,0 +1,127 @@
+// phasetree-bench: measures what the project claims about speed. See README.md here.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "commands/commands.hpp"
+#include "phasetree/program/evaluator.hpp"
+#include "phasetree/version.hpp"
+
+namespace phasetree::bench {
+
+namespace {
+
+struct Command {
+    std::string name, what;
+    Report (*run)(const Settings&);
+};
+
+const std::vector<Command>& commands() {
+    static const std::vector<Command> all{
+        {"scaling", "the tentacle with 30 to 30,000 bumps", scaling},
+    };
+    return all;
+}
+
+nlohmann::ordered_json machine() {
+    std::string processor;
+    std::ifstream info("/proc/cpuinfo");
+    for (std::string line; processor.empty() && std::getline(info, line);)
+        if (line.starts_with("model name")) processor = line.substr(line.find(':') + 2);
+    double load = 0;
+    std::ifstream("/proc/loadavg") >> load;
+    return {{"processor", processor},
+            {"cores", std::thread::hardware_concurrency()},
+            {"load", load},
+            {"simd", simd_target()},
+            {"version", std::string(version())}};
+}
+
+// "640x480"
+void set_size(Settings& settings, const std::string& text) {
+    int width = 0, height = 0;
+    char x = 0, rest = 0;
+    if (std::sscanf(text.c_str(), "%d%c%d%c", &width, &x, &height, &rest) != 3 || x != 'x' || width < 1 || height < 1 ||
+        width > 16384 || height > 16384)
+        throw CLI::ValidationError("--size", "must be WIDTHxHEIGHT, from 1x1 to 16384x16384, but is \"" + text + "\"");
+    settings.width = width;
+    settings.height = height;
+}
+
+// Whole or not at all.
+void write(const std::string& file, const nlohmann::ordered_json& json) {
+    const std::string part = file + ".part";
+    std::ofstream stream(part);
+    stream << json.dump(2) << '\n';
+    stream.close();
+    if (!stream) throw std::runtime_error("cannot write \"" + part + "\"");
+    std::filesystem::rename(part, file);
+}
+
+int run(const std::vector<Command>& chosen, const Settings& settings, const std::string& file) {
+    nlohmann::ordered_json json;
+    json["machine"] = machine();
+    json["settings"] = {{"quick", settings.quick}, {"threads", settings.threads},
+                        {"width", settings.width}, {"height", settings.height},
+                        {"seed", settings.seed},   {"rounds", settings.timing().rounds}};
+    fmt::print("{}, {} cores, load {:.1f}, {}\n", json["machine"]["processor"].get<std::string>(),
+               json["machine"]["cores"].get<int>(), json["machine"]["load"].get<double>(), simd_target());
+    fmt::print("times: {}, median of {} rounds in turn\n",
+               settings.threads == 1 ? "processor time of one thread" : "wall clock", settings.timing().rounds);
+    bool sound = true;
+    for (const Command& command : chosen) {
+        const double start = seconds(Clock::wall);
+        const Report report = command.run(settings);
+        json[report.name()] = report.json();
+        json[report.name()]["seconds"] = seconds(Clock::wall) - start;
+        sound = sound && report.sound();
+    }
+    if (!file.empty()) write(file, json);
+    if (!sound) fmt::print(stderr, "phasetree-bench: a check failed, see above\n");
+    return sound ? 0 : 1;
+}
+
+}  // namespace
+
+}  // namespace phasetree::bench
+
+int main(int argc, char** argv) {
+    using namespace phasetree;
+    using namespace phasetree::bench;
+    CLI::App app("Measures what phasetree claims about speed.", "phasetree-bench");
+    Settings settings;
+    std::string size, file;
+    const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
+    app.add_flag("--quick", settings.quick, "Fewer rays and rounds: all of it within a minute");
+    app.add_option("--threads", settings.threads, "Threads that trace; with more than one the wall clock is read")
+        ->check(CLI::Range(1, 1024));
+    app.add_option("--size", size, "Of the images of one ray per pixel, WIDTHxHEIGHT");
+    app.add_option("--seed", settings.seed, "Of the random rays");
+    app.add_option("--json", file, "Also write the numbers to this file");
+    app.require_subcommand(1);
+    app.fallthrough();
+    std::vector<Command> chosen;
+    for (const Command& command : commands())
+        app.add_subcommand(command.name, command.what)->callback([&] { chosen.push_back(command); });
+    app.add_subcommand("all", "all of these")->callback([&] { chosen = commands(); });
+    try {
+        app.parse(argc, argv);
+        if (settings.quick) settings.width = settings.height = 160;
+        if (!size.empty()) set_size(settings, size);
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e) == 0 ? 0 : 2;
+    }
+    if (static_cast<unsigned>(settings.threads) > cores)
+        fmt::print("{} threads on {} cores: they will wait for each other\n", settings.threads, cores);
+    try {
+        return run(chosen, settings, file);
+    } catch (const std::exception& e) {
+        fmt::print(stderr, "phasetree-bench: {}\n", e.what());
+        return 1;
+    }
+}

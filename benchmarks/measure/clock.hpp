@@ -1,0 +1,21 @@
+#pragma once
+
+#include <chrono>
+#include <ctime>
+
+namespace phasetree::bench {
+
+enum class Clock {
+    thread,  // processor time of the calling thread: other load does not count
+    wall,
+};
+
+inline double seconds(Clock clock) {
+    if (clock == Clock::wall)
+        return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+}  // namespace phasetree::bench

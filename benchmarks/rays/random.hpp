@@ -1,0 +1,37 @@
+// Random numbers that are the same on every machine (std:: distributions are not).
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <numbers>
+
+namespace phasetree::bench {
+
+// SplitMix64 (Steele, Lea, Flood, OOPSLA 2014).
+class Random {
+  public:
+    explicit Random(std::uint64_t seed) : state_(seed) {}
+
+    // In [0, 1).
+    float next() {
+        std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+        return static_cast<float>((z ^ (z >> 31)) >> 40) * 0x1p-24f;
+    }
+    glm::vec3 in_cube() {
+        const float x = next(), y = next(), z = next();
+        return {x, y, z};
+    }
+    glm::vec3 direction() {
+        const float z = 1 - 2 * next(), angle = 2 * std::numbers::pi_v<float> * next();
+        const float r = std::sqrt(1 - z * z);
+        return {r * std::cos(angle), r * std::sin(angle), z};
+    }
+
+  private:
+    std::uint64_t state_;
+};
+
+}  // namespace phasetree::bench

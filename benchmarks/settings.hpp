@@ -1,0 +1,21 @@
+// What the command line chose, for all subcommands.
+#pragma once
+
+#include <cstdint>
+
+#include "measure/in_turn.hpp"
+
+namespace phasetree::bench {
+
+struct Settings {
+    bool quick = false;
+    int threads = 1;                // that trace; building is measured on one
+    int width = 512, height = 512;  // of an image of one ray per pixel
+    std::uint64_t seed = 1;
+
+    // Processor time of one thread does not count what else the machine does; several threads have only the wall clock.
+    Timing timing() const { return {quick ? 3 : 7, quick ? 0.02 : 0.15, threads == 1 ? Clock::thread : Clock::wall}; }
+    std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+};
+
+}  // namespace phasetree::bench

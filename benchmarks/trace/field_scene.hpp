@@ -1,0 +1,57 @@
+// An object as the path tracer has it: interface cells as one user geometry of an Embree scene, rays that carry phases.
+#pragma once
+
+#include "trace/embree_scene.hpp"
+#include "trace/many.hpp"
+
+namespace phasetree::bench {
+
+class FieldScene {
+  public:
+    explicit FieldScene(const Phased& object);
+
+    // The nearest change of phase; as tracer/src/integrator/world.cpp asks for it.
+    std::optional<Crossing> intersect(const Ray& ray) const {
+        embree::Query query;
+        const RTCRayHit hit = nearest(ray, query);
+        if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+        return query.crossing;
+    }
+    struct HitWithNormal {
+        Crossing crossing;
+        glm::vec3 normal;
+    };
+    std::optional<HitWithNormal> intersect_with_normal(const Ray& ray) const {
+        embree::Query query;
+        const RTCRayHit hit = nearest(ray, query);
+        if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+        return HitWithNormal{query.crossing, cells_->normal(hit.hit.primID, query.crossing, ray.direction)};
+    }
+    Checksum trace(std::span<const Ray> rays, int threads) const {
+        return trace_many(rays, threads, [this](const Ray& ray) -> std::optional<float> {
+            const auto crossing = intersect(ray);
+            if (!crossing) return std::nullopt;
+            return crossing->t_in;
+        });
+    }
+    TraceCounters counters(std::span<const Ray> rays) const;
+
+    const InterfaceCells& cells() const { return *cells_; }
+    CellStatistics statistics() const { return cells_->statistics(); }
+    std::size_t embree_bytes() const { return scene_.bytes(); }
+    std::size_t bytes() const { return statistics().bytes + embree_bytes(); }
+
+  private:
+    RTCRayHit nearest(const Ray& ray, embree::Query& query) const {
+        RTCRayHit hit = rayhit_of(ray);
+        query.carried = ray.carried;
+        embree::intersect(scene_.handle(), query.context, hit);
+        return hit;
+    }
+
+    std::shared_ptr<const InterfaceCells> cells_;
+    EmbreeScene scene_;
+    std::optional<embree::TreeGeometry> geometry_;
+};
+
+}  // namespace phasetree::bench

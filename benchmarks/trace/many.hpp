@@ -1,0 +1,70 @@
+#pragma once
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "measure/checksum.hpp"
+#include "phasetree/embree_version.hpp"
+#include "phasetree/math/float_mode.hpp"
+#include "rays/ray.hpp"
+
+namespace phasetree::bench {
+
+inline RTCRayHit rayhit_of(const Ray& ray) {
+    RTCRayHit r{};
+    r.ray.org_x = ray.origin.x;
+    r.ray.org_y = ray.origin.y;
+    r.ray.org_z = ray.origin.z;
+    r.ray.dir_x = ray.direction.x;
+    r.ray.dir_y = ray.direction.y;
+    r.ray.dir_z = ray.direction.z;
+    r.ray.tfar = std::numeric_limits<float>::infinity();
+    r.ray.mask = ~0u;
+    r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    return r;
+}
+
+// Traces all rays with trace(ray), which gives the distance of a hit or nothing. The sum is the same for any number of
+// threads: it is taken over parts of a fixed size, in their order.
+template <class Trace>
+Checksum trace_many(std::span<const Ray> rays, int threads, Trace&& trace) {
+    constexpr std::size_t part_size = 512;
+    const std::size_t parts = (rays.size() + part_size - 1) / part_size;
+    const auto sum_of = [&](std::size_t part) {
+        Checksum sum;
+        const std::size_t first = part * part_size;
+        for (const Ray& ray : rays.subspan(first, std::min(part_size, rays.size() - first))) {
+            const std::optional<float> t = trace(ray);
+            ++sum.rays;
+            if (!t) continue;
+            ++sum.hits;
+            sum.distance += static_cast<double>(*t);
+        }
+        return sum;
+    };
+    Checksum all;
+    if (threads == 1) {
+        const FlushSubnormals flush;
+        for (std::size_t part = 0; part < parts; ++part) all += sum_of(part);
+        return all;
+    }
+    std::vector<Checksum> sums(parts);
+    tbb::task_arena arena(threads);
+    arena.execute([&] {
+        tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t part) {
+            const FlushSubnormals flush;
+            sums[part] = sum_of(part);
+        });
+    });
+    for (const Checksum& sum : sums) all += sum;
+    return all;
+}
+
+}  // namespace phasetree::bench
