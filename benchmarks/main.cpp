@@ -24,6 +24,7 @@ struct Command {
 const std::vector<Command>& commands() {
     static const std::vector<Command> all{
         {"scaling", "the tentacle with 30 to 30,000 bumps", scaling},
+        {"mesh", "fields against the triangles that would replace them", mesh},
     };
     return all;
 }

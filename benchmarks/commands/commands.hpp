@@ -7,5 +7,6 @@
 namespace phasetree::bench {
 
 Report scaling(const Settings&);
+Report mesh(const Settings&);
 
 }  // namespace phasetree::bench

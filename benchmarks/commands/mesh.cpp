@@ -1,0 +1,199 @@
+// A field against the mesh that would replace it: three scenes' outer surfaces, of one phase, and the same surfaces as
+// triangles.
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+
+#include "commands/commands.hpp"
+#include "mesh/surface_nets.hpp"
+#include "objects/outer.hpp"
+#include "objects/scene_file.hpp"
+#include "objects/tentacle.hpp"
+#include "rays/camera_rays.hpp"
+#include "rays/random.hpp"
+#include "trace/field_scene.hpp"
+#include "trace/mesh_scene.hpp"
+
+namespace phasetree::bench {
+
+namespace {
+
+// Rays that leave the surface: the field's from the near end of its bracket, the mesh's from its own hit of the same
+// camera ray, lifted by a hair as is usual with meshes. The directions are the same, and random over the hemisphere.
+struct SurfaceRays {
+    Rays of_field, of_mesh;
+};
+
+struct Agreement {
+    std::size_t both = 0, either = 0;
+    double difference = 0, largest = 0;
+
+    double share() const { return either == 0 ? 0 : static_cast<double>(both) / static_cast<double>(either); }
+    double mean() const { return both == 0 ? 0 : difference / static_cast<double>(both); }
+};
+
+Agreement compare(const FieldScene& field, const MeshScene& mesh, const Rays& rays) {
+    const FlushSubnormals flush;
+    Agreement a;
+    for (const Ray& ray : rays) {
+        const auto f = field.intersect(ray);
+        const auto m = mesh.intersect(ray);
+        a.either += f || m ? 1 : 0;
+        if (!f || !m) continue;
+        ++a.both;
+        const double d = std::abs(static_cast<double>(f->t_in) - static_cast<double>(m->distance));
+        a.difference += d;
+        a.largest = std::max(a.largest, d);
+    }
+    return a;
+}
+
+SurfaceRays leaving(const FieldScene& field, const MeshScene& mesh, const Rays& camera, std::uint64_t seed) {
+    const FlushSubnormals flush;
+    const float hair = 1e-5f * field.cells().bounds().diagonal();
+    Random random(seed);
+    SurfaceRays starts, rays;
+    for (const Ray& ray : camera) {
+        const auto f = field.intersect_with_normal(ray);
+        const auto m = mesh.intersect(ray);
+        // Past an edge the two may see different parts of the object: those rays would not be comparable.
+        if (!f || !m || std::abs(f->crossing.t_in - m->distance) > 300 * hair) continue;
+        glm::vec3 flat = glm::normalize(m->normal);
+        if (glm::dot(flat, ray.direction) > 0) flat = -flat;
+        starts.of_field.push_back({f->crossing.p_in, -f->normal, f->crossing.from});
+        starts.of_mesh.push_back({ray.origin + m->distance * ray.direction + hair * flat, flat, f->crossing.from});
+    }
+    if (starts.of_field.empty()) return rays;
+    while (rays.of_field.size() < camera.size()) {
+        const auto i = std::min(static_cast<std::size_t>(random.next() * static_cast<float>(starts.of_field.size())),
+                                starts.of_field.size() - 1);
+        Ray f = starts.of_field[i], m = starts.of_mesh[i];
+        const glm::vec3 direction = random.direction();
+        if (!(glm::dot(direction, f.direction) > 0 && glm::dot(direction, m.direction) > 0)) continue;
+        f.direction = m.direction = direction;
+        rays.of_field.push_back(f);
+        rays.of_mesh.push_back(m);
+    }
+    return rays;
+}
+
+}  // namespace
+
+Report mesh(const Settings& settings) {
+    Report report("mesh", "three scenes' outer surfaces, as fields and as triangles by surface nets");
+    const int cubes = settings.quick ? 256 : 512;
+    struct Scene {
+        std::string name;
+        Phased object;
+        std::optional<tracer::ThinLensParameters> camera;
+    };
+    const tracer::Scene hourglass = scene_file("hourglass"), cable = scene_file("cable");
+    const std::vector<Scene> scenes{{"hourglass", outer(hourglass.object), hourglass.camera},
+                                    {"cable", outer(cable.object), cable.camera},
+                                    {"tentacle, 3,000 bumps", outer(tentacle(3000)), std::nullopt}};
+    report.say(
+        fmt::format("the field: −φ₀ as one phase; the mesh: {}³ cubes{}, Embree triangles of medium and of high "
+                    "build quality, not robust",
+                    cubes, settings.quick ? " (512³ without --quick)" : ""));
+    report.say(
+        fmt::format("rays: {}×{} camera rays, one a pixel; as many random ones from what those hit into the open; {} "
+                    "thread(s)",
+                    settings.width, settings.height, settings.threads));
+    report.say(
+        "build: processor time on one thread, from the tree for the field; the mesh's is the meshing and Embree's "
+        "build");
+    report.say(
+        "field + normal: with the surface's normal at the hit, which a field computes apart; a triangle's comes with "
+        "it");
+
+    Table table({{"scene", "scene", ""},
+                 {"what", "", ""},
+                 {"primitives", "primitives", "{:.0f}"},
+                 {"build_seconds", "build s", "{:.2f}"},
+                 {"bytes", "MB", "{:.1f}", 1e-6},
+                 {"primary_rays_per_second", "primary M/s", "{:.2f}", 1e-6},
+                 {"random_rays_per_second", "random M/s", "{:.2f}", 1e-6},
+                 {"primary_ratio", "of triangles", "{:.2f}"},
+                 {"random_ratio", "random", "{:.2f}"}});
+    Table agreements({{"scene", "scene", ""},
+                      {"rays", "rays that hit either", "{:.0f}"},
+                      {"both", "both %", "{:.3f}", 100},
+                      {"difference", "mean |Δt| in cubes", "{:.4f}"},
+                      {"largest", "largest", "{:.2f}"}});
+    double least_primary = 1e30, least_random = 1e30, most_memory = 0;
+    for (const Scene& scene : scenes) {
+        const tbb::global_control one(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(settings.threads));
+        const auto timed = [](auto&& make, double& taken) {
+            const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
+            const double start = seconds(Clock::thread);
+            auto made = make();
+            taken = seconds(Clock::thread) - start;
+            return made;
+        };
+        double field_seconds = 0, meshing_seconds = 0, medium_seconds = 0, high_seconds = 0;
+        const auto field = timed([&] { return std::make_unique<FieldScene>(scene.object); }, field_seconds);
+        const Triangles triangles = timed([&] { return surface_nets(*field, cubes); }, meshing_seconds);
+        const auto medium =
+            timed([&] { return std::make_unique<MeshScene>(triangles, RTC_BUILD_QUALITY_MEDIUM); }, medium_seconds);
+        const auto high =
+            timed([&] { return std::make_unique<MeshScene>(triangles, RTC_BUILD_QUALITY_HIGH); }, high_seconds);
+
+        const Rays primary = camera_rays(scene.camera ? *scene.camera : camera_for(field->cells().bounds()),
+                                         settings.width, settings.height);
+        const SurfaceRays random = leaving(*field, *medium, primary, settings.seed);
+        const auto with_normals = [&](const Rays& rays) {
+            return trace_many(rays, settings.threads, [&](const Ray& ray) -> std::optional<float> {
+                const auto hit = field->intersect_with_normal(ray);
+                if (!hit) return std::nullopt;
+                return hit->crossing.t_in + glm::dot(hit->normal, ray.direction);
+            });
+        };
+        const auto contest = [&](const Rays& of_field, const Rays& of_mesh) {
+            return in_turn({{"triangles", [&] { return medium->trace(of_mesh, settings.threads); }},
+                            {"triangles, high", [&] { return high->trace(of_mesh, settings.threads); }},
+                            {"field", [&] { return field->trace(of_field, settings.threads); }},
+                            {"field + normal", [&] { return with_normals(of_field); }}},
+                           settings.timing());
+        };
+        const Turns on_primary = contest(primary, primary), on_random = contest(random.of_field, random.of_mesh);
+
+        const double cube = [&] {
+            const glm::vec3 extent = field->cells().bounds().extent();
+            return static_cast<double>(std::max({extent.x, extent.y, extent.z})) / cubes;
+        }();
+        const Agreement agreement = compare(*field, *medium, primary);
+        agreements.row({scene.name, double(agreement.either), agreement.share(), agreement.mean() / cube,
+                        agreement.largest / cube});
+        // A cube is seen under a pixel or so: silhouettes are a few thousandths of the rays.
+        report.check(scene.name + ": field and mesh are the same surface",
+                     agreement.share() > 0.98 && agreement.mean() < 0.5 * cube,
+                     fmt::format("{:.2f} % of rays hit both, {:.3f} cubes apart on average", 100 * agreement.share(),
+                                 agreement.mean() / cube));
+
+        const auto row = [&](std::size_t i, const std::string& what, double primitives, double build, double bytes) {
+            const auto rate = [&](const Turns& turns) {
+                return static_cast<double>(turns.checksum(i).rays) / turns.seconds(i).median;
+            };
+            table.row({scene.name, what, primitives, build, bytes, rate(on_primary), rate(on_random),
+                       on_primary.ratio(0, i), on_random.ratio(0, i)});
+        };
+        const double count = static_cast<double>(triangles.triangles.size());
+        row(0, "triangles", count, meshing_seconds + medium_seconds, double(medium->bytes()));
+        row(1, "triangles, high quality", count, meshing_seconds + high_seconds, double(high->bytes()));
+        row(2, "field", double(field->cells().size()), field_seconds, double(field->bytes()));
+        row(3, "field + normal", double(field->cells().size()), field_seconds, double(field->bytes()));
+        least_primary = std::min(least_primary, on_primary.ratio(0, 2).median);
+        least_random = std::min(least_random, on_random.ratio(0, 2).median);
+        most_memory = std::max(most_memory, static_cast<double>(field->bytes()) / static_cast<double>(medium->bytes()));
+    }
+    report.table("scenes", table);
+    report.table("agreement", agreements);
+    report.at_least("field against triangles, primary rays, worst scene", least_primary, 0.7);
+    report.at_least("field against triangles, random rays from the surface, worst scene", least_random, 0.7);
+    report.at_most("memory of the field against the triangles', worst scene", most_memory, 1);
+    return report;
+}
+
+}  // namespace phasetree::bench
