@@ -25,6 +25,7 @@ const std::vector<Command>& commands() {
     static const std::vector<Command> all{
         {"scaling", "the tentacle with 30 to 30,000 bumps", scaling},
         {"mesh", "fields against the triangles that would replace them", mesh},
+        {"naive", "interface cells against the paper's way", naive},
     };
     return all;
 }

@@ -8,5 +8,6 @@ namespace phasetree::bench {
 
 Report scaling(const Settings&);
 Report mesh(const Settings&);
+Report naive(const Settings&);
 
 }  // namespace phasetree::bench
