@@ -26,6 +26,8 @@ const std::vector<Command>& commands() {
         {"scaling", "the tentacle with 30 to 30,000 bumps", scaling},
         {"mesh", "fields against the triangles that would replace them", mesh},
         {"naive", "interface cells against the paper's way", naive},
+        {"phases", "the same geometry with 1 to 32 phases (Figure 20)", phases},
+        {"simd", "instruction sets and threads", simd},
     };
     return all;
 }

@@ -9,5 +9,7 @@ namespace phasetree::bench {
 Report scaling(const Settings&);
 Report mesh(const Settings&);
 Report naive(const Settings&);
+Report phases(const Settings&);
+Report simd(const Settings&);
 
 }  // namespace phasetree::bench

@@ -6,7 +6,8 @@
 namespace phasetree::bench {
 
 enum class Clock {
-    thread,  // processor time of the calling thread: other load does not count
+    thread,   // processor time of the calling thread: other load does not count
+    process,  // processor time of all threads
     wall,
 };
 
@@ -14,7 +15,7 @@ inline double seconds(Clock clock) {
     if (clock == Clock::wall)
         return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
     timespec t{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    clock_gettime(clock == Clock::thread ? CLOCK_THREAD_CPUTIME_ID : CLOCK_PROCESS_CPUTIME_ID, &t);
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
