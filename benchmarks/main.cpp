@@ -23,6 +23,7 @@ struct Command {
 
 const std::vector<Command>& commands() {
     static const std::vector<Command> all{
+        {"table1", "seven objects with phases and without (Table 1)", table1},
         {"scaling", "the tentacle with 30 to 30,000 bumps", scaling},
         {"mesh", "fields against the triangles that would replace them", mesh},
         {"naive", "interface cells against the paper's way", naive},

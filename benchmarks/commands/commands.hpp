@@ -6,6 +6,7 @@
 
 namespace phasetree::bench {
 
+Report table1(const Settings&);
 Report scaling(const Settings&);
 Report mesh(const Settings&);
 Report naive(const Settings&);

@@ -8,9 +8,10 @@ namespace phasetree::bench {
 
 class FieldScene {
   public:
-    explicit FieldScene(const Phased& object);
+    // With a height, two large triangles at that z stand beside the object.
+    explicit FieldScene(const Phased& object, std::optional<float> ground = std::nullopt);
 
-    // The nearest change of phase; as tracer/src/integrator/world.cpp asks for it.
+    // The nearest change of phase, of a scene without ground; as tracer/src/integrator/world.cpp asks for it.
     std::optional<Crossing> intersect(const Ray& ray) const {
         embree::Query query;
         const RTCRayHit hit = nearest(ray, query);
@@ -27,6 +28,12 @@ class FieldScene {
         if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
         return HitWithNormal{query.crossing, cells_->normal(hit.hit.primID, query.crossing, ray.direction)};
     }
+    // The nearest surface, the ground among them, and where a reflected ray starts from it.
+    struct Surface {
+        float distance;
+        glm::vec3 point, normal;  // against the ray
+    };
+    std::optional<Surface> surface(const Ray& ray) const;
     Checksum trace(std::span<const Ray> rays, int threads) const {
         return trace_many(rays, threads, [this](const Ray& ray) -> std::optional<float> {
             const auto crossing = intersect(ray);
@@ -42,6 +49,9 @@ class FieldScene {
     std::size_t bytes() const { return statistics().bytes + embree_bytes(); }
 
   private:
+    static constexpr unsigned object_id = 0, ground_id = 1;
+
+    void add_ground(float height);
     RTCRayHit nearest(const Ray& ray, embree::Query& query) const {
         RTCRayHit hit = rayhit_of(ray);
         query.carried = ray.carried;
