@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <thread>
 
 #include "commands/commands.hpp"
@@ -58,17 +59,36 @@ void set_size(Settings& settings, const std::string& text) {
     settings.height = height;
 }
 
-// Whole or not at all.
-void write(const std::string& file, const nlohmann::ordered_json& json) {
-    const std::string part = file + ".part";
-    std::ofstream stream(part);
-    stream << json.dump(2) << '\n';
-    stream.close();
-    if (!stream) throw std::runtime_error("cannot write \"" + part + "\"");
-    std::filesystem::rename(part, file);
-}
+// A file that is written whole or not at all; opened before anything is measured.
+class JsonFile {
+  public:
+    explicit JsonFile(const std::string& name) : name_(name), part_(name + ".part"), stream_(part_) {
+        if (!stream_) throw std::runtime_error("cannot write \"" + name + "\"");
+    }
+    ~JsonFile() {
+        std::error_code ignored;
+        if (!done_) std::filesystem::remove(part_, ignored);
+    }
+    JsonFile(const JsonFile&) = delete;
+    JsonFile& operator=(const JsonFile&) = delete;
+
+    void write(const nlohmann::ordered_json& json) {
+        stream_ << json.dump(2) << '\n';
+        stream_.close();
+        if (!stream_) throw std::runtime_error("cannot write \"" + name_ + "\"");
+        std::filesystem::rename(part_, name_);
+        done_ = true;
+    }
+
+  private:
+    std::string name_, part_;
+    std::ofstream stream_;
+    bool done_ = false;
+};
 
 int run(const std::vector<Command>& chosen, const Settings& settings, const std::string& file) {
+    std::optional<JsonFile> output;
+    if (!file.empty()) output.emplace(file);
     nlohmann::ordered_json json;
     json["machine"] = machine();
     json["settings"] = {{"quick", settings.quick}, {"threads", settings.threads},
@@ -86,7 +106,7 @@ int run(const std::vector<Command>& chosen, const Settings& settings, const std:
         json[report.name()]["seconds"] = seconds(Clock::wall) - start;
         sound = sound && report.sound();
     }
-    if (!file.empty()) write(file, json);
+    if (output) output->write(json);
     if (!sound) fmt::print(stderr, "phasetree-bench: a check failed, see above\n");
     return sound ? 0 : 1;
 }

@@ -1,4 +1,4 @@
-// A field against the mesh that would replace it: three scenes' outer surfaces, of one phase, and the same surfaces as
+// A field against the mesh that would replace it: four scenes' outer surfaces, of one phase, and the same surfaces as
 // triangles.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -81,21 +81,23 @@ SurfaceRays leaving(const FieldScene& field, const MeshScene& mesh, const Rays& 
 }  // namespace
 
 Report mesh(const Settings& settings) {
-    Report report("mesh", "three scenes' outer surfaces, as fields and as triangles by surface nets");
+    Report report("mesh", "four scenes' outer surfaces, as fields and as triangles by surface nets");
     const int cubes = settings.quick ? 256 : 512;
     struct Scene {
         std::string name;
         Phased object;
         std::optional<tracer::ThinLensParameters> camera;
     };
-    const tracer::Scene hourglass = scene_file("hourglass"), cable = scene_file("cable");
-    const std::vector<Scene> scenes{{"hourglass", outer(hourglass.object), hourglass.camera},
-                                    {"cable", outer(cable.object), cable.camera},
-                                    {"tentacle, 3,000 bumps", outer(tentacle(3000)), std::nullopt}};
-    report.say(
-        fmt::format("the field: −φ₀ as one phase; the mesh: {}³ cubes{}, Embree triangles of medium and of high "
-                    "build quality, not robust",
-                    cubes, settings.quick ? " (512³ without --quick)" : ""));
+    std::vector<Scene> scenes;
+    for (const std::string name : {"hourglass", "cable", "cake"}) {
+        const tracer::Scene scene = scene_file("benchmark/" + name + "_monophase");
+        scenes.push_back({name, scene.object, scene.camera});
+    }
+    scenes.push_back({"tentacle, 3,000 bumps", outer(tentacle(3000)), std::nullopt});
+    report.say(fmt::format(
+        "the field: one phase, of the tentacle −φ₀; the mesh: {}³ cubes{}, Embree triangles of medium and of high "
+        "build quality, not robust",
+        cubes, settings.quick ? " (512³ without --quick)" : ""));
     report.say(
         fmt::format("rays: {}×{} camera rays, one a pixel; as many random ones from what those hit into the open; {} "
                     "thread(s)",
@@ -114,8 +116,8 @@ Report mesh(const Settings& settings) {
                  {"bytes", "MB", "{:.1f}", 1e-6},
                  {"primary_rays_per_second", "primary M/s", "{:.2f}", 1e-6},
                  {"random_rays_per_second", "random M/s", "{:.2f}", 1e-6},
-                 {"primary_ratio", "of triangles", "{:.2f}"},
-                 {"random_ratio", "random", "{:.2f}"}});
+                 {"primary_ratio", "primary ×", "{:.2f}"},
+                 {"random_ratio", "random ×", "{:.2f}"}});
     Table agreements({{"scene", "scene", ""},
                       {"rays", "rays that hit either", "{:.0f}"},
                       {"both", "both %", "{:.3f}", 100},

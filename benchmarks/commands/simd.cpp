@@ -108,7 +108,7 @@ Report simd(const Settings& settings) {
             }
         }
     }
-    report.table("targets", table);
+    report.table("instruction_sets", table);
     report.check("the same results with every instruction set and number of threads", same,
                  same ? "hits and distances are equal to the last bit" : "they differ");
     report.at_least(fmt::format("efficiency of {} threads, wall clock, worst", threads), least_wall, 0.95);

@@ -30,7 +30,7 @@ struct Outcome {
     double processor_seconds = 0;  // how long it takes on a busy machine says nothing of the program
 };
 
-// No test of ours runs longer than a few seconds, however loaded the machine.
+// No run of the command in a test takes longer than a few seconds, however loaded the machine.
 inline constexpr auto give_up_after = std::chrono::seconds(60);
 
 // A directory for scenes and images, and the command run there.
@@ -69,7 +69,7 @@ class Shell {
         rusage used{};
         while (::wait4(child, &status, WNOHANG, &used) == 0) {
             if (meanwhile) meanwhile(child);
-            if (std::chrono::steady_clock::now() - start > give_up_after) ::kill(child, SIGKILL);
+            if (std::chrono::steady_clock::now() - start > patience) ::kill(child, SIGKILL);
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
         Outcome outcome;
@@ -87,6 +87,7 @@ class Shell {
 
     TemporaryDirectory directory;
     std::vector<std::pair<std::string, std::string>> environment;
+    std::chrono::seconds patience = give_up_after;
 };
 
 // A scene that renders quickly; the parts may be replaced.

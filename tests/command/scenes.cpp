@@ -13,9 +13,9 @@ namespace {
 
 const std::filesystem::path root = PHASETREE_SOURCE_DIR;
 
-std::vector<std::filesystem::path> scenes() {
+std::vector<std::filesystem::path> scenes(const std::filesystem::path& folder = root / "scenes") {
     std::vector<std::filesystem::path> all;
-    for (const auto& entry : std::filesystem::directory_iterator(root / "scenes"))
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
         if (entry.path().extension() == ".json" && entry.path().filename() != "scene.schema.json")
             all.push_back(entry.path());
     return all;
@@ -44,6 +44,22 @@ TEST_CASE("every scene is sound, has a picture, and is quoted in the gallery wit
         REQUIRE(at != std::string::npos);
         CHECK(readme.substr(at, readme.find('|', at) - at).find(said) != std::string::npos);
         CHECK(std::filesystem::exists(root / "scenes" / "gallery" / (name + ".jpg")));
+    }
+}
+
+TEST_CASE("every scene that only the benchmarks need is sound") {
+    const Shell shell;
+    CHECK(scenes(root / "scenes" / "benchmark").size() == 8);
+    for (const std::filesystem::path& scene : scenes(root / "scenes" / "benchmark")) {
+        CAPTURE(scene.string());
+        const Outcome check = shell.run({"check", scene.string()});
+        CHECK(check.code == 0);
+        CHECK(check.err == "");
+        const Outcome info = shell.run({"info", "--json", scene.string()});
+        REQUIRE(info.code == 0);
+        // The monophase trees have no phases to speak of.
+        const bool is_monophase = scene.stem().string().ends_with("_monophase");
+        CHECK((nlohmann::json::parse(info.out).at("phases").size() == 1) == is_monophase);
     }
 }
 
