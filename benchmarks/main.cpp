@@ -136,7 +136,7 @@ int main(int argc, char** argv) {
     app.add_subcommand("all", "all of these")->callback([&] { chosen = commands(); });
     try {
         app.parse(argc, argv);
-        if (settings.quick) settings.width = settings.height = 160;
+        if (settings.quick) settings.width = settings.height = 128;
         if (!size.empty()) set_size(settings, size);
     } catch (const CLI::ParseError& e) {
         return app.exit(e) == 0 ? 0 : 2;

@@ -44,7 +44,7 @@ Report scaling(const Settings& settings) {
     for (std::size_t i = 0; i < objects.size(); ++i) {
         Object& o = objects[i];
         o.primary = camera_rays(camera, settings.width, settings.height);
-        o.random = rays_from_inside(o.scene->cells(), settings.pixels(), settings.seed);
+        o.random = rays_from_inside(*o.scene, settings.pixels(), settings.seed);
         const std::string name = fmt::format("{} bumps", counts[i]);
         primary.push_back({name, [&o, &settings] { return o.scene->trace(o.primary, settings.threads); }});
         random.push_back({name, [&o, &settings] { return o.scene->trace(o.random, settings.threads); }});

@@ -75,7 +75,7 @@ Report table1(const Settings& settings) {
         const tracer::Scene multi = scene_file(object.multiphase), mono = scene_file(object.monophase);
         const FieldScene with(multi.object), without(mono.object);
         const float ground = std::min(with.cells().bounds().low.z, without.cells().bounds().low.z);
-        const FieldScene with_ground(multi.object, ground), without_ground(mono.object, ground);
+        const FieldScene with_ground(with, ground), without_ground(without, ground);
         const Rays rays = camera_rays(multi.camera, settings.width, settings.height);
         std::vector<glm::vec3> sphere;
         Random random(settings.seed);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <ctime>
 
@@ -10,6 +11,7 @@ enum class Clock {
     process,  // processor time of all threads
     wall,
 };
+inline constexpr std::array clocks{Clock::thread, Clock::process, Clock::wall};
 
 inline double seconds(Clock clock) {
     if (clock == Clock::wall)

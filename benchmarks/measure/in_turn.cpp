@@ -14,20 +14,21 @@ Spread spread_of(std::vector<double> values) {
 }
 
 Spread Turns::seconds(std::size_t contestant) const {
-    return spread_of(seconds_[contestant]);
+    return spread_of(by(clock_)[contestant]);
 }
 
-Spread Turns::ratio(std::size_t a, std::size_t b) const {
+Spread Turns::ratio(std::size_t a, std::size_t b, Clock clock) const {
+    const Rounds& rounds = by(clock);
     std::vector<double> ratios;
-    for (std::size_t round = 0; round < seconds_[a].size(); ++round)
-        ratios.push_back(seconds_[a][round] / seconds_[b][round]);
+    for (std::size_t i = 0; i < rounds[a].size(); ++i) ratios.push_back(rounds[a][i] / rounds[b][i]);
     return spread_of(std::move(ratios));
 }
 
 Turns in_turn(const std::vector<Contestant>& contestants, const Timing& timing) {
     const std::size_t n = contestants.size();
     Turns turns;
-    turns.seconds_.resize(n);
+    turns.clock_ = timing.clock;
+    for (auto& rounds : turns.seconds_) rounds.resize(n);
     std::vector<int> repeats;
     for (const Contestant& c : contestants) {
         if (c.prepare) c.prepare();
@@ -42,9 +43,13 @@ Turns in_turn(const std::vector<Contestant>& contestants, const Timing& timing) 
             const Contestant& c = contestants[i];
             if (c.prepare) c.prepare();
             bool same = true;
-            const double start = seconds(timing.clock);
+            std::array<double, clocks.size()> start{};
+            for (const Clock clock : clocks) start[static_cast<std::size_t>(clock)] = seconds(clock);
             for (int r = 0; r < repeats[i]; ++r) same = c.work() == turns.checksums_[i] && same;
-            turns.seconds_[i].push_back((seconds(timing.clock) - start) / repeats[i]);
+            for (const Clock clock : clocks) {
+                const auto which = static_cast<std::size_t>(clock);
+                turns.seconds_[which][i].push_back((seconds(clock) - start[which]) / repeats[i]);
+            }
             if (!same) throw std::logic_error("\"" + c.name + "\" gave two different results");
         }
     }

@@ -2,6 +2,7 @@
 // meet the same clock rate and the same neighbours; the ratio is the median over rounds.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -33,13 +34,18 @@ class Turns {
   public:
     // The work of one call.
     Spread seconds(std::size_t contestant) const;
-    // Paired: time of `a` over time of `b` in the same round.
-    Spread ratio(std::size_t a, std::size_t b) const;
+    // Paired: time of `a` over time of `b` in the same round, by the timing's clock or by another.
+    Spread ratio(std::size_t a, std::size_t b) const { return ratio(a, b, clock_); }
+    Spread ratio(std::size_t a, std::size_t b, Clock clock) const;
     const Checksum& checksum(std::size_t contestant) const { return checksums_[contestant]; }
 
   private:
     friend Turns in_turn(const std::vector<Contestant>&, const Timing&);
-    std::vector<std::vector<double>> seconds_;  // [contestant][round]
+    using Rounds = std::vector<std::vector<double>>;  // [contestant][round]
+    const Rounds& by(Clock clock) const { return seconds_[static_cast<std::size_t>(clock)]; }
+
+    Clock clock_ = Clock::thread;
+    std::array<Rounds, clocks.size()> seconds_;
     std::vector<Checksum> checksums_;
 };
 

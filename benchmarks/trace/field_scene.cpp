@@ -2,8 +2,14 @@
 
 namespace phasetree::bench {
 
-FieldScene::FieldScene(const Phased& object, std::optional<float> ground)
-    : cells_(std::make_shared<const InterfaceCells>(object)), scene_(RTC_SCENE_FLAG_ROBUST) {
+FieldScene::FieldScene(const Phased& object)
+    : FieldScene(std::make_shared<const InterfaceCells>(object), std::nullopt) {}
+
+FieldScene::FieldScene(const FieldScene& object, float ground)
+    : FieldScene(object.cells_, std::optional<float>(ground)) {}
+
+FieldScene::FieldScene(std::shared_ptr<const InterfaceCells> cells, std::optional<float> ground)
+    : cells_(std::move(cells)), scene_(RTC_SCENE_FLAG_ROBUST) {
     geometry_.emplace(scene_.device(), cells_, embree::Options{.rays_carry_phases = true});
     rtcCommitGeometry(geometry_->handle());
     rtcAttachGeometryByID(scene_.handle(), geometry_->handle(), object_id);

@@ -8,8 +8,9 @@ namespace phasetree::bench {
 
 class FieldScene {
   public:
-    // With a height, two large triangles at that z stand beside the object.
-    explicit FieldScene(const Phased& object, std::optional<float> ground = std::nullopt);
+    explicit FieldScene(const Phased& object);
+    // The same cells, beside two large triangles at a height.
+    FieldScene(const FieldScene& object, float ground);
 
     // The nearest change of phase, of a scene without ground; as tracer/src/integrator/world.cpp asks for it.
     std::optional<Crossing> intersect(const Ray& ray) const {
@@ -51,6 +52,7 @@ class FieldScene {
   private:
     static constexpr unsigned object_id = 0, ground_id = 1;
 
+    FieldScene(std::shared_ptr<const InterfaceCells> cells, std::optional<float> ground);
     void add_ground(float height);
     RTCRayHit nearest(const Ray& ray, embree::Query& query) const {
         RTCRayHit hit = rayhit_of(ray);
