@@ -22,6 +22,8 @@ EmbreeScene::EmbreeScene(RTCSceneFlags flags) : bytes_(std::make_unique<std::ato
 }
 
 EmbreeScene::~EmbreeScene() {
+    // A geometry may outlive the scene, and keeps the device; the counter does not.
+    rtcSetDeviceMemoryMonitorFunction(device_, nullptr, nullptr);
     rtcReleaseScene(scene_);
     rtcReleaseDevice(device_);
 }

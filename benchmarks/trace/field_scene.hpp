@@ -62,8 +62,8 @@ class FieldScene {
     }
 
     std::shared_ptr<const InterfaceCells> cells_;
+    std::optional<embree::TreeGeometry> geometry_;  // made with the scene's device, and outlives the scene
     EmbreeScene scene_;
-    std::optional<embree::TreeGeometry> geometry_;
 };
 
 }  // namespace phasetree::bench
