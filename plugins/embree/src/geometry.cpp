@@ -1,7 +1,7 @@
-#include <cmath>
 #include <limits>
 #include <utility>
 
+#include "lanes.hpp"
 #include "phasetree/embree.hpp"
 
 namespace phasetree::embree {
@@ -28,30 +28,6 @@ void bounds(const RTCBoundsFunctionArguments* arguments) {
     out.upper_z = b.high.z;
 }
 
-/// One lane of a packet.
-struct Ray {
-    glm::vec3 origin, direction;
-    float near, far;
-    float length;  ///< of the direction, which is then unit
-
-    static std::optional<Ray> of(RTCRayN* rays, unsigned n, unsigned i) {
-        Ray r;
-        r.origin = {RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)};
-        const glm::vec3 d{RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)};
-        r.length = glm::length(d);
-        if (!(r.length > 0) || !std::isfinite(r.length)) return std::nullopt;
-        // Dividing a unit vector by its rounded length would move a carried start's samples off its bracket for
-        // nothing.
-        r.direction = std::abs(r.length - 1) < 1e-6f ? d : d / r.length;
-        for (int k = 0; k < 3; ++k)
-            if (!std::isfinite(r.origin[k])) return std::nullopt;
-        r.near = RTCRayN_tnear(rays, n, i) * r.length;
-        r.far = RTCRayN_tfar(rays, n, i) * r.length;
-        if (!(r.near <= r.far)) return std::nullopt;
-        return r;
-    }
-};
-
 struct Lane {
     Crossing crossing;
     glm::vec3 direction;
@@ -60,7 +36,7 @@ struct Lane {
 
 std::optional<Lane> trace(const TreeGeometry::Data& data, unsigned cell, RTCRayN* rays, unsigned n, unsigned i,
                           Query* query) {
-    const std::optional<Ray> ray = Ray::of(rays, n, i);
+    const std::optional<LaneRay> ray = LaneRay::of(rays, n, i);
     if (!ray) return std::nullopt;
     TraceCounters unused;
     const auto crossing = data.object->first_crossing(cell, ray->origin, ray->direction, ray->near, ray->far,
@@ -88,12 +64,7 @@ void intersect(const RTCIntersectFunctionNArguments* arguments) noexcept {
         RTCHitN_Ng_z(hits, n, i) = normal.z;
         RTCHitN_u(hits, n, i) = static_cast<float>(c.from.index);
         RTCHitN_v(hits, n, i) = static_cast<float>(c.to.index);
-        RTCHitN_primID(hits, n, i) = arguments->primID;
-        RTCHitN_geomID(hits, n, i) = arguments->geomID;
-        RTCHitN_instID(hits, n, i, 0) = arguments->context->instID[0];
-#if defined(RTC_GEOMETRY_INSTANCE_ARRAY)
-        RTCHitN_instPrimID(hits, n, i, 0) = arguments->context->instPrimID[0];
-#endif
+        set_place(hits, n, i, arguments->primID, arguments->geomID, *arguments->context);
         if (query) query->crossing = c;
     }
 }
