@@ -313,6 +313,15 @@ typedef struct PhasetreeHit {
     float pointIn[3], pointOut[3]; /* in geometry space */
 } PhasetreeHit;
 
+/* The phases of hit i among N, within a filter function (C has none of Embree's accessors) or anywhere else: the one that
+ * the ray leaves, and the one that it enters. Only for hits of a phasetree geometry. */
+static inline unsigned int phasetreeGetPhaseLeft(const struct RTCHitN* hits, unsigned int N, unsigned int i) {
+    return (unsigned int)((const float*)hits)[3 * N + i];
+}
+static inline unsigned int phasetreeGetPhaseEntered(const struct RTCHitN* hits, unsigned int N, unsigned int i) {
+    return (unsigned int)((const float*)hits)[4 * N + i];
+}
+
 /* Tells what a stock ray query has found.
  *
  * rayhit       as the query left it: the ray's origin, direction, tnear and time, tfar and the hit, which must be one

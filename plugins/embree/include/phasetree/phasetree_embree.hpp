@@ -1,0 +1,181 @@
+/// The C99 interface of phasetree_embree.h with owners for its handles and exceptions for its errors (C++17). Thin:
+/// each member is the call of the same name there, where units, threads and what must outlive what are said.
+#pragma once
+
+#include <array>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "phasetree/phasetree_embree.h"
+
+namespace phasetree::embree {
+
+/// A call that failed; what() is phasetreeGetErrorMessage().
+class Error : public std::runtime_error {
+  public:
+    explicit Error(PhasetreeError code) : std::runtime_error(phasetreeGetErrorMessage()), code_(code) {}
+    PhasetreeError code() const { return code_; }
+
+  private:
+    PhasetreeError code_;
+};
+
+inline void check(PhasetreeError error) {
+    if (error != PHASETREE_ERROR_NONE) throw Error(error);
+}
+
+/// One reference of a handle. Copies add one.
+template <class Handle, PhasetreeError (*retain)(Handle), PhasetreeError (*release)(Handle)>
+class Reference {
+  public:
+    Reference() = default;
+    /// Takes over a reference.
+    explicit Reference(Handle handle) : handle_(handle) {}
+    Reference(const Reference& other) : handle_(other.handle_) {
+        if (handle_) check(retain(handle_));
+    }
+    Reference(Reference&& other) noexcept : handle_(std::exchange(other.handle_, nullptr)) {}
+    Reference& operator=(Reference other) noexcept {
+        std::swap(handle_, other.handle_);
+        return *this;
+    }
+    ~Reference() {
+        if (handle_) release(handle_);
+    }
+
+    Handle get() const { return handle_; }
+    explicit operator bool() const { return handle_ != nullptr; }
+
+  private:
+    Handle handle_ = nullptr;
+};
+
+/// A tree: immutable, cheap to copy.
+class Tree {
+  public:
+    static Tree from_file(const std::string& path, const PhasetreeFileReader* reader = nullptr) {
+        PhasetreeTree handle = nullptr;
+        check(phasetreeNewTreeFromFile(PHASETREE_API_VERSION, path.c_str(), reader, &handle));
+        return Tree(handle);
+    }
+    static Tree from_text(std::string_view text, const std::string& name = "<text>",
+                          const PhasetreeFileReader* reader = nullptr) {
+        PhasetreeTree handle = nullptr;
+        check(phasetreeNewTreeFromText(PHASETREE_API_VERSION, text.data(), text.size(), name.c_str(), reader, &handle));
+        return Tree(handle);
+    }
+    /// A tree built with the C++ library: a phasetree::SceneTree. It comes over as text, equal to the last bit, so that
+    /// the two libraries need not agree on anything else; include <phasetree/reading/write.hpp>. Files that its nodes
+    /// name are sought beside `name`.
+    template <class SceneTree>
+    static Tree of(const SceneTree& tree, const std::string& name = "<tree>",
+                   const PhasetreeFileReader* reader = nullptr) {
+        return from_text(write_tree(tree), name, reader);
+    }
+
+    Tree edited(const std::string& path, const std::string& value) const {
+        PhasetreeTree handle = nullptr;
+        check(phasetreeNewEditedTree(get(), path.c_str(), value.c_str(), &handle));
+        return Tree(handle);
+    }
+    unsigned phase_count() const {
+        unsigned count = 0;
+        check(phasetreeGetTreePhaseCount(get(), &count));
+        return count;
+    }
+    std::string phase_name(unsigned phase) const {
+        const char* name = nullptr;
+        check(phasetreeGetTreePhaseName(get(), phase, &name));
+        return name;
+    }
+    unsigned phase(const std::string& name) const {
+        unsigned phase = 0;
+        check(phasetreeGetTreePhaseByName(get(), name.c_str(), &phase));
+        return phase;
+    }
+    RTCBounds bounds() const {
+        RTCBounds box{};
+        check(phasetreeGetTreeBounds(get(), &box));
+        return box;
+    }
+    PhasetreeTree get() const { return reference_.get(); }
+
+  private:
+    explicit Tree(PhasetreeTree handle) : reference_(handle) {}
+    Reference<PhasetreeTree, phasetreeRetainTree, phasetreeReleaseTree> reference_;
+};
+
+inline PhasetreeGeometryOptions default_options() {
+    PhasetreeGeometryOptions options;
+    phasetreeInitGeometryOptions(&options);
+    return options;
+}
+
+/// A geometry. A copy is another owner of the same one. Must outlive the scenes that its RTCGeometry is in.
+class Geometry {
+  public:
+    Geometry(RTCDevice device, const Tree& tree, const PhasetreeGeometryOptions& options = default_options())
+        : reference_(make(device, tree, options)) {}
+
+    /// The RTCGeometry: uncommitted, the handle's own.
+    RTCGeometry embree() const {
+        RTCGeometry geometry = nullptr;
+        check(phasetreeGetEmbreeGeometry(get(), &geometry));
+        return geometry;
+    }
+    void set_user_data(void* pointer) { check(phasetreeSetGeometryUserData(get(), pointer)); }
+    void* user_data() const {
+        void* pointer = nullptr;
+        check(phasetreeGetGeometryUserData(get(), &pointer));
+        return pointer;
+    }
+    void set_tree(const Tree& tree, const PhasetreeGeometryOptions& options = default_options()) {
+        check(phasetreeSetGeometryTree(get(), tree.get(), &options));
+    }
+    void set_shown_phases(PhasetreePhaseSet shown) { check(phasetreeSetGeometryShownPhases(get(), shown)); }
+    void set_motion(const std::vector<std::array<float, 12>>& transforms, float start = 0, float end = 1) {
+        check(phasetreeSetGeometryMotion(get(), transforms.empty() ? nullptr : transforms.front().data(),
+                                         static_cast<unsigned>(transforms.size()), start, end));
+    }
+    PhasetreeGeometryStatistics statistics() const {
+        PhasetreeGeometryStatistics statistics{};
+        check(phasetreeGetGeometryStatistics(get(), &statistics));
+        return statistics;
+    }
+
+    PhasetreeHit decode(const RTCRayHit& rayhit, const float* object_to_world = nullptr) const {
+        PhasetreeHit hit{};
+        check(phasetreeDecodeHit(get(), &rayhit, object_to_world, &hit));
+        return hit;
+    }
+    unsigned phase(const std::array<float, 3>& point, float time = 0, float* empty_radius = nullptr) const {
+        unsigned phase = 0;
+        check(phasetreeGetPhase(get(), point.data(), time, &phase, empty_radius));
+        return phase;
+    }
+    std::array<float, PHASETREE_MAX_PHASES> distances(const std::array<float, 3>& point, float time = 0) const {
+        std::array<float, PHASETREE_MAX_PHASES> all{};
+        check(phasetreeGetDistances(get(), point.data(), time, all.data()));
+        return all;
+    }
+    PhasetreeClosest closest(const std::array<float, 3>& point, float radius, float tolerance = 0.01f,
+                             float time = 0) const {
+        PhasetreeClosest closest{};
+        check(phasetreeFindClosestInterface(get(), point.data(), time, radius, tolerance, &closest));
+        return closest;
+    }
+    PhasetreeGeometry get() const { return reference_.get(); }
+
+  private:
+    static PhasetreeGeometry make(RTCDevice device, const Tree& tree, const PhasetreeGeometryOptions& options) {
+        PhasetreeGeometry geometry = nullptr;
+        check(phasetreeNewGeometry(PHASETREE_API_VERSION, device, tree.get(), &options, &geometry));
+        return geometry;
+    }
+    Reference<PhasetreeGeometry, phasetreeRetainGeometry, phasetreeReleaseGeometry> reference_;
+};
+
+}  // namespace phasetree::embree
