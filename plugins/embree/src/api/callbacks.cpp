@@ -120,7 +120,8 @@ class Packet {
         const Crossing& c = found.crossing;
         float& far = RTCRayN_tfar(rays_, n_, i);
         const float before = far;
-        const float t = c.t_in / ray.length;
+        // Rounding shall not put a hit outside of the ray.
+        const float t = std::clamp(c.t_in / ray.length, std::min(RTCRayN_tnear(rays_, n_, i), before), before);
         RTCHitN* const candidate = reinterpret_cast<RTCHitN*>(candidates_.data());
         if (occlusion && !filters) {
             occlude(i);
