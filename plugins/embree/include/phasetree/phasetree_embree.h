@@ -329,7 +329,10 @@ static inline unsigned int phasetreeGetPhaseEntered(const struct RTCHitN* hits, 
  * objectToWorld  of the instance through which the ray met the geometry, 12 floats, 3×4 column-major, at the ray's time
  *              (for nested ones the product); NULL if hit.instID[0] is RTC_INVALID_GEOMETRY_ID.
  *
- * The bracket is found again, by a few samples on the ray around tfar. */
+ * The bracket is found again, by a few samples on the ray around tfar. tOut and pointOut are moved on, by less than two
+ * resolutions, to where the phase is certain in spite of the rounding that a new ray undergoes: the same ray with
+ * tnear = tOut starts in phaseEntered, so that a host that carries no phases neither meets this crossing again nor
+ * passes the next one, as long as phases are thicker along the ray than some five resolutions. */
 PHASETREE_API PhasetreeError phasetreeDecodeHit(PhasetreeGeometry geometry, const struct RTCRayHit* rayhit,
                                                 const float* objectToWorld, PhasetreeHit* hit);
 

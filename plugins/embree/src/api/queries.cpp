@@ -57,6 +57,23 @@ std::optional<Crossing> bracket(const Object& object, const LaneRay& ray, Phase 
     return std::nullopt;
 }
 
+/// Moves a bracket's far end on, by less than two resolutions, to where the phase is the same within `blur`: a ray that
+/// is given to Embree anew, and rounded on its way to us, then still starts in it.
+void move_on(Crossing& c, const Object& object, const glm::vec3& direction, float blur) {
+    const InterfaceCells& cells = object.cells();
+    BatchOfFloats t;
+    for (std::size_t i = 0; i < batch_size; ++i) t[i] = cells.resolution() * 0.125f * static_cast<float>(i);
+    Samples s;
+    cells.whole().sample_ray(c.p_out, direction, t, s, Evaluator::thread_workspace());
+    std::size_t best = 0;
+    for (std::size_t i = 0; i < batch_size && s.distance[best] < blur; ++i) {
+        if (s.label[i] != static_cast<float>(c.to.index)) break;
+        if (s.distance[i] > s.distance[best]) best = i;
+    }
+    c.t_out += t[best];
+    c.p_out += t[best] * direction;
+}
+
 }  // namespace
 
 }  // namespace phasetree::embree::api
@@ -90,6 +107,9 @@ PhasetreeError phasetreeDecodeHit(PhasetreeGeometry geometry, const RTCRayHit* r
         // From the world into the geometry's space, and from there into the object's.
         glm::vec3 origin{rayhit->ray.org_x, rayhit->ray.org_y, rayhit->ray.org_z};
         glm::vec3 direction{rayhit->ray.dir_x, rayhit->ray.dir_y, rayhit->ray.dir_z};
+        // In units of the direction, what a coordinate's rounding can be.
+        constexpr float ulps = 4e-7f;
+        const float blur = ulps * (glm::length(origin) / glm::length(direction) + rayhit->ray.tfar);
         if (is_instanced) {
             const auto instance = Placement::of(object_to_world);
             if (!instance) throw invalid("objectToWorld has no inverse");
@@ -104,11 +124,13 @@ PhasetreeError phasetreeDecodeHit(PhasetreeGeometry geometry, const RTCRayHit* r
         const auto ray = LaneRay::of(origin, direction, rayhit->ray.tnear, rayhit->ray.tfar);
         if (!ray || !std::isfinite(ray->far)) throw not_now("rayhit->ray is no ray with a hit");
         const FlushSubnormals flush;
-        const auto c = bracket(object, *ray, Phase{static_cast<std::uint8_t>(found.phaseLeft)},
-                               Phase{static_cast<std::uint8_t>(found.phaseEntered)});
+        auto c = bracket(object, *ray, Phase{static_cast<std::uint8_t>(found.phaseLeft)},
+                         Phase{static_cast<std::uint8_t>(found.phaseEntered)});
         glm::vec3 in = ray->origin + ray->far * ray->direction, out = in;
         found.tOut = found.tIn;
         if (c) {
+            move_on(*c, object, ray->direction,
+                    std::max(blur * ray->length, ulps * (glm::length(ray->origin) + ray->far)));
             in = c->p_in;
             out = c->p_out;
             found.tIn = c->t_in / ray->length;
