@@ -1,0 +1,90 @@
+# Installs to a fresh prefix and builds and runs the examples from there, as somebody else's project would; and looks at
+# what the installed libraries export. Run by CTest:
+#   cmake -DBUILD=… -DWORK=… -DMAJOR=3 -DCONFIG=Release -P installed.cmake
+cmake_minimum_required(VERSION 3.25)
+
+function(run)
+    execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors)
+    if(NOT status EQUAL 0)
+        string(JOIN " " command ${ARGN})
+        message(FATAL_ERROR "${command}\nended with ${status}\n${output}\n${errors}")
+    endif()
+    set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+function(expect text)
+    foreach(part ${ARGN})
+        string(FIND "${text}" "${part}" at)
+        if(at EQUAL -1)
+            message(FATAL_ERROR "\"${part}\" is not in\n${text}")
+        endif()
+    endforeach()
+endfunction()
+
+file(REMOVE_RECURSE "${WORK}")
+set(prefix "${WORK}/prefix")
+run(${CMAKE_COMMAND} --install "${BUILD}" --prefix "${prefix}" --config "${CONFIG}")
+
+# What there must be.
+file(GLOB_RECURSE installed RELATIVE "${prefix}" "${prefix}/*")
+expect("${installed}" include/phasetree/phasetree_embree.h include/phasetree/phasetree_embree.hpp
+    include/phasetree/model/handle.hpp libphasetree_embree${MAJOR}.so libphasetree.a cmake/phasetree/phasetreeConfig.cmake
+    pkgconfig/phasetree-embree${MAJOR}.pc share/phasetree/scenes/hourglass.json share/phasetree/phasetree.ocio)
+if(EXISTS "${prefix}/bin/phasetree")
+    expect("${installed}" share/man/man1/phasetree.1)
+    run("${prefix}/bin/phasetree" --version)
+    expect("${output}" "phasetree ")
+endif()
+
+# Nothing but the interface is exported.
+file(GLOB_RECURSE library "${prefix}/*/libphasetree_embree${MAJOR}.so")
+run(nm -D --defined-only "${library}")
+string(REGEX MATCHALL "[^\n]+" symbols "${output}")
+list(LENGTH symbols count)
+if(count LESS 30)
+    message(FATAL_ERROR "only ${count} symbols are exported:\n${output}")
+endif()
+foreach(symbol ${symbols})
+    if(NOT symbol MATCHES " T phasetree[A-Z][A-Za-z]+$")
+        message(FATAL_ERROR "${library} exports \"${symbol}\"")
+    endif()
+endforeach()
+
+# By CMake. The sanitizers of this build, if any, must be in those programs, too.
+set(examples "${prefix}/share/doc/phasetree/examples")
+run(${CMAKE_COMMAND} -S "${examples}" -B "${WORK}/examples" -DCMAKE_PREFIX_PATH=${prefix} -DEMBREE=${MAJOR}
+    -DCMAKE_BUILD_TYPE=Release "-DCMAKE_C_FLAGS=-Wall -Wextra -Werror ${FLAGS}" "-DCMAKE_CXX_FLAGS=${FLAGS}")
+run(${CMAKE_COMMAND} --build "${WORK}/examples" --parallel 2)
+run("${WORK}/examples/phases" "${prefix}/share/phasetree/scenes/hourglass.json" 0 0.01 10 0 0 -1)
+expect("${output}" "vacuum -> wood" "vacuum -> sand" "wood -> vacuum")
+run("${WORK}/examples/built")
+expect("${output}" "from water, glass is 0.450 away")
+foreach(name renderer stock)
+    run("${WORK}/examples/${name}" "${WORK}/${name}.ppm")
+    file(SIZE "${WORK}/${name}.ppm" size)
+    if(NOT size EQUAL 460815)
+        message(FATAL_ERROR "${name}.ppm has ${size} bytes")
+    endif()
+endforeach()
+# An error is told, not crashed on.
+execute_process(COMMAND "${WORK}/examples/phases" /no/such.json RESULT_VARIABLE status ERROR_VARIABLE errors)
+if(NOT status EQUAL 1)
+    message(FATAL_ERROR "phases of a missing file ended with ${status}")
+endif()
+expect("${errors}" "/no/such.json")
+
+# By pkg-config.
+find_program(pkg_config pkg-config)
+find_program(compiler NAMES cc gcc clang)
+if(pkg_config AND compiler)
+    file(GLOB_RECURSE description "${prefix}/*/phasetree-embree${MAJOR}.pc")
+    get_filename_component(folder "${description}" DIRECTORY)
+    set(ENV{PKG_CONFIG_PATH} "${folder}")
+    run("${pkg_config}" --cflags --libs phasetree-embree${MAJOR})
+    separate_arguments(arguments UNIX_COMMAND "${output} ${FLAGS}")
+    get_filename_component(libraries "${library}" DIRECTORY)
+    run("${compiler}" -std=c99 "${examples}/phases.c" -o "${WORK}/phases" ${arguments} -lm -Wl,-rpath,${libraries}
+        ${RPATH})
+    run("${WORK}/phases" "${prefix}/share/phasetree/scenes/hourglass.json")
+    expect("${output}" "glass -> sand")
+endif()
