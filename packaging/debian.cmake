@@ -22,7 +22,8 @@ set(CPACK_DEBIAN_PACKAGE_HOMEPAGE ${PROJECT_HOMEPAGE_URL})
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 find_program(PHASETREE_SHLIBDEPS dpkg-shlibdeps)
 mark_as_advanced(PHASETREE_SHLIBDEPS)
-if(PHASETREE_SHLIBDEPS)
+# Of an Embree that no package brought no dependency can be told.
+if(PHASETREE_SHLIBDEPS AND NOT embree_library_hints)
     set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 endif()
 # The headers include theirs.

@@ -134,3 +134,23 @@ TEST_CASE("occluded agrees with intersect, whatever the segment") {
         REQUIRE(hits(trace_one(placed.scene, rayhit(ray, 0, far))) == (r.ray.tfar < far));
     }
 }
+
+#if PHASETREE_EMBREE_MAJOR == 3
+TEST_CASE("Embree 3: streams are single rays") {
+    const Placed placed;
+    std::vector<RTCRayHit> before;
+    for (const Ray& ray : rays(1000, 9)) before.push_back(marked(ray));
+    for (const bool coherent : {false, true}) {
+        std::vector<RTCRayHit> stream = before;
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+        rtcIntersect1M(placed.scene, &context, stream.data(), static_cast<unsigned>(stream.size()), sizeof(RTCRayHit));
+        for (std::size_t i = 0; i < before.size(); ++i) {
+            const RTCRayHit one = trace_one(placed.scene, before[i]);
+            REQUIRE(hits(stream[i]) == hits(one));
+            if (hits(one)) REQUIRE(same_bits(stream[i], one));
+        }
+    }
+}
+#endif

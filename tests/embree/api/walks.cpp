@@ -196,3 +196,51 @@ TEST_CASE("packets carry a phase for each ray, by its id") {
         }
     }
 }
+
+TEST_CASE("within an instance rays that carry phases go through it and out, though world coordinates round") {
+    Device device;
+    const embree::Tree tree = thin_shells();
+    const embree::Geometry geometry(device, tree, with_flags(PHASETREE_GEOMETRY_FLAG_EXTENDED_CONTEXT));
+    EmbreeScene inner(device), outer(device);
+    inner.add(geometry.embree());
+    inner.commit();
+    // Turned by 30° about z, three times as large, and a few sizes away.
+    const float c = 3 * 0.8660254f, s = 3 * 0.5f;
+    const float m[12] = {c, s, 0, -s, c, 0, 0, 0, 3, 4, -5, 6};
+    const RTCGeometry instance = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(instance, inner);
+    rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, m);
+    const unsigned id = outer.add(instance);
+    rtcReleaseGeometry(instance);
+    outer.commit();
+    const auto to_world = [&](const glm::vec3& p) {
+        return glm::vec3(m[0] * p.x + m[3] * p.y + m[9], m[1] * p.x + m[4] * p.y + m[10], m[8] * p.z + m[11]);
+    };
+    std::mt19937 random(35);
+    std::normal_distribution<float> normal;
+    const std::vector<unsigned> through = {1, 2, 3, 4, 3, 2, 1, 0};
+    for (int i = 0; i < 5000; ++i) {
+        const glm::vec3 d = glm::normalize(glm::vec3(normal(random), normal(random), normal(random)));
+        const float distance = std::uniform_real_distribution<float>(0, 0.9f)(random);
+        const glm::vec3 aside = distance * glm::normalize(glm::cross(d, glm::vec3(normal(random), normal(random), 1)));
+        const glm::vec3 from = to_world(aside - 3.0f * d);
+        Ray ray{from, glm::normalize(to_world(aside) - from)};
+        PhasetreeMedium medium{0, id, RTC_VERSION_MAJOR >= 4 ? 0 : RTC_INVALID_GEOMETRY_ID, 0};
+        PhasetreeRay state{};
+        state.media = &medium;
+        state.mediumCount = 1;
+        PhasetreeRayContext context;
+        phasetreeInitRayContext(&context);
+        context.rays = &state;
+        context.rayCount = 1;
+        std::vector<unsigned> entered;
+        while (hits(trace_one(outer, rayhit(ray), {.context = &context.context}))) {
+            REQUIRE(state.hit.phaseLeft == medium.phase);
+            medium.phase = state.hit.phaseEntered;
+            entered.push_back(medium.phase);
+            ray.origin = to_world(vec(state.hit.pointOut));
+            REQUIRE(entered.size() < 50);
+        }
+        REQUIRE(entered == through);
+    }
+}

@@ -1,6 +1,7 @@
 #pragma once
 
-/// PhaseTrees as Embree user geometry, for Embree 3.13 and Embree 4.
+/// An object's cells as Embree user primitives, for Embree 3.13 and Embree 4: what the path tracer traces, and what the
+/// interface for other programs (phasetree_embree.h) is built on.
 
 #include "phasetree/cells/cells.hpp"
 #include "phasetree/embree_version.hpp"
