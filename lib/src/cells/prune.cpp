@@ -28,58 +28,18 @@ struct Demand {
 /// A slope above this has a jump in it.
 constexpr float half_a_jump = 0x1p20f;
 
-class Pruner {
+/// What the outputs reach, and what it becomes.
+class Sweep {
   public:
-    Pruner(const WorkingProgram& program, std::span<const float> constants, std::span<const float> value, float radius,
-           float rounding)
+    Sweep(const WorkingProgram& program, Arena& scratch)
         : program_(program),
-          constants_(constants),
-          value_(value),
-          radius_(radius),
-          rounding_(rounding),
-          still_(local_slopes()),
-          slope_(still_.empty() ? std::span<const float>(program.lipschitz) : still_),
-          demand_(program.code.size()),
-          instead_(program.code.size()),
-          op_(program.code.size()) {}
-
-    std::optional<WorkingProgram> run() {
-        std::vector<ProgramOutput> outputs;
-        for (const ProgramOutput& o : program_.outputs) {
-            const float low = o.negate ? -high(o.value) : this->low(o.value);
-            const float high = o.negate ? -this->low(o.value) : this->high(o.value);
-            if (high < 0) return std::nullopt;  // this phase everywhere
-            if (low <= 0) outputs.push_back(o);
-        }
-        if (outputs.size() < 2) return std::nullopt;  // one phase everywhere
-
-        for (const ProgramOutput& o : outputs) ask(o.value, {Demand::threshold, 0});
-        for (auto i = static_cast<std::uint32_t>(program_.code.size()); i-- > 1;)
-            if (demand_[i].kind != Demand::none) resolve(i);
-        WorkingProgram result = compact(outputs);
-        // Where two phases meet, one component tells both. The one that costs less.
-        if (result.outputs.size() == 2) result = one_of_two(result);
-        return result;
+          demand_(scratch.take<Demand>(program.code.size())),
+          instead_(scratch.take<std::uint32_t>(program.code.size())),
+          op_(scratch.take<Op>(program.code.size())) {
+        std::ranges::fill(demand_, Demand{});
     }
 
-    /// Only what the outputs reach of a program that is otherwise unchanged.
-    WorkingProgram reachable() {
-        for (const ProgramOutput& o : program_.outputs) ask(o.value, {Demand::value, 0});
-        for (auto i = static_cast<std::uint32_t>(program_.code.size()); i-- > 1;) {
-            if (demand_[i].kind == Demand::none) continue;
-            instead_[i] = i;
-            op_[i] = program_.code[i].op;
-            if (operands(op_[i]) > 0) ask(program_.code[i].a, {Demand::value, 0});
-            if (operands(op_[i]) > 1) ask(program_.code[i].b, {Demand::value, 0});
-        }
-        return compact(program_.outputs);
-    }
-
-  private:
-    float slack(std::uint32_t i) const { return slope_[i] * radius_ + rounding_; }
-    float low(std::uint32_t i) const { return value_[i] - slack(i); }
-    float high(std::uint32_t i) const { return value_[i] + slack(i); }
-
+  protected:
     void ask(std::uint32_t i, Demand d) {
         Demand& known = demand_[i];
         if (known.kind == Demand::none)
@@ -87,6 +47,106 @@ class Pruner {
         else if (known.kind != d.kind || (d.kind == Demand::threshold && known.tau != d.tau))
             known = {Demand::value, 0};
     }
+
+    /// The instructions that are demanded, renumbered.
+    WorkingProgram compact(std::span<const ProgramOutput> outputs, std::span<const float> slope, Arena& to,
+                           Arena& scratch) const {
+        const std::size_t n = program_.code.size();
+        const std::span<std::uint32_t> renumbered = scratch.take<std::uint32_t>(n);
+        std::uint32_t count = 1;
+        renumbered[0] = 0;
+        for (std::uint32_t i = 1; i < n; ++i) {
+            if (demand_[i].kind == Demand::none)
+                renumbered[i] = 0;
+            else
+                renumbered[i] = instead_[i] == i ? count++ : renumbered[instead_[i]];
+        }
+        const std::span<Instruction> code = to.take<Instruction>(count);
+        const std::span<float> lipschitz = to.take<float>(count);
+        const std::span<ProgramOutput> ends = to.take<ProgramOutput>(outputs.size());
+        code[0] = program_.code[0];
+        lipschitz[0] = slope[0];
+        for (std::uint32_t i = 1; i < n; ++i) {
+            if (demand_[i].kind == Demand::none || instead_[i] != i) continue;
+            const Instruction& in = program_.code[i];
+            code[renumbered[i]] = {op_[i], renumbered[in.a], renumbered[in.b], in.data};
+            lipschitz[renumbered[i]] = slope[i];
+        }
+        for (std::size_t k = 0; k < outputs.size(); ++k)
+            ends[k] = {outputs[k].phase, renumbered[outputs[k].value], outputs[k].negate};
+        return {code, lipschitz, ends};
+    }
+
+    const WorkingProgram& program_;
+    std::span<Demand> demand_;
+    std::span<std::uint32_t> instead_;
+    std::span<Op> op_;
+};
+
+/// Only what some outputs reach, of a program that is otherwise unchanged.
+class Reach : public Sweep {
+  public:
+    Reach(const WorkingProgram& program, std::span<const ProgramOutput> outputs, Arena& scratch)
+        : Sweep(program, scratch), outputs_(outputs) {
+        for (const ProgramOutput& o : outputs) ask(o.value, {Demand::value, 0});
+        for (auto i = static_cast<std::uint32_t>(program.code.size()); i-- > 1;) {
+            if (demand_[i].kind == Demand::none) continue;
+            ++size_;
+            instead_[i] = i;
+            op_[i] = program.code[i].op;
+            if (operands(op_[i]) > 0) ask(program.code[i].a, {Demand::value, 0});
+            if (operands(op_[i]) > 1) ask(program.code[i].b, {Demand::value, 0});
+        }
+    }
+    std::size_t size() const { return size_; }
+    WorkingProgram program(Arena& keep, Arena& scratch) const {
+        return compact(outputs_, program_.lipschitz, keep, scratch);
+    }
+
+  private:
+    std::span<const ProgramOutput> outputs_;
+    std::size_t size_ = 0;
+};
+
+/// Where two phases meet, one component tells both. The one that costs less.
+WorkingProgram one_of_two(const WorkingProgram& both, Arena& keep, Arena& scratch) {
+    ProgramOutput outputs[2][2];
+    for (const std::size_t k : {0, 1}) {
+        const ProgramOutput& kept = both.outputs[k];
+        outputs[k][k] = kept;
+        outputs[k][1 - k] = {both.outputs[1 - k].phase, kept.value, !kept.negate};
+    }
+    const Reach first(both, outputs[0], scratch), second(both, outputs[1], scratch);
+    return (second.size() < first.size() ? second : first).program(keep, scratch);
+}
+
+class Pruner : public Sweep {
+  public:
+    Pruner(const WorkingProgram& program, std::span<const float> constants, const ValueRanges& ranges, Arena& scratch)
+        : Sweep(program, scratch), constants_(constants), ranges_(ranges), scratch_(scratch) {}
+
+    std::optional<WorkingProgram> run(Arena& keep) {
+        const std::span<ProgramOutput> room = scratch_.take<ProgramOutput>(program_.outputs.size());
+        std::size_t count = 0;
+        for (const ProgramOutput& o : program_.outputs) {
+            const float low = o.negate ? -high(o.value) : this->low(o.value);
+            const float high = o.negate ? -this->low(o.value) : this->high(o.value);
+            if (high < 0) return std::nullopt;  // this phase everywhere
+            if (low <= 0) room[count++] = o;
+        }
+        if (count < 2) return std::nullopt;  // one phase everywhere
+        const std::span<const ProgramOutput> outputs = room.first(count);
+
+        for (const ProgramOutput& o : outputs) ask(o.value, {Demand::threshold, 0});
+        for (auto i = static_cast<std::uint32_t>(program_.code.size()); i-- > 1;)
+            if (demand_[i].kind != Demand::none) resolve(i);
+        if (count > 2 || outputs[0].value == outputs[1].value) return compact(outputs, ranges_.slope, keep, scratch_);
+        return one_of_two(compact(outputs, ranges_.slope, scratch_, scratch_), keep, scratch_);
+    }
+
+  private:
+    float low(std::uint32_t i) const { return ranges_.low[i]; }
+    float high(std::uint32_t i) const { return ranges_.high[i]; }
 
     void replace(std::uint32_t i, std::uint32_t by) {
         instead_[i] = by;
@@ -102,8 +162,8 @@ class Pruner {
         op_[i] = in.op;
         switch (in.op) {
             case Op::minimum:
-                if (value_[in.b] - value_[in.a] > slack(in.a) + slack(in.b)) return replace(i, in.a);
-                if (value_[in.a] - value_[in.b] > slack(in.a) + slack(in.b)) return replace(i, in.b);
+                if (low(in.b) > high(in.a)) return replace(i, in.a);
+                if (low(in.a) > high(in.b)) return replace(i, in.b);
                 if (relative) {
                     if (low(in.a) > d.tau) return replace(i, in.b);
                     if (low(in.b) > d.tau) return replace(i, in.a);
@@ -117,8 +177,8 @@ class Pruner {
                 return resolve_maximum(i, d);
             case Op::smooth_minimum: {
                 const float r = constant();
-                if (value_[in.b] - value_[in.a] > slack(in.a) + slack(in.b) + r) return replace(i, in.a);
-                if (value_[in.a] - value_[in.b] > slack(in.a) + slack(in.b) + r) return replace(i, in.b);
+                if (low(in.b) > high(in.a) + r) return replace(i, in.a);
+                if (low(in.a) > high(in.b) + r) return replace(i, in.b);
                 if (relative) {
                     // Beyond τ + r, what a takes off b is less than b's own distance from τ.
                     if (low(in.a) > d.tau + r) return replace(i, in.b);
@@ -134,7 +194,7 @@ class Pruner {
                 const float half = 0.5f * constant();
                 if (low(in.a) > half || (relative && d.tau == 0 && low(in.a) > 0)) return replace(i, in.a);
                 // Without a jump the plain intersection has the same sign.
-                if (relative && d.tau == 0 && slope_[in.b] <= 2 * slope_[in.a]) {
+                if (relative && d.tau == 0 && ranges_.slope[in.b] <= 2 * ranges_.slope[in.a]) {
                     op_[i] = Op::maximum;
                     return resolve_maximum(i, d);
                 }
@@ -151,8 +211,8 @@ class Pruner {
                 return;
             case Op::corner: {
                 // Where one is negative and the smaller, the corner is the other.
-                if (high(in.a) < 0 && value_[in.b] - value_[in.a] > slack(in.a) + slack(in.b)) return replace(i, in.b);
-                if (high(in.b) < 0 && value_[in.a] - value_[in.b] > slack(in.a) + slack(in.b)) return replace(i, in.a);
+                if (high(in.a) < 0 && low(in.b) > high(in.a)) return replace(i, in.b);
+                if (high(in.b) < 0 && low(in.a) > high(in.b)) return replace(i, in.a);
                 if (relative) {
                     const float below = std::min(d.tau, 0.f);
                     if (high(in.a) < below) return replace(i, in.b);
@@ -190,8 +250,8 @@ class Pruner {
 
     void resolve_maximum(std::uint32_t i, const Demand& d) {
         const Instruction& in = program_.code[i];
-        if (value_[in.a] - value_[in.b] > slack(in.a) + slack(in.b)) return replace(i, in.a);
-        if (value_[in.b] - value_[in.a] > slack(in.a) + slack(in.b)) return replace(i, in.b);
+        if (low(in.a) > high(in.b)) return replace(i, in.a);
+        if (low(in.b) > high(in.a)) return replace(i, in.b);
         if (d.kind == Demand::threshold) {
             if (high(in.a) < d.tau) return replace(i, in.b);
             if (high(in.b) < d.tau) return replace(i, in.a);
@@ -209,81 +269,41 @@ class Pruner {
         return in.op == Op::falloff && low(in.a) > constants_[in.data];
     }
 
-    WorkingProgram compact(std::span<const ProgramOutput> outputs) const {
-        WorkingProgram result;
-        const std::size_t n = program_.code.size();
-        std::vector<std::uint32_t> renumbered(n, 0);
-        result.code.push_back(program_.code[0]);
-        result.lipschitz.push_back(program_.lipschitz[0]);
-        for (std::uint32_t i = 1; i < n; ++i) {
-            if (demand_[i].kind == Demand::none) continue;
-            if (instead_[i] != i) {
-                renumbered[i] = renumbered[instead_[i]];
-                continue;
-            }
-            renumbered[i] = static_cast<std::uint32_t>(result.code.size());
-            Instruction in = program_.code[i];
-            in.op = op_[i];
-            in.a = renumbered[in.a];
-            in.b = renumbered[in.b];
-            result.code.push_back(in);
-            result.lipschitz.push_back(slope_[i]);
-        }
-        for (const ProgramOutput& o : outputs) result.outputs.push_back({o.phase, renumbered[o.value], o.negate});
-        return result;
-    }
-
-    static WorkingProgram one_of_two(const WorkingProgram& both) {
-        const auto only = [&](std::size_t k) {
-            WorkingProgram one = both;
-            const ProgramOutput& kept = both.outputs[k];
-            one.outputs[1 - k].value = kept.value;
-            one.outputs[1 - k].negate = !kept.negate;
-            return Pruner(one, {}, {}, 0, 0).reachable();
-        };
-        if (both.outputs[0].value == both.outputs[1].value) return both;
-        WorkingProgram first = only(0), second = only(1);
-        return second.code.size() < first.code.size() ? second : first;
-    }
-
-    /// Slopes within the ball. A fold of space jumps, which is recorded as a slope of FoldMap::jump; in a ball that
-    /// touches none of its jumps that factor goes from all that follows. The guard above the fold tells: its bound is
-    /// more than half of `far` wherever the fold jumps. Nothing if nothing jumps.
-    std::vector<float> local_slopes() const {
-        if (std::ranges::none_of(program_.lipschitz, [](float l) { return l > half_a_jump; })) return {};
-        std::vector<float> slope = program_.lipschitz;
-        const auto size = static_cast<std::uint32_t>(program_.code.size());
-        std::vector<char> is_still(size, 0);  // folds without a jump in the ball
-        for (std::uint32_t i = 1; i < size; ++i) {
-            const Instruction& guard = program_.code[i];
-            if (guard.op != Op::guarded || value_.empty()) continue;
-            // The bound's own slope is that of its point.
-            const float high = value_[guard.a] + slope[guard.a] * radius_ + rounding_;
-            if (!(high < 0.5f * constants_[guard.data])) continue;
-            for (std::uint32_t k = 1; k < i; ++k)
-                if (is_fold(program_.code[k].op) && program_.code[k].a == program_.code[guard.a].a) is_still[k] = 1;
-        }
-        std::vector<char> jumps(size, 0);
-        for (std::uint32_t i = 1; i < size; ++i) {
-            const Instruction& in = program_.code[i];
-            if (slope[i] <= half_a_jump) continue;
-            const int n = operands(in.op);
-            jumps[i] = (n > 0 && jumps[in.a]) || (n > 1 && jumps[in.b]) || (is_fold(in.op) && !is_still[i]);
-            while (!jumps[i] && slope[i] > half_a_jump) slope[i] /= FoldMap::jump;
-        }
-        return slope;
-    }
-
-    const WorkingProgram& program_;
     std::span<const float> constants_;
-    std::span<const float> value_;
-    float radius_, rounding_;
-    std::vector<float> still_;  ///< slopes, if any differs from the program's
-    std::span<const float> slope_;
-    std::vector<Demand> demand_;
-    std::vector<std::uint32_t> instead_;
-    std::vector<Op> op_;
+    const ValueRanges& ranges_;
+    Arena& scratch_;
 };
+
+/// Slopes within the ball. A fold of space jumps, which is recorded as a slope of FoldMap::jump; in a ball that
+/// touches none of its jumps that factor goes from all that follows. The guard above the fold tells: its bound is
+/// more than half of `far` wherever the fold jumps.
+std::span<const float> local_slopes(const WorkingProgram& program, std::span<const float> constants,
+                                    const ValuesAt& value, float radius, float rounding, Arena& scratch) {
+    if (std::ranges::none_of(program.lipschitz, [](float l) { return l > half_a_jump; })) return program.lipschitz;
+    const std::span<float> slope = scratch.copy(program.lipschitz);
+    const auto size = static_cast<std::uint32_t>(program.code.size());
+    const std::span<char> is_still = scratch.take<char>(size);  // folds without a jump in the ball
+    const std::span<char> jumps = scratch.take<char>(size);
+    std::ranges::fill(is_still, 0);
+    std::ranges::fill(jumps, 0);
+    for (std::uint32_t i = 1; i < size; ++i) {
+        const Instruction& guard = program.code[i];
+        if (guard.op != Op::guarded) continue;
+        // The bound's own slope is that of its point.
+        const float high = value[guard.a] + slope[guard.a] * radius + rounding;
+        if (!(high < 0.5f * constants[guard.data])) continue;
+        for (std::uint32_t k = 1; k < i; ++k)
+            if (is_fold(program.code[k].op) && program.code[k].a == program.code[guard.a].a) is_still[k] = 1;
+    }
+    for (std::uint32_t i = 1; i < size; ++i) {
+        const Instruction& in = program.code[i];
+        if (slope[i] <= half_a_jump) continue;
+        const int n = operands(in.op);
+        jumps[i] = (n > 0 && jumps[in.a]) || (n > 1 && jumps[in.b]) || (is_fold(in.op) && !is_still[i]);
+        while (!jumps[i] && slope[i] > half_a_jump) slope[i] /= FoldMap::jump;
+    }
+    return slope;
+}
 
 }  // namespace
 
@@ -299,9 +319,22 @@ float finest_jump(const WorkingProgram& program, std::span<const float> constant
     return finest;
 }
 
+ValueRanges ranges_in_ball(const WorkingProgram& program, std::span<const float> constants, const ValuesAt& centre,
+                           float radius, float rounding, Arena& scratch) {
+    const std::span<const float> slope = local_slopes(program, constants, centre, radius, rounding, scratch);
+    const std::span<float> low = scratch.take<float>(slope.size()), high = scratch.take<float>(slope.size());
+    for (std::size_t i = 0; i < slope.size(); ++i) {
+        const float value = centre[i], slack = slope[i] * radius + rounding;
+        low[i] = value - slack;
+        high[i] = value + slack;
+    }
+    return {low, high, slope};
+}
+
 std::optional<WorkingProgram> prune(const WorkingProgram& program, std::span<const float> constants,
-                                    std::span<const float> value, float radius, float rounding) {
-    return Pruner(program, constants, value, radius, rounding).run();
+                                    const ValueRanges& ranges, Arena& keep, Arena& scratch) {
+    const ArenaScope scope(scratch);
+    return Pruner(program, constants, ranges, scratch).run(keep);
 }
 
 }  // namespace phasetree

@@ -1,23 +1,45 @@
 #pragma once
 
+#include <optional>
+#include <span>
+
+#include "cells/arena.hpp"
 #include "program/assemble.hpp"
 
 namespace phasetree {
 
-/// A program in the course of pruning: as Program, but its constants stay those of the whole.
+/// A program in the course of pruning: as Program, but its constants stay those of the whole. Its memory is an arena's.
 struct WorkingProgram {
-    std::vector<Instruction> code;
-    std::vector<float> lipschitz;
-    std::vector<ProgramOutput> outputs;
+    std::span<const Instruction> code;
+    std::span<const float> lipschitz;
+    std::span<const ProgramOutput> outputs;
 };
 
-/// What is left of a program in a ball of the given radius, if an interface may pass through it; nothing otherwise.
-/// `value[i]` is the value of instruction i at the ball's centre, `rounding` bounds the error of any value.
+/// The values of a program's instructions at one point, as a kernel left them: in one lane of their registers.
+struct ValuesAt {
+    const BatchOfFloats* registers;
+    std::span<const std::uint32_t> slot;
+    std::size_t lane;
+
+    float operator[](std::size_t instruction) const { return registers[slot[instruction]].lane[lane]; }
+};
+
+/// Bounds of every instruction's value in a region, and of its slope there.
+struct ValueRanges {
+    std::span<const float> low, high, slope;
+};
+
+/// In a ball about a point with these values, by Lipschitz bounds. `rounding` bounds the error of any value.
+ValueRanges ranges_in_ball(const WorkingProgram&, std::span<const float> constants, const ValuesAt& centre,
+                           float radius, float rounding, Arena& scratch);
+
+/// What is left of a program in a region where its values are within these ranges, if an interface may pass through it;
+/// nothing otherwise. The result is in `keep`; `scratch` is left as it was.
 ///
-/// What remains gives the same labels within the ball, and its components' absolute values are still lower bounds of
-/// the distance to where the label changes there. See prune.cpp.
-std::optional<WorkingProgram> prune(const WorkingProgram&, std::span<const float> constants,
-                                    std::span<const float> value, float radius, float rounding);
+/// What remains gives the same labels in the region, and its components' absolute values are still lower bounds of the
+/// distance to where the label changes there. See prune.cpp.
+std::optional<WorkingProgram> prune(const WorkingProgram&, std::span<const float> constants, const ValueRanges&,
+                                    Arena& keep, Arena& scratch);
 
 /// The smallest period of what is folded in a program and still jumps, infinity if nothing does: larger cells cannot be
 /// pruned of it.

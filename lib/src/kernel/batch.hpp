@@ -5,6 +5,8 @@
 
 #include <hwy/highway.h>
 
+#include <cstring>
+
 #include "phasetree/math/number.hpp"
 
 namespace phasetree::HWY_NAMESPACE {
@@ -17,7 +19,19 @@ using RegisterMask = hn::Mask<Tag>;
 inline constexpr std::size_t width = hn::MaxLanes(Tag());
 inline constexpr std::size_t parts = 16 / width;
 
-#define PHASETREE_EACH for (std::size_t i = 0; i < parts; ++i)
+#define PHASETREE_EACH _Pragma("GCC unroll 4") for (std::size_t i = 0; i < parts; ++i)
+
+/// Of a register's lanes: the last one, then the first and on.
+HWY_INLINE const std::int32_t* shift_indices() {
+    struct Table {
+        alignas(64) std::int32_t index[width];
+        constexpr Table() : index{} {
+            for (std::size_t i = 0; i < width; ++i) index[i] = static_cast<std::int32_t>((i + width - 1) % width);
+        }
+    };
+    static constexpr Table table;
+    return table.index;
+}
 
 struct Batch {
     Register v[parts];
@@ -115,6 +129,48 @@ HWY_INLINE Batch floor(const Batch& a) {
 HWY_INLINE Batch lookup(const float* table, const Batch& index) {
     return each([&](std::size_t i) {
         return hn::GatherIndex(Tag(), table, hn::ConvertTo(hn::RebindToSigned<Tag>(), index.v[i]));
+    });
+}
+
+/// The lanes' numbers: 0 … 15.
+HWY_INLINE Batch lanes() {
+    alignas(64) static constexpr float numbers[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    return load(numbers);
+}
+/// Lane i becomes that of lane i − 1; the first one `before`.
+HWY_INLINE Batch shifted(const Batch& a, float before) {
+    Batch r;
+    Register carry = hn::Set(Tag(), before);
+    const auto back = hn::SetTableIndices(Tag(), shift_indices());
+    const RegisterMask first = hn::FirstN(Tag(), 1);
+    PHASETREE_EACH {
+        const Register turned = hn::TableLookupLanes(a.v[i], back);  // the last lane comes first
+        r.v[i] = hn::IfThenElse(first, carry, turned);
+        carry = turned;
+    }
+    return r;
+}
+/// Bit i: lane i is true.
+HWY_INLINE std::uint32_t bits(const BatchMask& m) {
+    std::uint32_t all = 0;
+    PHASETREE_EACH {
+        std::uint8_t bytes[8] = {};
+        hn::StoreMaskBits(Tag(), m.m[i], bytes);
+        std::uint16_t some;
+        std::memcpy(&some, bytes, sizeof some);
+        all |= (some & ((1u << width) - 1u)) << (i * width);
+    }
+    return all;
+}
+
+/// Numbers a and on, in nearly equal ratios: lane i has a's bits and `step` times i, for a float's bits are nearly its
+/// logarithm.
+HWY_INLINE Batch geometric(const Batch& lane, std::uint32_t a, std::uint32_t step) {
+    const hn::RebindToSigned<Tag> whole;
+    return each([&](std::size_t i) {
+        const auto k = hn::ConvertTo(whole, lane.v[i]);
+        return hn::BitCast(
+            Tag(), hn::Set(whole, static_cast<std::int32_t>(a)) + k * hn::Set(whole, static_cast<std::int32_t>(step)));
     });
 }
 

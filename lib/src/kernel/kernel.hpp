@@ -37,6 +37,25 @@ struct Routine {
     std::size_t output_count;
 };
 
+/// A piece of a ray: origin + t·direction, 0 ≤ t ≤ length.
+struct RaySegment {
+    float origin[3];
+    float direction[3];
+    float length;
+    float resolution;
+    float slope;        ///< bounds what a component changes by for each unit along the ray
+    float carried;      ///< the phase that the ray is in; negative: the label at its start
+    bool is_monotone;   ///< there is one component, and it only grows or only falls along the ray
+    bool on_interface;  ///< the ray most likely starts on one: a hint where to look first
+};
+
+/// The first change of label on it; see Crossing. Without one, only what it cost.
+struct RayCrossing {
+    float t_in, t_out;
+    float from, to;
+    std::uint32_t batches, phantoms;
+};
+
 /// A kernel: the same functions for one instruction set. Slot 0 … 2 is the input point.
 struct Kernel {
     void (*evaluate)(const Routine&, const float* x, const float* y, const float* z, float* registers, float* out);
@@ -44,6 +63,8 @@ struct Kernel {
                    float* distance);
     void (*sample_ray)(const Routine&, const float* origin, const float* direction, const float* t, float* registers,
                        float* label, float* distance);
+    /// Whether the label changes on the segment, and where first: march.inl.
+    bool (*march)(const Routine&, const RaySegment&, float* registers, RayCrossing&);
 };
 
 extern const Kernel kernel_baseline;

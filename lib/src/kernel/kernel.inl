@@ -118,12 +118,22 @@ HWY_INLINE void place(const Batch& x, const Batch& y, const Batch& z, float* reg
     store(z, registers + 2 * batch_size);
 }
 
-/// The smallest component's phase and the second smallest component.
-HWY_INLINE void classify(const Routine& routine, float* registers, float* label, float* distance) {
+struct Classified {
+    Batch label;     ///< the smallest component's phase
+    Batch distance;  ///< the second smallest component
+};
+
+HWY_INLINE Classified classify(const Routine& routine, float* registers) {
     const auto component = [&](std::size_t i) {
         return load(at(registers, routine.outputs[i].slot)) * routine.outputs[i].sign;
     };
     Batch lowest = component(0);
+    if (routine.output_count == 2 && routine.outputs[0].slot == routine.outputs[1].slot) {
+        // One value tells both.
+        const Batch other = -lowest;
+        return {select(less(other, lowest), Batch(routine.outputs[1].phase), Batch(routine.outputs[0].phase)),
+                max(other, lowest)};
+    }
     Batch second(3.402823466e38f);
     Batch phase(routine.outputs[0].phase);
     for (std::size_t i = 1; i < routine.output_count; ++i) {
@@ -133,8 +143,14 @@ HWY_INLINE void classify(const Routine& routine, float* registers, float* label,
         phase = select(lower, Batch(routine.outputs[i].phase), phase);
         lowest = min(v, lowest);
     }
-    store(phase, label);
-    store(second, distance);
+    return {phase, second};
+}
+
+HWY_INLINE Classified classify_along(const Routine& routine, const float* o, const float* d, const Batch& t,
+                                     float* registers) {
+    place(Batch(o[0]) + t * d[0], Batch(o[1]) + t * d[1], Batch(o[2]) + t * d[2], registers);
+    run(routine, registers);
+    return classify(routine, registers);
 }
 
 void evaluate(const Routine& routine, const float* x, const float* y, const float* z, float* registers, float* out) {
@@ -148,20 +164,27 @@ void sample(const Routine& routine, const float* x, const float* y, const float*
             float* distance) {
     place(load(x), load(y), load(z), registers);
     run(routine, registers);
-    classify(routine, registers, label, distance);
+    const Classified c = classify(routine, registers);
+    store(c.label, label);
+    store(c.distance, distance);
 }
 
 void sample_ray(const Routine& routine, const float* o, const float* d, const float* t, float* registers, float* label,
                 float* distance) {
-    const Batch along = load(t);
-    place(Batch(o[0]) + along * d[0], Batch(o[1]) + along * d[1], Batch(o[2]) + along * d[2], registers);
-    run(routine, registers);
-    classify(routine, registers, label, distance);
+    const Classified c = classify_along(routine, o, d, load(t), registers);
+    store(c.label, label);
+    store(c.distance, distance);
 }
 
 }  // namespace
 }  // namespace HWY_NAMESPACE
+}  // namespace phasetree
 
-const Kernel PHASETREE_KERNEL = {HWY_NAMESPACE::evaluate, HWY_NAMESPACE::sample, HWY_NAMESPACE::sample_ray};
+#include "kernel/march.inl"
+
+namespace phasetree {
+
+const Kernel PHASETREE_KERNEL = {HWY_NAMESPACE::evaluate, HWY_NAMESPACE::sample, HWY_NAMESPACE::sample_ray,
+                                 HWY_NAMESPACE::march};
 
 }  // namespace phasetree

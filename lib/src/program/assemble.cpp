@@ -1,5 +1,6 @@
 #include "program/assemble.hpp"
 
+#include <array>
 #include <limits>
 
 #include "phasetree/nodes/list.hpp"
@@ -37,75 +38,62 @@ std::uint32_t size_of(Op op) {
     return gives_point(op) ? 3 : 1;
 }
 
-Assembly assemble(std::span<const Instruction> code, std::span<const ProgramOutput> outputs, bool keep_all,
-                  std::vector<std::uint32_t>& slot) {
-    constexpr auto forever = std::numeric_limits<std::uint32_t>::max();
-    std::vector<std::uint32_t> last_use(code.size(), keep_all ? forever : 0);
-    if (!keep_all) {
-        for (std::uint32_t i = 0; i < code.size(); ++i) {
-            if (operands(code[i].op) > 0) last_use[code[i].a] = i;
-            if (operands(code[i].op) > 1) last_use[code[i].b] = i;
-        }
-        last_use[0] = forever;  // the input keeps slots 0 … 2
-        for (const ProgramOutput& o : outputs) last_use[o.value] = forever;
-    }
-
-    Assembly result;
-    Slots slots;
-    slot.assign(code.size(), 0);
-    result.steps.reserve(code.size());
-    for (std::uint32_t i = 0; i < code.size(); ++i) {
-        const Instruction& in = code[i];
-        const int n = operands(in.op);
-        // A map writes its result one component at a time, so it is placed before its operand's slots are freed.
-        slot[i] = slots.take(size_of(in.op));
-        if (in.op != Op::input)
-            result.steps.push_back(
-                {static_cast<std::uint32_t>(in.op), slot[i], n > 0 ? slot[in.a] : 0, n > 1 ? slot[in.b] : 0, in.data});
-        if (n > 0 && last_use[in.a] == i) slots.give_back(slot[in.a], size_of(code[in.a].op));
-        if (n > 1 && in.b != in.a && last_use[in.b] == i) slots.give_back(slot[in.b], size_of(code[in.b].op));
-    }
-    result.slots = slots.end();
-    for (const ProgramOutput& o : outputs)
-        result.outputs.push_back({slot[o.value], static_cast<float>(o.phase.index), o.negate ? -1.f : 1.f});
-    return result;
-}
-
 }  // namespace
-
-int operands(Op op) {
-    switch (op) {
-        case Op::input:
-            return 0;
-        case Op::add:
-        case Op::subtract:
-        case Op::minimum:
-        case Op::maximum:
-        case Op::smooth_minimum:
-        case Op::guarded:
-        case Op::corner:
-            return 2;
-        default:
-            return 1;
-    }
-}
 
 bool gives_point(Op op) {
     return op == Op::input || static_cast<std::uint32_t>(op) >= first_map;
+}
+
+namespace {
+template <class... Ps>
+constexpr auto long_ones(TypeList<Ps...>) {
+    return std::array<bool, sizeof...(Ps)>{LongPrimitive<Ps>...};
+}
+}  // namespace
+
+bool is_long_primitive(Op op) {
+    static constexpr auto primitives = long_ones(Primitives());
+    if (op < Op::first_primitive || static_cast<std::uint32_t>(op) >= first_map) return false;
+    const std::size_t index = static_cast<std::uint32_t>(op) - static_cast<std::uint32_t>(Op::first_primitive);
+    return index >= primitives.size() || primitives[index];  // then come those with data
 }
 
 bool is_fold(Op op) {
     return static_cast<std::uint32_t>(op) == first_map + static_cast<std::uint32_t>(index_in<FoldMap>(PointMaps()));
 }
 
-Assembly assemble(std::span<const Instruction> code, std::span<const ProgramOutput> outputs) {
-    std::vector<std::uint32_t> slot;
-    return assemble(code, outputs, false, slot);
+std::uint32_t assemble(std::span<const Instruction> code, std::span<const ProgramOutput> outputs,
+                       std::vector<Step>& steps, std::vector<OutputSlot>& ends) {
+    constexpr auto forever = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> last_use(code.size(), 0), slot(code.size(), 0);
+    for (std::uint32_t i = 0; i < code.size(); ++i) {
+        if (operands(code[i].op) > 0) last_use[code[i].a] = i;
+        if (operands(code[i].op) > 1) last_use[code[i].b] = i;
+    }
+    last_use[0] = forever;  // the input keeps slots 0 … 2
+    for (const ProgramOutput& o : outputs) last_use[o.value] = forever;
+
+    Slots slots;
+    for (std::uint32_t i = 0; i < code.size(); ++i) {
+        const Instruction& in = code[i];
+        const int n = operands(in.op);
+        // A map writes its result one component at a time, so it is placed before its operand's slots are freed.
+        slot[i] = slots.take(size_of(in.op));
+        if (in.op != Op::input)
+            steps.push_back(
+                {static_cast<std::uint32_t>(in.op), slot[i], n > 0 ? slot[in.a] : 0, n > 1 ? slot[in.b] : 0, in.data});
+        if (n > 0 && last_use[in.a] == i) slots.give_back(slot[in.a], size_of(code[in.a].op));
+        if (n > 1 && in.b != in.a && last_use[in.b] == i) slots.give_back(slot[in.b], size_of(code[in.b].op));
+    }
+    for (const ProgramOutput& o : outputs)
+        ends.push_back({slot[o.value], static_cast<float>(o.phase.index), o.negate ? -1.f : 1.f});
+    return slots.end();
 }
 
-Assembly assemble_keeping_all(std::span<const Instruction> code, std::span<const ProgramOutput> outputs,
-                              std::vector<std::uint32_t>& slot_of) {
-    return assemble(code, outputs, true, slot_of);
+Assembly assemble(std::span<const Instruction> code, std::span<const ProgramOutput> outputs) {
+    Assembly result;
+    result.slots = assemble(code, outputs, result.steps, result.outputs);
+    return result;
 }
 
 std::vector<ProgramOutput> outputs_of(const Program& program) {

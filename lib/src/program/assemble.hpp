@@ -25,17 +25,34 @@ struct Assembly {
 
 /// Values whose last use is past give their register to later ones.
 Assembly assemble(std::span<const Instruction> code, std::span<const ProgramOutput> outputs);
-/// Every value keeps a register of its own, at slot_of[i], so that all can be read afterwards.
-Assembly assemble_keeping_all(std::span<const Instruction> code, std::span<const ProgramOutput> outputs,
-                              std::vector<std::uint32_t>& slot_of);
+/// The same, appended to others; tells how many slots it needs.
+std::uint32_t assemble(std::span<const Instruction> code, std::span<const ProgramOutput> outputs, std::vector<Step>&,
+                       std::vector<OutputSlot>&);
 
 std::vector<ProgramOutput> outputs_of(const Program&);
 
 /// How many values an operation takes.
-int operands(Op);
+inline int operands(Op op) {
+    switch (op) {
+        case Op::input:
+            return 0;
+        case Op::add:
+        case Op::subtract:
+        case Op::minimum:
+        case Op::maximum:
+        case Op::smooth_minimum:
+        case Op::guarded:
+        case Op::corner:
+            return 2;
+        default:
+            return 1;
+    }
+}
 /// Whether an operation's result is a point and not a number.
 bool gives_point(Op);
 
+/// Whether an operation is a primitive whose equation is long (concepts.hpp).
+bool is_long_primitive(Op);
 /// Whether an operation is a fold of space, which jumps.
 bool is_fold(Op);
 

@@ -34,14 +34,31 @@ struct Lane {
     float length;
 };
 
-std::optional<Lane> trace(const TreeGeometry::Data& data, unsigned cell, RTCRayN* rays, unsigned n, unsigned i,
+/// Where in the scene a callback is asked to look.
+struct Where {
+    unsigned geometry, cell, instance;
+};
+
+std::optional<Lane> trace(const TreeGeometry::Data& data, const Where& where, RTCRayN* rays, unsigned n, unsigned i,
                           Query* query) {
     const std::optional<LaneRay> ray = LaneRay::of(rays, n, i);
     if (!ray) return std::nullopt;
-    TraceCounters unused;
-    const auto crossing = data.object->first_crossing(cell, ray->origin, ray->direction, ray->near, ray->far,
-                                                      query ? query->carried : std::nullopt,
-                                                      Evaluator::thread_workspace(), query ? query->counters : unused);
+    std::optional<Crossing> crossing;
+    Evaluator::Workspace& workspace = Evaluator::thread_workspace();
+    if (query) {
+        TracedRay& traced = query->traced;
+        if (traced.origin != ray->origin || traced.direction != ray->direction)
+            traced = TracedRay(ray->origin, ray->direction);
+        const Query::Start& s = query->start;
+        const bool is_certified =
+            s.cell == where.cell && s.geometry == where.geometry && s.instance == where.instance && ray->near == 0;
+        crossing = data.object->first_crossing(where.cell, traced, ray->near, ray->far, query->carried, is_certified,
+                                               workspace, query->counters);
+    } else {
+        TraceCounters unused;
+        crossing = data.object->first_crossing(where.cell, TracedRay(ray->origin, ray->direction), ray->near, ray->far,
+                                               std::nullopt, false, workspace, unused);
+    }
     if (!crossing || !(crossing->t_in <= ray->far)) return std::nullopt;
     return Lane{*crossing, ray->direction, ray->length};
 }
@@ -52,9 +69,10 @@ void intersect(const RTCIntersectFunctionNArguments* arguments) noexcept {
     const unsigned n = arguments->N;
     RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, n);
     RTCHitN* hits = RTCRayHitN_HitN(arguments->rayhit, n);
+    const Where where{arguments->geomID, arguments->primID, arguments->context->instID[0]};
     for (unsigned i = 0; i < n; ++i) {
         if (arguments->valid[i] != -1) continue;
-        const auto lane = trace(data, arguments->primID, rays, n, i, query);
+        const auto lane = trace(data, where, rays, n, i, query);
         if (!lane) continue;
         const Crossing& c = lane->crossing;
         const glm::vec3 normal = query ? -lane->direction : -data.object->normal(arguments->primID, c, lane->direction);
@@ -73,9 +91,10 @@ void occluded(const RTCOccludedFunctionNArguments* arguments) noexcept {
     const TreeGeometry::Data& data = data_of(arguments->geometryUserPtr);
     Query* query = data.options.rays_carry_phases ? reinterpret_cast<Query*>(arguments->context) : nullptr;
     const unsigned n = arguments->N;
+    const Where where{arguments->geomID, arguments->primID, arguments->context->instID[0]};
     for (unsigned i = 0; i < n; ++i) {
         if (arguments->valid[i] != -1) continue;
-        if (trace(data, arguments->primID, arguments->ray, n, i, query))
+        if (trace(data, where, arguments->ray, n, i, query))
             RTCRayN_tfar(arguments->ray, n, i) = -std::numeric_limits<float>::infinity();
     }
 }

@@ -7,6 +7,7 @@
 
 #include "phasetree/program/evaluator.hpp"
 #include "phasetree/trace/crossing.hpp"
+#include "phasetree/trace/ray.hpp"
 
 namespace phasetree {
 
@@ -17,11 +18,11 @@ class BuildCancelled : public std::runtime_error {
 };
 
 struct CellOptions {
-    float resolution = 0;           ///< see InterfaceTracer
-    std::size_t short_program = 6;  ///< a cell whose program is no longer is not divided
-    int deepest = 14;               ///< divisions from the bounds to the smallest cell
-    float gain = 0.5f;  ///< dividing goes on as long as what rays spend falls below this share of itself …
-    int patience = 7;   ///< … within so many divisions
+    float resolution = 0;  ///< see InterfaceTracer
+    int deepest = 14;      ///< divisions from the bounds to the smallest cell
+    /// A box is divided if that may save its rays this share of what they need at least; small boxes, which are many,
+    /// are divided for more only. Less of it makes more cells.
+    float least_gain = 0.3f;
     std::function<bool()> cancelled{};  ///< asked now and then, by any thread; true ends the build
 };
 
@@ -50,7 +51,11 @@ class InterfaceCells {
     /// The box of the whole object, with a margin of vacuum.
     const Bounds& bounds() const;
 
-    /// As InterfaceTracer::first_crossing, within one cell.
+    /// As InterfaceTracer::first_crossing, within one cell. `is_certified`: the ray starts (t_min = 0) at p_in or p_out
+    /// of a crossing that was found in this very cell, and `carried` is the phase there; mostly it then costs nothing.
+    std::optional<Crossing> first_crossing(std::size_t cell, const TracedRay&, float t_min, float t_max,
+                                           std::optional<Phase> carried, bool is_certified, Evaluator::Workspace&,
+                                           TraceCounters&) const;
     std::optional<Crossing> first_crossing(std::size_t cell, const glm::vec3& origin, const glm::vec3& direction,
                                            float t_min, float t_max, std::optional<Phase> carried,
                                            Evaluator::Workspace&, TraceCounters&) const;

@@ -8,7 +8,7 @@
 /// (SIMD, sixteen points at once), `Dual` (value and gradient) or `Recorded` (emits instructions). Where a
 /// branch would stand, `select` chooses. All four give the same value bit for bit, because they do the same IEEE
 /// operations in the same order; hence also our own min and max, whose result for equal or unordered arguments is
-/// fixed.
+/// fixed. `Enclosure` gives what the value can be in a box.
 namespace phasetree {
 
 [[gnu::always_inline]] inline bool less(float a, float b) {

@@ -27,6 +27,10 @@ concept DataPrimitive = requires(const N& n, const float* data, const Vec3<float
     { N::distance(data, p) } -> std::same_as<float>;
 };
 
+/// A primitive whose equation is long, so that its slope is used where that is enough and it counts for many.
+template <class N>
+concept LongPrimitive = DataPrimitive<N> || requires { N::is_long; };
+
 /// A map of space: a plain struct of floats, p ↦ ω⁻¹(p), one instruction.
 template <class M>
 concept PointMap = std::is_trivially_copyable_v<M> && requires(const M& m, const Vec3<float>& p) {

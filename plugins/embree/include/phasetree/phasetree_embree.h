@@ -185,10 +185,10 @@ typedef struct PhasetreeGeometryOptions {
     /* A distance: brackets are no longer, and what is thinner along a ray may be passed. 0: 2·10⁻⁶ of the diagonal of
      * the tree's bounds, or what 32-bit coordinates allow where the tree is far from the origin. */
     float resolution;
-    /* Cells are the boxes into which the object is cut: a cell is not divided once its program is no longer than so
-     * many instructions, nor after so many divisions from the bounds on (at most 20). Fewer and larger cells build
-     * faster and trace slower. 0: the library's choice. */
-    unsigned int cellInstructions;
+    /* Cells are the boxes into which the object is cut: a box is divided if that may save its rays this share of the
+     * time that they need at least (a small box, of which there are many, only for more), and at most so many times from
+     * the bounds on (20 or fewer). Fewer and larger cells build faster and trace slower. 0: the library's choice. */
+    float cellGain;
     unsigned int cellDivisions;
     /* Phases to show: a crossing between two phases of which none is in the set is passed as if it were not there. The
      * vacuum never counts as shown, in the set or not. To hide one phase, leave it out. */
@@ -202,7 +202,7 @@ typedef struct PhasetreeGeometryOptions {
 static inline void phasetreeInitGeometryOptions(PhasetreeGeometryOptions* options) {
     options->flags = PHASETREE_GEOMETRY_FLAG_NONE;
     options->resolution = 0;
-    options->cellInstructions = 0;
+    options->cellGain = 0;
     options->cellDivisions = 0;
     options->shownPhases = PHASETREE_ALL_PHASES;
     options->cancelled = NULL;

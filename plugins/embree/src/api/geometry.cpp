@@ -26,6 +26,8 @@ PhasetreeGeometryOptions checked(const PhasetreeGeometryOptions* given) {
                       options.resolution);
     if (options.cellDivisions > 20)
         throw invalid("options->cellDivisions is {}; at most 20 are possible", options.cellDivisions);
+    if (!std::isfinite(options.cellGain) || options.cellGain < 0)
+        throw invalid("options->cellGain is {}; it must be a share, or 0 for the library's choice", options.cellGain);
     const auto known = static_cast<unsigned>(PHASETREE_GEOMETRY_FLAG_EXTENDED_CONTEXT) |
                        static_cast<unsigned>(PHASETREE_GEOMETRY_FLAG_NO_FILTERS) |
                        static_cast<unsigned>(PHASETREE_GEOMETRY_FLAG_POINT_QUERY);
@@ -36,7 +38,7 @@ PhasetreeGeometryOptions checked(const PhasetreeGeometryOptions* given) {
 std::unique_ptr<const Object> build(RTCDevice device, const Phased& tree, const PhasetreeGeometryOptions& options) {
     CellOptions cells;
     cells.resolution = options.resolution;
-    if (options.cellInstructions > 0) cells.short_program = options.cellInstructions;
+    if (options.cellGain > 0) cells.least_gain = options.cellGain;
     if (options.cellDivisions > 0) cells.deepest = static_cast<int>(options.cellDivisions);
     if (options.cancelled) cells.cancelled = [&] { return options.cancelled(options.cancelledUserPtr); };
     try {

@@ -16,6 +16,7 @@ namespace phasetree {
 /// nearest one's) away. All bₜ are cut off there, so nothing jumps when the point moves on and other sites are looked
 /// at.
 struct VoronoiCells {
+    static constexpr bool is_long = true;  ///< a LongPrimitive
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"voronoi_cells", "4.3, 9.1",
                                    "g/2 − max(v, 0),  v = (Σ over t ≠ s of (bₜ + c)⁻⁸)^(−1/8) − c,  "

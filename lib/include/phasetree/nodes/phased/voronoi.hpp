@@ -20,6 +20,7 @@ struct Voronoi {
         "voronoi_cells."};
     /// The distance to the nearest site of one kind.
     struct Nearest {
+        static constexpr bool is_long = true;  ///< a LongPrimitive
         float size = 1;
         float jitter = 1;
         float seed = 0;

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "cells/prune.hpp"
+
+namespace phasetree {
+
+/// A working program's steps, with a register of its own for every value so that all can be read afterwards.
+struct Steps {
+    std::span<const Step> steps;
+    std::span<const std::uint32_t> slot;  ///< of each instruction's value; a point takes three
+    std::uint32_t slots = 0;
+
+    Routine routine(const float* constants) const { return {steps.data(), steps.size(), constants, nullptr, 0}; }
+};
+
+inline Steps keep_all(const WorkingProgram& program, Arena& scratch) {
+    const std::span<std::uint32_t> slot = scratch.take<std::uint32_t>(program.code.size());
+    const std::span<Step> steps = scratch.take<Step>(program.code.size());
+    std::uint32_t slots = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < program.code.size(); ++i) {
+        const Instruction& in = program.code[i];
+        slot[i] = slots;
+        slots += gives_point(in.op) ? 3 : 1;
+        const int n = operands(in.op);
+        if (n > 0)
+            steps[count++] = {static_cast<std::uint32_t>(in.op), slot[i], slot[in.a], n > 1 ? slot[in.b] : 0, in.data};
+    }
+    return {steps.first(count), slot, slots};
+}
+
+}  // namespace phasetree

@@ -1,0 +1,363 @@
+/// Multiphase sphere tracing with a batch of points *along the one ray*. Included by kernel.inl.
+///
+/// We hold a place `here` that is certainly in the ray's phase, and frames of sixteen samples ahead of it, the last
+/// frame lying in a gap of the one before. Two neighbours of the ray's phase whose radii together cover the gap between
+/// them prove the gap free; that is one comparison for a whole frame. The first gap in doubt is sampled again, sixteen
+/// points inside it: evenly; or, where the label differs at its end, gathered around the place where the distances
+/// predict the interface; or, where the ray starts on an interface, spread out geometrically from there. A gap no
+/// longer than the resolution is either the crossing or, with equal labels, passed.
+///
+/// A hit is a change of label, never a small distance: phantom zeros, where components vanish without a change, cost
+/// samples but are never hits.
+
+namespace phasetree::HWY_NAMESPACE {
+namespace {
+
+struct Place {
+    float t, distance, label;
+};
+
+/// Sixteen samples in rising order, and the place that the frame starts from.
+struct alignas(64) Frame {
+    float t[16];
+    float distance[16];  ///< s(p): the label is the same within this radius
+    float label[16];
+    Place from;
+    std::uint32_t doubt;    ///< bit i: the gap that ends at lane i is not proven free
+    std::uint32_t phantom;  ///< bit i: it is free only because it is no longer than the resolution
+    int next;               ///< the first lane that is not passed yet
+
+    Frame() {}  // unset on purpose: most rays use one or two
+    Place place(int lane) const { return lane < 0 ? from : Place{t[lane], distance[lane], label[lane]}; }
+};
+
+HWY_INLINE float smaller(float a, float b) {
+    return a < b ? a : b;
+}
+HWY_INLINE float larger(float a, float b) {
+    return a > b ? a : b;
+}
+HWY_INLINE std::uint32_t bits_of(float x) {
+    std::uint32_t u;
+    std::memcpy(&u, &x, sizeof u);
+    return u;
+}
+HWY_INLINE float float_of(std::uint32_t u) {
+    float x;
+    std::memcpy(&x, &u, sizeof x);
+    return x;
+}
+
+constexpr float last_lane = batch_size - 1;
+
+HWY_INLINE Batch ending_at(const Batch& t, float high) {
+    return select(less(lanes(), Batch(last_lane)), min(t, Batch(high)), Batch(high));
+}
+
+HWY_INLINE Batch spread_evenly(float low, float high) {
+    return ending_at(Batch(low) + lanes() * ((high - low) * (1 / last_lane)), high);
+}
+
+/// The step of geometric() that leads from a to b in so many steps.
+HWY_INLINE std::uint32_t geometric_step(float a, float b, std::uint32_t steps) {
+    return (bits_of(larger(a, b)) - bits_of(a)) / steps;
+}
+
+/// From an interface at 0, and 0 itself: the first step is `smallest`.
+HWY_INLINE Batch spread_from_interface(float high, float smallest) {
+    const std::uint32_t step = geometric_step(smallest, high, batch_size - 2);
+    const Batch t = geometric(lanes() - 1.f, bits_of(smallest), step);
+    return ending_at(select(less(lanes(), Batch(0.5f)), Batch(0.f), t), high);
+}
+
+/// From low on, as far as the steps reach that the distance s, growing by `slope` for each unit, is expected to cover:
+/// two balls cover a step d if d ≤ s + (s + slope·d); a tenth less, for what is not straight. Step by step s grows by
+/// the same factor, so the steps' ends are a geometric sum.
+HWY_INLINE Batch spread_growing(float low, float high, float s, float slope) {
+    const float growth = 1.8f / (1.f - 0.9f * slope);
+    float factor = 1.f + slope * growth;
+    // factor to the power of the lane's number + 1, by the number's bits.
+    Batch power(factor), number = lanes();
+    for (float bit = 1; bit < batch_size; bit *= 2, factor *= factor) {
+        const Batch half = floor(number * 0.5f);
+        power = select(less(Batch(0.5f), number - half * 2.f), power * factor, power);
+        number = half;
+    }
+    return min(Batch(low) + (power - 1.f) * (s / slope), Batch(high));
+}
+
+/// On both sides of root, from the smallest offset to half way to the gap's ends, in equal ratios.
+HWY_INLINE Batch gather_around(float root, float low, float high, float smallest) {
+    constexpr float half = batch_size / 2;
+    const std::uint32_t a = bits_of(smallest);
+    const std::uint32_t below = geometric_step(smallest, 0.6f * (root - low), batch_size / 2 - 1);
+    const std::uint32_t above = geometric_step(smallest, 0.6f * (high - root), batch_size / 2 - 1);
+    const Batch before = max(Batch(root) - geometric((half - 1) - lanes(), a, below), Batch(low));
+    const Batch after = min(Batch(root) + geometric(lanes() - half, a, above), Batch(high));
+    return select(less(lanes(), Batch(half)), before, after);
+}
+
+/// Where the label changes between two places, by the distances there and, if there are such, at one before and after.
+HWY_INLINE float predicted_root(const Place& here, const Place& next, const Place& before, const Place& after) {
+    const float gap = next.t - here.t, sum = here.distance + next.distance;
+    if (!(sum > 0)) return here.t + 0.5f * gap;
+    const float slope = -sum / gap;  // of the distance, counted negative beyond the change
+    const float root = here.t - here.distance / slope;
+    // The second divided difference tells how the distance curves.
+    float curvature = 0;
+    int known = 0;
+    if (before.label == here.label && before.t < here.t) {
+        curvature += (slope - (here.distance - before.distance) / (here.t - before.t)) / (next.t - before.t);
+        ++known;
+    }
+    if (after.label == next.label && after.t > next.t) {
+        curvature += ((next.distance - after.distance) / (after.t - next.t) - slope) / (after.t - here.t);
+        ++known;
+    }
+    if (known == 0) return root;
+    const float there = curvature / static_cast<float>(known) * (root - here.t) * (root - next.t);
+    const float correction = -there / slope;
+    return (correction < 0 ? -correction : correction) < 0.25f * gap ? root + correction : root;
+}
+
+/// Makes the resolution coarser for a ray that creeps along an interface, so that the work stays bounded: it doubles
+/// for every 32 batches past the first 128.
+HWY_INLINE float effective_resolution(float resolution, std::uint32_t batches) {
+    if (batches < 128) return resolution;
+    const std::uint32_t doublings = (batches - 128) / 32 + 1;
+    return resolution * float_of((127 + (doublings < 60 ? doublings : 60)) << 23);
+}
+
+class March {
+  public:
+    March(const Routine& routine, const RaySegment& ray, float* registers)
+        : routine_(routine), ray_(ray), registers_(registers) {}
+
+    bool run(RayCrossing& crossing) {
+        const bool hit = find(crossing);
+        crossing.batches = batches_;
+        crossing.phantoms = phantoms_;
+        return hit;
+    }
+
+  private:
+    static constexpr float none = -1;  ///< no label
+
+    Classified sample(const Batch& t) {
+        ++batches_;
+        return classify_along(routine_, ray_.origin, ray_.direction, t, registers_);
+    }
+
+    /// Samples a frame, and finds out which of its gaps are in doubt; the first one is from `from`. False, and nothing
+    /// done, if no sample is strictly between `from` and `to`: no float lies there.
+    bool fill(Frame& f, const Batch& t, const Place& from, float to, float fine) {
+        const Classified c = sample(t);
+        if (!(bits(less(Batch(from.t), t)) & bits(less(t, Batch(to))))) return false;
+        store(t, f.t);
+        store(c.distance, f.distance);
+        store(c.label, f.label);
+        judge(f, t, c, from, fine);
+        return true;
+    }
+    void judge(Frame& f, const Batch& t, const Classified& c, const Place& from, float fine) const {
+        f.from = {from.t, from.distance, phase_};
+        f.next = 0;
+        const std::uint32_t other = bits(less(c.label, Batch(phase_))) | bits(less(Batch(phase_), c.label));
+        const std::uint32_t differs = (other | (other << 1)) & 0xffffu;  // at one of the gap's ends
+        f.doubt = differs;
+        f.phantom = 0;
+        if (ray_.is_monotone) return;  // between two places of one label it stays
+        const Batch gap = t - shifted(t, from.t), covered = c.distance + shifted(c.distance, from.distance);
+        const std::uint32_t open = bits(less(covered, gap * ray_.slope)), is_long = bits(less(Batch(fine), gap));
+        f.doubt |= open & is_long;
+        f.phantom = open & ~is_long & ~differs;
+    }
+
+    bool find(RayCrossing&);
+    /// Whether a change of label at `next` is one, and then where; if not, goes on to where that is known.
+    bool is_crossing(const Place& next, RayCrossing&);
+    Batch look_ahead(const Frame&, int lane, const Place& next) const;
+
+    bool report(RayCrossing& c, float t_in, float t_out, float to) const {
+        c = {t_in, t_out, phase_, to, 0, 0};
+        return true;
+    }
+    /// Up to where, and from where on, a place proves that there is no change.
+    float past(const Place& p) const { return p.t + larger(p.distance, 0.f) / ray_.slope; }
+    float before(const Place& p) const { return p.t - larger(p.distance, 0.f) / ray_.slope; }
+    void pass(const Place& p) {
+        here_ = certain_ = p;
+        other_.label = none;
+    }
+
+    const Routine& routine_;
+    const RaySegment& ray_;
+    float* registers_;
+    std::uint32_t batches_ = 0, phantoms_ = 0;
+    float phase_ = 0;
+    Place here_{};     ///< all up to here is in the ray's phase
+    Place certain_{};  ///< the last place whose own label is the ray's phase; mostly `here`
+    Place other_{};    ///< after it, the first place of the label that is there now
+    float left_ = 0;   ///< and where that was another for the first time
+};
+
+bool March::find(RayCrossing& result) {
+    const float length = ray_.length, resolution = ray_.resolution;
+    constexpr int deepest = 24;
+    Frame frames[deepest];
+
+    // The start, and the first frame behind it.
+    {
+        const Batch t = ray_.on_interface && !ray_.is_monotone ? spread_from_interface(length, resolution)
+                                                               : spread_evenly(0, length);
+        const Classified c = sample(t);
+        Frame& f = frames[0];
+        store(t, f.t);
+        store(c.distance, f.distance);
+        store(c.label, f.label);
+        here_ = f.place(0);
+        phase_ = ray_.carried >= 0 ? ray_.carried : here_.label;
+        other_.label = none;
+        judge(f, t, c, here_, resolution);
+        if (f.doubt == 0) return false;
+        f.next = 1;
+    }
+    bool is_aligned = true;  // `here` is the place before the last frame's next lane
+    int depth = 1;           // frames in use
+
+    if (here_.label != phase_) {
+        // Rounding may have put the start just across the interface it was found on: look a little ahead.
+        const Batch t = (lanes() + 1.f) * (resolution * 0.25f);
+        const Classified c = sample(t);
+        const std::uint32_t other = bits(less(c.label, Batch(phase_))) | bits(less(Batch(phase_), c.label));
+        const std::uint32_t back = ~other & ~bits(less(Batch(length), t)) & 0xffffu;
+        if (!back) return report(result, 0, 0, here_.label);
+        alignas(64) float near[batch_size], distance[batch_size];
+        store(t, near);
+        store(c.distance, distance);
+        const int found = __builtin_ctz(back);
+        here_ = {near[found], distance[found], phase_};
+        is_aligned = false;
+    }
+    certain_ = here_;
+
+    for (;;) {
+        if (depth == 0) {
+            if (here_.t >= length) return false;
+            if (!fill(frames[0], spread_evenly(here_.t, length), here_, 3.402823466e38f,
+                      effective_resolution(resolution, batches_)))
+                return false;
+            depth = 1;
+            is_aligned = true;
+        }
+        Frame& f = frames[depth - 1];
+        constexpr int end = static_cast<int>(batch_size);
+        while (f.next < end && f.t[f.next] <= here_.t) {
+            ++f.next;
+            is_aligned = false;
+        }
+        if (is_aligned) {
+            const std::uint32_t ahead = f.next < end ? f.doubt >> f.next : 0;
+            const int lane = ahead ? f.next + __builtin_ctz(ahead) : end;
+            if (lane > f.next) {
+                const std::uint32_t passed = f.phantom & ((1u << lane) - (1u << f.next));
+                phantoms_ += static_cast<std::uint32_t>(__builtin_popcount(passed));
+                pass(f.place(lane - 1));
+                f.next = lane;
+            }
+        }
+        if (f.next == end) {
+            --depth;
+            is_aligned = false;
+            continue;
+        }
+
+        const Place next = f.place(f.next);
+        const bool same = next.label == phase_;
+        const float gap = next.t - here_.t;
+        const float fine = effective_resolution(resolution, batches_);
+        const float low = past(here_), high = before(next);
+        const bool is_covered = same && (ray_.is_monotone || here_.distance + next.distance >= gap * ray_.slope);
+        const bool is_resolved = is_covered || gap <= (same ? fine : resolution) || (same && high - low <= fine);
+        if (!is_resolved) {
+            if (depth == deepest) {  // forget what lies ahead
+                depth = 0;
+                continue;
+            }
+            const Batch t = look_ahead(f, is_aligned ? f.next : -1, next);
+            if (fill(frames[depth], t, here_, next.t, fine)) {
+                ++depth;
+                is_aligned = true;
+                continue;
+            }
+        }
+        ++f.next;
+        if (same) {
+            if (!is_covered) ++phantoms_;
+            pass(next);
+            is_aligned = true;
+        } else if (is_crossing(next, result)) {
+            return true;
+        } else {
+            ++phantoms_;
+            is_aligned = false;
+        }
+    }
+}
+
+/// Where to sample in the gap from `here` to next, which is the given lane of a frame if `here` is the place before it.
+Batch March::look_ahead(const Frame& f, int lane, const Place& next) const {
+    const float gap = next.t - here_.t;
+    if (next.label != phase_) {
+        const bool has_before = lane >= 1, has_after = lane >= 0 && lane + 1 < static_cast<int>(batch_size);
+        const Place before = has_before ? f.place(lane - 2) : here_, after = has_after ? f.place(lane + 1) : next;
+        const float root = predicted_root(here_, next, before, after);
+        return gather_around(smaller(larger(root, here_.t), next.t), here_.t, next.t, 0.25f * ray_.resolution);
+    }
+    const float fine = effective_resolution(ray_.resolution, batches_);
+    if (const float slope = (next.distance - here_.distance) / gap; slope > 0.02f) {
+        // The ray leaves an interface it started on, at a low angle: one frame for many of the gaps ahead.
+        return spread_growing(here_.t, ray_.length, larger(here_.distance, 0.25f * fine), smaller(slope, 1.f));
+    }
+    const float low = past(here_), high = before(next);
+    return spread_evenly(smaller(low, high), high);
+}
+
+/// Within rounding of an interface labels mean little: solids that abut leave slivers, and a ray along a face flickers.
+/// So a change counts once it is decided: s(p) above rounding, or no place in the ray's phase for one and a half
+/// resolutions. Until then the ray stays in its phase. The bracket is from the last place in it to the first one in the
+/// phase that follows.
+bool March::is_crossing(const Place& next, RayCrossing& result) {
+    const float resolution = ray_.resolution, rounding = resolution * (1.f / 16);
+    const auto is_decided = [&](const Place& p) {
+        if (other_.label == none) left_ = p.t;
+        if (other_.label != p.label) other_ = p;
+        return p.distance >= rounding || p.t - left_ >= 1.5f * resolution;
+    };
+    if (is_decided(next)) return report(result, certain_.t, other_.t, other_.label);
+    alignas(64) float beyond[batch_size], label[batch_size], distance[batch_size];
+    const Batch t = min(Batch(next.t) + (lanes() + 1.f) * (resolution * (1.f / 8)), Batch(ray_.length));
+    const Classified c = sample(t);
+    store(t, beyond);
+    store(c.label, label);
+    store(c.distance, distance);
+    for (std::size_t i = 0; i < batch_size; ++i) {
+        const Place p{beyond[i], distance[i], label[i]};
+        here_ = {p.t, p.distance, phase_};
+        if (p.label == phase_) {
+            certain_ = here_;
+            other_.label = none;
+            if (p.distance >= rounding) break;
+        } else if (is_decided(p)) {
+            return report(result, certain_.t, other_.t, other_.label);
+        }
+    }
+    return false;
+}
+
+bool march(const Routine& routine, const RaySegment& ray, float* registers, RayCrossing& crossing) {
+    return March(routine, ray, registers).run(crossing);
+}
+
+}  // namespace
+}  // namespace phasetree::HWY_NAMESPACE

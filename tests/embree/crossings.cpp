@@ -1,0 +1,100 @@
+// Tracing through Embree and cells against analytic roots: see support/crossing_checks.hpp. A ninth of the rays run
+// along faces of cells, where two cells have to agree.
+#include "support/crossing_checks.hpp"
+
+#include "phasetree/embree.hpp"
+
+using namespace phasetree;
+using namespace phasetree::tests;
+using namespace phasetree::tests::traced;
+
+namespace {
+
+struct Release {
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+
+class CellTracer {
+  public:
+    struct Hit : Crossing {
+        unsigned cell = 0;
+    };
+
+    CellTracer(RTCDevice device, const Phased& object)
+        : cells_(std::make_shared<const InterfaceCells>(object)),
+          geometry_(device, cells_, {.rays_carry_phases = true}),
+          scene_(rtcNewScene(device)) {
+        rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+        rtcCommitGeometry(geometry_.handle());
+        rtcAttachGeometryByID(scene_.get(), geometry_.handle(), 0);
+        rtcCommitScene(scene_.get());
+    }
+
+    std::optional<Hit> first_crossing(const glm::vec3& o, const glm::vec3& d, float length, Phase carried,
+                                      const Hit* start, TraceCounters& counters) const {
+        embree::Query query;
+        query.carried = carried;
+        if (start) query.start = {0, start->cell, RTC_INVALID_GEOMETRY_ID};
+        RTCRayHit ray{};
+        ray.ray.org_x = o.x;
+        ray.ray.org_y = o.y;
+        ray.ray.org_z = o.z;
+        ray.ray.dir_x = d.x;
+        ray.ray.dir_y = d.y;
+        ray.ray.dir_z = d.z;
+        ray.ray.tfar = length;
+        ray.ray.mask = ~0u;
+        ray.hit.geomID = ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+        embree::intersect(scene_.get(), query.context, ray);
+        counters = query.counters;
+        if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+        return Hit{query.crossing, ray.hit.primID};
+    }
+    glm::vec3 normal(const Hit& hit, const glm::vec3& d) const { return cells_->normal(hit.cell, hit, d); }
+    Phase label(const glm::vec3& p) const { return cells_->label(p, Evaluator::thread_workspace()); }
+    Bounds bounds() const { return cells_->bounds(); }
+    float resolution() const { return cells_->resolution(); }
+    const InterfaceCells& cells() const { return *cells_; }
+
+  private:
+    std::shared_ptr<const InterfaceCells> cells_;
+    embree::TreeGeometry geometry_;
+    std::unique_ptr<std::remove_pointer_t<RTCScene>, Release> scene_;
+};
+
+/// Along a face of a cell, or along one of its edges.
+Probe along_a_face(Random& rng, const InterfaceCells& cells) {
+    const Bounds box = cells.bounds(static_cast<std::size_t>(rng.below(static_cast<int>(cells.size()))));
+    glm::vec3 p = rng.in(box), d = rng.direction();
+    const int axis = rng.below(3);
+    p[axis] = rng.chance(0.5) ? box.low[axis] : box.high[axis];
+    d[axis] = 0;
+    if (rng.chance(0.3)) {
+        const int other = (axis + 1 + rng.below(2)) % 3;
+        p[other] = rng.chance(0.5) ? box.low[other] : box.high[other];
+        d[other] = 0;
+    }
+    if (glm::length(d) == 0) d[(axis + 1) % 3] = 1;
+    d = glm::normalize(d);
+    // So far that the sum is rounded less than half a resolution.
+    return {p - rng.uniform(0, 1) * cells.bounds().diagonal() * d, d, "along a cell's face"};
+}
+
+}  // namespace
+
+TEST_CASE("through Embree and cells, every interface along a ray is found, once, where it is") {
+    const std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release> device(rtcNewDevice(nullptr));
+    REQUIRE(device);
+    Totals totals;
+    std::vector<std::string> complaints;
+    trace_scenes(
+        17, long_tests() ? 4000 : 200, 250,
+        [&](const Phased& object, const InterfaceTracer&) { return CellTracer(device.get(), object); },
+        [](Random& rng, const Scene& scene, const InterfaceTracer& whole, const CellTracer& tracer) {
+            if (tracer.cells().size() > 0 && rng.chance(1.0 / 9)) return along_a_face(rng, tracer.cells());
+            return random_probe(rng, scene, whole);
+        },
+        totals, complaints);
+    check_totals(totals, complaints);
+}

@@ -1,0 +1,261 @@
+#pragma once
+
+/// Tracing against analytic roots: no interface missed, none invented, each where it is.
+///
+/// The exact sequence of phases along a ray is support/analytic_roots.hpp's. The tracer's comes from first_crossing()
+/// again and again, each ray starting at p_out of the last with the phase entered.
+///
+/// Both are step functions of t. Where they differ over a stretch of the ray, the tracer is wrong, but for two cases:
+/// the stretch is shorter than four resolutions, which is all that tracing promises; or it lies within one resolution
+/// of an interface throughout (a grazing ray, a ray within a face), where a label in float is rounding's. Rays that
+/// creep along an interface for hundreds of batches are traced at a coarser resolution, by the law in march.inl, and
+/// held to that one; all others, and every reported crossing, to the stated one.
+
+#include <doctest/doctest.h>
+
+#include <sstream>
+
+#include "phasetree/phasetree.hpp"
+#include "support/analytic_roots.hpp"
+#include "support/traced_scenes.hpp"
+
+/// A tracer under test has a type Hit, which is a Crossing, and
+///     std::optional<Hit> first_crossing(origin, direction, length, carried, const Hit* start, counters)
+///         `start`: the hit whose p_in or p_out the ray starts from, if it does
+///     glm::vec3 normal(hit, direction), Phase label(point), Bounds bounds(), float resolution()
+namespace phasetree::tests::traced {
+
+using analytic::exact_pieces;
+using analytic::Piece;
+using glm::dvec3;
+
+struct Totals {
+    std::size_t rays = 0, crossings = 0, wrong = 0, uncertified = 0, wide = 0, over_sliver = 0, misplaced = 0,
+                bad_normals = 0;
+    std::size_t passed_coarsely = 0, most_crossings = 0, flickering = 0;
+    std::size_t normals = 0, reflections = 0, self_hits = 0, coarsened = 0;
+};
+
+inline std::string report(const char* what, const Scene& scene, const Probe& probe, int n) {
+    std::ostringstream s;
+    s.precision(9);
+    s << what << ": scene " << scene.name << ", ray " << n << " (" << probe.kind << ") o = (" << probe.o.x << ", "
+      << probe.o.y << ", " << probe.o.z << ") d = (" << probe.d.x << ", " << probe.d.y << ", " << probe.d.z << ")";
+    return s.str();
+}
+
+/// Whether an interface in the plane with this normal passes here without an edge near; nor a seam, where solids of one
+/// phase meet beneath the surface: there the nearest zero of φ is the seam's.
+inline bool is_smooth(const Phased& object, const dvec3& p, const dvec3& n, Phase from, Phase to, double resolution) {
+    const dvec3 u = glm::normalize(std::abs(n.x) < 0.5 ? glm::cross(n, dvec3(1, 0, 0)) : glm::cross(n, dvec3(0, 1, 0)));
+    const dvec3 v = glm::cross(n, u);
+    for (const double side : {-4 * resolution, 4 * resolution})
+        if (values(object, p + side * n).interface_distance() < 3 * resolution) return false;
+    for (int i = 0; i < 8; ++i) {
+        const dvec3 q = p + 40 * resolution * (std::cos(i * 0.7853981634) * u + std::sin(i * 0.7853981634) * v);
+        if (tests::label(object, q - 4 * resolution * n) != from || tests::label(object, q + 4 * resolution * n) != to)
+            return false;
+    }
+    return true;
+}
+
+template <class Tracer>
+void check_ray(const Scene& scene, const Tracer& tracer, const Probe& probe, int number, Totals& totals,
+               std::vector<std::string>& complaints) {
+    using Hit = typename Tracer::Hit;
+    struct Step {
+        double t_in, t_out;
+        Hit crossing;
+    };
+    const double resolution = tracer.resolution();
+    const dvec3 o(probe.o), d(probe.d);
+    const float length = 4 * tracer.bounds().diagonal();
+    const auto complain = [&](const char* what) {
+        if (complaints.size() < 10) complaints.push_back(report(what, scene, probe, number));
+    };
+
+    // The tracer's sequence.
+    std::vector<Step> steps;
+    const Phase first = tracer.label(probe.o);
+    Phase carried = first;
+    glm::vec3 origin = probe.o;
+    ++totals.rays;
+    // Tracing keeps the work of a creeping ray bounded: from 128 batches on the resolution doubles every 32.
+    bool coarse = false;
+    double effective = resolution;
+    for (int n = 0; n < 20'000; ++n) {
+        TraceCounters counters;
+        const std::optional<Hit> hit = tracer.first_crossing(
+            origin, probe.d, length, carried, steps.empty() ? nullptr : &steps.back().crossing, counters);
+        if (counters.batches > 128) {
+            coarse = true;
+            effective =
+                std::max(effective, std::ldexp(resolution, static_cast<int>((counters.batches - 128) / 32 + 1)));
+        }
+        if (!hit) break;
+        steps.push_back({glm::dot(dvec3(hit->p_in) - o, d), glm::dot(dvec3(hit->p_out) - o, d), *hit});
+        ++totals.crossings;
+        const bool certified = hit->from == carried && hit->from != hit->to && tracer.label(hit->p_out) == hit->to &&
+                               (tracer.label(hit->p_in) == hit->from || (hit->t_in == 0 && hit->t_out == 0));
+        if (!certified && totals.uncertified++ < 3) complain("not certified");
+        const double width = glm::length(dvec3(hit->p_out) - dvec3(hit->p_in));
+        // The bracket is cut down to a resolution, and its ends are rounded to float coordinates. One that passes a
+        // sliver of a third phase, undecided for up to 1.5 resolutions, is that much longer.
+        totals.over_sliver += width > 1.01 * resolution + 1e-6 * glm::length(dvec3(hit->p_in));
+        if (width > 2.7 * resolution + 1e-6 * glm::length(dvec3(hit->p_in)) && totals.wide++ < 3)
+            complain("wide bracket");
+        carried = hit->to;
+        origin = hit->p_out;
+    }
+    totals.coarsened += coarse;
+    totals.most_crossings = std::max(totals.most_crossings, steps.size());
+    totals.flickering += steps.size() > 100;
+
+    // Where the two step functions differ.
+    const std::vector<Piece> exact = exact_pieces(scene.object, o, d, length);
+    std::vector<double> breaks{0, length};
+    for (const Piece& p : exact) breaks.push_back(p.start);
+    for (const Step& s : steps) breaks.push_back(0.5 * (s.t_in + s.t_out));
+    std::sort(breaks.begin(), breaks.end());
+    const auto exact_label = [&](double t) {
+        std::size_t i = 0;
+        while (i + 1 < exact.size() && exact[i + 1].start <= t) ++i;
+        return exact[i].phase;
+    };
+    const auto traced_label = [&](double t) {
+        Phase l = first;
+        for (const Step& s : steps)
+            if (0.5 * (s.t_in + s.t_out) <= t) l = s.crossing.to;
+        return l;
+    };
+    double wrong_since = -1;
+    bool passed = false;
+    for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+        const double low = std::max(breaks[i], 0.0), high = breaks[i + 1];
+        if (!(high > low)) continue;
+        const double mid = 0.5 * (low + high);
+        const bool wrong = exact_label(mid) != traced_label(mid);
+        if (wrong && wrong_since < 0) wrong_since = low;
+        const bool ends = wrong_since >= 0 && (!wrong || i + 2 == breaks.size());
+        if (!ends) continue;
+        const double begin = wrong_since, end = wrong ? high : low;
+        wrong_since = -1;
+        if (end - begin <= 4 * resolution) continue;
+        double deepest = 0;
+        for (int k = 0; k <= 64; ++k)
+            deepest =
+                std::max(deepest, values(scene.object, o + (begin + (end - begin) * k / 64) * d).interface_distance());
+        if (deepest <= resolution) continue;
+        if (end - begin <= 4 * effective) {
+            passed = true;
+            continue;
+        }
+        if (totals.wrong++ < 3) {
+            std::ostringstream what;
+            what.precision(9);
+            what << "wrong from t = " << begin << " to " << end << " (" << (end - begin) / resolution
+                 << " resolutions, " << deepest / resolution << " deep" << (coarse ? ", coarsened" : "")
+                 << "), exact phase " << int(exact_label(0.5 * (begin + end)).index) << ", traced "
+                 << int(traced_label(0.5 * (begin + end)).index);
+            complain(what.str().c_str());
+        }
+    }
+
+    totals.passed_coarsely += passed;
+
+    // Isolated crossings: where they are, their normals, and what is reflected there.
+    for (std::size_t i = 1; i + 1 <= exact.size(); ++i) {
+        const double t = exact[i].start, last = i + 1 < exact.size() ? exact[i + 1].start : length;
+        if (t - exact[i - 1].start < 100 * resolution || last - t < 100 * resolution) continue;
+        dvec3 n = exact[i].normal;
+        double cosine = glm::dot(n, d);
+        if (cosine < 0) n = -n, cosine = -cosine;
+        if (cosine < 0.02) continue;
+        if (!is_smooth(scene.object, o + t * d, n, exact[i - 1].phase, exact[i].phase, resolution)) continue;
+        const Step* nearest = nullptr;
+        for (const Step& s : steps)
+            if (!nearest || std::abs(s.t_out - t) < std::abs(nearest->t_out - t)) nearest = &s;
+        // The field's own rounding, below half a resolution, moves the interface along a slanted ray.
+        const double tolerance = 0.5 * resolution / cosine;
+        if (!nearest || nearest->t_in > t + tolerance || nearest->t_out < t - tolerance) {
+            if (totals.misplaced++ < 3) complain("misplaced");
+            continue;
+        }
+        const Hit& hit = nearest->crossing;
+        const glm::vec3 normal = tracer.normal(hit, probe.d);
+        ++totals.normals;
+        if (glm::length(glm::cross(dvec3(normal), n)) > 1e-3 || glm::dot(dvec3(normal), n) < 0) {
+            if (totals.bad_normals++ < 3) complain("normal");
+        }
+        const glm::vec3 back = glm::normalize(probe.d - 2 * glm::dot(probe.d, normal) * normal);
+        TraceCounters unused;
+        const auto again = tracer.first_crossing(hit.p_in, back, length, hit.from, &hit, unused);
+        ++totals.reflections;
+        if (again && again->t_out < tracer.resolution()) {
+            if (totals.self_hits++ < 3) complain("a reflected ray hits where it starts");
+        }
+    }
+}
+
+/// `make(object, whole)` gives a tracer of the object, whose whole program's is given; `probe(rng, scene, whole,
+/// tracer)` a ray.
+template <class Make, class ProbeOf>
+void trace_scenes(std::uint64_t seed, int scenes, int rays_each, Make&& make, ProbeOf&& probe, Totals& totals,
+                  std::vector<std::string>& complaints) {
+    Random rng(seed);
+    for (int n = 0; n < scenes; ++n) {
+        Scene scene;
+        switch (n % 10) {
+            case 0:
+                scene = junction(rng, false);
+                break;
+            case 1:
+                scene = junction(rng, true);
+                break;
+            case 2:
+                scene = abutting(rng, false);
+                break;
+            case 3:
+                scene = abutting(rng, true);
+                break;
+            case 4:
+                scene = thin(rng);
+                break;
+            case 5:
+                scene = vessel(rng);
+                break;
+            default:
+                scene = random_scene(rng);
+        }
+        std::optional<InterfaceTracer> whole;
+        try {
+            whole.emplace(scene.object);
+        } catch (const ModelError&) {
+            continue;  // cut to nothing
+        }
+        const auto tracer = make(scene.object, *whole);
+        for (int ray = 0; ray < rays_each; ++ray)
+            check_ray(scene, tracer, probe(rng, scene, *whole, tracer), ray, totals, complaints);
+    }
+}
+
+inline void check_totals(const Totals& totals, const std::vector<std::string>& complaints) {
+    for (const std::string& c : complaints) MESSAGE(c);
+    MESSAGE(totals.rays, " rays, ", totals.crossings, " crossings, ", totals.normals, " normals, ", totals.reflections,
+            " reflections, ", totals.coarsened, " rays creep, of which ", totals.passed_coarsely, " passed something; ",
+            totals.flickering, " rays within rounding of a face cross it more than 100 times, at most ",
+            totals.most_crossings);
+    CHECK(totals.wrong == 0);
+    CHECK(totals.flickering < totals.rays / 2000);
+    CHECK(totals.passed_coarsely < totals.rays / 50);
+    CHECK(totals.uncertified == 0);
+    CHECK(totals.wide == 0);
+    CHECK(totals.over_sliver < totals.crossings / 2000);
+    CHECK(totals.misplaced == 0);
+    CHECK(totals.bad_normals == 0);
+    CHECK(totals.self_hits == 0);
+    CHECK(totals.crossings > totals.rays);
+    CHECK(totals.normals > totals.rays / 2);
+}
+
+}  // namespace phasetree::tests::traced
