@@ -76,6 +76,17 @@ TEST_CASE("info, for people and as JSON") {
     CHECK(info.at("bounds")[1][0].get<float>() == doctest::Approx(1.1));
     CHECK(info.at("instructions").get<int>() > 2);
     CHECK(info.at("tree_bytes").get<int>() > 0);
+    CHECK(!info.contains("cells"));
+
+    const Outcome with_cells = shell.run({"info", "scene.json", "--json", "--cells"});
+    REQUIRE(with_cells.code == 0);
+    const nlohmann::json cells = nlohmann::json::parse(with_cells.out);
+    CHECK(cells.at("cells").get<int>() > 0);
+    CHECK(cells.at("routines").get<int>() > 0);
+    CHECK(cells.at("cell_bytes").get<int>() > 0);
+    CHECK(cells.at("instructions_per_cell").at("median").get<int>() > 0);
+    const Outcome in_words = shell.run({"info", "scene.json", "--cells"});
+    CHECK(in_words.out.find("different programs") != std::string::npos);
 }
 
 TEST_CASE("eval: phases and distances, in full precision") {

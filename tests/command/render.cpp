@@ -96,6 +96,13 @@ TEST_CASE("--stats is JSON and tells what was done") {
     CHECK(stats.at("paths") == 180);
     CHECK(stats.at("render_seconds").is_number());
     CHECK(stats.at("instructions").get<int>() > 0);
+    CHECK(stats.at("rays").get<int>() >= 180);
+    for (const char* number : {"cell_visits_per_ray", "batches_per_ray", "samples_per_ray", "phantom_steps_per_ray"}) {
+        CAPTURE(number);
+        CHECK(stats.at(number).get<double>() >= 0);
+    }
+    CHECK(stats.at("instructions_per_cell").at("most").get<int>() >=
+          stats.at("instructions_per_cell").at("median").get<int>());
     CHECK(shell.directory.size() == 3);
 }
 
@@ -128,10 +135,12 @@ TEST_CASE("Ctrl-C writes what there is and exits with 1") {
 
 TEST_CASE("Ctrl-C while the object is prepared ends it at once and writes nothing") {
     const Shell shell;
-    // Noise as fine as dust on a lattice of bars: millions of cells.
+    // A ball of grains with noise as fine as dust: more than a million cells.
     SceneText scene;
-    scene.tree = R"({"set": {"phase": "glass", "of": {"displace": {"amplitude": 0.02, "scale": 0.02, "octaves": 6, "of":
-        {"intersection": [{"gyroid": {"period": 0.1, "thickness": 0.02}}, "ball"]}}}}})";
+    scene.tree =
+        R"({"set": {"phase": "glass", "of": {"displace": {"amplitude": 0.002, "scale": 0.01, "octaves": 6, "of":
+        {"fibonacci_sphere": {"count": 20000, "radius": 1, "of": {"smooth_union": {"radius": 0.01, "of": [
+            {"sphere": {"radius": 0.01}}, {"box": {"size": [0.01, 0.01, 0.03]}}]}}}}}}}})";
     write_text(shell.directory / "scene.json", scene.text());
     bool sent = false;
     const auto start = std::chrono::steady_clock::now();

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "command/cells_report.hpp"
 #include "command/commands.hpp"
 #include "command/load.hpp"
 #include "phasetree/model/handle.hpp"
@@ -13,7 +14,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-int info(const std::string& file, bool as_json) {
+int info(const std::string& file, bool as_json, bool with_cells) {
     const Document document = Document::from_file(file);
     const SceneTree tree = read_tree(document);
     const TreeStatistics s = statistics(tree.object);
@@ -21,6 +22,8 @@ int info(const std::string& file, bool as_json) {
     const Evaluator evaluator(record_tree(document, tree.object));
     const Program& program = evaluator.program();
     const PhaseSet there = phases(tree.object);
+    std::optional<CellStatistics> cells;
+    if (with_cells) cells = InterfaceCells(tree.object).statistics();
 
     if (as_json) {
         nlohmann::ordered_json json;
@@ -38,6 +41,7 @@ int info(const std::string& file, bool as_json) {
         json["instructions"] = program.instructions.size();
         json["program_bytes"] = evaluator.bytes();
         json["simd"] = simd_target();
+        if (cells) add_cells(json, *cells);
         fmt::print("{}\n", json.dump(2));
         return 0;
     }
@@ -57,6 +61,7 @@ int info(const std::string& file, bool as_json) {
     fmt::print("{:<14}{}\n", "instructions", program.instructions.size());
     fmt::print("{:<14}{}\n", "program bytes", evaluator.bytes());
     fmt::print("{:<14}{}\n", "SIMD", simd_target());
+    if (cells) print_cells(*cells);
     return 0;
 }
 
@@ -65,10 +70,11 @@ int info(const std::string& file, bool as_json) {
 void add_info(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand("info", "Print a scene's nodes, phases, bytes, bounds and instructions");
     auto file = std::make_shared<std::string>();
-    auto json = std::make_shared<bool>(false);
+    auto json = std::make_shared<bool>(false), cells = std::make_shared<bool>(false);
     command->add_option("scene", *file, "The scene file")->required();
     command->add_flag("--json", *json, "As JSON");
-    command->callback([file, json, &run] { run = [file, json] { return info(*file, *json); }; });
+    command->add_flag("--cells", *cells, "Also build the cells in which rays are traced, and say what they are");
+    command->callback([=, &run] { run = [=] { return info(*file, *json, *cells); }; });
 }
 
 }  // namespace phasetree::tracer

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "command/cells_report.hpp"
 #include "command/commands.hpp"
 #include "command/load.hpp"
 #include "output/interrupt.hpp"
@@ -71,8 +72,8 @@ void check_stats_writable(const std::filesystem::path& path) {
 }
 
 void write_stats(const std::string& path, const Options& options, const World& world, const Rendering& r) {
-    const auto per_visit = [&](std::uint64_t n) {
-        return r.counters.trace.rays ? static_cast<double>(n) / static_cast<double>(r.counters.trace.rays) : 0.0;
+    const auto per_ray = [&](std::uint64_t n) {
+        return r.counters.rays ? static_cast<double>(n) / static_cast<double>(r.counters.rays) : 0.0;
     };
     nlohmann::ordered_json json;
     json["scene"] = options.scene;
@@ -84,18 +85,14 @@ void write_stats(const std::string& path, const Options& options, const World& w
     json["render_seconds"] = r.seconds;
     json["paths"] = r.counters.paths;
     json["interactions"] = r.counters.interactions;
-    json["cell_visits"] = r.counters.trace.rays;
-    json["batches_per_visit"] = per_visit(r.counters.trace.batches);
-    json["phantom_steps_per_visit"] = per_visit(r.counters.trace.phantoms);
+    json["rays"] = r.counters.rays;
+    json["cell_visits_per_ray"] = per_ray(r.counters.trace.rays);
+    json["batches_per_ray"] = per_ray(r.counters.trace.batches);
+    json["samples_per_ray"] = static_cast<double>(batch_size) * per_ray(r.counters.trace.batches);
+    json["phantom_steps_per_ray"] = per_ray(r.counters.trace.phantoms);
     const CellStatistics cells = world.object().statistics();
     json["instructions"] = world.object().whole().program().instructions.size();
-    json["cells"] = cells.cells;
-    json["routines"] = cells.routines;
-    json["instructions_per_cell"] = {{"median", cells.median_instructions},
-                                     {"percentile90", cells.percentile90_instructions},
-                                     {"most", cells.most_instructions}};
-    json["cell_bytes"] = cells.bytes;
-    json["cell_build_seconds"] = cells.build_seconds;
+    add_cells(json, cells);
     std::ofstream out(path);
     out << json.dump(2) << "\n";
     if (!out.flush()) throw OutputError(fmt::format("{}: cannot be written", path));

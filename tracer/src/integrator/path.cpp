@@ -27,11 +27,11 @@ bool links(const Bsdf& bsdf, const Surface& surface) {
 
 // E of path.hpp along a ray: the emission at the end of one chain of smooth clear interfaces, times what the media and
 // refraction leave of it.
-glm::vec3 emission_through_chain(const World& world, const Scene& scene, CameraRay ray, Phase phase, Sampler& sampler,
-                                 PathCounters& counters) {
+glm::vec3 emission_through_chain(const World& world, const Scene& scene, CameraRay ray, Phase phase, Start start,
+                                 Sampler& sampler, PathCounters& counters) {
     glm::vec3 throughput(1.0f);
     for (int length = 0;;) {
-        const std::optional<Surface> surface = world.intersect(ray.origin, ray.direction, phase, counters.trace);
+        const std::optional<Surface> surface = world.intersect(ray.origin, ray.direction, phase, start, counters);
         const float distance = surface ? surface->distance : std::numeric_limits<float>::infinity();
         const glm::vec3& absorption = std::get<Clear>(scene.materials[phase.index]).absorption;
         if (const auto lamp = scene.lights.intersect(ray.origin, ray.direction, distance, false))
@@ -41,6 +41,7 @@ glm::vec3 emission_through_chain(const World& world, const Scene& scene, CameraR
                    scene.lights.infinite(ray.origin, ray.direction, false).radiance;
         if (!is_clear(scene.materials[surface->far_phase.index])) return glm::vec3(0.0f);
         throughput *= transmittance(absorption, distance);
+        start = surface->start;
         const Bsdf bsdf = surface->optics->at(surface->near_origin);
         if (bsdf.passes_through()) {
             ray.origin = surface->far_origin;
@@ -81,11 +82,12 @@ glm::vec3 trace_path(const World& world, const Scene& scene, CameraRay ray, Phas
     const float camera_ior = medium(phase)->ior;
 
     glm::vec3 radiance(0.0f), throughput(1.0f);
+    Start start;
     Chain chain;
     bool camera_ray = true;
 
     for (int depth = 0; depth < scene.settings.max_depth;) {
-        const std::optional<Surface> surface = world.intersect(ray.origin, ray.direction, phase, counters.trace);
+        const std::optional<Surface> surface = world.intersect(ray.origin, ray.direction, phase, start, counters);
         const float distance = surface ? surface->distance : std::numeric_limits<float>::infinity();
         const glm::vec3& absorption = medium(phase)->absorption;
 
@@ -102,6 +104,7 @@ glm::vec3 trace_path(const World& world, const Scene& scene, CameraRay ray, Phas
             break;
         }
         throughput *= transmittance(absorption, distance);
+        start = surface->start;
 
         const Bsdf bsdf = surface->optics->at(surface->near_origin);
         if (bsdf.passes_through()) {  // equal indices: no event at all
@@ -124,8 +127,9 @@ glm::vec3 trace_path(const World& world, const Scene& scene, CameraRay ray, Phas
                 if (f != glm::vec3(0.0f)) {
                     const bool through = wi.z < 0;
                     const CameraRay shadow{through ? surface->far_origin : surface->near_origin, light->wi};
-                    const glm::vec3 arrives = emission_through_chain(
-                        world, scene, shadow, through ? surface->far_phase : surface->near_phase, sampler, counters);
+                    const glm::vec3 arrives =
+                        emission_through_chain(world, scene, shadow, through ? surface->far_phase : surface->near_phase,
+                                               start, sampler, counters);
                     radiance += throughput * f * arrives * (power_heuristic(light->pdf, bsdf.pdf(wo, wi)) / light->pdf);
                 }
             }

@@ -8,12 +8,6 @@
 
 namespace phasetree::tracer {
 
-struct PathCounters {
-    TraceCounters trace;
-    std::uint64_t paths = 0;
-    std::uint64_t interactions = 0;
-};
-
 // An unbiased estimate of the radiance that arrives along a ray that starts in the phase.
 //
 // Light through clear interfaces. A shadow ray that meets a smooth interface of two clear phases is not lost: it goes

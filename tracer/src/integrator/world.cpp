@@ -65,17 +65,19 @@ void World::add_mesh(const Mesh& mesh) {
 }
 
 std::optional<Surface> World::intersect(const glm::vec3& origin, const glm::vec3& direction, Phase carried,
-                                        TraceCounters& counters) const {
+                                        const Start& start, PathCounters& counters) const {
     embree::Query query;
     query.carried = carried;
+    query.start = start;
     RTCRayHit ray{};
     ray.ray = ray_of(origin, direction, std::numeric_limits<float>::infinity());
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     embree::intersect(embree_, query.context, ray);
-    counters.rays += query.counters.rays;
-    counters.batches += query.counters.batches;
-    counters.phantoms += query.counters.phantoms;
+    ++counters.rays;
+    counters.trace.rays += query.counters.rays;
+    counters.trace.batches += query.counters.batches;
+    counters.trace.phantoms += query.counters.phantoms;
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     if (ray.hit.geomID != tree_id) return on_mesh(ray, direction, carried);
 
@@ -88,6 +90,7 @@ std::optional<Surface> World::intersect(const glm::vec3& origin, const glm::vec3
     s.near_phase = c.from;
     s.far_phase = c.to;
     s.optics = &interfaces_.between(c.from.index, c.to.index);
+    s.start = {tree_id, ray.hit.primID, ray.hit.instID[0]};
     return s;
 }
 

@@ -11,6 +11,16 @@
 
 namespace phasetree::tracer {
 
+struct PathCounters {
+    TraceCounters trace;
+    std::uint64_t rays = 0;  // traced, for the path and for light
+    std::uint64_t paths = 0;
+    std::uint64_t interactions = 0;
+};
+
+// Where a ray that leaves a surface starts, for the cell that it starts in.
+using Start = embree::Query::Start;
+
 // A place where a path is changed: an interface between two phases, or a mesh.
 struct Surface {
     float distance = 0;
@@ -21,6 +31,7 @@ struct Surface {
     Phase near_phase;
     Phase far_phase;
     const Interface* optics = nullptr;
+    Start start;  // for a ray from either origin, in its phase
 };
 
 class World {
@@ -32,9 +43,10 @@ class World {
     World(const World&) = delete;
     World& operator=(const World&) = delete;
 
-    // The nearest surface on a ray that carries a phase; direction of unit length.
+    // The nearest surface on a ray that carries a phase; direction of unit length; `start` is the surface's that it
+    // leaves, if it does.
     std::optional<Surface> intersect(const glm::vec3& origin, const glm::vec3& direction, Phase carried,
-                                     TraceCounters& counters) const;
+                                     const Start& start, PathCounters& counters) const;
 
     Phase label(const glm::vec3& p) const;
     const InterfaceCells& object() const { return *object_; }

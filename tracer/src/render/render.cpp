@@ -91,6 +91,7 @@ Rendering render(const World& world, const Scene& scene, const RenderJob& job) {
     if (range.width() != scene.camera.width || range.height() != scene.camera.height)
         result.image.crop = Crop{range.x0, range.y0, scene.camera.width, scene.camera.height};
     for (const PathCounters& c : counters) {
+        result.counters.rays += c.rays;
         result.counters.paths += c.paths;
         result.counters.interactions += c.interactions;
         result.counters.trace.rays += c.trace.rays;

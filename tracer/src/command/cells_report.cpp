@@ -1,0 +1,27 @@
+#include "command/cells_report.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+namespace phasetree::tracer {
+
+void add_cells(nlohmann::ordered_json& json, const CellStatistics& s) {
+    json["cells"] = s.cells;
+    json["routines"] = s.routines;
+    json["instructions_per_cell"] = {{"median", s.median_instructions},
+                                     {"percentile90", s.percentile90_instructions},
+                                     {"most", s.most_instructions}};
+    json["cell_bytes"] = s.bytes;
+    json["cell_build_seconds"] = s.build_seconds;
+}
+
+void print_cells(const CellStatistics& s) {
+    fmt::print("{:<14}{} with {} different programs\n", "cells", s.cells, s.routines);
+    fmt::print("{:<14}{} in half of them or fewer, {} in nine of ten, {} at most\n", "  instructions",
+               s.median_instructions, s.percentile90_instructions, s.most_instructions);
+    fmt::print("{:<14}{}\n", "  bytes", s.bytes);
+    fmt::print("{:<14}{:.3f} s\n", "  build time", s.build_seconds);
+}
+
+}  // namespace phasetree::tracer
