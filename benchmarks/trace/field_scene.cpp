@@ -53,7 +53,7 @@ TraceCounters FieldScene::counters(std::span<const Ray> rays) const {
     for (const Ray& ray : rays) {
         embree::Query query;
         nearest(ray, query);
-        all.rays += query.counters.rays;
+        all.visits += query.counters.visits;
         all.batches += query.counters.batches;
         all.phantoms += query.counters.phantoms;
     }

@@ -107,7 +107,8 @@ std::optional<Enclosed> enclose(const WorkingProgram& program, std::span<const f
     result.bound.offset = static_cast<float>(f.centre - glm::dot(glm::dvec3(result.bound.normal), glm::dvec3(middle)));
     // What the linear part's own floats lose.
     result.bound.slack = static_cast<float>(slack) * (1 + 1e-6f) + 2 * rounding + 1e-6f * size_of_numbers;
-    result.bound.spread = static_cast<float>(std::sqrt(spread)) + 1e-5f;
+    result.bound.spread =
+        static_cast<float>(std::sqrt(spread)) * (1 + 1e-3f) + 1e-5f;  // directions are that near unit length
     tighten(result.box, result.bound.normal, static_cast<float>(f.centre), result.bound.slack);
     return result;
 }

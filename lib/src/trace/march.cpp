@@ -32,7 +32,7 @@ Interval clip(const Bounds& box, const TracedRay& ray, double t_min, double t_ma
 std::optional<Crossing> march_within(const Bounds& box, const LinearBound& bound, const Routine& routine,
                                      std::uint32_t slots, const TracedRay& traced, float t_min, float t_max,
                                      float resolution, std::optional<Phase> carried, bool is_certified,
-                                     Evaluator::Workspace& workspace, TraceCounters& counters) {
+                                     Evaluator::Workspace* workspace, TraceCounters& counters) {
     if (!traced.is_traceable) return std::nullopt;
     const glm::vec3 &origin = traced.origin, &direction = traced.direction;
     Interval span = clip(box, traced, static_cast<double>(t_min), static_cast<double>(t_max));
@@ -84,8 +84,9 @@ std::optional<Crossing> march_within(const Bounds& box, const LinearBound& bound
                          on_interface};
     constexpr std::uint32_t few = 48;
     alignas(64) float registers[few * batch_size];
+    const auto many = [&] { return (workspace ? *workspace : Evaluator::thread_workspace()).registers(slots); };
     RayCrossing c;
-    const bool is_hit = active_kernel().march(routine, ray, slots <= few ? registers : workspace.registers(slots), c);
+    const bool is_hit = active_kernel().march(routine, ray, slots <= few ? registers : many(), c);
     counters.batches += c.batches;
     counters.phantoms += c.phantoms;
     if (!is_hit) return std::nullopt;

@@ -22,7 +22,7 @@ Interval clip(const Bounds& box, const TracedRay&, double t_min, double t_max);
 /// the phase there.
 std::optional<Crossing> march_within(const Bounds& box, const LinearBound&, const Routine&, std::uint32_t slots,
                                      const TracedRay&, float t_min, float t_max, float resolution,
-                                     std::optional<Phase> carried, bool is_certified, Evaluator::Workspace&,
+                                     std::optional<Phase> carried, bool is_certified, Evaluator::Workspace*,
                                      TraceCounters&);
 
 }  // namespace phasetree

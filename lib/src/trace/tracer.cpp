@@ -36,9 +36,9 @@ std::optional<Crossing> InterfaceTracer::first_crossing(const glm::vec3& origin,
     TraceCounters unused;
     TraceCounters& c = counters ? *counters : unused;
     const Assembly& assembly = *evaluator_->assembly_;
-    ++c.rays;
+    ++c.visits;
     return march_within(bounds_, {}, assembly.routine(evaluator_->program().constants.data()), assembly.slots,
-                        TracedRay(origin, direction), t_min, t_max, resolution_, carried, false, w, c);
+                        TracedRay(origin, direction), t_min, t_max, resolution_, carried, false, &w, c);
 }
 
 glm::vec3 normal_of(const Crossing& c, const glm::vec3& direction,

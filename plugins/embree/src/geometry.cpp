@@ -39,26 +39,41 @@ struct Where {
     unsigned geometry, cell, instance;
 };
 
+/// Makes a query's ray ready, unless it is the one that came last.
+const Query::Seen& seen(Query& query, RTCRayN* rays, unsigned n, unsigned i) {
+    const glm::vec3 origin{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)};
+    const glm::vec3 direction{RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)};
+    Query::Seen& s = query.seen;
+    if (s.origin != origin || s.direction != direction) {
+        s = {origin, direction, 0, {}};
+        if (const auto ray = LaneRay::of(origin, direction, 0, 0)) {
+            s.length = ray->length;
+            s.ray = TracedRay(ray->origin, ray->direction);
+        }
+    }
+    return s;
+}
+
 std::optional<Lane> trace(const TreeGeometry::Data& data, const Where& where, RTCRayN* rays, unsigned n, unsigned i,
                           Query* query) {
+    std::optional<Crossing> crossing;
+    if (query) {
+        const Query::Seen& s = seen(*query, rays, n, i);
+        const float near = RTCRayN_tnear(rays, n, i) * s.length, far = RTCRayN_tfar(rays, n, i) * s.length;
+        if (!(near <= far)) return std::nullopt;
+        const Query::Start& start = query->start;
+        const bool is_certified = start.cell == where.cell && start.geometry == where.geometry &&
+                                  start.instance == where.instance && near == 0;
+        crossing =
+            data.object->first_crossing(where.cell, s.ray, near, far, query->carried, is_certified, query->counters);
+        if (!crossing || !(crossing->t_in <= far)) return std::nullopt;
+        return Lane{*crossing, s.ray.direction, s.length};
+    }
     const std::optional<LaneRay> ray = LaneRay::of(rays, n, i);
     if (!ray) return std::nullopt;
-    std::optional<Crossing> crossing;
-    Evaluator::Workspace& workspace = Evaluator::thread_workspace();
-    if (query) {
-        TracedRay& traced = query->traced;
-        if (traced.origin != ray->origin || traced.direction != ray->direction)
-            traced = TracedRay(ray->origin, ray->direction);
-        const Query::Start& s = query->start;
-        const bool is_certified =
-            s.cell == where.cell && s.geometry == where.geometry && s.instance == where.instance && ray->near == 0;
-        crossing = data.object->first_crossing(where.cell, traced, ray->near, ray->far, query->carried, is_certified,
-                                               workspace, query->counters);
-    } else {
-        TraceCounters unused;
-        crossing = data.object->first_crossing(where.cell, TracedRay(ray->origin, ray->direction), ray->near, ray->far,
-                                               std::nullopt, false, workspace, unused);
-    }
+    TraceCounters unused;
+    crossing = data.object->first_crossing(where.cell, TracedRay(ray->origin, ray->direction), ray->near, ray->far,
+                                           std::nullopt, false, unused);
     if (!crossing || !(crossing->t_in <= ray->far)) return std::nullopt;
     return Lane{*crossing, ray->direction, ray->length};
 }

@@ -86,7 +86,7 @@ void write_stats(const std::string& path, const Options& options, const World& w
     json["paths"] = r.counters.paths;
     json["interactions"] = r.counters.interactions;
     json["rays"] = r.counters.rays;
-    json["cell_visits_per_ray"] = per_ray(r.counters.trace.rays);
+    json["cell_visits_per_ray"] = per_ray(r.counters.trace.visits);
     json["batches_per_ray"] = per_ray(r.counters.trace.batches);
     json["samples_per_ray"] = static_cast<double>(batch_size) * per_ray(r.counters.trace.batches);
     json["phantom_steps_per_ray"] = per_ray(r.counters.trace.phantoms);

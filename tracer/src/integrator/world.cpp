@@ -75,7 +75,7 @@ std::optional<Surface> World::intersect(const glm::vec3& origin, const glm::vec3
     ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     embree::intersect(embree_, query.context, ray);
     ++counters.rays;
-    counters.trace.rays += query.counters.rays;
+    counters.trace.visits += query.counters.visits;
     counters.trace.batches += query.counters.batches;
     counters.trace.phantoms += query.counters.phantoms;
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;

@@ -94,7 +94,7 @@ Rendering render(const World& world, const Scene& scene, const RenderJob& job) {
         result.counters.rays += c.rays;
         result.counters.paths += c.paths;
         result.counters.interactions += c.interactions;
-        result.counters.trace.rays += c.trace.rays;
+        result.counters.trace.visits += c.trace.visits;
         result.counters.trace.batches += c.trace.batches;
         result.counters.trace.phantoms += c.trace.phantoms;
     }

@@ -54,8 +54,7 @@ class InterfaceCells {
     /// As InterfaceTracer::first_crossing, within one cell. `is_certified`: the ray starts (t_min = 0) at p_in or p_out
     /// of a crossing that was found in this very cell, and `carried` is the phase there; mostly it then costs nothing.
     std::optional<Crossing> first_crossing(std::size_t cell, const TracedRay&, float t_min, float t_max,
-                                           std::optional<Phase> carried, bool is_certified, Evaluator::Workspace&,
-                                           TraceCounters&) const;
+                                           std::optional<Phase> carried, bool is_certified, TraceCounters&) const;
     std::optional<Crossing> first_crossing(std::size_t cell, const glm::vec3& origin, const glm::vec3& direction,
                                            float t_min, float t_max, std::optional<Phase> carried,
                                            Evaluator::Workspace&, TraceCounters&) const;

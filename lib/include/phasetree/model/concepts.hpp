@@ -29,7 +29,9 @@ concept DataPrimitive = requires(const N& n, const float* data, const Vec3<float
 
 /// A primitive whose equation is long, so that its slope is used where that is enough and it counts for many.
 template <class N>
-concept LongPrimitive = DataPrimitive<N> || requires { N::is_long; };
+concept LongPrimitive = DataPrimitive<N> || requires {
+    N::is_long;
+};
 
 /// A map of space: a plain struct of floats, p ↦ ω⁻¹(p), one instruction.
 template <class M>

@@ -24,8 +24,12 @@ struct Query {
     /// normal.
     Crossing crossing;
     TraceCounters counters;
-    /// The ray as cells see it, kept from cell to cell.
-    TracedRay traced;
+    /// The last ray that came, as it was given and as cells see it: it stays the same from cell to cell.
+    struct Seen {
+        glm::vec3 origin{0}, direction{0};
+        float length = 0;  ///< of the direction
+        TracedRay ray;
+    } seen;
 
     Query() { initialise(context); }
 };

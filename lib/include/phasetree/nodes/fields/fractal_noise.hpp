@@ -25,7 +25,7 @@ namespace phasetree {
 /// distance() is the noise divided by its slope's bound, hence 1-Lipschitz, as every primitive.
 struct FractalNoise {
     static constexpr bool is_long = true;  ///< a LongPrimitive
-    float frequency = 1;  ///< 1/size of the first octave
+    float frequency = 1;                   ///< 1/size of the first octave
     float octaves = 1;
     float weight = 1 / steepest;  ///< of the first octave
 

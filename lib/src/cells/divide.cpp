@@ -1,0 +1,184 @@
+#include "cells/divide.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <cmath>
+
+#include "cells/enclose.hpp"
+#include "cells/price.hpp"
+#include "cells/steps.hpp"
+#include "program/target.hpp"
+
+namespace phasetree {
+
+namespace {
+
+/// What a thread works with.
+struct Worker {
+    Arena programs, scratch;
+    Found found;
+};
+
+/// A share of more than this part of the object is divided even if nothing was won by that for long.
+constexpr float large = 0.06f;
+
+/// The parts of a box: halves along every axis that is not much shorter than the longest.
+struct Parts {
+    std::array<Bounds, 8> box;
+    std::size_t count = 1;
+
+    explicit Parts(const Bounds& whole) {
+        box[0] = whole;
+        const glm::vec3 extent = whole.extent(), middle = whole.centre();
+        const float longest = std::max({extent.x, extent.y, extent.z});
+        for (int axis = 0; axis < 3; ++axis) {
+            if (extent[axis] < 0.6f * longest) continue;
+            for (std::size_t i = 0; i < count; ++i) {
+                box[count + i] = box[i];
+                box[count + i].low[axis] = middle[axis];
+                box[i].high[axis] = middle[axis];
+            }
+            count *= 2;
+        }
+    }
+};
+
+/// A box with its program, and for how many divisions nothing was won. A program that loses an instruction now and then
+/// would else be divided to the end, and all for nothing.
+struct Share {
+    Bounds box;
+    WorkingProgram program;
+    int depth = 0;
+    int stale = 0;
+    float left = 1;                   ///< what is left of the cost since something was won
+    float period = Bounds::infinity;  ///< of the finest fold that still jumps
+    // If it becomes a cell:
+    Bounds cell{};  ///< around its interface
+    LinearBound bound{};
+    float cost = 0;
+};
+
+/// Makes a share ready: encloses its program, and takes from it what cannot matter. False if no interface passes.
+bool prepare(Share& share, const Division& d, Worker& w) {
+    const Bounds all = share.box.inflated(d.reach);
+    share.cell = all;
+    for (int i = 0; i < 2; ++i) {
+        const ArenaScope scratch(w.scratch);
+        const std::optional<Enclosed> enclosed = enclose(share.program, d.constants, all, d.rounding, w.scratch);
+        if (!enclosed) break;
+        if (enclosed->is_free) return false;
+        share.bound = enclosed->bound;
+        share.cell = intersect(all, enclosed->box.inflated(d.reach));
+        if (share.cell.empty()) return false;
+        if (i > 0) break;
+        const auto pruned = prune(share.program, d.constants, enclosed->ranges, w.programs, w.scratch);
+        if (!pruned) return false;
+        if (pruned->code.size() == share.program.code.size() && pruned->outputs.size() == share.program.outputs.size())
+            break;
+        share.program = *pruned;  // whose gradient is better known
+    }
+    // Through copies without end a ray goes on and on.
+    const float copies = 1 + 4 * share.box.diagonal() / share.period;
+    share.cost = cost(share.cell, share.bound, work(share.program)) * copies;
+    return true;
+}
+
+float divide(const Share& share, const Division& d, Worker& w);
+
+/// Finds the cells of a share: itself, or those of its parts where that is cheaper. Returns what they cost.
+float find_cells(const Share& share, const Division& d, Worker& w) {
+    // Small cells must promise more, for they are many.
+    const float size = share.box.diagonal() / d.size;
+    const float promise = d.options.least_gain * (1 + 0.1f / size);
+    const bool is_hopeless = share.stale >= (share.program.code.size() > 24 ? 5 : 2);
+    const bool is_final = is_hopeless || share.depth >= d.options.deepest || share.box.diagonal() < 64 * d.reach ||
+                          share.cost < (1 + promise) * least_cost(share.cell) + price::parts * surface(share.box);
+    if (!is_final) {
+        const Found::Mark before = w.found.mark();
+        const float divided = divide(share, d, w) + price::parts * surface(share.box);
+        if (divided < share.cost) return divided;
+        w.found.forget_from(before);
+    }
+    w.found.add(share.cell, share.bound, share.program);
+    return share.cost;
+}
+
+/// The values of a program's instructions at the centres of parts of a box, one a lane: ValuesAt for each.
+ValuesAt values_at_centres(const WorkingProgram& program, const Parts& parts, const Division& d, Arena& scratch) {
+    const Steps steps = keep_all(program, scratch);
+    BatchOfFloats x, y, z;
+    for (std::size_t i = 0; i < batch_size; ++i) {
+        const glm::vec3 c = parts.box[std::min(i, parts.count - 1)].centre();
+        x[i] = c.x;
+        y[i] = c.y;
+        z[i] = c.z;
+    }
+    const std::span<BatchOfFloats> registers = scratch.take<BatchOfFloats>(steps.slots);
+    active_kernel().evaluate(steps.routine(d.constants.data()), x.lane.data(), y.lane.data(), z.lane.data(),
+                             registers.data()->lane.data(), nullptr);
+    return {registers.data(), steps.slot, 0};
+}
+
+float divide(const Share& share, const Division& d, Worker& w) {
+    if (d.options.cancelled && d.options.cancelled()) throw BuildCancelled();
+    const ArenaScope programs(w.programs), scratch(w.scratch);
+    const Parts parts(share.box);
+    const ValuesAt values = values_at_centres(share.program, parts, d, w.scratch);
+
+    // High up the parts are divided by as many threads, each with memory of its own; the order of the cells is that of
+    // the parts, whichever thread finds them.
+    const bool in_parallel = share.depth < 3;
+    std::vector<Worker> workers(in_parallel ? parts.count : 0);
+    const auto each = [&](auto&& f) {
+        if (in_parallel)
+            tbb::parallel_for(std::size_t{0}, parts.count, [&](std::size_t i) { f(i, workers[i]); });
+        else
+            for (std::size_t i = 0; i < parts.count; ++i) f(i, w);
+    };
+    std::array<std::optional<Share>, 8> divided;
+    each([&](std::size_t i, Worker& own) {
+        const ArenaScope scope(own.scratch);
+        const float radius = 0.5f * parts.box[i].inflated(d.reach).diagonal() * (1 + 1e-5f);
+        const ValueRanges ranges = ranges_in_ball(share.program, d.constants, {values.registers, values.slot, i},
+                                                  radius, d.rounding, own.scratch);
+        const auto program = prune(share.program, d.constants, ranges, own.programs, own.scratch);
+        if (!program) return;
+        Share part{parts.box[i], *program, share.depth + 1};
+        if (std::isfinite(share.period)) part.period = finest_jump(part.program, d.constants);
+        if (prepare(part, d, own)) divided[i] = part;
+    });
+    float sum = price::parts * surface(share.box);
+    for (const std::optional<Share>& part : divided)
+        if (part) sum += part->cost;
+    const float left = share.left * sum / share.cost;
+    const bool is_won = left < 0.8f;
+
+    std::array<float, 8> costs{};
+    each([&](std::size_t i, Worker& own) {
+        if (!divided[i]) return;
+        Share& part = *divided[i];
+        // An object's features are smaller than a large part of it, and than a period of a fold.
+        const bool is_too_coarse =
+            part.box.diagonal() > (std::isfinite(part.period) ? 0.25f * part.period : large * d.size);
+        part.stale = is_won || is_too_coarse ? 0 : share.stale + 1;
+        part.left = is_won ? 1.f : left;
+        costs[i] = find_cells(part, d, own);
+    });
+    for (const Worker& worker : workers) w.found.add(worker.found);
+    float all = 0;
+    for (const float c : costs) all += c;
+    return all;
+}
+
+}  // namespace
+
+Found divide_into_cells(const Bounds& box, const WorkingProgram& program, const Division& d) {
+    Share root{box, program};
+    root.period = finest_jump(program, d.constants);
+    Worker worker;
+    if (prepare(root, d, worker)) divide(root, d, worker);
+    return std::move(worker.found);
+}
+
+}  // namespace phasetree
