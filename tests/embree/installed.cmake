@@ -27,7 +27,7 @@ run(${CMAKE_COMMAND} --install "${BUILD}" --prefix "${prefix}" --config "${CONFI
 
 # What there must be.
 file(GLOB_RECURSE installed RELATIVE "${prefix}" "${prefix}/*")
-expect("${installed}" include/phasetree/phasetree_embree.h include/phasetree/phasetree_embree.hpp
+expect("${installed}" include/phasetree/phasetree_embree.h include/phasetree/phasetree_embree.hpp include/phasetree/embree/hit.h
     include/phasetree/model/handle.hpp libphasetree_embree${MAJOR}.so libphasetree.a cmake/phasetree/phasetreeConfig.cmake
     pkgconfig/phasetree-embree${MAJOR}.pc share/phasetree/scenes/hourglass.json share/phasetree/phasetree.ocio)
 if(EXISTS "${prefix}/bin/phasetree")

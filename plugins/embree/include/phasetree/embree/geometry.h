@@ -1,0 +1,152 @@
+/* Geometries: an RTCGeometry of a tree, its options, edits and motion. The conventions are phasetree_embree.h's. */
+#ifndef PHASETREE_EMBREE_GEOMETRY_H
+#define PHASETREE_EMBREE_GEOMETRY_H
+
+#include "phasetree/embree/tree.h"
+
+#if defined(__cplusplus)
+extern "C" {
+#endif
+
+/* A set of phases: bit i stands for the phase i. */
+typedef uint64_t PhasetreePhaseSet;
+#define PHASETREE_ALL_PHASES (~(PhasetreePhaseSet)0)
+
+typedef enum PhasetreeGeometryFlags {
+    PHASETREE_GEOMETRY_FLAG_NONE = 0,
+    /* Every ray query that can reach the geometry has a PhasetreeRayContext for its context: see there. Without the
+     * flag the geometry takes nothing from a context but what Embree put there. */
+    PHASETREE_GEOMETRY_FLAG_EXTENDED_CONTEXT = 1 << 0,
+    /* Promises that neither the geometry nor any query has a filter function: none is called then, and occlusion rays
+     * may stop at the first crossing that is found instead of the first on the ray. */
+    PHASETREE_GEOMETRY_FLAG_NO_FILTERS = 1 << 1,
+    /* Registers phasetreePointQueryFunction with the geometry. Every rtcPointQuery that can reach it must then be given
+     * a PhasetreePointQuery as its user pointer. */
+    PHASETREE_GEOMETRY_FLAG_POINT_QUERY = 1 << 2
+} PhasetreeGeometryFlags;
+
+/* What phasetreeNewGeometry and phasetreeSetGeometryTree may be told; start from phasetreeInitGeometryOptions. */
+typedef struct PhasetreeGeometryOptions {
+    unsigned int flags; /* PhasetreeGeometryFlags; what phasetreeSetGeometryTree is told of them it does not look at */
+    /* A distance: brackets are no longer, and what is thinner along a ray may be passed. 0: 2·10⁻⁶ of the diagonal of
+     * the tree's bounds, or what 32-bit coordinates allow where the tree is far from the origin. */
+    float resolution;
+    /* Cells are the boxes into which the object is cut: a box is divided if that may save its rays this share of the
+     * time that they need at least (a small box, of which there are many, only for more), and at most so many times
+     * from the bounds on (20 or fewer). Fewer and larger cells build faster and trace slower. 0: the library's choice.
+     */
+    float cellGain;
+    unsigned int cellDivisions;
+    /* Phases to show: a crossing between two phases of which none is in the set is passed as if it were not there. The
+     * vacuum never counts as shown, in the set or not. To hide one phase, leave it out. */
+    PhasetreePhaseSet shownPhases;
+    /* Asked now and then while cells are built, by any thread; true ends the call with PHASETREE_ERROR_CANCELLED.
+     * NULL: never asked. Used during the call only. */
+    bool (*cancelled)(void* userPtr);
+    void* cancelledUserPtr;
+} PhasetreeGeometryOptions;
+
+static inline void phasetreeInitGeometryOptions(PhasetreeGeometryOptions* options) {
+    options->flags = PHASETREE_GEOMETRY_FLAG_NONE;
+    options->resolution = 0;
+    options->cellGain = 0;
+    options->cellDivisions = 0;
+    options->shownPhases = PHASETREE_ALL_PHASES;
+    options->cancelled = NULL;
+    options->cancelledUserPtr = NULL;
+}
+
+/* Makes a geometry of a tree: a snapshot, so the tree may be released at once.
+ *
+ * device    of the RTCGeometry; retained.
+ * options   NULL: the defaults.
+ * geometry  receives the new handle.
+ *
+ * Builds cells and, within Embree, a tree over them, using Embree's and TBB's threads; that is the expensive part, and
+ * committing the RTCGeometry costs nothing beside it. Embree's memory monitor sees the memory of Embree's tree.
+ * Embree's error code of the calling thread (rtcGetDeviceError) is cleared.
+ *
+ * A hit of the geometry is a change of phase along a ray:
+ *     tfar         where the phase ends that the ray is in
+ *     Ng           the interface's normal on the side the ray comes from, of unit length; in geometry space
+ *     u, v         index of the phase left and of the phase entered
+ *     primID       the cell
+ *     geomID, instID, instPrimID   as always
+ * The phase that a ray is in is the one at its start, at tnear, unless the ray's context says otherwise
+ * (PhasetreeRayContext). Directions may have any length. Rays with numbers that are not finite hit nothing.
+ *
+ * Filter functions of the RTCGeometry and, with Embree 3, of the context are called for each crossing of shown phases
+ * on the ray, in the order of the ray, each once, until one is accepted; the phases of consecutive calls follow on each
+ * other. geometryUserPtr is the pointer of phasetreeSetGeometryUserData. With Embree 4 a filter function among a
+ * query's arguments cannot be seen by any user geometry; give it as PhasetreeRayContext.filter instead.
+ *
+ * OWNERSHIP. Embree tells nobody when it destroys a geometry. So: *the handle must live for as long as a scene that
+ * the RTCGeometry is attached to is committed or traced*; release it after the scene. If it is freed earlier, the
+ * RTCGeometry is empty from then on: nothing is hit, and nothing crashes unless a ray is inside just then. The handle
+ * holds one reference of the RTCGeometry; Embree's scenes hold their own. */
+PHASETREE_API PhasetreeError phasetreeNewGeometry(unsigned int apiVersion, RTCDevice device, PhasetreeTree tree,
+                                                  const PhasetreeGeometryOptions* options, PhasetreeGeometry* geometry);
+
+PHASETREE_API PhasetreeError phasetreeRetainGeometry(PhasetreeGeometry geometry);
+PHASETREE_API PhasetreeError phasetreeReleaseGeometry(PhasetreeGeometry geometry);
+
+/* The RTCGeometry: of type RTC_GEOMETRY_TYPE_USER, with one primitive, and not committed. It belongs to the handle;
+ * attach it (scenes add a reference), rtcRetainGeometry it if it shall outlive the handle. Everything may be called on
+ * it but what would replace the library's own settings: rtcSetGeometryUserData (use phasetreeSetGeometryUserData),
+ * rtcSetGeometryUserPrimitiveCount, TimeStepCount, TimeRange (use phasetreeSetGeometryMotion), BoundsFunction,
+ * IntersectFunction, OccludedFunction. Whoever sets another user pointer all the same has an empty geometry. */
+PHASETREE_API PhasetreeError phasetreeGetEmbreeGeometry(PhasetreeGeometry geometry, RTCGeometry* embreeGeometry);
+
+/* The handle of an RTCGeometry that this library made, without a reference of its own; INVALID_HANDLE for any other.
+ * With it an application finds the geometry of a hit: rtcGetGeometry(scene, hit.geomID). */
+PHASETREE_API PhasetreeError phasetreeGetGeometryFromEmbree(RTCGeometry embreeGeometry, PhasetreeGeometry* geometry);
+
+/* The application's own pointer, NULL at first; the library never looks at what it points to. Filter functions get it
+ * as geometryUserPtr. Setting it is exclusive. */
+PHASETREE_API PhasetreeError phasetreeSetGeometryUserData(PhasetreeGeometry geometry, void* userPtr);
+PHASETREE_API PhasetreeError phasetreeGetGeometryUserData(PhasetreeGeometry geometry, void** userPtr);
+
+/* Edits: gives the geometry another tree, or an edited one. Exclusive. Everything is built anew within the call, as by
+ * phasetreeNewGeometry; what was there before stays in use if the call fails. The options' flags are not looked at.
+ *
+ * The RTCGeometry is then as after any modification: rtcCommitGeometry it, and rtcCommitScene each scene that has it,
+ * before they are traced again. It has one primitive as before, so a scene with RTC_BUILD_QUALITY_REFIT on the geometry
+ * refits. */
+PHASETREE_API PhasetreeError phasetreeSetGeometryTree(PhasetreeGeometry geometry, PhasetreeTree tree,
+                                                      const PhasetreeGeometryOptions* options);
+
+/* Changes the phases to show: see PhasetreeGeometryOptions.shownPhases. Exclusive; nothing need be committed. */
+PHASETREE_API PhasetreeError phasetreeSetGeometryShownPhases(PhasetreeGeometry geometry, PhasetreePhaseSet shownPhases);
+
+/* Places the geometry, and moves it: linear motion blur of the whole.
+ *
+ * transforms     timeStepCount matrices from the tree's space to geometry space, one after another, each of 12 floats,
+ *                3×4 column-major (RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR); affine and invertible. Copied. Between time steps
+ *                their entries are interpolated linearly, as Embree does with instances: use enough steps for a
+ *                rotation; two that are half a turn apart pass through a matrix without inverse, where nothing is hit.
+ * timeStepCount  1 … RTC_MAX_TIME_STEP_COUNT; 1: the object is placed and does not move. 0 (transforms NULL): the
+ *                tree's own space, as at first.
+ * startTime, endTime   the time of the first and of the last step, in the unit of the rays' time, where 0 … 1 is the
+ *                camera's shutter; endTime > startTime. Outside of them the object stays at the first or last step's
+ *                place where Embree lets rays see it at all (rtcSetGeometryTimeRange).
+ *
+ * Exclusive. Nothing is rebuilt: commit the RTCGeometry, with one primitive, and the scene. */
+PHASETREE_API PhasetreeError phasetreeSetGeometryMotion(PhasetreeGeometry geometry, const float* transforms,
+                                                        unsigned int timeStepCount, float startTime, float endTime);
+
+typedef struct PhasetreeGeometryStatistics {
+    size_t cells; /* primIDs of hits are below this */
+    size_t bytes; /* of the cells and their programs, without Embree's tree over them */
+    size_t wholeInstructions, medianInstructions, mostInstructions; /* of the whole object's program, and of cells' */
+    float resolution;                                               /* a distance, in the tree's space */
+    float buildSeconds;                                             /* of the cells */
+} PhasetreeGeometryStatistics;
+
+PHASETREE_API PhasetreeError phasetreeGetGeometryStatistics(PhasetreeGeometry geometry,
+                                                            PhasetreeGeometryStatistics* statistics);
+
+#if defined(__cplusplus)
+}
+#endif
+
+#endif

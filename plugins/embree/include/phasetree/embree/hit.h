@@ -1,0 +1,99 @@
+/* Hits, and rays that carry phases. The conventions are phasetree_embree.h's. */
+#ifndef PHASETREE_EMBREE_HIT_H
+#define PHASETREE_EMBREE_HIT_H
+
+#include "phasetree/embree/geometry.h"
+
+#if defined(__cplusplus)
+extern "C" {
+#endif
+
+/* A crossing: a change of phase on a ray, bracketed by two places of which each has been evaluated and has its phase.
+ * The bracket is no longer than the resolution, or up to 2.7 of them where rounding puts a third phase between solids
+ * that abut. A ray that is reflected goes on from pointIn in phaseLeft, one that passes from pointOut in phaseEntered;
+ * nothing needs to be moved along a normal, and it meets this crossing no more if it carries that phase. */
+typedef struct PhasetreeHit {
+    unsigned int phaseLeft, phaseEntered;
+    unsigned int cell;
+    float tIn, tOut;               /* on the ray */
+    float pointIn[3], pointOut[3]; /* in geometry space */
+} PhasetreeHit;
+
+/* The phases of hit i among N, within a filter function (C has none of Embree's accessors) or anywhere else: the one
+ * that the ray leaves, and the one that it enters. Only for hits of a phasetree geometry. */
+static inline unsigned int phasetreeGetPhaseLeft(const struct RTCHitN* hits, unsigned int N, unsigned int i) {
+    return (unsigned int)((const float*)hits)[3 * N + i];
+}
+static inline unsigned int phasetreeGetPhaseEntered(const struct RTCHitN* hits, unsigned int N, unsigned int i) {
+    return (unsigned int)((const float*)hits)[4 * N + i];
+}
+
+/* Tells what a stock ray query has found.
+ *
+ * rayhit       as the query left it: the ray's origin, direction, tnear and time, tfar and the hit, which must be one
+ *              of this geometry.
+ * objectToWorld  of the instance through which the ray met the geometry, 12 floats, 3×4 column-major, at the ray's time
+ *              (for nested ones the product); NULL if hit.instID[0] is RTC_INVALID_GEOMETRY_ID.
+ *
+ * The bracket is found again, by a few samples on the ray around tfar. tOut and pointOut are moved on, by less than two
+ * resolutions, to where the phase is certain in spite of the rounding that a new ray undergoes: the same ray with
+ * tnear = tOut starts in phaseEntered, so that a host that carries no phases neither meets this crossing again nor
+ * passes the next one, as long as phases are thicker along the ray than some five resolutions. */
+PHASETREE_API PhasetreeError phasetreeDecodeHit(PhasetreeGeometry geometry, const struct RTCRayHit* rayhit,
+                                                const float* objectToWorld, PhasetreeHit* hit);
+
+/* That a ray, where it starts, is in `phase` of the geometry geomID, within the instance instID (and, with Embree 4,
+ * instPrimID) or none: RTC_INVALID_GEOMETRY_ID. Of nested instances, the innermost's. */
+typedef struct PhasetreeMedium {
+    unsigned int geomID, instID, instPrimID;
+    unsigned int phase;
+} PhasetreeMedium;
+
+/* What one ray brings along, and what it takes home. */
+typedef struct PhasetreeRay {
+    /* In: the phases that the ray carries. For a geometry that is not listed, or with PHASETREE_UNKNOWN_PHASE, the
+     * phase at the ray's start counts, as with a stock context. If another phase is at the start than the one carried,
+     * beyond what rounding explains, that is a crossing at the start. Owned by the application; not written. */
+    const PhasetreeMedium* media;
+    unsigned int mediumCount;
+    /* Out: the crossing behind the last hit that a geometry of this library reported for the ray. If the ray's hit is a
+     * geometry of this library, this is that hit's; its normal is in the hit. Left alone by occlusion queries. */
+    PhasetreeHit hit;
+} PhasetreeRay;
+
+/* An Embree context that lets rays carry phases. Pass &context.context where Embree wants a context. Opt-in: only for
+ * scenes whose phasetree geometries have PHASETREE_GEOMETRY_FLAG_EXTENDED_CONTEXT; meshes do not mind it. */
+typedef struct PhasetreeRayContext {
+#if RTC_VERSION_MAJOR >= 4
+    struct RTCRayQueryContext context;
+#else
+    struct RTCIntersectContext context;
+#endif
+    unsigned int apiVersion; /* set by phasetreeInitRayContext */
+    /* Element i is the ray's whose RTCRay.id is i: 0 for a single ray, and as the application numbers them for packets.
+     * Rays with an id of rayCount or more carry nothing. Owned by the application. Rays of different queries that run
+     * at once must not share an element. */
+    PhasetreeRay* rays;
+    unsigned int rayCount;
+    /* Called, if not NULL, for each crossing of a phasetree geometry after all other filters: what with Embree 4 a
+     * query's argument filter is to meshes. */
+    void (*filter)(const struct RTCFilterFunctionNArguments* args);
+} PhasetreeRayContext;
+
+static inline void phasetreeInitRayContext(PhasetreeRayContext* context) {
+#if RTC_VERSION_MAJOR >= 4
+    rtcInitRayQueryContext(&context->context);
+#else
+    rtcInitIntersectContext(&context->context);
+#endif
+    context->apiVersion = PHASETREE_API_VERSION;
+    context->rays = NULL;
+    context->rayCount = 0;
+    context->filter = NULL;
+}
+
+#if defined(__cplusplus)
+}
+#endif
+
+#endif

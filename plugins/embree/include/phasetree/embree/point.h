@@ -1,0 +1,77 @@
+/* Points: the phase, the distances and the closest interface at one. The conventions are phasetree_embree.h's. */
+#ifndef PHASETREE_EMBREE_POINT_H
+#define PHASETREE_EMBREE_POINT_H
+
+#include "phasetree/embree/geometry.h"
+
+#if defined(__cplusplus)
+extern "C" {
+#endif
+
+/* The phase at a point of the geometry as it stands (hidden phases included), and the radius of a ball around it in
+ * which there certainly is no other; the second may be NULL.
+ *
+ * point  in geometry space; finite numbers.
+ * time   of the motion; any number if there is none. */
+PHASETREE_API PhasetreeError phasetreeGetPhase(PhasetreeGeometry geometry, const float point[3], float time,
+                                               unsigned int* phase, float* emptyRadius);
+
+/* Φ at a point: PHASETREE_MAX_PHASES signed distances, +∞ for phases that the object does not have. The phase is the
+ * smallest one's. In the tree's units, also where the geometry is placed with a scale; the point as above. */
+PHASETREE_API PhasetreeError phasetreeGetDistances(PhasetreeGeometry geometry, const float point[3], float time,
+                                                   float distances[PHASETREE_MAX_PHASES]);
+
+/* What a search for the closest interface has found. */
+typedef struct PhasetreeClosest {
+    bool found;
+    /* No interface is nearer than emptyRadius, guaranteed. An interface is at `point`, at `distance`: between places of
+     * phase `here` and of phase `there` that are no farther apart than the resolution. Without `found`, emptyRadius is
+     * the radius that was searched and the rest is not set. */
+    float emptyRadius;
+    float distance;
+    float point[3];
+    unsigned int here, there; /* `here` is the phase on the side of the query's point, as far as it can be told */
+} PhasetreeClosest;
+
+/* The closest interface (of any phases) to a point.
+ *
+ * point, time   as above.
+ * radius        a distance: how far to look; +∞: everywhere.
+ * tolerance     how near emptyRadius and distance come to each other before the search ends, as a share of distance:
+ *               0.001 … 1; it also ends when they are within four resolutions, and after 2^16 evaluations of sixteen
+ *               points at the latest. The larger, the quicker.
+ *
+ * Searches by branch and bound over the object's cells, in which 1-Lipschitz distances exclude boxes. */
+PHASETREE_API PhasetreeError phasetreeFindClosestInterface(PhasetreeGeometry geometry, const float point[3], float time,
+                                                           float radius, float tolerance, PhasetreeClosest* closest);
+
+/* Point queries of whole scenes. Embree does not tell a point query's callback whose user pointer is whose, so the
+ * application lists the geometries that it wants to be asked. */
+typedef struct PhasetreePointQueryGeometry {
+    unsigned int geomID, instID; /* instID: of the innermost instance, or RTC_INVALID_GEOMETRY_ID */
+    PhasetreeGeometry geometry;
+} PhasetreePointQueryGeometry;
+
+typedef struct PhasetreePointQuery {
+    unsigned int apiVersion; /* PHASETREE_API_VERSION */
+    const PhasetreePointQueryGeometry* geometries;
+    unsigned int geometryCount;
+    float tolerance; /* see phasetreeFindClosestInterface */
+    /* Out: the closest so far, in world space, and whose. closest.found must be false at first. emptyRadius is not set:
+     * interfaces of the listed geometries nearer than distance·(1 − tolerance), or if nothing was found than the
+     * query's radius, there are none. */
+    PhasetreeClosest closest;
+    unsigned int geomID, instID;
+} PhasetreePointQuery;
+
+/* For rtcPointQuery: as its callback, or registered with geometries (PHASETREE_GEOMETRY_FLAG_POINT_QUERY). The query's
+ * user pointer is a PhasetreePointQuery. Shrinks the query's radius to the distance found, as Embree wants it, so that
+ * it goes well with an application's own callbacks for meshes, called from one that dispatches by geomID. Works within
+ * instances of any affine transform. */
+PHASETREE_API bool phasetreePointQueryFunction(struct RTCPointQueryFunctionArguments* args);
+
+#if defined(__cplusplus)
+}
+#endif
+
+#endif

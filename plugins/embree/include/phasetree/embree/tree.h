@@ -1,0 +1,76 @@
+/* Trees: reading, editing and asking them. The conventions are phasetree_embree.h's. */
+#ifndef PHASETREE_EMBREE_TREE_H
+#define PHASETREE_EMBREE_TREE_H
+
+#include "phasetree/embree/common.h"
+
+#if defined(__cplusplus)
+extern "C" {
+#endif
+
+/* Where PhasetreeFileReader.readImage puts an image: only within that call. */
+typedef struct PhasetreeImageSink* PhasetreeImage;
+
+/* Sets an image's size in pixels and returns room for its width·height values, owned by the library: rows from the top,
+ * each value from 0 (low) to 1 (high). NULL if a size is 0, above 32768, or memory is short. */
+PHASETREE_API float* phasetreeNewImageValues(PhasetreeImage image, unsigned int width, unsigned int height);
+
+/* How height maps are read, the only images that trees name; the library itself reads none. readImage is called during
+ * the calls that it is given to and on their thread: it opens the file (path is UTF-8, already relative to the working
+ * directory, not to the scene), asks phasetreeNewImageValues for room, fills it and returns NULL; or it returns what
+ * is wrong with the file, a text that must stay good until the call is over. userPtr is handed through. */
+typedef struct PhasetreeFileReader {
+    const char* (*readImage)(void* userPtr, const char* path, PhasetreeImage image);
+    void* userPtr;
+} PhasetreeFileReader;
+
+/* Reads a tree from a scene file (JSON; what the file says besides "phases", "shapes" and "tree" is not looked at).
+ *
+ * path    UTF-8, ends with 0.
+ * reader  NULL if no images are to be read; a scene with a height map is then an error. Copied; what its userPtr points
+ *         to must live as long as the tree or any tree edited from it, because edits read again.
+ * tree    receives the new handle.
+ *
+ * Files that the scene names are sought beside it. All of them are read during the call. */
+PHASETREE_API PhasetreeError phasetreeNewTreeFromFile(unsigned int apiVersion, const char* path,
+                                                      const PhasetreeFileReader* reader, PhasetreeTree* tree);
+
+/* The same from a text in memory.
+ *
+ * text    UTF-8, `length` bytes; need not end with 0. Copied.
+ * name    what errors call it, and, taken for a path, beside what files are sought; NULL: "<text>" and the working
+ *         directory. */
+PHASETREE_API PhasetreeError phasetreeNewTreeFromText(unsigned int apiVersion, const char* text, size_t length,
+                                                      const char* name, const PhasetreeFileReader* reader,
+                                                      PhasetreeTree* tree);
+
+/* A new tree: `tree` with one value of its scene text replaced. `tree` itself stays as it is, for whoever uses it.
+ *
+ * path    a JSON Pointer (RFC 6901) to a value within the text: "/shapes/bulb/sphere/radius", "/tree/under/0". A value
+ *         in a named shape changes wherever the shape is used.
+ * value   the new value as JSON, ends with 0: "0.5", "[1, 0, 0]", "\"glass\"", or a whole subtree.
+ *
+ * Errors are told at the edited text's lines and columns. The text is read again, with the files that it names. */
+PHASETREE_API PhasetreeError phasetreeNewEditedTree(PhasetreeTree tree, const char* path, const char* value,
+                                                    PhasetreeTree* edited);
+
+PHASETREE_API PhasetreeError phasetreeRetainTree(PhasetreeTree tree);
+PHASETREE_API PhasetreeError phasetreeReleaseTree(PhasetreeTree tree);
+
+/* How many phases the scene names, the vacuum included: the tree's phases are 0 … count − 1. */
+PHASETREE_API PhasetreeError phasetreeGetTreePhaseCount(PhasetreeTree tree, unsigned int* count);
+
+/* A phase's name, "vacuum" for 0. UTF-8; belongs to the tree and lives as long. */
+PHASETREE_API PhasetreeError phasetreeGetTreePhaseName(PhasetreeTree tree, unsigned int phase, const char** name);
+
+/* A phase's index by its name; INVALID_ARGUMENT if there is none of that name. */
+PHASETREE_API PhasetreeError phasetreeGetTreePhaseByName(PhasetreeTree tree, const char* name, unsigned int* phase);
+
+/* A box around everything that is not vacuum; infinite where the tree is. */
+PHASETREE_API PhasetreeError phasetreeGetTreeBounds(PhasetreeTree tree, struct RTCBounds* bounds);
+
+#if defined(__cplusplus)
+}
+#endif
+
+#endif
