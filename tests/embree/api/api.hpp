@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdlib>
+#include <vector>
 
 #include "embree/embree.hpp"
 #include "phasetree/phasetree_embree.hpp"
@@ -126,6 +127,23 @@ void query(RTCScene scene, int* valid, typename PacketOf<N>::Rays& packet, const
 #endif
     (void)valid;
 }
+
+// The context of one ray that carries phases.
+struct Carrying {
+    std::vector<PhasetreeMedium> media;
+    PhasetreeRay state{};
+    PhasetreeRayContext context{};
+
+    Carrying(std::initializer_list<PhasetreeMedium> carried) : media(carried) {
+        state.media = media.data();
+        state.mediumCount = static_cast<unsigned>(media.size());
+        phasetreeInitRayContext(&context);
+        context.rays = &state;
+        context.rayCount = 1;
+    }
+    Carrying(const Carrying&) = delete;
+    Carrying& operator=(const Carrying&) = delete;
+};
 
 // A packet's members, field after field, N floats each; a struct of one ray is a packet of one. The layout is the one
 // that Embree documents for RTCRayN and RTCHitN.

@@ -13,19 +13,6 @@ embree::Tree ball(const std::string& radius) {
         {"set": {"phase": "two", "of": {"sphere": {"radius": 0.2}}}}]}})");
 }
 
-struct State {
-    std::array<PhasetreeMedium, 2> media{};
-    PhasetreeRay ray{};
-    PhasetreeRayContext context{};
-    State() {
-        ray.media = media.data();
-        ray.mediumCount = 2;
-        phasetreeInitRayContext(&context);
-        context.rays = &ray;
-        context.rayCount = 1;
-    }
-};
-
 constexpr unsigned none = RTC_INVALID_GEOMETRY_ID;
 
 }  // namespace
@@ -37,8 +24,7 @@ TEST_CASE("two trees keep their phases apart") {
     EmbreeScene scene(device);
     const unsigned small_id = scene.add(small.embree()), large_id = scene.add(large.embree());
     scene.commit();
-    State state;
-    state.media = {PhasetreeMedium{small_id, none, none, 0}, PhasetreeMedium{large_id, none, none, 0}};
+    Carrying carrying{PhasetreeMedium{small_id, none, none, 0}, PhasetreeMedium{large_id, none, none, 0}};
     // Each crossing belongs to one of them, and only its phase changes.
     struct Step {
         unsigned geometry, entered;
@@ -50,25 +36,25 @@ TEST_CASE("two trees keep their phases apart") {
     int twos = 0;
     std::size_t step = 0;
     for (;; ++step) {
-        const RTCRayHit r = trace_one(scene, rayhit(ray), {.context = &state.context.context});
+        const RTCRayHit r = trace_one(scene, rayhit(ray), {.context = &carrying.context.context});
         if (!hits(r)) break;
         REQUIRE(step < std::size(steps));
-        PhasetreeMedium& medium = state.media[r.hit.geomID == small_id ? 0 : 1];
-        REQUIRE(state.ray.hit.phaseLeft == medium.phase);
-        CHECK(state.ray.hit.pointIn[0] == doctest::Approx(steps[step].x).epsilon(0.002));
+        PhasetreeMedium& medium = carrying.media[r.hit.geomID == small_id ? 0 : 1];
+        REQUIRE(carrying.state.hit.phaseLeft == medium.phase);
+        CHECK(carrying.state.hit.pointIn[0] == doctest::Approx(steps[step].x).epsilon(0.002));
         if (steps[step].x != -0.2f && steps[step].x != 0.2f) {
             CHECK(r.hit.geomID == steps[step].geometry);
-            CHECK(state.ray.hit.phaseEntered == steps[step].entered);
+            CHECK(carrying.state.hit.phaseEntered == steps[step].entered);
         } else {
             ++twos;  // both cores coincide: either may come first
         }
-        medium.phase = state.ray.hit.phaseEntered;
-        ray.origin = vec(state.ray.hit.pointOut);
+        medium.phase = carrying.state.hit.phaseEntered;
+        ray.origin = vec(carrying.state.hit.pointOut);
     }
     CHECK(step == std::size(steps));
     CHECK(twos == 4);
-    CHECK(state.media[0].phase == 0);
-    CHECK(state.media[1].phase == 0);
+    CHECK(carrying.media[0].phase == 0);
+    CHECK(carrying.media[1].phase == 0);
 }
 
 TEST_CASE("two instances of one tree keep their phases apart") {
@@ -87,20 +73,19 @@ TEST_CASE("two instances of one tree keep their phases apart") {
         rtcReleaseGeometry(instance);
     }
     outer.commit();
-    State state;
     // Embree 4 numbers a single instance's primitive 0.
     const unsigned prim = RTC_VERSION_MAJOR >= 4 ? 0 : none;
-    state.media = {PhasetreeMedium{0, id[0], prim, 0}, PhasetreeMedium{0, id[1], prim, 0}};
+    Carrying carrying{PhasetreeMedium{0, id[0], prim, 0}, PhasetreeMedium{0, id[1], prim, 0}};
     Ray ray{{-2, 0.01f, 0}, {1, 0, 0}};
     std::vector<std::pair<unsigned, unsigned>> found;
     for (;;) {
-        const RTCRayHit r = trace_one(outer, rayhit(ray), {.context = &state.context.context});
+        const RTCRayHit r = trace_one(outer, rayhit(ray), {.context = &carrying.context.context});
         if (!hits(r)) break;
         const unsigned which = r.hit.instID[0] == id[0] ? 0 : 1;
-        REQUIRE(state.ray.hit.phaseLeft == state.media[which].phase);
-        state.media[which].phase = state.ray.hit.phaseEntered;
-        found.push_back({which, state.ray.hit.phaseEntered});
-        ray.origin = vec(state.ray.hit.pointOut) + glm::vec3(which == 0 ? -0.15f : 0.15f, 0, 0);
+        REQUIRE(carrying.state.hit.phaseLeft == carrying.media[which].phase);
+        carrying.media[which].phase = carrying.state.hit.phaseEntered;
+        found.push_back({which, carrying.state.hit.phaseEntered});
+        ray.origin = vec(carrying.state.hit.pointOut) + glm::vec3(which == 0 ? -0.15f : 0.15f, 0, 0);
         REQUIRE(found.size() < 20);
     }
     // Centres at ∓0.15, radii 0.5 and 0.2.

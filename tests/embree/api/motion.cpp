@@ -114,15 +114,10 @@ TEST_CASE("rays that carry phases go through a moving object and out again") {
     for (const Ray& start : rays(2000, 54)) {
         const float time = std::uniform_real_distribution<float>(0, 1)(random);
         Ray ray = start;
-        PhasetreeMedium medium{moving.id, RTC_INVALID_GEOMETRY_ID, RTC_INVALID_GEOMETRY_ID,
-                               moving.geometry.phase(arr(ray.origin), time)};
-        PhasetreeRay state{};
-        state.media = &medium;
-        state.mediumCount = 1;
-        PhasetreeRayContext context;
-        phasetreeInitRayContext(&context);
-        context.rays = &state;
-        context.rayCount = 1;
+        Carrying carrying{PhasetreeMedium{moving.id, RTC_INVALID_GEOMETRY_ID, RTC_INVALID_GEOMETRY_ID,
+                                          moving.geometry.phase(arr(ray.origin), time)}};
+        auto& [media, state, context] = carrying;
+        PhasetreeMedium& medium = media.front();
         int of_this = 0;
         for (;; ++of_this) {
             RTCRayHit r = rayhit(ray);

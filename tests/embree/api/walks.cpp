@@ -9,14 +9,9 @@ namespace {
 
 // Goes on from each hit's bracket with the phase that was entered; what was entered, one after another.
 std::vector<unsigned> walk(RTCScene scene, unsigned geometry, Ray ray, unsigned phase) {
-    PhasetreeMedium medium{geometry, RTC_INVALID_GEOMETRY_ID, RTC_INVALID_GEOMETRY_ID, phase};
-    PhasetreeRay state{};
-    state.media = &medium;
-    state.mediumCount = 1;
-    PhasetreeRayContext context;
-    phasetreeInitRayContext(&context);
-    context.rays = &state;
-    context.rayCount = 1;
+    Carrying carrying{PhasetreeMedium{geometry, RTC_INVALID_GEOMETRY_ID, RTC_INVALID_GEOMETRY_ID, phase}};
+    auto& [media, state, context] = carrying;
+    PhasetreeMedium& medium = media.front();
     std::vector<unsigned> entered;
     for (;;) {
         const RTCRayHit r = trace_one(scene, rayhit(ray), {.context = &context.context});
@@ -141,14 +136,9 @@ TEST_CASE("a restart at a hit never meets it again and never passes a thin phase
 
 TEST_CASE("a carried phase that is not the one at the start is an interface there") {
     const Placed placed(object_tree(), with_flags(PHASETREE_GEOMETRY_FLAG_EXTENDED_CONTEXT));
-    PhasetreeMedium medium{placed.id, RTC_INVALID_GEOMETRY_ID, RTC_INVALID_GEOMETRY_ID, 3};
-    PhasetreeRay state{};
-    state.media = &medium;
-    state.mediumCount = 1;
-    PhasetreeRayContext context;
-    phasetreeInitRayContext(&context);
-    context.rays = &state;
-    context.rayCount = 1;
+    Carrying carrying{PhasetreeMedium{placed.id, RTC_INVALID_GEOMETRY_ID, RTC_INVALID_GEOMETRY_ID, 3}};
+    auto& [media, state, context] = carrying;
+    PhasetreeMedium& medium = media.front();
     const Ray ray{{0.9f, 0, 0}, {1, 0, 0}};  // within the wall of glass
     const RTCRayHit r = trace_one(placed.scene, rayhit(ray), {.context = &context.context});
     REQUIRE(hits(r));
@@ -225,14 +215,9 @@ TEST_CASE("within an instance rays that carry phases go through it and out, thou
         const glm::vec3 aside = distance * glm::normalize(glm::cross(d, glm::vec3(normal(random), normal(random), 1)));
         const glm::vec3 from = to_world(aside - 3.0f * d);
         Ray ray{from, glm::normalize(to_world(aside) - from)};
-        PhasetreeMedium medium{0, id, RTC_VERSION_MAJOR >= 4 ? 0 : RTC_INVALID_GEOMETRY_ID, 0};
-        PhasetreeRay state{};
-        state.media = &medium;
-        state.mediumCount = 1;
-        PhasetreeRayContext context;
-        phasetreeInitRayContext(&context);
-        context.rays = &state;
-        context.rayCount = 1;
+        Carrying carrying{PhasetreeMedium{0, id, RTC_VERSION_MAJOR >= 4 ? 0 : RTC_INVALID_GEOMETRY_ID, 0}};
+        auto& [media, state, context] = carrying;
+        PhasetreeMedium& medium = media.front();
         std::vector<unsigned> entered;
         while (hits(trace_one(outer, rayhit(ray), {.context = &context.context}))) {
             REQUIRE(state.hit.phaseLeft == medium.phase);
