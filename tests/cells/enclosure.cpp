@@ -1,9 +1,12 @@
-// Enclosures against what they enclose: values and gradients of every primitive at random points of random boxes.
+// Enclosures against what they enclose: values, gradients and curvatures of every primitive at random points of random
+// boxes.
 #include "phasetree/math/enclosure.hpp"
 
 #include <doctest/doctest.h>
 
 #include "phasetree/math/dual.hpp"
+#include "phasetree/model/walk.hpp"
+#include "phasetree/nodes/copies/endless_grid.hpp"
 #include "phasetree/phasetree.hpp"
 #include "support/random_tree.hpp"
 
@@ -15,10 +18,34 @@ namespace {
 struct Found {
     std::size_t points = 0, outside = 0, off_slope = 0, steep = 0;
     std::size_t beyond_half = 0;  ///< points that half of the range would not have held
+    std::size_t chords = 0, off_chord = 0;
+    std::size_t curved = 0;  ///< chords that half of the curvature would not have held
 };
 
 /// Values and gradients are computed in floats; tests/lib holds them to these.
 constexpr double value_error = 1e-5, gradient_error = 1e-4;
+/// Of the mean of two values less a third, each of a few numbers up to 3 rounded to 2⁻²³.
+constexpr double chord_error = 2e-6;
+
+/// Of two random points, near each other or not, the middle is above the mean of both by what the curvature allows. The
+/// values' rounding counts; so does that a chord is short for it to matter less than the curvature.
+template <class Primitive>
+void check_chord(const Primitive& n, const Enclosure& e, const glm::vec3& centre, const glm::vec3& half, Random& rng,
+                 Found& found) {
+    const auto at = [&](const glm::vec3& q) { return static_cast<double>(n.distance(Vec3<float>{q.x, q.y, q.z})); };
+    const auto inside = [&] { return glm::vec3(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)); };
+    const glm::vec3 a = centre + half * inside(), b = centre + half * inside(), m = 0.5f * (a + b);
+    const double squared = glm::dot(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(b) - glm::dvec3(a)) / 8;
+    const double sag = 0.5 * (at(a) + at(b)) - at(m);
+    const auto holds = [&](double share) {
+        return sag <= share * e.curvature.high * squared + chord_error &&
+               sag >= share * e.curvature.low * squared - chord_error;
+    };
+    if (!(e.curvature.high < 1e30) && !(e.curvature.low > -1e30)) return;
+    ++found.chords;
+    found.off_chord += !holds(1);
+    found.curved += !holds(0.5);
+}
 
 template <class Primitive>
 void look(const Primitive& n, Random& rng, int boxes, Found& found) {
@@ -52,6 +79,7 @@ void look(const Primitive& n, Random& rng, int boxes, Found& found) {
             }
             const double actual = v - e.centre;
             found.off_slope += !(actual >= change.low - value_error && actual <= change.high + value_error);
+            check_chord(n, e, centre, half, rng, found);
             found.beyond_half += std::abs(actual - change.middle()) > 0.25 * (change.high - change.low) + value_error;
         }
     }
@@ -61,7 +89,7 @@ void look(const Primitive& n, Random& rng, int boxes, Found& found) {
 
 TEST_CASE("an enclosure holds the values and the gradients of every primitive") {
     Random rng(23);
-    std::size_t kinds = 0;
+    std::size_t kinds = 0, curved_kinds = 0;
     Found all;
     for (const NodeKind& kind : node_kinds()) {
         if (!kind.is_field) continue;
@@ -79,18 +107,130 @@ TEST_CASE("an enclosure holds the values and the gradients of every primitive") 
         CHECK(found.outside == 0);
         CHECK(found.off_slope == 0);
         CHECK(found.steep == 0);
+        CHECK(found.off_chord == 0);
         kinds += found.points > 0;
         all.points += found.points;
         all.beyond_half += found.beyond_half;
+        all.chords += found.chords;
+        all.curved += found.curved;
+        curved_kinds += found.curved > 0;
     }
+    MESSAGE(all.chords, " chords; with half of the curvature ", all.curved, " of ", curved_kinds,
+            " kinds would be off");
+    CHECK(curved_kinds > 15);
     MESSAGE(all.points, " points of ", kinds, " kinds of primitives; half of the ranges would miss ", all.beyond_half);
     CHECK(kinds > 25);
     CHECK(all.beyond_half > all.points / 100);
 }
 
+namespace {
+
+/// Walks a tree with enclosures as cells do with its program.
+struct EnclosingWalk {
+    using Scalar = Enclosure;
+    using Point = Vec3<Enclosure>;
+
+    Enclosure::Vector half;
+    bool folds = false;  ///< space is folded, which may jump: then there are no enclosures
+
+    Scalar field(const Field& f, const Point& p) {
+        return std::visit(
+            [&](const auto& n) {
+                using N = std::remove_cvref_t<decltype(n)>;
+                if constexpr (Primitive<N> || DataPrimitive<N>)
+                    return primitive(n, p);
+                else
+                    return n.evaluate(*this, p);
+            },
+            f.node()->node);
+    }
+    Phases<Scalar> phases(const Phased& a, const Point& p) {
+        return std::visit([&](const auto& n) { return n.evaluate(*this, p); }, a.node()->node);
+    }
+    template <class P>
+    Scalar primitive(const P& n, const Point& p) {
+        if constexpr (LongPrimitive<P>) {
+            folds = true;  // only its slope is used; as good as nothing here
+            return Enclosure(0.f);
+        } else if constexpr (ConvexPrimitive<P>) {
+            return known_to_be_convex(n.distance(p), p).tightened(half);
+        } else {
+            return n.distance(p).tightened(half);
+        }
+    }
+    Scalar one_lipschitz(const Scalar& value, const Point&) const { return value; }
+    template <class M>
+    Point map(const M& m, const Point& p, float) {
+        folds = folds || std::is_same_v<M, FoldMap>;
+        Point q = m(p);
+        for (Enclosure* e : {&q.x, &q.y, &q.z}) *e = e->tightened(half);
+        return q;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("an enclosure of a tree holds its values and how they bend") {
+    Random rng(29);
+    // Of a tree's values, whose numbers are up to 10 and pass through a dozen operations.
+    constexpr double error = 2e-5;
+    std::size_t looked = 0, bounded = 0, outside = 0, off_chord = 0, off_tangent = 0, seen = 0, kinds = 0;
+    for (const NodeKind& kind : node_kinds()) {
+        if (!kind.is_field) continue;
+        CAPTURE(kind.name);
+        const std::size_t before = bounded;
+        for (int tree = 0; tree < (long_tests() ? 400 : 12); ++tree) {
+            const Field f = kind.field(rng, 1 + tree % 3);
+            const Walk<float> exactly;
+            const auto at = [&](const glm::vec3& q) {
+                return static_cast<double>(exactly.field(f, Vec3<float>{q.x, q.y, q.z}));
+            };
+            for (int box = 0; box < 60; ++box) {
+                const glm::vec3 centre = rng.uniform(0, 1.5f) * rng.direction();
+                const glm::vec3 half = std::exp2(rng.uniform(-6, 0)) *
+                                       glm::vec3(rng.uniform(0.2f, 1), rng.uniform(0.2f, 1), rng.uniform(0.2f, 1));
+                EnclosingWalk walk{{half.x, half.y, half.z}};
+                const auto on = [&](int i) {
+                    return Enclosure::coordinate(i, static_cast<double>(centre[i]), static_cast<double>(half[i]));
+                };
+                const Enclosure e = walk.field(f, {on(0), on(1), on(2)});
+                if (walk.folds) break;
+                ++looked;
+                const bool is_bounded = e.curvature.high < 1e30 || e.curvature.low > -1e30;
+                bounded += is_bounded;
+                for (int k = 0; k < 8; ++k) {
+                    const glm::vec3 a = half * rng.in({glm::vec3(-1), glm::vec3(1)}),
+                                    b = half * rng.in({glm::vec3(-1), glm::vec3(1)});
+                    const double va = at(centre + a), vb = at(centre + b), vm = at(centre + 0.5f * (a + b));
+                    outside += va > e.value.high + error || va < e.value.low - error;
+                    if (!is_bounded) continue;
+                    const auto squared = [](const glm::vec3& v) { return glm::dot(glm::dvec3(v), glm::dvec3(v)); };
+                    const double sag = 0.5 * (va + vb) - vm, span = squared(b - a) / 8;
+                    off_chord += sag > e.curvature.high * span + error || sag < e.curvature.low * span - error;
+                    const auto& g = e.centre_gradient;
+                    if (std::isnan(g[0]) || std::isnan(g[1]) || std::isnan(g[2])) continue;
+                    const glm::dvec3 d(a);
+                    const double rise = va - e.centre - (g[0] * d.x + g[1] * d.y + g[2] * d.z);
+                    off_tangent += rise > 0.5 * e.curvature.high * squared(a) + error ||
+                                   rise < 0.5 * e.curvature.low * squared(a) - error;
+                    seen += std::abs(rise) > 0.25 * std::min(e.curvature.magnitude(), 1e3) * squared(a) + error;
+                }
+            }
+        }
+        CHECK(outside == 0);
+        CHECK(off_chord == 0);
+        CHECK(off_tangent == 0);
+        kinds += bounded > before;
+    }
+    MESSAGE(looked, " boxes, ", bounded, " with a bounded curvature, of ", kinds, " kinds; half of it would miss ",
+            seen);
+    CHECK(kinds > 40);
+    CHECK(seen > 1000);
+}
+
 TEST_CASE("choices and operators of enclosures hold both branches") {
     const auto number = [](double low, double high, double slope_low, double slope_high) {
-        return Enclosure(0.5 * (low + high), {low, high}, {Range{slope_low, slope_high}, Range{}, Range{}});
+        return Enclosure(0.5 * (low + high), {low, high}, {Range{slope_low, slope_high}, Range{}, Range{}}, {}, {});
     };
     const Enclosure a = number(-1, 2, -1, 1), b = number(0, 1, 0, 0.5), far = number(5, 6, 1, 1);
     const Enclosure least = min(a, b), most = max(a, b);

@@ -1,12 +1,16 @@
 #include "phasetree/cells/cells.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <string_view>
 #include <unordered_map>
 
+#include "cells/curvature_code.hpp"
 #include "cells/divide.hpp"
-#include "cells/outward.hpp"
+#include "cells/rewrite.hpp"
+#include "phasetree/model/handle.hpp"
 #include "phasetree/trace/tracer.hpp"
 #include "program/target.hpp"
 #include "trace/march.hpp"
@@ -19,7 +23,8 @@ struct InterfaceCells::Data {
     struct alignas(64) Cell {
         Bounds box;
         LinearBound bound;
-        std::uint32_t first_step, steps, first_output, slots : 24, outputs : 8;
+        std::uint32_t first_step, first_output : 24, leading : 8, steps : 24, outputs : 8, slots : 15, is_by_own : 1,
+            curvature : 8, other_curvature : 8;
     };
     static_assert(sizeof(Cell) == 64);
 
@@ -35,9 +40,18 @@ struct InterfaceCells::Data {
 
     explicit Data(Program program) : whole(std::move(program)) {}
 
+    static constexpr std::uint32_t most_steps = 0xffffff, most_slots = 0x7fff, most_outputs = 0xffffff,
+                                   most_leading = 0xff;
+    CurvatureCode curvature_code;
+
     Routine routine(const Cell& c) const {
-        return {steps.data() + c.first_step, c.steps, whole.program().constants.data(), outputs.data() + c.first_output,
-                c.outputs};
+        return {steps.data() + c.first_step,
+                c.steps,
+                whole.program().constants.data(),
+                outputs.data() + c.first_output,
+                c.outputs,
+                c.is_by_own != 0,
+                c.leading};
     }
 
     std::optional<Crossing> search(std::size_t cell, const TracedRay& ray, float t_min, float t_max,
@@ -49,8 +63,9 @@ struct InterfaceCells::Data {
         // What is not needed before the ray is clipped is under way until then.
         __builtin_prefetch(r.steps);
         __builtin_prefetch(r.outputs);
-        return march_within(c.box, c.bound, r, c.slots, ray, t_min, t_max, resolution, carried, is_certified, w,
-                            counters);
+        return march_within(c.box, c.bound,
+                            {curvature_code.decode(c.curvature), curvature_code.decode(c.other_curvature)}, r, c.slots,
+                            ray, t_min, t_max, resolution, carried, is_certified, w, counters);
     }
 
     /// Cells with equal programs share one.
@@ -70,11 +85,16 @@ struct InterfaceCells::Data {
         std::unordered_map<std::pair<std::string_view, std::string_view>, const Cell*, decltype(hash)> known(
             found.cells.size() / 4 + 16, hash);
         for (const Found::Cell& c : found.cells) {
-            cells.push_back(
-                {c.box, c.bound, Found::narrow(steps.size()), c.steps, Found::narrow(outputs.size()), 0, 0});
+            if (c.steps > most_steps || c.slots > most_slots || outputs.size() > most_outputs)
+                throw ModelError(fmt::format(
+                    "the object's cells take too long programs, of {} instructions on {} values", c.steps, c.slots));
+            // Without its component alone a ray in the first phase knows nothing.
+            const bool is_led = c.leading > 0 && c.leading <= most_leading;
+            cells.push_back({c.box, c.outputs == 2 || is_led ? c.bound : LinearBound{}, Found::narrow(steps.size()),
+                             Found::narrow(outputs.size()) & most_outputs, is_led ? c.leading & most_leading : 0,
+                             c.steps & most_steps, c.outputs & 0xffu, c.slots & most_slots, c.curvature.is_by_own,
+                             curvature_code.encode(c.curvature.most[0]), curvature_code.encode(c.curvature.most[1])});
             Cell& cell = cells.back();
-            cell.slots = c.slots & 0xffffffu;
-            cell.outputs = c.outputs & 0xffu;
             const auto [where, is_new] = known.emplace(key(c), &cell);
             if (is_new) {
                 const auto first = found.steps.begin() + c.first_step;
@@ -96,16 +116,18 @@ InterfaceCells::InterfaceCells(const Phased& object, const CellOptions& options)
     const auto start = std::chrono::steady_clock::now();
     const TraceableObject traceable = prepare_to_trace(object, options.resolution);
     Program recorded = phasetree::record(object);
-    const OutwardProgram outward = move_negations_outward(recorded);
+    Arena arena;
+    const WorkingProgram rewritten = rewrite(recorded, arena);
     auto data = std::make_unique<Data>(std::move(recorded));
     data->bounds = traceable.bounds;
     data->resolution = traceable.resolution;
     data->reach = 4 * traceable.resolution;
+    data->curvature_code = CurvatureCode(data->bounds.diagonal());
 
     const Program& program = data->whole.program();
     const Division division{options, program.constants, data->reach, 0.5f * traceable.resolution,
                             data->bounds.diagonal()};
-    data->add(divide_into_cells(data->bounds, {outward.code, outward.lipschitz, outward.outputs}, division));
+    data->add(divide_into_cells(data->bounds, rewritten, division));
     data->build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     data_ = std::move(data);
 }

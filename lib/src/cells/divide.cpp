@@ -20,8 +20,21 @@ struct Worker {
     Found found;
 };
 
-/// A share of more than this part of the object is divided even if nothing was won by that for long.
-constexpr float large = 0.06f;
+/// How long it goes on where nothing is won. A share of more than this part of the object is divided all the same, for
+/// an object's features are smaller; then so many times more. Programs of little but long primitives (Voronoi cells)
+/// are tried less, because a trial costs them as much as many rays.
+struct Patience {
+    float large = 0.06f;
+    int divisions = 2;
+
+    explicit Patience(const WorkingProgram& program) {
+        const auto size = static_cast<float>(program.code.size());
+        if (work(program) > 10 * size)
+            large = 0.25f;
+        else if (size > 24)
+            divisions = 5;
+    }
+};
 
 /// The parts of a box: halves along every axis that is not much shorter than the longest.
 struct Parts {
@@ -56,6 +69,7 @@ struct Share {
     // If it becomes a cell:
     Bounds cell{};  ///< around its interface
     LinearBound bound{};
+    Curvature curvature{};
     float cost = 0;
 };
 
@@ -69,6 +83,7 @@ bool prepare(Share& share, const Division& d, Worker& w) {
         if (!enclosed) break;
         if (enclosed->is_free) return false;
         share.bound = enclosed->bound;
+        share.curvature = enclosed->curvature;
         share.cell = intersect(all, enclosed->box.inflated(d.reach));
         if (share.cell.empty()) return false;
         if (i > 0) break;
@@ -80,7 +95,7 @@ bool prepare(Share& share, const Division& d, Worker& w) {
     }
     // Through copies without end a ray goes on and on.
     const float copies = 1 + 4 * share.box.diagonal() / share.period;
-    share.cost = cost(share.cell, share.bound, work(share.program)) * copies;
+    share.cost = cost(share.cell, share.bound, share.curvature, share.program, w.scratch) * copies;
     return true;
 }
 
@@ -91,7 +106,7 @@ float find_cells(const Share& share, const Division& d, Worker& w) {
     // Small cells must promise more, for they are many.
     const float size = share.box.diagonal() / d.size;
     const float promise = d.options.least_gain * (1 + 0.1f / size);
-    const bool is_hopeless = share.stale >= (share.program.code.size() > 24 ? 5 : 2);
+    const bool is_hopeless = share.stale >= Patience(share.program).divisions;
     const bool is_final = is_hopeless || share.depth >= d.options.deepest || share.box.diagonal() < 64 * d.reach ||
                           share.cost < (1 + promise) * least_cost(share.cell) + price::parts * surface(share.box);
     if (!is_final) {
@@ -100,7 +115,11 @@ float find_cells(const Share& share, const Division& d, Worker& w) {
         if (divided < share.cost) return divided;
         w.found.forget_from(before);
     }
-    w.found.add(share.cell, share.bound, share.program);
+    const ArenaScope programs(w.programs), scratch(w.scratch);
+    const bool has_two = share.program.outputs.size() == 2;
+    const LedProgram led =
+        has_two ? LedProgram{share.program} : first_component_first(share.program, w.programs, w.scratch);
+    w.found.add(share.cell, share.bound, share.curvature, led.program, led.leading);
     return share.cost;
 }
 
@@ -158,9 +177,9 @@ float divide(const Share& share, const Division& d, Worker& w) {
     each([&](std::size_t i, Worker& own) {
         if (!divided[i]) return;
         Share& part = *divided[i];
-        // An object's features are smaller than a large part of it, and than a period of a fold.
-        const bool is_too_coarse =
-            part.box.diagonal() > (std::isfinite(part.period) ? 0.25f * part.period : large * d.size);
+        // An object's features are smaller than a period of a fold, too.
+        const float coarse = std::isfinite(part.period) ? 0.25f * part.period : Patience(part.program).large * d.size;
+        const bool is_too_coarse = part.box.diagonal() > coarse;
         part.stale = is_won || is_too_coarse ? 0 : share.stale + 1;
         part.left = is_won ? 1.f : left;
         costs[i] = find_cells(part, d, own);

@@ -1,6 +1,7 @@
 #include "cells/enclose.hpp"
 
 #include <cmath>
+#include <cstring>
 
 #include "cells/steps.hpp"
 #include "phasetree/math/enclosure.hpp"
@@ -10,7 +11,7 @@ namespace phasetree {
 
 namespace {
 
-using Half = std::array<double, 3>;
+using Half = Enclosure::Vector;
 
 /// Of a long primitive (a network, an image, noise) only its slope is used: at most 1 in its own space.
 template <class P>
@@ -23,7 +24,47 @@ Enclosure enclose_by_slope(const float* constants, const Vec3<Enclosure>& q, con
             std::hypot(q.x.gradient[i].magnitude(), q.y.gradient[i].magnitude(), q.z.gradient[i].magnitude());
         return Range{-l, l};
     });
-    return Enclosure(value, Range::all(), slope).tightened(half);
+    Range curvature = Range::all();
+    if constexpr (std::is_same_v<P, FractalNoise>) {
+        P noise;
+        std::memcpy(static_cast<void*>(&noise), constants, sizeof noise);
+        const std::array<const Enclosure*, 3> x{&q.x, &q.y, &q.z};
+        const double farthest = std::max({q.x.value.magnitude(), q.y.value.magnitude(), q.z.value.magnitude()});
+        if (noise.is_within_cube(farthest))
+            curvature = within(noise.curvature() * detail::squared_stretch(x) + detail::curvature_of(x));
+    }
+    return Enclosure(value, Range::all(), slope, {}, curvature).tightened(half);
+}
+
+/// As LinearBound, but about the box's centre.
+struct NearlyLinear {
+    Enclosure::Vector normal;
+    double at_centre, slack, spread;
+};
+
+/// By the ranges of the gradient about their middles; or by the gradient at the centre and how f bends from there on,
+/// if that says more.
+NearlyLinear nearly_linear(const Enclosure& f, const Half& half) {
+    NearlyLinear middle{{}, f.centre, 0, 0}, centre{f.centre_gradient, f.centre, 0, 0};
+    double aside = 0, squared_aside = 0, squared_half = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Range& g = f.gradient[i];
+        const double width = 0.5 * (g.high - g.low), at = f.centre_gradient[i];
+        const double off = std::max(std::abs(g.high - at), std::abs(g.low - at));
+        middle.normal[i] = g.middle();
+        middle.slack += width * half[i];
+        middle.spread += width * width;
+        aside += off * half[i];
+        squared_aside += off * off;
+        squared_half += half[i] * half[i];
+    }
+    middle.spread = std::sqrt(middle.spread);
+    const double above = std::min(aside, 0.5 * std::max(f.curvature.high, 0.0) * squared_half);
+    const double below = std::min(aside, 0.5 * std::max(-f.curvature.low, 0.0) * squared_half);
+    centre.at_centre += 0.5 * (above - below);
+    centre.slack = 0.5 * (above + below);
+    centre.spread = std::min(std::sqrt(squared_aside), f.curvature.magnitude() * std::sqrt(squared_half));
+    return centre.slack < middle.slack ? centre : middle;
 }
 
 /// Where on one axis normal·x + value = 0 may hold, within the slack, if the other axes take what they can.
@@ -83,33 +124,42 @@ std::optional<Enclosed> enclose(const WorkingProgram& program, std::span<const f
         return e.tightened(half) * (program.outputs[i].negate ? -1.f : 1.f);
     };
     std::size_t possible = 0;
+    // Of s as Routine::is_by_own says, both ways.
+    double by_others[] = {0, 0}, by_own[] = {0, 0};
     for (std::size_t i = 0; i < program.outputs.size(); ++i) {
         const Enclosure c = component(i);
         if (c.value.high < -margin) result.is_free = true;
         possible += c.value.low <= margin;
+        if (i > 0) by_others[0] = std::max(by_others[0], c.curvature.high);
+        by_others[1] = std::max(by_others[1], c.curvature.high);
+        by_own[i == 0 ? 0 : 1] = std::max(by_own[i == 0 ? 0 : 1], -c.curvature.low);
     }
     if (possible < 2) result.is_free = true;
-    if (result.is_free || program.outputs.size() != 2 || program.outputs[0].value != program.outputs[1].value)
-        return result;
+    if (result.is_free) return result;
+    result.curvature.is_by_own = by_own[0] + by_own[1] < by_others[0] + by_others[1];
+    for (std::size_t i = 0; i < 2; ++i) {
+        const double most = result.curvature.is_by_own ? by_own[i] : by_others[i];
+        result.curvature.most[i] = most < 1e30 ? static_cast<float>(most) * (1 + 1e-3f) : Curvature::unknown;
+    }
+    const bool is_shared = program.outputs.size() == 2 && program.outputs[0].value == program.outputs[1].value;
+    if (!is_shared)  // the first component is known by itself
+        result.curvature.most[0] = by_own[0] < 1e30 ? static_cast<float>(by_own[0]) * (1 + 1e-3f) : Curvature::unknown;
 
     const Enclosure f = component(0) * (program.outputs[0].negate ? -1.f : 1.f);
-    double slack = 0, spread = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Range& g = f.gradient[i];
+    for (const Range& g : f.gradient)
         if (!(g.low <= g.high)) return result;
-        const double width = 0.5 * (g.high - g.low);
-        result.bound.normal[static_cast<int>(i)] = static_cast<float>(g.middle());
-        slack += width * half[i];
-        spread += width * width;
-    }
+    const NearlyLinear linear = nearly_linear(f, half);
+    if (!(linear.slack < 1e30)) return result;
     const glm::vec3 farthest = glm::max(glm::abs(box.low), glm::abs(box.high));
     const float size_of_numbers = std::max({farthest.x, farthest.y, farthest.z});
-    result.bound.offset = static_cast<float>(f.centre - glm::dot(glm::dvec3(result.bound.normal), glm::dvec3(middle)));
+    for (int i = 0; i < 3; ++i) result.bound.normal[i] = static_cast<float>(linear.normal[static_cast<std::size_t>(i)]);
+    result.bound.offset =
+        static_cast<float>(linear.at_centre - glm::dot(glm::dvec3(result.bound.normal), glm::dvec3(middle)));
     // What the linear part's own floats lose.
-    result.bound.slack = static_cast<float>(slack) * (1 + 1e-6f) + 2 * rounding + 1e-6f * size_of_numbers;
+    result.bound.slack = static_cast<float>(linear.slack) * (1 + 1e-6f) + 2 * rounding + 1e-6f * size_of_numbers;
     result.bound.spread =
-        static_cast<float>(std::sqrt(spread)) * (1 + 1e-3f) + 1e-5f;  // directions are that near unit length
-    tighten(result.box, result.bound.normal, static_cast<float>(f.centre), result.bound.slack);
+        static_cast<float>(linear.spread) * (1 + 1e-3f) + 1e-5f;  // directions are that near unit length
+    if (is_shared) tighten(result.box, result.bound.normal, static_cast<float>(linear.at_centre), result.bound.slack);
     return result;
 }
 

@@ -9,6 +9,7 @@ namespace phasetree {
 struct Enclosed {
     bool is_free = false;  ///< no interface passes through the box
     LinearBound bound;
+    Curvature curvature;
     Bounds box;          ///< around the interface in the box
     ValueRanges ranges;  ///< of every value in the box
 };

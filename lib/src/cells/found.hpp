@@ -12,7 +12,8 @@ struct Found {
     struct Cell {
         Bounds box;
         LinearBound bound;
-        std::uint32_t first_step, steps, first_output, outputs, slots;
+        Curvature curvature;
+        std::uint32_t first_step, steps, leading, first_output, outputs, slots;
     };
     std::vector<Cell> cells;
     std::vector<Step> steps;
@@ -27,11 +28,12 @@ struct Found {
         steps.resize(m.steps);
         outputs.resize(m.outputs);
     }
-    void add(const Bounds& box, const LinearBound& bound, const WorkingProgram& program) {
+    void add(const Bounds& box, const LinearBound& bound, const Curvature& curvature, const WorkingProgram& program,
+             std::uint32_t leading) {
         const Mark m = mark();
         const std::uint32_t slots = assemble(program.code, program.outputs, steps, outputs);
-        cells.push_back({box, bound, narrow(m.steps), narrow(steps.size() - m.steps), narrow(m.outputs),
-                         narrow(outputs.size() - m.outputs), slots});
+        cells.push_back({box, bound, curvature, narrow(m.steps), narrow(steps.size() - m.steps), leading,
+                         narrow(m.outputs), narrow(outputs.size() - m.outputs), slots});
     }
     void add(const Found& more) {
         const Mark m = mark();

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "cells/linear_bound.hpp"
-#include "cells/prune.hpp"
+#include "cells/reach.hpp"
 
 namespace phasetree {
 
@@ -15,17 +15,26 @@ inline constexpr float visit = 45;               ///< of entering a cell
 inline constexpr float batch = 25, step = 4.5f;  ///< of a batch, and of each of its instructions
 inline constexpr float certain = 1.5f;           ///< batches where the field is linear,
 inline constexpr float unknown = 0.5f;           ///< more of them the less it lets rays pass without one,
-inline constexpr float uneven = 1;               ///< and the more its gradient varies
+inline constexpr float uneven = 1;               ///< the more its gradient varies,
+inline constexpr float blind = 2;                ///< and where it may bend at will
 }  // namespace price
 
-/// How much work a program is, in simple instructions.
+/// How much work an instruction is, in simple ones.
+inline float work(Op op) {
+    return op < Op::first_primitive ? 1.f : is_long_primitive(op) ? 60.f : 1.5f;
+}
 inline float work(const WorkingProgram& program) {
-    constexpr auto first = static_cast<std::uint32_t>(Op::first_primitive);
     float sum = 0;
-    for (const Instruction& in : program.code.subspan(1)) {
-        const auto op = static_cast<std::uint32_t>(in.op);
-        sum += op < first ? 1.f : is_long_primitive(in.op) ? 60.f : 1.5f;
-    }
+    for (const Instruction& in : program.code.subspan(1)) sum += work(in.op);
+    return sum;
+}
+/// Of its first component alone.
+inline float work_of_first(const WorkingProgram& program, Arena& scratch) {
+    const ArenaScope scope(scratch);
+    const Reach first(program, program.outputs.first(1), scratch);
+    float sum = 0;
+    for (std::size_t i = 1; i < program.code.size(); ++i)
+        if (first.has(i)) sum += work(program.code[i].op);
     return sum;
 }
 
@@ -34,15 +43,33 @@ inline float surface(const Bounds& box) {
     return e.x * e.y + e.y * e.z + e.z * e.x;
 }
 
-inline float cost(const Bounds& box, const LinearBound& bound, float steps) {
+/// How many batches a visit takes of rays in one phase: of the first component or of the others.
+inline float batches(const Bounds& box, const LinearBound& bound, float most_curved) {
     float unknown = 3, spread = 1;
     if (bound.slack < Bounds::infinity) {
         const float thickness = 0.5f * glm::dot(glm::abs(bound.normal), box.extent());
         unknown = std::min(1.f, bound.slack / std::max(thickness, 1e-30f));
         spread = std::min(1.f, bound.spread);
     }
-    const float batches = price::certain + price::unknown * unknown + price::uneven * spread;
-    return surface(box) * (price::visit + batches * (price::batch + price::step * steps));
+    const bool is_blind = !(most_curved < Curvature::unknown);
+    return price::certain + price::unknown * unknown + price::uneven * spread + (is_blind ? price::blind : 0.f);
+}
+/// Half of the rays are taken to be in the first phase, if that is the vacuum. Where more than two phases meet they
+/// need its component alone, and the rest where they leave it.
+inline float cost(const Bounds& box, const LinearBound& bound, const Curvature& curvature,
+                  const WorkingProgram& program, Arena& scratch) {
+    const float all = price::batch + price::step * work(program);
+    const bool has_two = program.outputs.size() == 2;
+    const float others = batches(box, has_two ? bound : LinearBound{}, curvature.most[1]) * all;
+    float first = batches(box, bound, curvature.most[0]) * all;
+    if (!has_two) {
+        first = others;
+        if (program.outputs[0].phase == vacuum)
+            first = batches(box, bound, curvature.most[0]) *
+                        (price::batch + price::step * work_of_first(program, scratch)) +
+                    all;
+    }
+    return surface(box) * (price::visit + 0.5f * (first + others));
 }
 /// A cell of this size cannot cost less.
 inline float least_cost(const Bounds& box) {

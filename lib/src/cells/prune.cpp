@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "cells/reach.hpp"
+#include "cells/rewrite.hpp"
 #include "phasetree/nodes/copies/endless_grid.hpp"
 
 /// Two kinds of pruning, in one backward sweep over the program.
@@ -28,86 +30,6 @@ struct Demand {
 /// A slope above this has a jump in it.
 constexpr float half_a_jump = 0x1p20f;
 
-/// What the outputs reach, and what it becomes.
-class Sweep {
-  public:
-    Sweep(const WorkingProgram& program, Arena& scratch)
-        : program_(program),
-          demand_(scratch.take<Demand>(program.code.size())),
-          instead_(scratch.take<std::uint32_t>(program.code.size())),
-          op_(scratch.take<Op>(program.code.size())) {
-        std::ranges::fill(demand_, Demand{});
-    }
-
-  protected:
-    void ask(std::uint32_t i, Demand d) {
-        Demand& known = demand_[i];
-        if (known.kind == Demand::none)
-            known = d;
-        else if (known.kind != d.kind || (d.kind == Demand::threshold && known.tau != d.tau))
-            known = {Demand::value, 0};
-    }
-
-    /// The instructions that are demanded, renumbered.
-    WorkingProgram compact(std::span<const ProgramOutput> outputs, std::span<const float> slope, Arena& to,
-                           Arena& scratch) const {
-        const std::size_t n = program_.code.size();
-        const std::span<std::uint32_t> renumbered = scratch.take<std::uint32_t>(n);
-        std::uint32_t count = 1;
-        renumbered[0] = 0;
-        for (std::uint32_t i = 1; i < n; ++i) {
-            if (demand_[i].kind == Demand::none)
-                renumbered[i] = 0;
-            else
-                renumbered[i] = instead_[i] == i ? count++ : renumbered[instead_[i]];
-        }
-        const std::span<Instruction> code = to.take<Instruction>(count);
-        const std::span<float> lipschitz = to.take<float>(count);
-        const std::span<ProgramOutput> ends = to.take<ProgramOutput>(outputs.size());
-        code[0] = program_.code[0];
-        lipschitz[0] = slope[0];
-        for (std::uint32_t i = 1; i < n; ++i) {
-            if (demand_[i].kind == Demand::none || instead_[i] != i) continue;
-            const Instruction& in = program_.code[i];
-            code[renumbered[i]] = {op_[i], renumbered[in.a], renumbered[in.b], in.data};
-            lipschitz[renumbered[i]] = slope[i];
-        }
-        for (std::size_t k = 0; k < outputs.size(); ++k)
-            ends[k] = {outputs[k].phase, renumbered[outputs[k].value], outputs[k].negate};
-        return {code, lipschitz, ends};
-    }
-
-    const WorkingProgram& program_;
-    std::span<Demand> demand_;
-    std::span<std::uint32_t> instead_;
-    std::span<Op> op_;
-};
-
-/// Only what some outputs reach, of a program that is otherwise unchanged.
-class Reach : public Sweep {
-  public:
-    Reach(const WorkingProgram& program, std::span<const ProgramOutput> outputs, Arena& scratch)
-        : Sweep(program, scratch), outputs_(outputs) {
-        for (const ProgramOutput& o : outputs) ask(o.value, {Demand::value, 0});
-        for (auto i = static_cast<std::uint32_t>(program.code.size()); i-- > 1;) {
-            if (demand_[i].kind == Demand::none) continue;
-            ++size_;
-            instead_[i] = i;
-            op_[i] = program.code[i].op;
-            if (operands(op_[i]) > 0) ask(program.code[i].a, {Demand::value, 0});
-            if (operands(op_[i]) > 1) ask(program.code[i].b, {Demand::value, 0});
-        }
-    }
-    std::size_t size() const { return size_; }
-    WorkingProgram program(Arena& keep, Arena& scratch) const {
-        return compact(outputs_, program_.lipschitz, keep, scratch);
-    }
-
-  private:
-    std::span<const ProgramOutput> outputs_;
-    std::size_t size_ = 0;
-};
-
 /// Where two phases meet, one component tells both. The one that costs less.
 WorkingProgram one_of_two(const WorkingProgram& both, Arena& keep, Arena& scratch) {
     ProgramOutput outputs[2][2];
@@ -120,10 +42,18 @@ WorkingProgram one_of_two(const WorkingProgram& both, Arena& keep, Arena& scratc
     return (second.size() < first.size() ? second : first).program(keep, scratch);
 }
 
-class Pruner : public Sweep {
+class Pruner {
   public:
     Pruner(const WorkingProgram& program, std::span<const float> constants, const ValueRanges& ranges, Arena& scratch)
-        : Sweep(program, scratch), constants_(constants), ranges_(ranges), scratch_(scratch) {}
+        : program_(program),
+          constants_(constants),
+          ranges_(ranges),
+          scratch_(scratch),
+          demand_(scratch.take<Demand>(program.code.size())),
+          instead_(scratch.take<std::uint32_t>(program.code.size())),
+          op_(scratch.take<Op>(program.code.size())) {
+        std::ranges::fill(demand_, Demand{});
+    }
 
     std::optional<WorkingProgram> run(Arena& keep) {
         const std::span<ProgramOutput> room = scratch_.take<ProgramOutput>(program_.outputs.size());
@@ -140,11 +70,52 @@ class Pruner : public Sweep {
         for (const ProgramOutput& o : outputs) ask(o.value, {Demand::threshold, 0});
         for (auto i = static_cast<std::uint32_t>(program_.code.size()); i-- > 1;)
             if (demand_[i].kind != Demand::none) resolve(i);
-        if (count > 2 || outputs[0].value == outputs[1].value) return compact(outputs, ranges_.slope, keep, scratch_);
-        return one_of_two(compact(outputs, ranges_.slope, scratch_, scratch_), keep, scratch_);
+        const WorkingProgram left = rewritten(outputs);
+        if (left.outputs.size() < 2) return std::nullopt;
+        if (left.outputs.size() == 2 && left.outputs[0].value != left.outputs[1].value)
+            return one_of_two(left, keep, scratch_);
+        return Reach(left, left.outputs, scratch_).program(keep, scratch_);
     }
 
   private:
+    void ask(std::uint32_t i, Demand d) {
+        Demand& known = demand_[i];
+        if (known.kind == Demand::none)
+            known = d;
+        else if (known.kind != d.kind || (d.kind == Demand::threshold && known.tau != d.tau))
+            known = {Demand::value, 0};
+    }
+
+    /// What is demanded, written anew; without phases whose component is nowhere negative.
+    WorkingProgram rewritten(std::span<const ProgramOutput> outputs) {
+        const auto size = static_cast<std::uint32_t>(program_.code.size());
+        std::size_t demanded = 0;
+        for (const Demand& d : demand_) demanded += d.kind != Demand::none;
+        Rewriter rewriter(constants_, demanded, scratch_);
+        const std::span<SignedValue> written = scratch_.take<SignedValue>(size);
+        written[0] = {};
+        for (std::uint32_t i = 1; i < size; ++i) {
+            const Demand& d = demand_[i];
+            if (d.kind == Demand::none) continue;
+            if (instead_[i] != i) {
+                written[i] = written[instead_[i]];
+                continue;
+            }
+            const Instruction& in = program_.code[i];
+            const int n = operands(op_[i]);
+            written[i] =
+                rewriter.write(op_[i], n > 0 ? written[in.a] : SignedValue{}, n > 1 ? written[in.b] : SignedValue{},
+                               in.data, ranges_.slope[i], d.kind == Demand::threshold && d.tau == 0);
+        }
+        const std::span<ProgramOutput> ends = scratch_.take<ProgramOutput>(outputs.size());
+        std::size_t count = 0;
+        for (const ProgramOutput& o : outputs) {
+            const SignedValue& v = written[o.value];
+            const bool is_negative = v.is_negative != o.negate;
+            if (is_negative || rewriter.code()[v.id].op != Op::absolute) ends[count++] = {o.phase, v.id, is_negative};
+        }
+        return {rewriter.code(), rewriter.lipschitz(), ends.first(count)};
+    }
     float low(std::uint32_t i) const { return ranges_.low[i]; }
     float high(std::uint32_t i) const { return ranges_.high[i]; }
 
@@ -269,9 +240,13 @@ class Pruner : public Sweep {
         return in.op == Op::falloff && low(in.a) > constants_[in.data];
     }
 
+    const WorkingProgram& program_;
     std::span<const float> constants_;
     const ValueRanges& ranges_;
     Arena& scratch_;
+    std::span<Demand> demand_;
+    std::span<std::uint32_t> instead_;  ///< what a value is replaced by: itself, or an earlier one
+    std::span<Op> op_;
 };
 
 /// Slopes within the ball. A fold of space jumps, which is recorded as a slope of FoldMap::jump; in a ball that
@@ -306,6 +281,27 @@ std::span<const float> local_slopes(const WorkingProgram& program, std::span<con
 }
 
 }  // namespace
+
+LedProgram first_component_first(const WorkingProgram& program, Arena& keep, Arena& scratch) {
+    const std::size_t size = program.code.size();
+    const Reach first(program, program.outputs.first(1), scratch);
+    const std::span<std::uint32_t> renumbered = scratch.take<std::uint32_t>(size);
+    const std::span<Instruction> code = keep.take<Instruction>(size);
+    const std::span<float> lipschitz = keep.take<float>(size);
+    const std::span<ProgramOutput> outputs = keep.copy(program.outputs);
+    std::uint32_t count = 0;
+    for (const bool is_first : {true, false})
+        for (std::uint32_t i = 0; i < size; ++i) {
+            if (first.has(i) != is_first) continue;
+            const Instruction& in = program.code[i];
+            const int n = operands(in.op);
+            renumbered[i] = count;
+            code[count] = {in.op, n > 0 ? renumbered[in.a] : 0, n > 1 ? renumbered[in.b] : 0, in.data};
+            lipschitz[count++] = program.lipschitz[i];
+        }
+    for (ProgramOutput& o : outputs) o.value = renumbered[o.value];
+    return {{code, lipschitz, outputs}, static_cast<std::uint32_t>(first.size())};
+}
 
 float finest_jump(const WorkingProgram& program, std::span<const float> constants) {
     float finest = Bounds::infinity;

@@ -41,6 +41,13 @@ ValueRanges ranges_in_ball(const WorkingProgram&, std::span<const float> constan
 std::optional<WorkingProgram> prune(const WorkingProgram&, std::span<const float> constants, const ValueRanges&,
                                     Arena& keep, Arena& scratch);
 
+/// A program of more than two phases with what its first component needs before the rest.
+struct LedProgram {
+    WorkingProgram program;
+    std::uint32_t leading = 0;  ///< instructions that it needs, the input not counted
+};
+LedProgram first_component_first(const WorkingProgram&, Arena& keep, Arena& scratch);
+
 /// The smallest period of what is folded in a program and still jumps, infinity if nothing does: larger cells cannot be
 /// pruned of it.
 float finest_jump(const WorkingProgram&, std::span<const float> constants);

@@ -35,6 +35,11 @@ struct Routine {
     const float* constants;
     const OutputSlot* outputs;
     std::size_t output_count;
+    /// Which lower bound of the distance to where the label changes is used where each component has a value of its
+    /// own: minus the label's component, or the least of the others'.
+    bool is_by_own = false;
+    /// So many steps give the first component alone, 0 if that is not known: enough for a ray that is in its phase.
+    std::size_t leading = 0;
 };
 
 /// A piece of a ray: origin + t·direction, 0 ≤ t ≤ length.
@@ -42,8 +47,10 @@ struct RaySegment {
     float origin[3];
     float direction[3];
     float length;
+    float behind;  ///< how far before 0 the ray has come from
     float resolution;
     float slope;        ///< bounds what a component changes by for each unit along the ray
+    float curvature[2];      ///< as Curvature: of the distance along the ray, in the phase of the first output and in others
     float carried;      ///< the phase that the ray is in; negative: the label at its start
     bool is_monotone;   ///< there is one component, and it only grows or only falls along the ray
     bool on_interface;  ///< the ray most likely starts on one: a hint where to look first

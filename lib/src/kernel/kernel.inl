@@ -123,11 +123,19 @@ struct Classified {
     Batch distance;  ///< the second smallest component
 };
 
+/// The label where there is only the first component, and it is positive.
+constexpr float another_phase = -2;
+
 HWY_INLINE Classified classify(const Routine& routine, float* registers) {
     const auto component = [&](std::size_t i) {
         return load(at(registers, routine.outputs[i].slot)) * routine.outputs[i].sign;
     };
     Batch lowest = component(0);
+    if (routine.output_count == 1) {
+        const Batch zero(0.f);
+        return {select(less(lowest, zero), Batch(routine.outputs[0].phase), Batch(another_phase)),
+                max(lowest, -lowest)};
+    }
     if (routine.output_count == 2 && routine.outputs[0].slot == routine.outputs[1].slot) {
         // One value tells both.
         const Batch other = -lowest;
@@ -143,7 +151,7 @@ HWY_INLINE Classified classify(const Routine& routine, float* registers) {
         phase = select(lower, Batch(routine.outputs[i].phase), phase);
         lowest = min(v, lowest);
     }
-    return {phase, second};
+    return {phase, routine.is_by_own ? -lowest : second};
 }
 
 HWY_INLINE Classified classify_along(const Routine& routine, const float* o, const float* d, const Batch& t,

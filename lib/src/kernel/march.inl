@@ -131,7 +131,14 @@ HWY_INLINE float effective_resolution(float resolution, std::uint32_t batches) {
 class March {
   public:
     March(const Routine& routine, const RaySegment& ray, float* registers)
-        : routine_(routine), ray_(ray), registers_(registers) {}
+        : whole_(routine),
+          ray_(ray),
+          registers_(registers),
+          is_alone_(routine.leading > 0 && routine.outputs[0].phase == ray.carried) {
+        // Both tell the distance in the same way.
+        if (is_alone_) whole_.is_by_own = true;
+        alone_ = {routine.steps, routine.leading, routine.constants, routine.outputs, 1};
+    }
 
     bool run(RayCrossing& crossing) {
         const bool hit = find(crossing);
@@ -143,15 +150,20 @@ class March {
   private:
     static constexpr float none = -1;  ///< no label
 
+    /// By the first component alone, if that is enough, labels are the ray's phase or another_phase.
     Classified sample(const Batch& t) {
         ++batches_;
-        return classify_along(routine_, ray_.origin, ray_.direction, t, registers_);
+        return classify_along(is_alone_ ? alone_ : whole_, ray_.origin, ray_.direction, t, registers_);
+    }
+    Classified sample_whole(const Batch& t) {
+        ++batches_;
+        return classify_along(whole_, ray_.origin, ray_.direction, t, registers_);
     }
 
     /// Samples a frame, and finds out which of its gaps are in doubt; the first one is from `from`. False, and nothing
     /// done, if no sample is strictly between `from` and `to`: no float lies there.
-    bool fill(Frame& f, const Batch& t, const Place& from, float to, float fine) {
-        const Classified c = sample(t);
+    bool fill(Frame& f, const Batch& t, const Place& from, float to, float fine, bool is_whole = false) {
+        const Classified c = is_whole ? sample_whole(t) : sample(t);
         if (!(bits(less(Batch(from.t), t)) & bits(less(t, Batch(to))))) return false;
         store(t, f.t);
         store(c.distance, f.distance);
@@ -168,7 +180,14 @@ class March {
         f.phantom = 0;
         if (ray_.is_monotone) return;  // between two places of one label it stays
         const Batch gap = t - shifted(t, from.t), covered = c.distance + shifted(c.distance, from.distance);
-        const std::uint32_t open = bits(less(covered, gap * ray_.slope)), is_long = bits(less(Batch(fine), gap));
+        std::uint32_t open = bits(less(covered, gap * ray_.slope));
+        const std::uint32_t is_long = bits(less(Batch(fine), gap));
+        if (is_curvature_known_ && (open & is_long)) {
+            const Batch margin(rounding()), zero(0.f), half_curvature(half_curvature_);
+            const Batch b = max(c.distance - margin, zero), a = shifted(b, larger(from.distance - rounding(), 0.f));
+            const Batch missing = gap * gap * half_curvature - a - b;
+            open &= bits(less(zero, missing)) & bits(less(a * b * 4.f, missing * missing));
+        }
         f.doubt |= open & is_long;
         f.phantom = open & ~is_long & ~differs;
     }
@@ -176,7 +195,21 @@ class March {
     bool find(RayCrossing&);
     /// Whether a change of label at `next` is one, and then where; if not, goes on to where that is known.
     bool is_crossing(const Place& next, RayCrossing&);
+    /// Whether a ray that starts within rounding of where it crossed came in a little before, and then where.
+    bool is_entered_late(RayCrossing&);
     Batch look_ahead(const Frame&, int lane, const Place& next) const;
+
+    /// Whether the distances at a gap's ends prove it free by how much s bends. Between them s is above the chord less
+    /// a parabola, and that stays above zero if √a + √b ≥ gap·√(curvature/2); squared twice, a + b + 2√(ab) ≥
+    /// gap²·curvature/2.
+    bool is_bridged(float from, float to, float gap) const {
+        if (!is_curvature_known_) return false;
+        const float a = larger(from - rounding(), 0.f), b = larger(to - rounding(), 0.f);
+        const float missing = gap * gap * half_curvature_ - a - b;
+        return missing <= 0 || 4 * a * b >= missing * missing;
+    }
+    /// Of distances.
+    float rounding() const { return ray_.resolution * (1.f / 16); }
 
     bool report(RayCrossing& c, float t_in, float t_out, float to) const {
         c = {t_in, t_out, phase_, to, 0, 0};
@@ -190,11 +223,14 @@ class March {
         other_.label = none;
     }
 
-    const Routine& routine_;
+    Routine whole_, alone_;
     const RaySegment& ray_;
     float* registers_;
+    bool is_alone_;  ///< the first component is enough
     std::uint32_t batches_ = 0, phantoms_ = 0;
     float phase_ = 0;
+    float half_curvature_ = 0;  ///< of the distance in the ray's phase
+    bool is_curvature_known_ = false;
     Place here_{};     ///< all up to here is in the ray's phase
     Place certain_{};  ///< the last place whose own label is the ray's phase; mostly `here`
     Place other_{};    ///< after it, the first place of the label that is there now
@@ -207,9 +243,11 @@ bool March::find(RayCrossing& result) {
     Frame frames[deepest];
 
     // The start, and the first frame behind it.
-    {
-        const Batch t = ray_.on_interface && !ray_.is_monotone ? spread_from_interface(length, resolution)
-                                                               : spread_evenly(0, length);
+    for (;;) {
+        const bool is_curvature_known = ray_.curvature[whole_.outputs[0].phase == ray_.carried ? 0 : 1] < 1e30f;
+        const Batch t = ray_.on_interface && !ray_.is_monotone && !is_curvature_known
+                            ? spread_from_interface(length, resolution)
+                            : spread_evenly(0, length);
         const Classified c = sample(t);
         Frame& f = frames[0];
         store(t, f.t);
@@ -217,10 +255,18 @@ bool March::find(RayCrossing& result) {
         store(c.label, f.label);
         here_ = f.place(0);
         phase_ = ray_.carried >= 0 ? ray_.carried : here_.label;
+        if (is_alone_ && here_.label != phase_) {
+            is_alone_ = false;  // what it is in must be known
+            continue;
+        }
+        half_curvature_ = 0.5f * ray_.curvature[whole_.outputs[0].phase == phase_ ? 0 : 1];
+        is_curvature_known_ = half_curvature_ < 1e30f &&
+                              (whole_.outputs[0].phase != phase_ || whole_.output_count == 2 || whole_.is_by_own);
         other_.label = none;
         judge(f, t, c, here_, resolution);
         if (f.doubt == 0) return false;
         f.next = 1;
+        break;
     }
     bool is_aligned = true;  // `here` is the place before the last frame's next lane
     int depth = 1;           // frames in use
@@ -231,7 +277,7 @@ bool March::find(RayCrossing& result) {
         const Classified c = sample(t);
         const std::uint32_t other = bits(less(c.label, Batch(phase_))) | bits(less(Batch(phase_), c.label));
         const std::uint32_t back = ~other & ~bits(less(Batch(length), t)) & 0xffffu;
-        if (!back) return report(result, 0, 0, here_.label);
+        if (!back) return is_entered_late(result) || report(result, 0, 0, here_.label);
         alignas(64) float near[batch_size], distance[batch_size];
         store(t, near);
         store(c.distance, distance);
@@ -277,7 +323,8 @@ bool March::find(RayCrossing& result) {
         const float gap = next.t - here_.t;
         const float fine = effective_resolution(resolution, batches_);
         const float low = past(here_), high = before(next);
-        const bool is_covered = same && (ray_.is_monotone || here_.distance + next.distance >= gap * ray_.slope);
+        const bool is_covered = same && (ray_.is_monotone || here_.distance + next.distance >= gap * ray_.slope ||
+                                         is_bridged(here_.distance, next.distance, gap));
         const bool is_resolved = is_covered || gap <= (same ? fine : resolution) || (same && high - low <= fine);
         if (!is_resolved) {
             if (depth == deepest) {  // forget what lies ahead
@@ -285,7 +332,7 @@ bool March::find(RayCrossing& result) {
                 continue;
             }
             const Batch t = look_ahead(f, is_aligned ? f.next : -1, next);
-            if (fill(frames[depth], t, here_, next.t, fine)) {
+            if (fill(frames[depth], t, here_, next.t, fine, !same)) {
                 ++depth;
                 is_aligned = true;
                 continue;
@@ -328,16 +375,18 @@ Batch March::look_ahead(const Frame& f, int lane, const Place& next) const {
 /// resolutions. Until then the ray stays in its phase. The bracket is from the last place in it to the first one in the
 /// phase that follows.
 bool March::is_crossing(const Place& next, RayCrossing& result) {
-    const float resolution = ray_.resolution, rounding = resolution * (1.f / 16);
+    const float resolution = ray_.resolution;
     const auto is_decided = [&](const Place& p) {
         if (other_.label == none) left_ = p.t;
         if (other_.label != p.label) other_ = p;
-        return p.distance >= rounding || p.t - left_ >= 1.5f * resolution;
+        return p.distance >= rounding() || p.t - left_ >= 1.5f * resolution;
     };
-    if (is_decided(next)) return report(result, certain_.t, other_.t, other_.label);
+    const bool is_known = next.label != another_phase;
+    if (is_known && is_decided(next)) return report(result, certain_.t, other_.t, other_.label);
     alignas(64) float beyond[batch_size], label[batch_size], distance[batch_size];
-    const Batch t = min(Batch(next.t) + (lanes() + 1.f) * (resolution * (1.f / 8)), Batch(ray_.length));
-    const Classified c = sample(t);
+    const Batch t =
+        min(Batch(next.t) + (lanes() + (is_known ? 1.f : 0.f)) * (resolution * (1.f / 8)), Batch(ray_.length));
+    const Classified c = sample_whole(t);
     store(t, beyond);
     store(c.label, label);
     store(c.distance, distance);
@@ -347,11 +396,24 @@ bool March::is_crossing(const Place& next, RayCrossing& result) {
         if (p.label == phase_) {
             certain_ = here_;
             other_.label = none;
-            if (p.distance >= rounding) break;
+            if (p.distance >= rounding()) break;
         } else if (is_decided(p)) {
             return report(result, certain_.t, other_.t, other_.label);
         }
     }
+    return false;
+}
+
+/// Along a face where labels flicker another cell may have seen the ray in its phase still, and this one not.
+bool March::is_entered_late(RayCrossing& result) {
+    const float reach = smaller(ray_.behind, 4 * ray_.resolution);
+    if (!(reach > 0)) return false;
+    alignas(64) float t[batch_size], label[batch_size];
+    const Batch before = (lanes() + 1.f) * (reach * (-1.f / static_cast<float>(batch_size)));
+    store(before, t);
+    store(sample_whole(before).label, label);
+    for (std::size_t i = 0; i < batch_size; ++i)
+        if (label[i] == phase_) return report(result, t[i], i > 0 ? t[i - 1] : 0, i > 0 ? label[i - 1] : here_.label);
     return false;
 }
 

@@ -38,6 +38,13 @@ T distance_of(const float* constants, const Vec3<T>& q) {
 
 }  // namespace detail
 
+/// What it means to a number type that f, computed from q, is a convex function of it: mostly nothing.
+template <class T>
+T known_to_be_convex(const T& f, const Vec3<T>& q) {
+    (void)q;
+    return f;
+}
+
 /// Registers 0 … 2 hold the point. `long_primitive.template operator()<P>(constants, point)` evaluates those;
 /// `done(number)` is called with each number that a step has made.
 template <class T, class LongPrimitiveOf, class Done>
@@ -97,6 +104,8 @@ void interpret(const Routine& routine, T* registers, LongPrimitiveOf&& long_prim
                 const auto primitive = [&]<class P>() {
                     if constexpr (LongPrimitive<P>)
                         to = long_primitive.template operator()<P>(c, point);
+                    else if constexpr (ConvexPrimitive<P>)
+                        to = known_to_be_convex(detail::distance_of<P>(c, point), point);
                     else
                         to = detail::distance_of<P>(c, point);
                 };

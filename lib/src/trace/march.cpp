@@ -29,9 +29,9 @@ Interval clip(const Bounds& box, const TracedRay& ray, double t_min, double t_ma
     return r;
 }
 
-std::optional<Crossing> march_within(const Bounds& box, const LinearBound& bound, const Routine& routine,
-                                     std::uint32_t slots, const TracedRay& traced, float t_min, float t_max,
-                                     float resolution, std::optional<Phase> carried, bool is_certified,
+std::optional<Crossing> march_within(const Bounds& box, const LinearBound& bound, const Curvature& curvature,
+                                     const Routine& routine, std::uint32_t slots, const TracedRay& traced, float t_min,
+                                     float t_max, float resolution, std::optional<Phase> carried, bool is_certified,
                                      Evaluator::Workspace* workspace, TraceCounters& counters) {
     if (!traced.is_traceable) return std::nullopt;
     const glm::vec3 &origin = traced.origin, &direction = traced.direction;
@@ -45,7 +45,8 @@ std::optional<Crossing> march_within(const Bounds& box, const LinearBound& bound
     bool on_interface = carried && span.low == static_cast<double>(t_min);
     float slope = 1;
     bool is_monotone = false;
-    if (bound.slack < Bounds::infinity) {
+    const bool is_in_first = carried && routine.outputs[0].phase == static_cast<float>(carried->index);
+    if (bound.slack < Bounds::infinity && (routine.output_count == 2 || is_in_first)) {
         // The field along the ray is value + rise·t within the slack: where that is not zero, there is no interface.
         const float value = glm::dot(bound.normal, start) + bound.offset, rise = glm::dot(bound.normal, direction);
         const float length = static_cast<float>(span.high - span.low);
@@ -77,8 +78,10 @@ std::optional<Crossing> march_within(const Bounds& box, const LinearBound& bound
     const RaySegment ray{{start.x, start.y, start.z},
                          {direction.x, direction.y, direction.z},
                          static_cast<float>(span.high - span.low),
+                         static_cast<float>(span.low) - t_min,
                          resolution,
                          slope,
+                         {curvature.most[0], curvature.most[1]},
                          carried ? static_cast<float>(carried->index) : -1.f,
                          is_monotone,
                          on_interface};

@@ -20,8 +20,8 @@ Interval clip(const Bounds& box, const TracedRay&, double t_min, double t_max);
 /// its very origin. `slots` batches are what the routine needs. The search itself is the kernel's:
 /// src/kernel/march.inl. `is_certified`: the start is an end of a crossing that this routine found, and `carried` is
 /// the phase there.
-std::optional<Crossing> march_within(const Bounds& box, const LinearBound&, const Routine&, std::uint32_t slots,
-                                     const TracedRay&, float t_min, float t_max, float resolution,
+std::optional<Crossing> march_within(const Bounds& box, const LinearBound&, const Curvature&, const Routine&,
+                                     std::uint32_t slots, const TracedRay&, float t_min, float t_max, float resolution,
                                      std::optional<Phase> carried, bool is_certified, Evaluator::Workspace*,
                                      TraceCounters&);
 

@@ -37,7 +37,8 @@ std::optional<Crossing> InterfaceTracer::first_crossing(const glm::vec3& origin,
     TraceCounters& c = counters ? *counters : unused;
     const Assembly& assembly = *evaluator_->assembly_;
     ++c.visits;
-    return march_within(bounds_, {}, assembly.routine(evaluator_->program().constants.data()), assembly.slots,
+    return march_within(bounds_, {}, {},
+                        assembly.routine(evaluator_->program().constants.data()), assembly.slots,
                         TracedRay(origin, direction), t_min, t_max, resolution_, carried, false, &w, c);
 }
 

@@ -88,6 +88,20 @@ T corner(const T& a, const T& b) {
     return sqrt(past_a * past_a + past_b * past_b) + min(max(a, b), zero);
 }
 
+/// Of three.
+template <class T>
+T corner(const T& a, const T& b, const T& c) {
+    const T zero(0.f);
+    const T past_a = max(a, zero), past_b = max(b, zero), past_c = max(c, zero);
+    return sqrt(past_a * past_a + past_b * past_b + past_c * past_c) + min(max(a, max(b, c)), zero);
+}
+
+/// select(), where both and their slopes agree on the seam: for who wants to know (Enclosure).
+template <class Condition, class T>
+T select_smoothly(const Condition& condition, const T& yes, const T& no) {
+    return select(condition, yes, no);
+}
+
 template <class T>
 struct SineCosine {
     T sine, cosine;

@@ -44,6 +44,13 @@ template <class T>
 T length(const Vec3<T>& a) {
     return sqrt(dot(a, a));
 }
+/// To the segment from the origin to `along`; `inverse` is 1/along², or 0.
+template <class T>
+T squared_distance_to_segment(const Vec3<T>& q, const glm::vec3& along, float inverse) {
+    const T s = clamp(dot(q, along) * inverse, T(0.f), T(1.f));
+    const Vec3<T> away{q.x - s * along.x, q.y - s * along.y, q.z - s * along.z};
+    return dot(away, away);
+}
 /// Length of the vector (x, y).
 template <class T>
 T length(const T& x, const T& y) {

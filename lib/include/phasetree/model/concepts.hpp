@@ -33,6 +33,12 @@ concept LongPrimitive = DataPrimitive<N> || requires {
     N::is_long;
 };
 
+/// A primitive whose distance is a convex function: that to a convex solid, if it is exact inside and out.
+template <class N>
+concept ConvexPrimitive = requires {
+    N::is_convex;
+};
+
 /// A map of space: a plain struct of floats, p ↦ ω⁻¹(p), one instruction.
 template <class M>
 concept PointMap = std::is_trivially_copyable_v<M> && requires(const M& m, const Vec3<float>& p) {

@@ -7,14 +7,12 @@ namespace phasetree {
 /// The distance to a box about the origin, of half extents h, which boxes of several kinds share.
 template <class T>
 T box_distance(const Vec3<T>& p, const glm::vec3& h) {
-    const Vec3<T> q{abs(p.x) - h.x, abs(p.y) - h.y, abs(p.z) - h.z};
-    const T zero(0.f);
-    const T inside = min(max(q.x, max(q.y, q.z)), zero);
-    return length(Vec3<T>{max(q.x, zero), max(q.y, zero), max(q.z, zero)}) + inside;
+    return corner(abs(p.x) - h.x, abs(p.y) - h.y, abs(p.z) - h.z);
 }
 
 struct Box {
     static constexpr bool is_field_node = true;
+    static constexpr bool is_convex = true;
     static constexpr NodeInfo info{"box", "", "q = |p| − s/2;  |max(q, 0)| + min(max(qx, qy, qz), 0)",
                                    "A box about the origin; exact."};
     glm::vec3 size{1};

@@ -9,6 +9,7 @@ namespace phasetree {
 /// larger of the two half-space values.
 struct CappedCone {
     static constexpr bool is_field_node = true;
+    static constexpr bool is_convex = true;
     static constexpr NodeInfo info{"capped_cone", "", "± min(distance to the caps, distance to the slanted side)",
                                    "A truncated cone about the z axis, centred at the origin; exact."};
     float radius_bottom = 1;

@@ -6,6 +6,7 @@ namespace phasetree {
 
 struct Capsule {
     static constexpr bool is_field_node = true;
+    static constexpr bool is_convex = true;
     static constexpr NodeInfo info{"capsule", "", "|p − nearest point of the segment| − r",
                                    "All points within r of a segment; exact."};
     glm::vec3 from{0, 0, -1};
@@ -22,9 +23,7 @@ struct Capsule {
     T distance(const Vec3<T>& p) const {
         const glm::vec3 axis = to - from;
         const float squared = glm::dot(axis, axis);
-        const Vec3<T> q = p - from;
-        const T s = clamp(dot(q, axis) * (squared > 0 ? 1.f / squared : 0.f), T(0.f), T(1.f));
-        return length(Vec3<T>{q.x - s * axis.x, q.y - s * axis.y, q.z - s * axis.z}) - radius;
+        return sqrt(squared_distance_to_segment(p - from, axis, squared > 0 ? 1.f / squared : 0.f)) - radius;
     }
     Bounds bounds(BoundsQuery&, float level) const {
         if (radius + level < 0) return {};

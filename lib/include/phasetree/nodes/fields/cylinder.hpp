@@ -6,6 +6,7 @@ namespace phasetree {
 
 struct Cylinder {
     static constexpr bool is_field_node = true;
+    static constexpr bool is_convex = true;
     static constexpr NodeInfo info{"cylinder", "", "q = (|pxy| − r, |pz| − h/2);  |max(q, 0)| + min(max(qx, qy), 0)",
                                    "A cylinder about the z axis, centred at the origin; exact."};
     float radius = 1;
@@ -18,10 +19,7 @@ struct Cylinder {
     }
     template <class T>
     T distance(const Vec3<T>& p) const {
-        const T zero(0.f);
-        const T side = length(p.x, p.y) - radius;
-        const T cap = abs(p.z) - height * 0.5f;
-        return length(max(side, zero), max(cap, zero)) + min(max(side, cap), zero);
+        return corner(length(p.x, p.y) - radius, abs(p.z) - height * 0.5f);
     }
     Bounds bounds(BoundsQuery&, float level) const {
         return Bounds::centred({radius + level, radius + level, height * 0.5f + level});

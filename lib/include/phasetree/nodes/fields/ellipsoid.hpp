@@ -18,6 +18,7 @@ namespace phasetree {
 /// (The usual k₀(k₀ − 1)/k₁, k₀ = |p/r|, k₁ = |p/r²|, overestimates the distance and has slopes far above 1.)
 struct Ellipsoid {
     static constexpr bool is_field_node = true;
+    static constexpr bool is_convex = true;
     static constexpr NodeInfo info{"ellipsoid", "", "max(min r · (|p/r| − 1), box(p, 2r), |p| − max r)",
                                    "An ellipsoid about the origin; a lower bound, exact at the ends of the axes."};
     glm::vec3 radii{1, 0.75f, 0.5f};

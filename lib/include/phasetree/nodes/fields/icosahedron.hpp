@@ -8,6 +8,7 @@ namespace phasetree {
 /// edge's middle on the y axis, and the edge runs along z.
 struct Icosahedron {
     static constexpr bool is_field_node = true;
+    static constexpr bool is_convex = true;
     static constexpr NodeInfo info{"icosahedron", "", "fold to one chamber;  |max((a, b, c), 0)| + min(a, 0)",
                                    "A regular icosahedron about the origin, with edges across the axes; exact."};
     float radius = 1;

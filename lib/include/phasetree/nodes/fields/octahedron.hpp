@@ -12,6 +12,7 @@ namespace phasetree {
 ///     else                         at a corner, |(a − r, b, c)|
 struct Octahedron {
     static constexpr bool is_field_node = true;
+    static constexpr bool is_convex = true;
     static constexpr NodeInfo info{"octahedron", "", "distance to the projection of |p| onto x + y + z = r",
                                    "A regular octahedron about the origin; exact."};
     float radius = 1;

@@ -43,9 +43,7 @@ struct Polyline {
         for (const float *s = data + 2, *end = s + 7 * segments; s != end; s += 7) {
             const Vec3<T> q = p - glm::vec3(s[0], s[1], s[2]);
             const glm::vec3 along(s[3], s[4], s[5]);
-            const T t = clamp(dot(q, along) * s[6], T(0.f), T(1.f));
-            const Vec3<T> away{q.x - t * along.x, q.y - t * along.y, q.z - t * along.z};
-            nearest = min(dot(away, away), nearest);
+            nearest = min(squared_distance_to_segment(q, along, s[6]), nearest);
         }
         return sqrt(nearest) - r;
     }

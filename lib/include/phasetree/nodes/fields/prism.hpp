@@ -8,6 +8,7 @@ namespace phasetree {
 /// x = R cos(π/n), y from 0 to R sin(π/n).
 struct Prism {
     static constexpr bool is_field_node = true;
+    static constexpr bool is_convex = true;
     static constexpr NodeInfo info{"prism", "",
                                    "fold to one sector;  q = (polygon, |pz| − h/2);  "
                                    "|max(q, 0)| + min(max(qx, qy), 0)",

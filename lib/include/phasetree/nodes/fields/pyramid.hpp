@@ -12,6 +12,7 @@ namespace phasetree {
 /// two, base and face, are nearest, because the solid is convex.
 struct Pyramid {
     static constexpr bool is_field_node = true;
+    static constexpr bool is_convex = true;
     static constexpr NodeInfo info{"pyramid", "", "± min(distance to the base, distance to the nearest slanted face)",
                                    "A pyramid on a square, centred at half its height on the z axis; exact."};
     float base = 1;

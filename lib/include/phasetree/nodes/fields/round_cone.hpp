@@ -11,6 +11,7 @@ namespace phasetree {
 /// point is on the first ball where k < 0, on the second where k > c l, and on the tangent between.
 struct RoundCone {
     static constexpr bool is_field_node = true;
+    static constexpr bool is_convex = true;
     static constexpr NodeInfo info{"round_cone", "",
                                    "k = c x − s y;  k < 0: |p − from| − a;  k > c l: |p − to| − b;  else s x + c y − a",
                                    "The hull of two balls; exact."};
@@ -47,8 +48,8 @@ struct RoundCone {
         const T y = length(Vec3<T>{q.x - x * axis.x, q.y - x * axis.y, q.z - x * axis.z});
         const T k = x * cosine - y * sine;
         const T side = x * sine + y * cosine - radius_from;
-        const T second = select(less(T(cosine * separation), k), length(p - to) - radius_to, side);
-        return select(less(k, T(0.f)), length(q) - radius_from, second);
+        const T second = select_smoothly(less(T(cosine * separation), k), length(p - to) - radius_to, side);
+        return select_smoothly(less(k, T(0.f)), length(q) - radius_from, second);
     }
     Bounds bounds(BoundsQuery&, float level) const {
         return unite(Bounds{from, from}.inflated(radius_from + std::max(level, -radius_from)),

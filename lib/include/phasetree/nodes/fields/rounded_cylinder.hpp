@@ -6,6 +6,7 @@ namespace phasetree {
 
 struct RoundedCylinder {
     static constexpr bool is_field_node = true;
+    static constexpr bool is_convex = true;
     static constexpr NodeInfo info{"rounded_cylinder", "", "cylinder(r − e, h − 2e) − e",
                                    "A cylinder whose rims are rounded, within the same size; exact."};
     float radius = 1;

@@ -6,6 +6,7 @@ namespace phasetree {
 
 struct Sphere {
     static constexpr bool is_field_node = true;
+    static constexpr bool is_convex = true;
     static constexpr NodeInfo info{"sphere", "", "|p| − r", "A ball about the origin; exact."};
     float radius = 1;
 

@@ -9,6 +9,7 @@ namespace phasetree {
 /// of the arc is the rim, which belongs to the disk too, so the disk alone decides.
 struct SphericalCap {
     static constexpr bool is_field_node = true;
+    static constexpr bool is_convex = true;
     static constexpr NodeInfo info{"spherical_cap", "", "± min(distance to the disk, ||p| − r| where r pz ≥ c |p|)",
                                    "What a plane leaves of a ball about the origin: the part above z = c; exact."};
     float radius = 1;

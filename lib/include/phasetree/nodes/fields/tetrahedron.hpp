@@ -12,6 +12,7 @@ namespace phasetree {
 /// 2x − y + z = 2(x + y − z) − 3(y − z) ≤ 2k there, and else |(m, e, max(t − √2 k, 0))|.
 struct Tetrahedron {
     static constexpr bool is_field_node = true;
+    static constexpr bool is_convex = true;
     static constexpr NodeInfo info{"tetrahedron", "",
                                    "fold to x ≥ y ≥ |z|;  m, or |(m, e, max(t − √2 k, 0))| "
                                    "beyond the edge",

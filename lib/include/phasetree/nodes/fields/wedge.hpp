@@ -9,6 +9,7 @@ namespace phasetree {
 /// sides, negative where all three half-planes contain the point.
 struct Wedge {
     static constexpr bool is_field_node = true;
+    static constexpr bool is_convex = true;
     static constexpr NodeInfo info{"wedge", "",
                                    "q = (± distance to the triangle's sides, |py| − sy/2);  "
                                    "|max(q, 0)| + min(max(qx, qy), 0)",

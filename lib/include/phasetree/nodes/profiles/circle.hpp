@@ -6,6 +6,7 @@ namespace phasetree {
 
 struct Circle {
     static constexpr bool is_field_node = true;
+    static constexpr bool is_convex = true;
     static constexpr NodeInfo info{"circle", "", "|pxy| − r",
                                    "A disk about the origin, for extruding and revolving; the same at every z, exact."};
     float radius = 1;

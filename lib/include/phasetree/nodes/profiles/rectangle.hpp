@@ -7,6 +7,7 @@ namespace phasetree {
 /// Rounded corners are those of a smaller rectangle, inflated.
 struct Rectangle {
     static constexpr bool is_field_node = true;
+    static constexpr bool is_convex = true;
     static constexpr NodeInfo info{"rectangle", "", "q = |pxy| − s/2 + r;  |max(q, 0)| + min(max(qx, qy), 0) − r",
                                    "A rectangle about the origin, for extruding and revolving; the same at every z, "
                                    "exact."};

@@ -25,6 +25,7 @@ concept LocalWarp = requires {
 
 /// Distance to a box that stands anywhere: the bound of a local warp.
 struct BoundingBox {
+    static constexpr bool is_convex = true;
     glm::vec3 centre{0};
     glm::vec3 half{1};
 

@@ -53,7 +53,8 @@ typedef struct PhasetreeMedium {
 typedef struct PhasetreeRay {
     /* In: the phases that the ray carries. For a geometry that is not listed, or with PHASETREE_UNKNOWN_PHASE, the
      * phase at the ray's start counts, as with a stock context. If another phase is at the start than the one carried,
-     * beyond what rounding explains, that is a crossing at the start. Owned by the application; not written. */
+     * beyond what rounding explains, that is a crossing where it is noticed: at the start, if that is near an interface,
+     * else where the ray comes near the next one. Owned by the application; not written. */
     const PhasetreeMedium* media;
     unsigned int mediumCount;
     /* Out: the crossing behind the last hit that a geometry of this library reported for the ray. If the ray's hit is a

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "cells/prune.hpp"
+
+namespace phasetree {
+
+/// Only what some outputs reach, of a program that is otherwise unchanged.
+class Reach {
+  public:
+    Reach(const WorkingProgram& program, std::span<const ProgramOutput> outputs, Arena& scratch)
+        : program_(program), outputs_(outputs), is_reached_(scratch.take<char>(program.code.size())) {
+        std::ranges::fill(is_reached_, char{0});
+        for (const ProgramOutput& o : outputs) is_reached_[o.value] = 1;
+        for (std::size_t i = program.code.size(); i-- > 1;) {
+            if (!is_reached_[i]) continue;
+            ++size_;
+            const Instruction& in = program.code[i];
+            if (operands(in.op) > 0) is_reached_[in.a] = 1;
+            if (operands(in.op) > 1) is_reached_[in.b] = 1;
+        }
+    }
+    std::size_t size() const { return size_; }
+    bool has(std::size_t i) const { return i == 0 || is_reached_[i]; }
+
+    /// It, renumbered.
+    WorkingProgram program(Arena& keep, Arena& scratch) const {
+        const std::span<std::uint32_t> renumbered = scratch.take<std::uint32_t>(program_.code.size());
+        const std::span<Instruction> code = keep.take<Instruction>(size_ + 1);
+        const std::span<float> lipschitz = keep.take<float>(size_ + 1);
+        const std::span<ProgramOutput> ends = keep.take<ProgramOutput>(outputs_.size());
+        std::uint32_t count = 0;
+        for (std::uint32_t i = 0; i < program_.code.size(); ++i) {
+            renumbered[i] = count;
+            if (i > 0 && !is_reached_[i]) continue;
+            const Instruction& in = program_.code[i];
+            const int n = operands(in.op);
+            code[count] = {in.op, n > 0 ? renumbered[in.a] : 0, n > 1 ? renumbered[in.b] : 0, in.data};
+            lipschitz[count++] = program_.lipschitz[i];
+        }
+        for (std::size_t k = 0; k < outputs_.size(); ++k)
+            ends[k] = {outputs_[k].phase, renumbered[outputs_[k].value], outputs_[k].negate};
+        return {code, lipschitz, ends};
+    }
+
+  private:
+    const WorkingProgram& program_;
+    std::span<const ProgramOutput> outputs_;
+    std::span<char> is_reached_;
+    std::size_t size_ = 0;
+};
+
+}  // namespace phasetree
