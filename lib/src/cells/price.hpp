@@ -16,7 +16,7 @@ inline constexpr float batch = 25, step = 4.5f;  ///< of a batch, and of each of
 inline constexpr float certain = 1.5f;           ///< batches where the field is linear,
 inline constexpr float unknown = 0.5f;           ///< more of them the less it lets rays pass without one,
 inline constexpr float uneven = 1;               ///< the more its gradient varies,
-inline constexpr float blind = 2;                ///< and where it may bend at will
+inline constexpr float blind = 1.5f;             ///< and where it may bend at will
 }  // namespace price
 
 /// How much work an instruction is, in simple ones.
