@@ -40,6 +40,7 @@ struct Routine {
     bool is_by_own = false;
     /// So many steps give the first component alone, 0 if that is not known: enough for a ray that is in its phase.
     std::size_t leading = 0;
+    bool is_first_alone = false;  ///< only these steps
 };
 
 /// A piece of a ray: origin + t·direction, 0 ≤ t ≤ length.

@@ -131,7 +131,7 @@ HWY_INLINE Classified classify(const Routine& routine, float* registers) {
         return load(at(registers, routine.outputs[i].slot)) * routine.outputs[i].sign;
     };
     Batch lowest = component(0);
-    if (routine.output_count == 1) {
+    if (routine.is_first_alone) {
         const Batch zero(0.f);
         return {select(less(lowest, zero), Batch(routine.outputs[0].phase), Batch(another_phase)),
                 max(lowest, -lowest)};

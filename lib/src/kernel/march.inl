@@ -137,7 +137,7 @@ class March {
           is_alone_(routine.leading > 0 && routine.outputs[0].phase == ray.carried) {
         // Both tell the distance in the same way.
         if (is_alone_) whole_.is_by_own = true;
-        alone_ = {routine.steps, routine.leading, routine.constants, routine.outputs, 1};
+        alone_ = {routine.steps, routine.leading, routine.constants, routine.outputs, 1, true, 0, true};
     }
 
     bool run(RayCrossing& crossing) {

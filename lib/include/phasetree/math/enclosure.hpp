@@ -382,6 +382,12 @@ inline Enclosure select_smoothly(const Decision& d, const Enclosure& yes, const 
     return r;
 }
 
+template <class Other>
+Enclosure also_known_as(const Enclosure& f, const Other& other) {
+    const auto [is_certain, g] = other([](const Decision& d) { return !d.can_be_false; });
+    return is_certain ? g : f;
+}
+
 /// A squared distance to a convex set is convex, and no more curved than that to a point.
 inline Enclosure squared_distance_to_segment(const Vec3<Enclosure>& q, const glm::vec3& along, float inverse) {
     Enclosure r = squared_distance_to_segment<Enclosure>(q, along, inverse);

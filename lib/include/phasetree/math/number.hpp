@@ -102,6 +102,13 @@ T select_smoothly(const Condition& condition, const T& yes, const T& no) {
     return select(condition, yes, no);
 }
 
+/// What else f is, where that is certain: for who wants to know. `other(certainly)` gives whether and what, asking
+/// certainly(comparison).
+template <class T, class Other>
+T also_known_as(const T& f, const Other&) {
+    return f;
+}
+
 template <class T>
 struct SineCosine {
     T sine, cosine;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include "phasetree/model/concepts.hpp"
 
 namespace phasetree {
@@ -46,7 +48,12 @@ struct CappedCone {
         // Inside iff within the slab and on the axis' side of the slanted line.
         const T side = max(cap_z, qx * -ez + qz * ex);
         const T d = sqrt(min(to_cap, to_side));
-        return select(less(side, zero), -d, d);
+        // Where the side is nearest, and not its ends, it is a plane in ρ and z.
+        return also_known_as(select(less(side, zero), -d, d), [&](const auto& certainly) {
+            const bool is_side = certainly(less(cap_z, zero)) && certainly(less(to_side, to_cap)) &&
+                                 certainly(less(zero, s)) && certainly(less(s, T(1.f)));
+            return std::pair(is_side, (qx * -ez + qz * ex) * std::sqrt(inverse));
+        });
     }
     Bounds bounds(BoundsQuery&, float level) const {
         const float r = std::max(radius_bottom, radius_top) + level;
