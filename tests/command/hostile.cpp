@@ -354,7 +354,8 @@ TEST_CASE("wrong arguments: one error, exit code 2, nothing left behind") {
                                        {{"-o", ""}, ""},
                                        {{"-o", "/proc/picture.exr"}, "/proc/picture.exr"},
                                        {{"--stats", "nowhere/stats.json"}, "nowhere/stats.json"},
-                                       {{"--stats", "."}, ""},
+                                       {{"--stats", "."}, "cannot write \".\": it is a directory"},
+                                       {{"--stats", "/dev/null"}, "it is not a regular file"},
                                        {{"--nonsense"}, "--nonsense"},
                                        {{"another.json"}, "another.json"}};
     const Shell shell;

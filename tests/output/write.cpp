@@ -3,6 +3,7 @@
 #include <OpenImageIO/imageio.h>
 #include <doctest/doctest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -16,6 +17,7 @@
 #include <thread>
 
 #include "environment.hpp"
+#include "output/file.hpp"
 #include "phasetree/version.hpp"
 #include "temporary_directory.hpp"
 
@@ -339,6 +341,34 @@ TEST_CASE("a full disk leaves the old file and no other") {
         CHECK(bytes_of(folder / name) == "precious");
     }
     CHECK(folder.size() == names.size());
+}
+
+TEST_CASE("a file of any kind is written whole or not at all, and never in the place of what is no file") {
+    const TemporaryDirectory folder;
+    write_text(folder / "numbers", "precious");
+    std::string message;
+    {
+        const FullDisk full(512);
+        message = message_of<OutputError>([&] { write_file(std::string(1000, '1'), folder / "numbers"); });
+    }
+    CHECK(contains(message, "File too large"));
+    CHECK(bytes_of(folder / "numbers") == "precious");
+    write_file("one two", folder / "numbers");
+    CHECK(bytes_of(folder / "numbers") == "one two");
+    write_file("", folder / "numbers");
+    CHECK(bytes_of(folder / "numbers") == "");
+
+    REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+    fs::create_symlink("pipe", folder / "link");
+    for (const char* name : {"pipe", "link"}) {
+        CAPTURE(name);
+        for (const bool before : {true, false})
+            CHECK(contains(message_of<OutputError>(
+                               [&] { before ? check_file_writable(folder / name) : write_file("one", folder / name); }),
+                           "it is not a regular file"));
+    }
+    CHECK(fs::is_fifo(folder / "pipe"));
+    CHECK(folder.size() == 3);
 }
 
 TEST_CASE("writing replaces the old file, and only it") {

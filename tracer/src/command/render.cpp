@@ -1,7 +1,6 @@
 #include "render/render.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <charconv>
 #include <cstdio>
@@ -11,6 +10,7 @@
 #include "command/cells_report.hpp"
 #include "command/commands.hpp"
 #include "command/load.hpp"
+#include "output/file.hpp"
 #include "output/interrupt.hpp"
 #include "output/progress.hpp"
 #include "output/write.hpp"
@@ -62,15 +62,6 @@ PixelRange pixels(const Options& options, const Scene& scene) {
     return range;
 }
 
-// Before an hour of rendering, and without a trace.
-void check_stats_writable(const std::filesystem::path& path) {
-    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-    std::error_code ignored;
-    if (!std::filesystem::is_directory(folder, ignored) || std::filesystem::is_directory(path, ignored) ||
-        ::access((std::filesystem::exists(path, ignored) ? path : folder).c_str(), W_OK) != 0)
-        throw OutputError(fmt::format("{}: cannot be written", path.string()));
-}
-
 void write_stats(const std::string& path, const Options& options, const World& world, const Rendering& r) {
     const auto per_ray = [&](std::uint64_t n) {
         return r.counters.rays ? static_cast<double>(n) / static_cast<double>(r.counters.rays) : 0.0;
@@ -93,9 +84,7 @@ void write_stats(const std::string& path, const Options& options, const World& w
     const CellStatistics cells = world.object().statistics();
     json["instructions"] = world.object().whole().program().instructions.size();
     add_cells(json, cells);
-    std::ofstream out(path);
-    out << json.dump(2) << "\n";
-    if (!out.flush()) throw OutputError(fmt::format("{}: cannot be written", path));
+    write_file(json.dump(2) + "\n", path);
 }
 
 int render_scene(const Options& options) {
@@ -116,7 +105,7 @@ int render_scene(const Options& options) {
         outputs = {stem + ".exr", stem + ".png"};
     }
     for (const std::string& output : outputs) check_writable(output);
-    if (options.stats) check_stats_writable(*options.stats);
+    if (options.stats) check_file_writable(*options.stats);
     const DisplayTransform display(options.display, options.view ? options.view : scene.settings.view,
                                    options.exposure.value_or(scene.settings.exposure_ev));
     RenderJob job;

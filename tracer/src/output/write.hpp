@@ -10,9 +10,8 @@
 namespace phasetree::tracer {
 
 /// Writes an image; the extension chooses the format (encode.hpp). EXR keeps the linear values as they are; for the
-/// others the transform is applied. The file appears complete or not at all: it is written under a temporary name in
-/// the same directory and renamed. A symbolic link stays one, and what it points at is replaced. Throws OutputError;
-/// then an existing file is untouched and no temporary is left.
+/// others the transform is applied. The file appears complete or not at all, as any of write_file's (file.hpp). Throws
+/// OutputError; then an existing file is untouched and no temporary is left.
 void write_image(const Image& image, const std::filesystem::path& path, const Metadata& metadata,
                  const DisplayTransform& transform);
 
