@@ -10,6 +10,7 @@
 #include <chrono>
 #include <csignal>
 #include <functional>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -30,8 +31,30 @@ struct Outcome {
     double processor_seconds = 0;  // how long it takes on a busy machine says nothing of the program
 };
 
-// No run of the command in a test takes longer than a few seconds, however loaded the machine.
+// What a process has used of the processors so far, all threads together; 0 of one that has ended.
+inline double processor_seconds(pid_t process) {
+    const std::string stat = bytes_of("/proc/" + std::to_string(process) + "/stat");
+    // Behind the name, which may hold anything, from the third field on: the 14th and 15th are clock ticks.
+    std::istringstream fields(stat.substr(std::min(stat.rfind(')') + 1, stat.size())));
+    std::string field;
+    double ticks = 0;
+    for (int i = 3; i <= 15 && fields >> field; ++i)
+        if (i >= 14) ticks += std::stod(field);
+    return ticks / static_cast<double>(::sysconf(_SC_CLK_TCK));
+}
+
+// Whether a process has a handler of its own for a signal by now.
+inline bool catches(pid_t process, int signal) {
+    std::istringstream status(bytes_of("/proc/" + std::to_string(process) + "/status"));
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with("SigCgt:")) return (std::stoull(line.substr(7), nullptr, 16) >> (signal - 1)) & 1;
+    return false;
+}
+
+// No run of the command in a test works for longer than a few seconds. On a machine that is busy otherwise it may wait
+// for the processors much longer than that.
 inline constexpr auto give_up_after = std::chrono::seconds(60);
+inline constexpr int waiting_per_work = 10;
 
 // A directory for scenes and images, and the command run there.
 class Shell {
@@ -69,7 +92,9 @@ class Shell {
         rusage used{};
         while (::wait4(child, &status, WNOHANG, &used) == 0) {
             if (meanwhile) meanwhile(child);
-            if (std::chrono::steady_clock::now() - start > patience) ::kill(child, SIGKILL);
+            if (std::chrono::steady_clock::now() - start > waiting_per_work * patience ||
+                processor_seconds(child) > static_cast<double>(patience.count()))
+                ::kill(child, SIGKILL);
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
         Outcome outcome;
