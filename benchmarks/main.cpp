@@ -4,12 +4,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <thread>
 
+#include "command/subcommand.hpp"
 #include "commands/commands.hpp"
+#include "output/file.hpp"
 #include "phasetree/program/evaluator.hpp"
 #include "phasetree/version.hpp"
 
@@ -59,36 +60,8 @@ void set_size(Settings& settings, const std::string& text) {
     settings.height = height;
 }
 
-// A file that is written whole or not at all; opened before anything is measured.
-class JsonFile {
-  public:
-    explicit JsonFile(const std::string& name) : name_(name), part_(name + ".part"), stream_(part_) {
-        if (!stream_) throw std::runtime_error("cannot write \"" + name + "\"");
-    }
-    ~JsonFile() {
-        std::error_code ignored;
-        if (!done_) std::filesystem::remove(part_, ignored);
-    }
-    JsonFile(const JsonFile&) = delete;
-    JsonFile& operator=(const JsonFile&) = delete;
-
-    void write(const nlohmann::ordered_json& json) {
-        stream_ << json.dump(2) << '\n';
-        stream_.close();
-        if (!stream_) throw std::runtime_error("cannot write \"" + name_ + "\"");
-        std::filesystem::rename(part_, name_);
-        done_ = true;
-    }
-
-  private:
-    std::string name_, part_;
-    std::ofstream stream_;
-    bool done_ = false;
-};
-
-int run(const std::vector<Command>& chosen, const Settings& settings, const std::string& file) {
-    std::optional<JsonFile> output;
-    if (!file.empty()) output.emplace(file);
+int run(const std::vector<Command>& chosen, const Settings& settings, const std::optional<std::string>& file) {
+    if (file) tracer::check_file_writable(*file);  // before an hour of measuring, not after it
     nlohmann::ordered_json json;
     json["machine"] = machine();
     json["settings"] = {{"quick", settings.quick}, {"threads", settings.threads},
@@ -106,7 +79,7 @@ int run(const std::vector<Command>& chosen, const Settings& settings, const std:
         json[report.name()]["seconds"] = seconds(Clock::wall) - start;
         sound = sound && report.sound();
     }
-    if (output) output->write(json);
+    if (file) tracer::write_file(json.dump(2) + "\n", *file);
     if (!sound) fmt::print(stderr, "phasetree-bench: a check failed, see above\n");
     return sound ? 0 : 1;
 }
@@ -120,7 +93,7 @@ int main(int argc, char** argv) {
     using namespace phasetree::bench;
     CLI::App app("Measures what phasetree claims about speed.", "phasetree-bench");
     Settings settings;
-    std::string size, file;
+    std::optional<std::string> size, file;
     const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
     app.add_flag("--quick", settings.quick, "Fewer rays and rounds: all of it within a minute");
     app.add_option("--threads", settings.threads, "Threads that trace; with more than one the wall clock is read")
@@ -137,9 +110,9 @@ int main(int argc, char** argv) {
     try {
         app.parse(argc, argv);
         if (settings.quick) settings.width = settings.height = 128;
-        if (!size.empty()) set_size(settings, size);
+        if (size) set_size(settings, *size);
     } catch (const CLI::ParseError& e) {
-        return app.exit(e) == 0 ? 0 : 2;
+        return tracer::exit_code(app, e);
     }
     if (static_cast<unsigned>(settings.threads) > cores)
         fmt::print("{} threads on {} cores: they will wait for each other\n", settings.threads, cores);

@@ -11,7 +11,7 @@ struct Settings {
     bool quick = false;
     int threads = 1;                // that trace; building is measured on one
     int width = 512, height = 512;  // of an image of one ray per pixel
-    std::uint64_t seed = 1;
+    std::uint32_t seed = 1;
 
     // Processor time of one thread does not count what else the machine does; several threads have only the wall clock.
     Timing timing() const { return {quick ? 3 : 7, quick ? 0.02 : 0.15, threads == 1 ? Clock::thread : Clock::wall}; }

@@ -77,19 +77,52 @@ TEST_CASE("phasetree-bench all: every subcommand's numbers are finite and positi
 TEST_CASE("phasetree-bench: what is wrong with the command line is said, and nothing is written") {
     Shell shell;
     const std::string file = shell.directory / "bench.json";
-    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"tablel", "--json", file},
-                                                      {"phases", "--size", "32", "--json", file},
-                                                      {"phases", "--size", "0x5", "--json", file},
-                                                      {"phases", "--threads", "0", "--json", file},
-                                                      {}}) {
+    struct Case {
+        std::vector<std::string> arguments;
+        std::string message;
+    };
+    for (const Case& c :
+         std::vector<Case>{{{"tablel"}, "unknown subcommand \"tablel\"; did you mean \"table1\"?"},
+                           {{"nothing"}, "unknown subcommand \"nothing\"; the subcommands are table1, "},
+                           {{"phases", "--size", "32"}, "--size"},
+                           {{"phases", "--size", "0x5"}, "--size"},
+                           {{"phases", "--size", ""}, "--size"},
+                           {{"phases", "--threads", "0"}, "--threads"},
+                           {{"phases", "--seed", "-1"}, "--seed"},
+                           {{"phases", "--seed", "99999999999999999999999"}, "--seed"},
+                           {{"phases", "--nothing"}, "--nothing"},
+                           {{}, "subcommand"}}) {
+        std::vector<std::string> arguments = c.arguments;
+        if (!arguments.empty()) arguments.insert(arguments.end(), {"--json", file});
+        CAPTURE(arguments);
         const Outcome outcome = shell.run(arguments);
+        CAPTURE(outcome.err);
         CHECK(outcome.code == 2);
-        CHECK(outcome.err != "");
+        CHECK(outcome.err.find(c.message) != std::string::npos);
+        CHECK(outcome.out == "");
         CHECK(shell.directory.size() == 0);
     }
-    const Outcome outcome = shell.run({"phases", "--quick", "--size", "4x4", "--json", "nowhere/bench.json"});
-    CHECK(outcome.code == 1);
-    CHECK(outcome.err.find("nowhere/bench.json") != std::string::npos);
     // Before an hour of measuring, not after it.
-    CHECK(outcome.out == "");
+    for (const std::string& wrong : {std::string("nowhere/bench.json"), std::string("."), std::string("/dev/null")}) {
+        const Outcome outcome = shell.run({"phases", "--quick", "--size", "4x4", "--json", wrong});
+        CAPTURE(outcome.err);
+        CHECK(outcome.code == 1);
+        CHECK(outcome.err.find("cannot write \"" + wrong + "\"") != std::string::npos);
+        CHECK(outcome.out == "");
+        CHECK(shell.directory.size() == 0);
+    }
+}
+
+TEST_CASE("phasetree-bench: who stops it finds the old file of numbers, and nothing else") {
+    const Shell shell;
+    write_text(shell.directory / "bench.json", "precious");
+    bool is_stopped = false;
+    const auto stop = [&](pid_t process) {
+        if (!is_stopped && processor_seconds(process) > 0.5) is_stopped = ::kill(process, SIGTERM) == 0;
+    };
+    const Outcome outcome = shell.run({"scaling", "--json", "bench.json"}, "", stop);
+    CHECK(is_stopped);
+    CHECK(outcome.signal == SIGTERM);
+    CHECK(bytes_of(shell.directory / "bench.json") == "precious");
+    CHECK(shell.directory.size() == 1);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <sstream>
 
 #include "command.hpp"
 #include "phasetree/phasetree.hpp"
@@ -87,6 +88,14 @@ TEST_CASE("info, for people and as JSON") {
     CHECK(cells.at("instructions_per_cell").at("median").get<int>() > 0);
     const Outcome in_words = shell.run({"info", "scene.json", "--cells"});
     CHECK(in_words.out.find("different programs") != std::string::npos);
+    // Labels and values are in two columns.
+    std::istringstream lines(in_words.out);
+    for (std::string line; std::getline(lines, line);) {
+        CAPTURE(line);
+        REQUIRE(line.size() > 14);
+        CHECK(line[13] == ' ');
+        CHECK(line[14] != ' ');
+    }
 }
 
 TEST_CASE("eval: phases and distances, in full precision") {

@@ -18,7 +18,7 @@ void add_cells(nlohmann::ordered_json& json, const CellStatistics& s) {
 
 void print_cells(const CellStatistics& s) {
     fmt::print("{:<14}{} with {} different programs\n", "cells", s.cells, s.routines);
-    fmt::print("{:<14}{} in half of them or fewer, {} in nine of ten, {} at most\n", "  instructions",
+    fmt::print("{:<14}{} instructions or fewer in half of the cells, {} in nine of ten, {} at most\n", "  programs",
                s.median_instructions, s.percentile90_instructions, s.most_instructions);
     fmt::print("{:<14}{}\n", "  bytes", s.bytes);
     fmt::print("{:<14}{:.3f} s\n", "  build time", s.build_seconds);

@@ -5,6 +5,7 @@
 
 #include "command/commands.hpp"
 #include "command/numbers.hpp"
+#include "command/subcommand.hpp"
 #include "output/error.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/reading/error.hpp"
@@ -25,7 +26,7 @@ int main(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
-        return app.exit(e) == 0 ? 0 : 2;
+        return tracer::exit_code(app, e);
     }
     try {
         return run();
