@@ -404,17 +404,33 @@ bool March::is_crossing(const Place& next, RayCrossing& result) {
     return false;
 }
 
-/// Along a face where labels flicker another cell may have seen the ray in its phase still, and this one not.
+/// Along a face where labels flicker another cell may have seen the ray in its phase still, and this one not. Looks for
+/// where it was: a few resolutions back, or where it has been within rounding of the interface for long, many.
 bool March::is_entered_late(RayCrossing& result) {
-    const float reach = smaller(ray_.behind, 4 * ray_.resolution);
-    if (!(reach > 0)) return false;
+    const float resolution = ray_.resolution;
     alignas(64) float t[batch_size], label[batch_size];
-    const Batch before = (lanes() + 1.f) * (reach * (-1.f / static_cast<float>(batch_size)));
-    store(before, t);
-    store(sample_whole(before).label, label);
-    for (std::size_t i = 0; i < batch_size; ++i)
-        if (label[i] == phase_) return report(result, t[i], i > 0 ? t[i - 1] : 0, i > 0 ? label[i - 1] : here_.label);
-    return false;
+    const auto look = [&](const Batch& where) {
+        store(where, t);
+        store(sample_whole(where).label, label);
+    };
+    constexpr float size = static_cast<float>(batch_size), farthest = 16384;
+    Place in{0, 0, none}, out{0, 0, here_.label};
+    for (float reach = 4; in.label == none; reach *= size) {
+        const float back = smaller(ray_.behind, reach * resolution);
+        if (!(back > 0)) return false;
+        look((lanes() + 1.f) * (-back / size));
+        for (std::size_t i = 0; i < batch_size && in.label == none; ++i)
+            (label[i] == phase_ ? in : out) = {t[i], 0, label[i]};
+        const bool is_far = here_.distance >= resolution;  // from where it changes
+        if (in.label == none && (is_far || back == ray_.behind || reach >= farthest)) return false;
+    }
+    while (out.t - in.t > resolution) {
+        const float low = in.t, step = (out.t - low) / (size + 1);
+        look(Batch(low) + (lanes() + 1.f) * step);
+        if (!(t[0] > low)) break;  // no float lies between
+        for (std::size_t i = batch_size; i-- > 0 && in.t == low;) (label[i] == phase_ ? in : out) = {t[i], 0, label[i]};
+    }
+    return report(result, in.t, out.t, out.label);
 }
 
 bool march(const Routine& routine, const RaySegment& ray, float* registers, RayCrossing& crossing) {
