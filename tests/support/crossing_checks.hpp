@@ -34,8 +34,8 @@ using analytic::Piece;
 using glm::dvec3;
 
 struct Totals {
-    std::size_t rays = 0, crossings = 0, wrong = 0, uncertified = 0, wide = 0, over_sliver = 0, misplaced = 0,
-                bad_normals = 0;
+    std::size_t rays = 0, crossings = 0, wrong = 0, uncertified = 0, rounded = 0, wide = 0, over_sliver = 0,
+                misplaced = 0, bad_normals = 0;
     std::size_t passed_coarsely = 0, most_crossings = 0, flickering = 0;
     std::size_t normals = 0, reflections = 0, self_hits = 0, coarsened = 0;
 };
@@ -73,6 +73,20 @@ inline bool is_smooth(const Phased& object, const dvec3& p, const dvec3& n, Phas
             return false;
     }
     return true;
+}
+
+/// Whether a point, or one up to four units in the last place beside it, is in a phase.
+template <class Tracer>
+bool is_within_rounding(const Tracer& tracer, const glm::vec3& p, Phase phase) {
+    if (tracer.label(p) == phase) return true;
+    const float unit = 0x1p-23f * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    for (int axis = 0; axis < 3; ++axis)
+        for (int k = -4; k <= 4; ++k) {
+            glm::vec3 q = p;
+            q[axis] += static_cast<float>(k) * unit;
+            if (tracer.label(q) == phase) return true;
+        }
+    return false;
 }
 
 template <class Tracer>
@@ -115,7 +129,12 @@ void check_ray(const Scene& scene, const Tracer& tracer, const Probe& probe, int
         ++totals.crossings;
         const bool certified = hit->from == carried && hit->from != hit->to && tracer.label(hit->p_out) == hit->to &&
                                (tracer.label(hit->p_in) == hit->from || (hit->t_in == 0 && hit->t_out == 0));
-        if (!certified && totals.uncertified++ < 3) complain("not certified");
+        // Along a face at an angle of 10⁻⁵ the label at a point depends on how it was rounded, for long.
+        const bool is_rounded = !certified && hit->from == carried && hit->from != hit->to &&
+                                is_within_rounding(tracer, hit->p_in, hit->from) &&
+                                is_within_rounding(tracer, hit->p_out, hit->to);
+        totals.rounded += is_rounded;
+        if (!certified && !is_rounded && totals.uncertified++ < 3) complain("not certified");
         const double width = glm::length(dvec3(hit->p_out) - dvec3(hit->p_in));
         // The bracket is cut down to a resolution, and its ends are rounded to float coordinates. One that passes a
         // sliver of a third phase, undecided for up to 1.5 resolutions, is that much longer.
@@ -267,11 +286,12 @@ inline void check_totals(const Totals& totals, const std::vector<std::string>& c
     MESSAGE(totals.rays, " rays, ", totals.crossings, " crossings, ", totals.normals, " normals, ", totals.reflections,
             " reflections, ", totals.coarsened, " rays creep, of which ", totals.passed_coarsely, " passed something; ",
             totals.flickering, " rays within rounding of a face cross it more than 100 times, at most ",
-            totals.most_crossings);
+            totals.most_crossings, "; ", totals.rounded, " crossings certain only up to rounding");
     CHECK(totals.wrong == 0);
     CHECK(totals.flickering < totals.rays / 2000);
     CHECK(totals.passed_coarsely < totals.rays / 50);
     CHECK(totals.uncertified == 0);
+    CHECK(totals.rounded <= totals.crossings / 100'000);
     CHECK(totals.wide == 0);
     CHECK(totals.over_sliver < totals.crossings / 2000);
     CHECK(totals.misplaced == 0);
