@@ -405,7 +405,7 @@ bool March::is_crossing(const Place& next, RayCrossing& result) {
 }
 
 /// Along a face where labels flicker another cell may have seen the ray in its phase still, and this one not. Looks for
-/// where it was: a few resolutions back, or where it has been within rounding of the interface for long, many.
+/// where it was, a few resolutions back: farther from the cell its program means nothing.
 bool March::is_entered_late(RayCrossing& result) {
     const float resolution = ray_.resolution;
     alignas(64) float t[batch_size], label[batch_size];
@@ -413,17 +413,14 @@ bool March::is_entered_late(RayCrossing& result) {
         store(where, t);
         store(sample_whole(where).label, label);
     };
-    constexpr float size = static_cast<float>(batch_size), farthest = 16384;
+    constexpr float size = static_cast<float>(batch_size);
     Place in{0, 0, none}, out{0, 0, here_.label};
-    for (float reach = 4; in.label == none; reach *= size) {
-        const float back = smaller(ray_.behind, reach * resolution);
-        if (!(back > 0)) return false;
-        look((lanes() + 1.f) * (-back / size));
-        for (std::size_t i = 0; i < batch_size && in.label == none; ++i)
-            (label[i] == phase_ ? in : out) = {t[i], 0, label[i]};
-        const bool is_far = here_.distance >= resolution;  // from where it changes
-        if (in.label == none && (is_far || back == ray_.behind || reach >= farthest)) return false;
-    }
+    const float back = smaller(ray_.behind, 4 * resolution);
+    if (!(back > 0)) return false;
+    look((lanes() + 1.f) * (-back / size));
+    for (std::size_t i = 0; i < batch_size && in.label == none; ++i)
+        (label[i] == phase_ ? in : out) = {t[i], 0, label[i]};
+    if (in.label == none) return false;
     while (out.t - in.t > resolution) {
         const float low = in.t, step = (out.t - low) / (size + 1);
         look(Batch(low) + (lanes() + 1.f) * step);
