@@ -57,6 +57,15 @@ struct Parts {
     }
 };
 
+/// A cell that a box could become.
+struct Candidate {
+    WorkingProgram program;
+    Bounds box{};  ///< around its interface
+    LinearBound bound{};
+    Curvature curvature{};
+    float cost = 0;
+};
+
 /// A box with its program, and for how many divisions nothing was won. A program that loses an instruction now and then
 /// would else be divided to the end, and all for nothing.
 struct Share {
@@ -66,36 +75,47 @@ struct Share {
     int stale = 0;
     float left = 1;                   ///< what is left of the cost since something was won
     float period = Bounds::infinity;  ///< of the finest fold that still jumps
-    // If it becomes a cell:
-    Bounds cell{};  ///< around its interface
-    LinearBound bound{};
-    Curvature curvature{};
-    float cost = 0;
+    Candidate cell{};
 };
 
-/// Makes a share ready: encloses its program, and takes from it what cannot matter. False if no interface passes.
-bool prepare(Share& share, const Division& d, Worker& w) {
+/// Encloses a program in a share's box, and takes from it what cannot matter there. Nothing if no interface passes.
+std::optional<Candidate> candidate(const Share& share, const WorkingProgram& program, const Division& d, Worker& w) {
     const Bounds all = share.box.inflated(d.reach);
-    share.cell = all;
+    Candidate cell{program, all};
     for (int i = 0; i < 2; ++i) {
         const ArenaScope scratch(w.scratch);
-        const std::optional<Enclosed> enclosed = enclose(share.program, d.constants, all, d.rounding, w.scratch);
+        const std::optional<Enclosed> enclosed = enclose(cell.program, d.constants, all, d.rounding, w.scratch);
         if (!enclosed) break;
-        if (enclosed->is_free) return false;
-        share.bound = enclosed->bound;
-        share.curvature = enclosed->curvature;
-        share.cell = intersect(all, enclosed->box.inflated(d.reach));
-        if (share.cell.empty()) return false;
+        if (enclosed->is_free) return std::nullopt;
+        cell.bound = enclosed->bound;
+        cell.curvature = enclosed->curvature;
+        cell.box = intersect(all, enclosed->box.inflated(d.reach));
+        if (cell.box.empty()) return std::nullopt;
         if (i > 0) break;
-        const auto pruned = prune(share.program, d.constants, enclosed->ranges, w.programs, w.scratch);
-        if (!pruned) return false;
-        if (pruned->code.size() == share.program.code.size() && pruned->outputs.size() == share.program.outputs.size())
+        const auto pruned = prune(cell.program, d.constants, enclosed->ranges, w.programs, w.scratch);
+        if (!pruned) return std::nullopt;
+        if (pruned->code.size() == cell.program.code.size() && pruned->outputs.size() == cell.program.outputs.size())
             break;
-        share.program = *pruned;  // whose gradient is better known
+        cell.program = *pruned;  // whose gradient is better known
     }
     // Through copies without end a ray goes on and on.
     const float copies = 1 + 4 * share.box.diagonal() / share.period;
-    share.cost = cost(share.cell, share.bound, share.curvature, share.program, w.scratch) * copies;
+    cell.cost = cost(cell.box, cell.bound, cell.curvature, cell.program, w.scratch) * copies;
+    return cell;
+}
+
+/// Makes a share ready. False if no interface passes.
+bool prepare(Share& share, const Division& d, Worker& w) {
+    const auto whole = candidate(share, share.program, d, w);
+    if (!whole) return false;
+    share.program = whole->program;
+    share.cell = *whole;
+    // Its parts may want what tells more far away.
+    if (const auto near = without_far_bounds(share.program, d.constants, w.programs, w.scratch)) {
+        const auto other = candidate(share, *near, d, w);
+        if (!other) return false;
+        if (other->cost < share.cell.cost) share.cell = *other;
+    }
     return true;
 }
 
@@ -108,19 +128,20 @@ float find_cells(const Share& share, const Division& d, Worker& w) {
     const float promise = d.options.least_gain * (1 + 0.1f / size);
     const bool is_hopeless = share.stale >= Patience(share.program).divisions;
     const bool is_final = is_hopeless || share.depth >= d.options.deepest || share.box.diagonal() < 64 * d.reach ||
-                          share.cost < (1 + promise) * least_cost(share.cell) + price::parts * surface(share.box);
+                          share.cell.cost < (1 + promise) * least_cost(share.cell.box) + price::parts * surface(share.box);
     if (!is_final) {
         const Found::Mark before = w.found.mark();
         const float divided = divide(share, d, w) + price::parts * surface(share.box);
-        if (divided < share.cost) return divided;
+        if (divided < share.cell.cost) return divided;
         w.found.forget_from(before);
     }
     const ArenaScope programs(w.programs), scratch(w.scratch);
-    const bool has_two = share.program.outputs.size() == 2;
-    const LedProgram led =
-        has_two ? LedProgram{share.program} : first_component_first(share.program, w.programs, w.scratch);
-    w.found.add(share.cell, share.bound, share.curvature, led.program, led.leading);
-    return share.cost;
+    const Candidate& cell = share.cell;
+    const LedProgram led = cell.program.outputs.size() == 2
+                               ? LedProgram{cell.program}
+                               : first_component_first(cell.program, w.programs, w.scratch);
+    w.found.add(cell.box, cell.bound, cell.curvature, led.program, led.leading);
+    return cell.cost;
 }
 
 /// The values of a program's instructions at the centres of parts of a box, one a lane: ValuesAt for each.
@@ -169,8 +190,8 @@ float divide(const Share& share, const Division& d, Worker& w) {
     });
     float sum = price::parts * surface(share.box);
     for (const std::optional<Share>& part : divided)
-        if (part) sum += part->cost;
-    const float left = share.left * sum / share.cost;
+        if (part) sum += part->cell.cost;
+    const float left = share.left * sum / share.cell.cost;
     const bool is_won = left < 0.8f;
 
     std::array<float, 8> costs{};

@@ -44,10 +44,12 @@ WorkingProgram one_of_two(const WorkingProgram& both, Arena& keep, Arena& scratc
 
 class Pruner {
   public:
-    Pruner(const WorkingProgram& program, std::span<const float> constants, const ValueRanges& ranges, Arena& scratch)
+    Pruner(const WorkingProgram& program, std::span<const float> constants, const ValueRanges& ranges, bool is_near,
+           Arena& scratch)
         : program_(program),
           constants_(constants),
           ranges_(ranges),
+          is_near_(is_near),
           scratch_(scratch),
           demand_(scratch.take<Demand>(program.code.size())),
           instead_(scratch.take<std::uint32_t>(program.code.size())),
@@ -144,6 +146,9 @@ class Pruner {
                 ask(in.a, d);
                 ask(in.b, d);
                 return;
+            case Op::farther:
+                if (relative && d.tau == 0 && is_near_) return replace(i, in.a);
+                return resolve_maximum(i, d);
             case Op::maximum:
                 return resolve_maximum(i, d);
             case Op::smooth_minimum: {
@@ -242,7 +247,8 @@ class Pruner {
 
     const WorkingProgram& program_;
     std::span<const float> constants_;
-    const ValueRanges& ranges_;
+    ValueRanges ranges_;
+    bool is_near_;  ///< bounds for far away go
     Arena& scratch_;
     std::span<Demand> demand_;
     std::span<std::uint32_t> instead_;  ///< what a value is replaced by: itself, or an earlier one
@@ -330,7 +336,18 @@ ValueRanges ranges_in_ball(const WorkingProgram& program, std::span<const float>
 std::optional<WorkingProgram> prune(const WorkingProgram& program, std::span<const float> constants,
                                     const ValueRanges& ranges, Arena& keep, Arena& scratch) {
     const ArenaScope scope(scratch);
-    return Pruner(program, constants, ranges, scratch).run(keep);
+    return Pruner(program, constants, ranges, false, scratch).run(keep);
+}
+
+std::optional<WorkingProgram> without_far_bounds(const WorkingProgram& program, std::span<const float> constants,
+                                                 Arena& keep, Arena& scratch) {
+    const ArenaScope scope(scratch);
+    if (std::ranges::none_of(program.code, [](const Instruction& in) { return in.op == Op::farther; }))
+        return std::nullopt;
+    const std::span<float> low = scratch.take<float>(program.code.size()), high = scratch.take<float>(low.size());
+    std::ranges::fill(low, -Bounds::infinity);
+    std::ranges::fill(high, Bounds::infinity);
+    return Pruner(program, constants, {low, high, program.lipschitz}, true, scratch).run(keep);
 }
 
 }  // namespace phasetree

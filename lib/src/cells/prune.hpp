@@ -41,6 +41,10 @@ ValueRanges ranges_in_ball(const WorkingProgram&, std::span<const float> constan
 std::optional<WorkingProgram> prune(const WorkingProgram&, std::span<const float> constants, const ValueRanges&,
                                     Arena& keep, Arena& scratch);
 
+/// Without what makes distances larger far from the surface, if there is any (Op::farther): the signs are the same.
+std::optional<WorkingProgram> without_far_bounds(const WorkingProgram&, std::span<const float> constants, Arena& keep,
+                                                 Arena& scratch);
+
 /// A program of more than two phases with what its first component needs before the rest.
 struct LedProgram {
     WorkingProgram program;

@@ -80,6 +80,7 @@ HWY_FLATTEN void run(const Routine& routine, float* registers) {
                 store(min(load(a), load(b)), to);
                 break;
             case Op::maximum:
+            case Op::farther:
                 store(max(load(a), load(b)), to);
                 break;
             case Op::absolute:

@@ -40,6 +40,7 @@ inline int operands(Op op) {
         case Op::subtract:
         case Op::minimum:
         case Op::maximum:
+        case Op::farther:
         case Op::smooth_minimum:
         case Op::guarded:
         case Op::corner:

@@ -72,6 +72,7 @@ void interpret(const Routine& routine, T* registers, LongPrimitiveOf&& long_prim
                 to = min(a, b);
                 break;
             case Op::maximum:
+            case Op::farther:
                 to = max(a, b);
                 break;
             case Op::absolute:

@@ -179,6 +179,9 @@ Recorded min(Recorded a, Recorded b) {
 Recorded max(Recorded a, Recorded b) {
     return a.id == b.id ? a : a.recorder->emit(Op::maximum, a.id, b.id, {}, a.recorder->largest(a, b));
 }
+[[maybe_unused]] Recorded farther(Recorded f, Recorded bound) {
+    return f.recorder->emit(Op::farther, f.id, bound.id, {}, f.recorder->largest(f, bound));
+}
 Recorded abs(Recorded a) {
     return a.recorder->emit(Op::absolute, a.id, 0, {}, a.recorder->lipschitz(a));
 }

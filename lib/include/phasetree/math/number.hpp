@@ -67,6 +67,13 @@ T guarded(const T& bound, const T& f, float far) {
     return max(bound, min(f, far - bound));
 }
 
+/// A field f and a bound b that is farther from zero far away: max(f, b), where {f ≤ 0} ⊂ {b ≤ 0}. So f alone has the
+/// sign, and near the surface it will do.
+template <class T>
+T farther(const T& f, const T& bound) {
+    return max(f, bound);
+}
+
 /// The contribution of a skeleton at the distance d to a blob: (1 − (d/R)²)³, zero beyond R (Wyvill et al., "Data
 /// Structure for Soft Objects", 1986, with the square for their cubic).
 template <class T>

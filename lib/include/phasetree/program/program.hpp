@@ -16,6 +16,7 @@ enum class Op : std::uint16_t {
     subtract,           ///< a − b
     minimum,            ///< a < b ? a : b
     maximum,            ///< a > b ? a : b
+    farther,            ///< the maximum, where a alone has the sign
     absolute,           ///< |a|
     add_constant,       ///< a + c
     constant_minus,     ///< c − a

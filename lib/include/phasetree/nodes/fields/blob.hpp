@@ -99,7 +99,7 @@ struct Blob {
             add(chain);
         }
         for (const Field& f : of) add(d.field(f, p));
-        return max(d.one_lipschitz((threshold - *sum) * (1 / slope), p), *nearest);
+        return farther(d.one_lipschitz((threshold - *sum) * (1 / slope), p), *nearest);
     }
     Bounds bounds(BoundsQuery& q, float at_level) const {
         Bounds all;
