@@ -2,8 +2,8 @@
 
 namespace phasetree::bench {
 
-FieldScene::FieldScene(const Phased& object)
-    : FieldScene(std::make_shared<const InterfaceCells>(object), std::nullopt) {}
+FieldScene::FieldScene(const Phased& object, PhaseSet opaque)
+    : FieldScene(std::make_shared<const InterfaceCells>(object, CellOptions{.opaque = opaque}), std::nullopt) {}
 
 FieldScene::FieldScene(const FieldScene& object, float ground)
     : FieldScene(object.cells_, std::optional<float>(ground)) {}

@@ -8,7 +8,8 @@ namespace phasetree::bench {
 
 class FieldScene {
   public:
-    explicit FieldScene(const Phased& object);
+    // `opaque`: see CellOptions.
+    explicit FieldScene(const Phased& object, PhaseSet opaque = {});
     // The same cells, beside two large triangles at a height.
     FieldScene(const FieldScene& object, float ground);
 

@@ -84,7 +84,8 @@ std::optional<Candidate> candidate(const Share& share, const WorkingProgram& pro
     Candidate cell{program, all};
     for (int i = 0; i < 2; ++i) {
         const ArenaScope scratch(w.scratch);
-        const std::optional<Enclosed> enclosed = enclose(cell.program, d.constants, all, d.rounding, w.scratch);
+        const std::optional<Enclosed> enclosed =
+            enclose(cell.program, d.constants, d.options.opaque, all, d.rounding, w.scratch);
         if (!enclosed) break;
         if (enclosed->is_free) return std::nullopt;
         cell.bound = enclosed->bound;
@@ -92,7 +93,7 @@ std::optional<Candidate> candidate(const Share& share, const WorkingProgram& pro
         cell.box = intersect(all, enclosed->box.inflated(d.reach));
         if (cell.box.empty()) return std::nullopt;
         if (i > 0) break;
-        const auto pruned = prune(cell.program, d.constants, enclosed->ranges, w.programs, w.scratch);
+        const auto pruned = prune(cell.program, d.constants, enclosed->ranges, d.options.opaque, w.programs, w.scratch);
         if (!pruned) return std::nullopt;
         if (pruned->code.size() == cell.program.code.size() && pruned->outputs.size() == cell.program.outputs.size())
             break;
@@ -100,7 +101,7 @@ std::optional<Candidate> candidate(const Share& share, const WorkingProgram& pro
     }
     // Through copies without end a ray goes on and on.
     const float copies = 1 + 4 * share.box.diagonal() / share.period;
-    cell.cost = cost(cell.box, cell.bound, cell.curvature, cell.program, w.scratch) * copies;
+    cell.cost = cost(cell.box, cell.bound, cell.curvature, cell.program, d.options.opaque, w.scratch) * copies;
     return cell;
 }
 
@@ -111,7 +112,7 @@ bool prepare(Share& share, const Division& d, Worker& w) {
     share.program = whole->program;
     share.cell = *whole;
     // Its parts may want what tells more far away.
-    if (const auto near = without_far_bounds(share.program, d.constants, w.programs, w.scratch)) {
+    if (const auto near = without_far_bounds(share.program, d.constants, d.options.opaque, w.programs, w.scratch)) {
         const auto other = candidate(share, *near, d, w);
         if (!other) return false;
         if (other->cost < share.cell.cost) share.cell = *other;
@@ -127,8 +128,9 @@ float find_cells(const Share& share, const Division& d, Worker& w) {
     const float size = share.box.diagonal() / d.size;
     const float promise = d.options.least_gain * (1 + 0.1f / size);
     const bool is_hopeless = share.stale >= Patience(share.program).divisions;
-    const bool is_final = is_hopeless || share.depth >= d.options.deepest || share.box.diagonal() < 64 * d.reach ||
-                          share.cell.cost < (1 + promise) * least_cost(share.cell.box) + price::parts * surface(share.box);
+    const bool is_final =
+        is_hopeless || share.depth >= d.options.deepest || share.box.diagonal() < 64 * d.reach ||
+        share.cell.cost < (1 + promise) * least_cost(share.cell.box) + price::parts * surface(share.box);
     if (!is_final) {
         const Found::Mark before = w.found.mark();
         const float divided = divide(share, d, w) + price::parts * surface(share.box);
@@ -182,7 +184,7 @@ float divide(const Share& share, const Division& d, Worker& w) {
         const float radius = 0.5f * parts.box[i].inflated(d.reach).diagonal() * (1 + 1e-5f);
         const ValueRanges ranges = ranges_in_ball(share.program, d.constants, {values.registers, values.slot, i},
                                                   radius, d.rounding, own.scratch);
-        const auto program = prune(share.program, d.constants, ranges, own.programs, own.scratch);
+        const auto program = prune(share.program, d.constants, ranges, d.options.opaque, own.programs, own.scratch);
         if (!program) return;
         Share part{parts.box[i], *program, share.depth + 1};
         if (std::isfinite(share.period)) part.period = finest_jump(part.program, d.constants);

@@ -83,8 +83,8 @@ void tighten(Bounds& box, const glm::vec3& normal, float value, float slack) {
 
 }  // namespace
 
-std::optional<Enclosed> enclose(const WorkingProgram& program, std::span<const float> constants, const Bounds& box,
-                                float rounding, Arena& scratch) {
+std::optional<Enclosed> enclose(const WorkingProgram& program, std::span<const float> constants, PhaseSet opaque,
+                                const Bounds& box, float rounding, Arena& scratch) {
     const std::size_t size = program.code.size();
     if (size > longest_enclosed) return std::nullopt;
     // A fold of space may jump, and then it has no gradient.
@@ -123,18 +123,19 @@ std::optional<Enclosed> enclose(const WorkingProgram& program, std::span<const f
         for (Range& g : e.gradient) g = {std::max(g.low, -1.0), std::min(g.high, 1.0)};
         return e.tightened(half) * (program.outputs[i].negate ? -1.f : 1.f);
     };
-    std::size_t possible = 0;
+    std::size_t possible = 0, clear = 0;
     // Of s as Routine::is_by_own says, both ways.
     double by_others[] = {0, 0}, by_own[] = {0, 0};
     for (std::size_t i = 0; i < program.outputs.size(); ++i) {
         const Enclosure c = component(i);
         if (c.value.high < -margin) result.is_free = true;
         possible += c.value.low <= margin;
+        clear += c.value.low <= margin && !opaque.contains(program.outputs[i].phase);
         if (i > 0) by_others[0] = std::max(by_others[0], c.curvature.high);
         by_others[1] = std::max(by_others[1], c.curvature.high);
         by_own[i == 0 ? 0 : 1] = std::max(by_own[i == 0 ? 0 : 1], -c.curvature.low);
     }
-    if (possible < 2) result.is_free = true;
+    if (possible < 2 || clear == 0) result.is_free = true;
     if (result.is_free) return result;
     result.curvature.is_by_own = by_own[0] + by_own[1] < by_others[0] + by_others[1];
     for (std::size_t i = 0; i < 2; ++i) {

@@ -7,7 +7,7 @@
 namespace phasetree {
 
 struct Enclosed {
-    bool is_free = false;  ///< no interface passes through the box
+    bool is_free = false;  ///< no interface passes through the box that a ray can meet
     LinearBound bound;
     Curvature curvature;
     Bounds box;          ///< around the interface in the box
@@ -18,8 +18,9 @@ struct Enclosed {
 inline constexpr std::size_t longest_enclosed = 64;
 
 /// Encloses a program's values in a box: interval arithmetic with gradients, which sees what a Lipschitz bound and a
-/// ball cannot. `rounding` bounds the error of a value. Nothing for a program that is too long, or that folds space.
-std::optional<Enclosed> enclose(const WorkingProgram&, std::span<const float> constants, const Bounds& box,
-                                float rounding, Arena& scratch);
+/// ball cannot. `rounding` bounds the error of a value; for `opaque` see prune(). Nothing for a program that is too
+/// long, or that folds space.
+std::optional<Enclosed> enclose(const WorkingProgram&, std::span<const float> constants, PhaseSet opaque,
+                                const Bounds& box, float rounding, Arena& scratch);
 
 }  // namespace phasetree

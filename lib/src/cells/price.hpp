@@ -54,22 +54,25 @@ inline float batches(const Bounds& box, const LinearBound& bound, float most_cur
     const bool is_blind = !(most_curved < Curvature::unknown);
     return price::certain + price::unknown * unknown + price::uneven * spread + (is_blind ? price::blind : 0.f);
 }
-/// Half of the rays are taken to be in the first phase, if that is the vacuum. Where more than two phases meet they
-/// need its component alone, and the rest where they leave it.
+/// Half of the rays are taken to be in the first phase, if that is the vacuum; all, if the others are opaque. Where
+/// more than two phases meet they need its component alone, and the rest where they leave it.
 inline float cost(const Bounds& box, const LinearBound& bound, const Curvature& curvature,
-                  const WorkingProgram& program, Arena& scratch) {
+                  const WorkingProgram& program, PhaseSet opaque, Arena& scratch) {
     const float all = price::batch + price::step * work(program);
+    const auto is_opaque = [&](const ProgramOutput& o) { return opaque.contains(o.phase); };
+    const bool is_one_clear = std::ranges::all_of(program.outputs.subspan(1), is_opaque);
     const bool has_two = program.outputs.size() == 2;
     const float others = batches(box, has_two ? bound : LinearBound{}, curvature.most[1]) * all;
     float first = batches(box, bound, curvature.most[0]) * all;
     if (!has_two) {
         first = others;
-        if (program.outputs[0].phase == vacuum)
+        if (program.outputs[0].phase == vacuum || is_one_clear)
             first = batches(box, bound, curvature.most[0]) *
                         (price::batch + price::step * work_of_first(program, scratch)) +
                     all;
     }
-    return surface(box) * (price::visit + 0.5f * (first + others));
+    const float in_first = is_one_clear ? 1.f : is_opaque(program.outputs[0]) ? 0.f : 0.5f;
+    return surface(box) * (price::visit + in_first * first + (1 - in_first) * others);
 }
 /// A cell of this size cannot cost less.
 inline float least_cost(const Bounds& box) {

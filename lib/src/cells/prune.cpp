@@ -44,11 +44,12 @@ WorkingProgram one_of_two(const WorkingProgram& both, Arena& keep, Arena& scratc
 
 class Pruner {
   public:
-    Pruner(const WorkingProgram& program, std::span<const float> constants, const ValueRanges& ranges, bool is_near,
-           Arena& scratch)
+    Pruner(const WorkingProgram& program, std::span<const float> constants, const ValueRanges& ranges, PhaseSet opaque,
+           bool is_near, Arena& scratch)
         : program_(program),
           constants_(constants),
           ranges_(ranges),
+          opaque_(opaque),
           is_near_(is_near),
           scratch_(scratch),
           demand_(scratch.take<Demand>(program.code.size())),
@@ -66,20 +67,25 @@ class Pruner {
             if (high < 0) return std::nullopt;  // this phase everywhere
             if (low <= 0) room[count++] = o;
         }
-        if (count < 2) return std::nullopt;  // one phase everywhere
         const std::span<const ProgramOutput> outputs = room.first(count);
+        if (!has_interface(outputs)) return std::nullopt;
 
         for (const ProgramOutput& o : outputs) ask(o.value, {Demand::threshold, 0});
         for (auto i = static_cast<std::uint32_t>(program_.code.size()); i-- > 1;)
             if (demand_[i].kind != Demand::none) resolve(i);
         const WorkingProgram left = rewritten(outputs);
-        if (left.outputs.size() < 2) return std::nullopt;
+        if (!has_interface(left.outputs)) return std::nullopt;
         if (left.outputs.size() == 2 && left.outputs[0].value != left.outputs[1].value)
             return one_of_two(left, keep, scratch_);
         return Reach(left, left.outputs, scratch_).program(keep, scratch_);
     }
 
   private:
+    /// Not one phase everywhere, nor opaque ones only.
+    bool has_interface(std::span<const ProgramOutput> outputs) const {
+        return outputs.size() > 1 &&
+               !std::ranges::all_of(outputs, [&](const ProgramOutput& o) { return opaque_.contains(o.phase); });
+    }
     void ask(std::uint32_t i, Demand d) {
         Demand& known = demand_[i];
         if (known.kind == Demand::none)
@@ -248,6 +254,7 @@ class Pruner {
     const WorkingProgram& program_;
     std::span<const float> constants_;
     ValueRanges ranges_;
+    PhaseSet opaque_;
     bool is_near_;  ///< bounds for far away go
     Arena& scratch_;
     std::span<Demand> demand_;
@@ -334,20 +341,20 @@ ValueRanges ranges_in_ball(const WorkingProgram& program, std::span<const float>
 }
 
 std::optional<WorkingProgram> prune(const WorkingProgram& program, std::span<const float> constants,
-                                    const ValueRanges& ranges, Arena& keep, Arena& scratch) {
+                                    const ValueRanges& ranges, PhaseSet opaque, Arena& keep, Arena& scratch) {
     const ArenaScope scope(scratch);
-    return Pruner(program, constants, ranges, false, scratch).run(keep);
+    return Pruner(program, constants, ranges, opaque, false, scratch).run(keep);
 }
 
 std::optional<WorkingProgram> without_far_bounds(const WorkingProgram& program, std::span<const float> constants,
-                                                 Arena& keep, Arena& scratch) {
+                                                 PhaseSet opaque, Arena& keep, Arena& scratch) {
     const ArenaScope scope(scratch);
     if (std::ranges::none_of(program.code, [](const Instruction& in) { return in.op == Op::farther; }))
         return std::nullopt;
     const std::span<float> low = scratch.take<float>(program.code.size()), high = scratch.take<float>(low.size());
     std::ranges::fill(low, -Bounds::infinity);
     std::ranges::fill(high, Bounds::infinity);
-    return Pruner(program, constants, {low, high, program.lipschitz}, true, scratch).run(keep);
+    return Pruner(program, constants, {low, high, program.lipschitz}, opaque, true, scratch).run(keep);
 }
 
 }  // namespace phasetree

@@ -33,17 +33,18 @@ struct ValueRanges {
 ValueRanges ranges_in_ball(const WorkingProgram&, std::span<const float> constants, const ValuesAt& centre,
                            float radius, float rounding, Arena& scratch);
 
-/// What is left of a program in a region where its values are within these ranges, if an interface may pass through it;
-/// nothing otherwise. The result is in `keep`; `scratch` is left as it was.
+/// What is left of a program in a region where its values are within these ranges, if an interface may pass through it
+/// that a ray can meet, which is in a phase that is not opaque; nothing otherwise. The result is in `keep`; `scratch`
+/// is left as it was.
 ///
 /// What remains gives the same labels in the region, and its components' absolute values are still lower bounds of the
 /// distance to where the label changes there. See prune.cpp.
 std::optional<WorkingProgram> prune(const WorkingProgram&, std::span<const float> constants, const ValueRanges&,
-                                    Arena& keep, Arena& scratch);
+                                    PhaseSet opaque, Arena& keep, Arena& scratch);
 
 /// Without what makes distances larger far from the surface, if there is any (Op::farther): the signs are the same.
-std::optional<WorkingProgram> without_far_bounds(const WorkingProgram&, std::span<const float> constants, Arena& keep,
-                                                 Arena& scratch);
+std::optional<WorkingProgram> without_far_bounds(const WorkingProgram&, std::span<const float> constants,
+                                                 PhaseSet opaque, Arena& keep, Arena& scratch);
 
 /// A program of more than two phases with what its first component needs before the rest.
 struct LedProgram {

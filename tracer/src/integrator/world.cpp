@@ -29,6 +29,7 @@ RTCRay ray_of(const glm::vec3& origin, const glm::vec3& direction, float far) {
 World::World(const Scene& scene, std::function<bool()> cancelled) : scene_(scene), interfaces_(scene.materials) {
     CellOptions options;
     options.cancelled = std::move(cancelled);
+    options.opaque = opaque_phases(scene.materials);
     object_ = std::make_shared<const InterfaceCells>(scene.object, options);
     device_ = rtcNewDevice(nullptr);
     if (!device_) throw std::runtime_error("Embree cannot be started");

@@ -23,6 +23,9 @@ struct CellOptions {
     /// A box is divided if that may save its rays this share of what they need at least; small boxes, which are many,
     /// are divided for more only. Less of it makes more cells.
     float least_gain = 0.3f;
+    /// Phases that no ray is ever in, because they are opaque to it. Where two of them meet nothing is looked for, and
+    /// no cells are made for it; what is found for a ray that is in one all the same means nothing.
+    PhaseSet opaque{};
     std::function<bool()> cancelled{};  ///< asked now and then, by any thread; true ends the build
 };
 
