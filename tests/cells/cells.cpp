@@ -175,48 +175,85 @@ bool is_sliver(const InterfaceTracer& tracer, const Crossing& a, const Crossing&
     return leads_to(a, b) || leads_to(b, a);
 }
 
+struct Compared {
+    std::size_t rays = 0, crossings = 0, different = 0, into_opaque = 0;
+};
+
+/// The nearest crossing over all cells against the whole object's, along rays until they enter an opaque phase.
+void compare_crossings(const Phased& object, PhaseSet opaque, Random& rng, Compared& result) {
+    Evaluator::Workspace w;
+    const InterfaceCells cells(object, {.opaque = opaque});
+    const InterfaceTracer tracer(object);
+    const float tolerance = 4 * tracer.resolution();
+    for (int i = 0; i < 300; ++i) {
+        glm::vec3 p = rng.in(cells.bounds().inflated(0.5f));
+        const glm::vec3 d = glm::normalize(rng.in(cells.bounds()) - p);
+        Phase phase = tracer.label(p, w);
+        ++result.rays;
+        for (int n = 0; n < 100 && !opaque.contains(phase); ++n) {
+            const auto expected = tracer.first_crossing(p, d, 0, 1e6f, phase, w);
+            std::optional<Crossing> nearest;
+            TraceCounters counters;
+            for (std::size_t c = 0; c < cells.size(); ++c) {
+                const auto hit = cells.first_crossing(c, p, d, 0, nearest ? nearest->t_in : 1e6f, phase, w, counters);
+                if (hit && (!nearest || hit->t_in < nearest->t_in)) nearest = hit;
+            }
+            if (expected.has_value() != nearest.has_value()) {
+                ++result.different;
+                break;
+            }
+            if (!expected) break;
+            ++result.crossings;
+            const bool same = nearest->from == expected->from && nearest->to == expected->to;
+            if (std::abs(nearest->t_in - expected->t_in) > tolerance ||
+                (!same && !is_sliver(tracer, *expected, *nearest, d, w)))
+                ++result.different;
+            p = nearest->p_out;
+            phase = nearest->to;
+            result.into_opaque += opaque.contains(phase);
+        }
+    }
+}
+
 TEST_CASE("the nearest crossing over all cells is the whole object's") {
     Random rng(13);
     std::vector<Phased> objects{hourglass()};
     for (int i = 0; i < (long_tests() ? 300 : 12); ++i) objects.push_back(traceable_object(rng, 3));
-    Evaluator::Workspace w;
-    std::size_t rays = 0, crossings = 0, different = 0;
+    Compared all;
+    for (const Phased& object : objects) compare_crossings(object, {}, rng, all);
+    MESSAGE(all.rays, " rays, ", all.crossings, " crossings, ", all.different, " different");
+    CHECK(all.crossings > all.rays);
+    CHECK(all.different == 0);
+}
+
+TEST_CASE("with opaque phases rays in the others meet what they met, and where opaque ones meet there are no cells") {
+    Random rng(14);
+    std::vector<Phased> objects{hourglass()};
+    for (int i = 0; i < (long_tests() ? 300 : 12); ++i) objects.push_back(traceable_object(rng, 3));
+    Compared all;
+    std::size_t cells_without = 0, cells_with = 0;
     for (const Phased& object : objects) {
-        const InterfaceCells cells(object);
-        const InterfaceTracer tracer(object);
-        const float tolerance = 4 * tracer.resolution();
-        for (int i = 0; i < 300; ++i) {
-            glm::vec3 p = rng.in(cells.bounds().inflated(0.5f));
-            const glm::vec3 d = glm::normalize(rng.in(cells.bounds()) - p);
-            Phase phase = tracer.label(p, w);
-            ++rays;
-            for (int n = 0; n < 100; ++n) {
-                const auto expected = tracer.first_crossing(p, d, 0, 1e6f, phase, w);
-                std::optional<Crossing> nearest;
-                TraceCounters counters;
-                for (std::size_t c = 0; c < cells.size(); ++c) {
-                    const auto hit =
-                        cells.first_crossing(c, p, d, 0, nearest ? nearest->t_in : 1e6f, phase, w, counters);
-                    if (hit && (!nearest || hit->t_in < nearest->t_in)) nearest = hit;
-                }
-                if (expected.has_value() != nearest.has_value()) {
-                    ++different;
-                    break;
-                }
-                if (!expected) break;
-                ++crossings;
-                const bool same = nearest->from == expected->from && nearest->to == expected->to;
-                if (std::abs(nearest->t_in - expected->t_in) > tolerance ||
-                    (!same && !is_sliver(tracer, *expected, *nearest, d, w)))
-                    ++different;
-                p = nearest->p_out;
-                phase = nearest->to;
-            }
-        }
+        PhaseSet opaque;
+        for_each_phase(phases(object).bits & ~std::uint64_t{1}, [&](int i) {
+            if (rng.chance(0.7)) opaque = opaque | PhaseSet::of(Phase{static_cast<std::uint8_t>(i)});
+        });
+        compare_crossings(object, opaque, rng, all);
+        cells_without += InterfaceCells(object).size();
+        cells_with += InterfaceCells(object, {.opaque = opaque}).size();
     }
-    MESSAGE(rays, " rays, ", crossings, " crossings, ", different, " different");
-    CHECK(crossings > rays);
-    CHECK(different == 0);
+    MESSAGE(all.rays, " rays, ", all.crossings, " crossings, ", all.into_opaque, " into opaque phases, ", all.different,
+            " different; ", cells_with, " cells for ", cells_without);
+    CHECK(all.into_opaque > all.rays / 4);
+    CHECK(all.different == 0);
+
+    // A ball in a ball: of the inner one nothing is left, and of all that is opaque nothing at all.
+    const Phased ball = Over{.of = {Set{.phase = Phase{1}, .of = Sphere{.radius = 0.5f}},
+                                    Set{.phase = Phase{2}, .of = Sphere{.radius = 1}}}};
+    const InterfaceCells outer(ball, {.opaque = {0b110}});
+    REQUIRE(outer.size() > 0);
+    for (std::size_t i = 0; i < outer.size(); ++i) CHECK(outer.bounds(i).contains(glm::vec3(0)) == false);
+    for (const glm::vec3& p : {glm::vec3(0.5f, 0, 0), glm::vec3(0, -0.5f, 0)}) CHECK(cells_at(outer, p).empty());
+    CHECK(InterfaceCells(ball, {.opaque = {0b111}}).size() == 0);
 }
 
 TEST_CASE("cells of a copy are the same, and few") {

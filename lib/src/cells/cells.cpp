@@ -32,6 +32,7 @@ struct InterfaceCells::Data {
     Bounds bounds;
     float resolution = 0;
     float reach = 0;
+    PhaseSet opaque;
     std::vector<Cell> cells;
     std::size_t routines = 0;
     std::vector<Step> steps;
@@ -122,6 +123,7 @@ InterfaceCells::InterfaceCells(const Phased& object, const CellOptions& options)
     data->bounds = traceable.bounds;
     data->resolution = traceable.resolution;
     data->reach = 4 * traceable.resolution;
+    data->opaque = options.opaque;
     data->curvature_code = CurvatureCode(data->bounds.diagonal());
 
     const Program& program = data->whole.program();
@@ -187,6 +189,10 @@ float InterfaceCells::resolution() const {
 }
 float InterfaceCells::reach() const {
     return data_->reach;
+}
+
+PhaseSet InterfaceCells::opaque() const {
+    return data_->opaque;
 }
 
 CellStatistics InterfaceCells::statistics() const {

@@ -286,3 +286,29 @@ TEST_CASE("crossings that involve no shown phase are passed") {
         if (shown != 0b11111u) CHECK(passed > 20);
     }
 }
+
+TEST_CASE("rays end where they enter an opaque phase as they would if it were not known to be") {
+    const embree::Tree tree = object_tree();
+    const InterfaceTracer tracer(object());
+    for (const std::uint64_t opaque : {0b01000u, 0b11000u, 0b11110u}) {
+        CAPTURE(opaque);
+        PhasetreeGeometryOptions options = embree::default_options();
+        options.opaquePhases = opaque;
+        const Placed placed(tree, options);
+        int entered = 0;
+        for (const Ray& ray : rays(600, 22)) {
+            const PhaseSet set{opaque};
+            if (set.contains(tracer.label(ray.origin, Evaluator::thread_workspace()))) continue;
+            const auto expected = crossings(tracer, ray);
+            const RTCRayHit r = trace_one(placed.scene, marked(ray));
+            REQUIRE(hits(r) == !expected.empty());
+            REQUIRE(occluded_one(placed.scene, marked(ray)) == hits(r));
+            if (!hits(r)) continue;
+            REQUIRE(same_place(r.ray.tfar, expected[0].t_in, 2 * tracer.resolution()));
+            REQUIRE(r.hit.u == expected[0].from.index);
+            REQUIRE(r.hit.v == expected[0].to.index);
+            entered += set.contains(expected[0].to);
+        }
+        CHECK(entered > 20);
+    }
+}

@@ -152,7 +152,18 @@ TEST_CASE("arguments that are missing or impossible") {
     options = embree::default_options();
     options.cellDivisions = 1000;
     expect(phasetreeNewGeometry(v, device, object.get(), &options, &geometry), invalid, "cellDivisions");
+    options = embree::default_options();
+    options.opaquePhases = 0b1001;
+    expect(phasetreeNewGeometry(v, device, object.get(), &options, &geometry), invalid, "vacuum");
+    options.opaquePhases = 0b1000;
+    options.shownPhases = 0b0110;
+    expect(phasetreeNewGeometry(v, device, object.get(), &options, &geometry), invalid, "phase 3 is opaque");
     CHECK(geometry == nullptr);
+
+    options.shownPhases = PHASETREE_ALL_PHASES;
+    const Placed opaque(object, options);
+    expect(phasetreeSetGeometryShownPhases(opaque.geometry.get(), 0b0110), invalid, "phase 3 is opaque");
+    expect(phasetreeSetGeometryShownPhases(opaque.geometry.get(), 0b1000), PHASETREE_ERROR_NONE, "");
 
     const Placed placed(object);
     const PhasetreeGeometry g = placed.geometry.get();

@@ -82,6 +82,25 @@ TEST_CASE("the closest interface of a ball in layers is where geometry says") {
     CHECK(placed.geometry.closest({30, 40, 0}, infinity).distance == doctest::Approx(49).epsilon(1e-4));
 }
 
+TEST_CASE("the closest interface is never one between two opaque phases") {
+    const embree::Tree tree =
+        embree::Tree::from_text(R"({"phases": {"core": 0, "shell": 0, "water": 0}, "tree": {"over": [
+        {"set": {"phase": "core", "of": {"sphere": {"radius": 1}}}},
+        {"set": {"phase": "shell", "of": {"sphere": {"radius": 2}}}},
+        {"set": {"phase": "water", "of": {"sphere": {"radius": 3}}}}]}})");
+    PhasetreeGeometryOptions options = embree::default_options();
+    options.opaquePhases = 0b0110;
+    const Placed placed(tree, options);
+    for (const float x : {0.9f, 1.1f, 1.6f, 2.4f}) {
+        const PhasetreeClosest c = placed.geometry.closest({x, 0, 0}, infinity);
+        REQUIRE(c.found);
+        CHECK(c.distance == doctest::Approx(std::abs(2 - x)).epsilon(0.02));
+        CHECK(c.emptyRadius <= c.distance);
+        CHECK(c.emptyRadius > 0.9f * c.distance);
+    }
+    CHECK(placed.geometry.closest({2.7f, 0, 0}, infinity).distance == doctest::Approx(0.3).epsilon(0.02));
+}
+
 TEST_CASE("the closest interface of an object of many operators: nothing is nearer") {
     const Placed placed;
     const Phased tree = object();

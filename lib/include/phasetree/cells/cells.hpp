@@ -73,6 +73,7 @@ class InterfaceCells {
     float resolution() const;
     /// How far a cell's box reaches beyond its share of space.
     float reach() const;
+    PhaseSet opaque() const;
     CellStatistics statistics() const;
 
   private:

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "api/geometry_data.hpp"
@@ -17,6 +18,12 @@ ApiError no_geometry(PhasetreeGeometry handle) {
             handle ? "geometry is no geometry's handle, or that of one already released" : "geometry is NULL"};
 }
 
+/// Rays pass through what is not shown.
+void require_shown(PhasetreePhaseSet opaque, PhasetreePhaseSet shown) {
+    if (const PhasetreePhaseSet hidden = opaque & ~shown; hidden != 0)
+        throw invalid("phase {} is opaque and not shown; no ray may be in it", std::countr_zero(hidden));
+}
+
 PhasetreeGeometryOptions checked(const PhasetreeGeometryOptions* given) {
     PhasetreeGeometryOptions options;
     phasetreeInitGeometryOptions(&options);
@@ -28,6 +35,9 @@ PhasetreeGeometryOptions checked(const PhasetreeGeometryOptions* given) {
         throw invalid("options->cellDivisions is {}; at most 20 are possible", options.cellDivisions);
     if (!std::isfinite(options.cellGain) || options.cellGain < 0)
         throw invalid("options->cellGain is {}; it must be a share, or 0 for the library's choice", options.cellGain);
+    if (PhaseSet{options.opaquePhases}.contains(vacuum))
+        throw invalid("options->opaquePhases has the vacuum, phase 0, which cannot be opaque");
+    require_shown(options.opaquePhases, options.shownPhases);
     const auto known = static_cast<unsigned>(PHASETREE_GEOMETRY_FLAG_EXTENDED_CONTEXT) |
                        static_cast<unsigned>(PHASETREE_GEOMETRY_FLAG_NO_FILTERS) |
                        static_cast<unsigned>(PHASETREE_GEOMETRY_FLAG_POINT_QUERY);
@@ -39,6 +49,7 @@ std::unique_ptr<const Object> build(RTCDevice device, const Phased& tree, const 
     CellOptions cells;
     cells.resolution = options.resolution;
     if (options.cellGain > 0) cells.least_gain = options.cellGain;
+    cells.opaque = {options.opaquePhases};
     if (options.cellDivisions > 0) cells.deepest = static_cast<int>(options.cellDivisions);
     if (options.cancelled) cells.cancelled = [&] { return options.cancelled(options.cancelledUserPtr); };
     try {
@@ -176,7 +187,11 @@ PhasetreeError phasetreeSetGeometryTree(PhasetreeGeometry geometry, PhasetreeTre
 }
 
 PhasetreeError phasetreeSetGeometryShownPhases(PhasetreeGeometry geometry, PhasetreePhaseSet shown) {
-    return guarded_call(__func__, [&] { api::data_of(geometry).shown = {shown}; });
+    return guarded_call(__func__, [&] {
+        GeometryData& data = api::data_of(geometry);
+        require_shown(data.object->cells().opaque().bits, shown);
+        data.shown = {shown};
+    });
 }
 
 PhasetreeError phasetreeSetGeometryMotion(PhasetreeGeometry geometry, const float* transforms, unsigned int count,

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <queue>
 
 namespace phasetree::embree {
@@ -68,6 +69,15 @@ Closest find_closest(const Object& object, const glm::vec3& point, const glm::dm
     const float rounding = cells.resolution();
     const double near_enough = 4 * static_cast<double>(cells.resolution()) * metric.stretch();
 
+    // A ball about a point in which no interface passes that a ray can meet: one of a phase that is not opaque.
+    const PhaseSet opaque = cells.opaque();
+    const auto clear_distance = [&](const glm::vec3& p) {
+        const Phases<float> phi = whole.distances(p, workspace);
+        float distance = std::numeric_limits<float>::max();
+        for_each_phase(phi.present & ~opaque.bits, [&](int i) { distance = std::min(distance, std::abs(phi[i])); });
+        return distance;
+    };
+
     Closest best;
     double nearest = static_cast<double>(radius);
     const auto shoot = [&](const glm::vec3& towards, float beyond) {
@@ -76,7 +86,7 @@ Closest find_closest(const Object& object, const glm::vec3& point, const glm::dm
         if (!(length > 0)) return;
         ObjectRay ray{point, glm::vec3(way / length), 0, static_cast<float>(length) + beyond};
         const auto found = object.first_crossing(ray, std::nullopt);
-        if (!found) return;
+        if (!found || (opaque.contains(found->crossing.from) && opaque.contains(found->crossing.to))) return;
         const double distance = metric.distance(found->crossing.p_in);
         if (distance > nearest || (best.found && distance == nearest)) return;
         nearest = distance;
@@ -97,7 +107,8 @@ Closest find_closest(const Object& object, const glm::vec3& point, const glm::dm
                 second = i;
         });
         if (second >= 0) {
-            lower = metric.ball(static_cast<double>(std::max(phi[second] - rounding, 0.0f)));
+            const float free = opaque.empty() ? phi[second] : clear_distance(point);
+            lower = metric.ball(static_cast<double>(std::max(free - rounding, 0.0f)));
             const glm::vec3 down = whole.gradient(point, Phase{static_cast<std::uint8_t>(second)});
             if (glm::length(down) > 0) shoot(point - glm::normalize(down) * std::max(2 * phi[second], 8 * rounding), 0);
         }
@@ -135,7 +146,8 @@ Closest find_closest(const Object& object, const glm::vec3& point, const glm::dm
         whole.sample(x, y, z, samples, workspace);
         for (std::size_t i = 0; i < count; ++i) {
             const float reach = 0.5f * part[i].diagonal();
-            if (samples.distance[i] - rounding > reach) continue;
+            const float free = opaque.empty() ? samples.distance[i] : clear_distance(part[i].centre());
+            if (free - rounding > reach) continue;
             const double below = metric.below(part[i]);
             if (below >= nearest) continue;
             if (reach < cells.resolution())

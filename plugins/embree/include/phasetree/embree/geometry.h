@@ -40,6 +40,11 @@ typedef struct PhasetreeGeometryOptions {
     /* Phases to show: a crossing between two phases of which none is in the set is passed as if it were not there. The
      * vacuum never counts as shown, in the set or not. To hide one phase, leave it out. */
     PhasetreePhaseSet shownPhases;
+    /* Phases that no ray of yours is ever in, because your materials for them are opaque. Nothing is looked for where
+     * two of them meet, and the geometry is as fast to build and to trace as its outer surface alone. A ray that is in
+     * one all the same finds some of what it would, and the closest interface is that of a phase that is not opaque. So
+     * do not pass their crossings by filters; and they must be shown. Not the vacuum. */
+    PhasetreePhaseSet opaquePhases;
     /* Asked now and then while cells are built, by any thread; true ends the call with PHASETREE_ERROR_CANCELLED.
      * NULL: never asked. Used during the call only. */
     bool (*cancelled)(void* userPtr);
@@ -52,6 +57,7 @@ static inline void phasetreeInitGeometryOptions(PhasetreeGeometryOptions* option
     options->cellGain = 0;
     options->cellDivisions = 0;
     options->shownPhases = PHASETREE_ALL_PHASES;
+    options->opaquePhases = 0;
     options->cancelled = NULL;
     options->cancelledUserPtr = NULL;
 }
@@ -115,7 +121,9 @@ PHASETREE_API PhasetreeError phasetreeGetGeometryUserData(PhasetreeGeometry geom
 PHASETREE_API PhasetreeError phasetreeSetGeometryTree(PhasetreeGeometry geometry, PhasetreeTree tree,
                                                       const PhasetreeGeometryOptions* options);
 
-/* Changes the phases to show: see PhasetreeGeometryOptions.shownPhases. Exclusive; nothing need be committed. */
+/* Changes the phases to show: see PhasetreeGeometryOptions.shownPhases. Exclusive; nothing need be committed.
+ *
+ * PHASETREE_ERROR_INVALID_ARGUMENT  an opaque phase is not among them */
 PHASETREE_API PhasetreeError phasetreeSetGeometryShownPhases(PhasetreeGeometry geometry, PhasetreePhaseSet shownPhases);
 
 /* Places the geometry, and moves it: linear motion blur of the whole.

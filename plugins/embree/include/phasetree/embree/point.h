@@ -33,7 +33,7 @@ typedef struct PhasetreeClosest {
     unsigned int here, there; /* `here` is the phase on the side of the query's point, as far as it can be told */
 } PhasetreeClosest;
 
-/* The closest interface (of any phases) to a point.
+/* The closest interface to a point, of any phases but between two that are opaque (PhasetreeGeometryOptions).
  *
  * point, time   as above.
  * radius        a distance: how far to look; +∞: everywhere.
