@@ -86,6 +86,22 @@ TEST_CASE("info, for people and as JSON") {
     CHECK(cells.at("routines").get<int>() > 0);
     CHECK(cells.at("cell_bytes").get<int>() > 0);
     CHECK(cells.at("instructions_per_cell").at("median").get<int>() > 0);
+    // As a render would make them: between the opaque wood and another opaque phase there are none.
+    const std::string tree =
+        R"("tree": {"over": [{"set": {"phase": "in", "of": {"sphere": {"radius": 1}}}}, {"set": {"phase": "out", "of": {"sphere": {"radius": 2}}}}]})";
+    const auto cells_of = [&](const char* in, const char* out) {
+        write_text(shell.directory / "balls.json",
+                   fmt::format(R"({{"phases": {{"in": {}, "out": {}}}, {}}})", in, out, tree));
+        const Outcome balls = shell.run({"info", "balls.json", "--json", "--cells"});
+        REQUIRE(balls.code == 0);
+        return nlohmann::json::parse(balls.out).at("cells").get<int>();
+    };
+    const char *const clear = R"({"clear": {"ior": 1.5}})", *const opaque =
+                                                                R"({"diffuse": {"color": [0.5, 0.5, 0.5]}})";
+    CHECK(cells_of("0", "0") == cells_of(clear, clear));
+    CHECK(cells_of(clear, opaque) == cells_of(clear, clear));
+    CHECK(cells_of(opaque, opaque) < 0.9 * cells_of(clear, clear));
+
     const Outcome in_words = shell.run({"info", "scene.json", "--cells"});
     CHECK(in_words.out.find("different programs") != std::string::npos);
     // Labels and values are in two columns.

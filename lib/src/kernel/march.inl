@@ -359,7 +359,7 @@ Batch March::look_ahead(const Frame& f, int lane, const Place& next) const {
         const bool has_before = lane >= 1, has_after = lane >= 0 && lane + 1 < static_cast<int>(batch_size);
         const Place before = has_before ? f.place(lane - 2) : here_, after = has_after ? f.place(lane + 1) : next;
         const float root = predicted_root(here_, next, before, after);
-        return gather_around(smaller(larger(root, here_.t), next.t), here_.t, next.t, 0.25f * ray_.resolution);
+        return gather_around(smaller(larger(root, here_.t), next.t), here_.t, next.t, 0.49f * ray_.resolution);
     }
     const float fine = effective_resolution(ray_.resolution, batches_);
     if (const float slope = (next.distance - here_.distance) / gap; slope > 0.02f) {

@@ -9,6 +9,7 @@
 #include "phasetree/model/handle.hpp"
 #include "phasetree/program/evaluator.hpp"
 #include "phasetree/reading/tree.hpp"
+#include "scene/scene.hpp"
 
 namespace phasetree::tracer {
 
@@ -23,7 +24,7 @@ int info(const std::string& file, bool as_json, bool with_cells) {
     const Program& program = evaluator.program();
     const PhaseSet there = phases(tree.object);
     std::optional<CellStatistics> cells;
-    if (with_cells) cells = InterfaceCells(tree.object).statistics();
+    if (with_cells) cells = InterfaceCells(tree.object, {.opaque = opaque_phases(document)}).statistics();
 
     if (as_json) {
         nlohmann::ordered_json json;
@@ -73,7 +74,7 @@ void add_info(CLI::App& app, Run& run) {
     auto json = std::make_shared<bool>(false), cells = std::make_shared<bool>(false);
     command->add_option("scene", *file, "The scene file")->required();
     command->add_flag("--json", *json, "As JSON");
-    command->add_flag("--cells", *cells, "Also build the cells in which rays are traced, and say what they are");
+    command->add_flag("--cells", *cells, "Also build the cells in which a render traces rays, and say what they are");
     command->callback([=, &run] { run = [=] { return info(*file, *json, *cells); }; });
 }
 

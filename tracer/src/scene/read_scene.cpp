@@ -36,4 +36,19 @@ Scene read_scene(const Document& document) {
     return scene;
 }
 
+PhaseSet opaque_phases(const std::vector<Material>& materials) {
+    PhaseSet opaque;
+    for (std::size_t i = 0; i < materials.size(); ++i)
+        if (!is_clear(materials[i])) opaque = opaque | PhaseSet::of(Phase{static_cast<std::uint8_t>(i)});
+    return opaque;
+}
+
+PhaseSet opaque_phases(const Document& document) {
+    std::vector<Material> materials{vacuum()};
+    ObjectReader root(document, document.root(), "the scene");
+    for (const Value phase : root.required_value("phases"))
+        materials.push_back(phase.is_object() ? read_material(document, phase) : vacuum());
+    return opaque_phases(materials);
+}
+
 }  // namespace phasetree::tracer

@@ -43,15 +43,12 @@ struct Scene {
     RenderSettings settings;
 };
 
-// The phases that light does not travel in.
-inline PhaseSet opaque_phases(const std::vector<Material>& materials) {
-    PhaseSet opaque;
-    for (std::size_t i = 0; i < materials.size(); ++i)
-        if (!is_clear(materials[i])) opaque = opaque | PhaseSet::of(Phase{static_cast<std::uint8_t>(i)});
-    return opaque;
-}
-
 // Reads a whole scene. Files it names are relative to it. Throws SceneError with the place in the text.
 Scene read_scene(const Document& document);
+
+// The phases that light does not travel in.
+PhaseSet opaque_phases(const std::vector<Material>& materials);
+// The same of a file that need not be more than a tree: phases that are given no material are clear.
+PhaseSet opaque_phases(const Document& document);
 
 }  // namespace phasetree::tracer
