@@ -311,13 +311,70 @@ Enclosure with_curvature_of_length(Enclosure f, const std::array<const Enclosure
     f.set_curvature({std::max(f.curvature.low, curvature.low), std::min(f.curvature.high, curvature.high)});
     return f;
 }
+/// Whether their gradients are constant, as a point's coordinates' mostly are.
+template <std::size_t n>
+bool are_affine(const std::array<const Enclosure*, n>& x) {
+    for (const Enclosure* e : x) {
+        if (e->curvature.low != 0 || e->curvature.high != 0) return false;
+        for (const Range& g : e->gradient)
+            if (g.low != g.high) return false;
+    }
+    return true;
+}
+/// The length of a vector of such, without the detour over its square.
+template <std::size_t n>
+Enclosure length_of_affine(const std::array<const Enclosure*, n>& x) {
+    Range squared{};
+    double at_centre = 0;
+    for (const Enclosure* e : x) {
+        const Range s = square(e->value);
+        squared.low += s.low;
+        squared.high += s.high;
+        at_centre += e->centre * e->centre;
+    }
+    Enclosure f;
+    f.centre = std::sqrt(at_centre);
+    f.value = limited(std::sqrt(squared.low), std::sqrt(squared.high));
+    std::array<std::array<double, 3>, 3> product{};  // of the Jacobian with itself
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = i; j < 3; ++j) {
+            for (const Enclosure* e : x) product[i][j] += e->gradient[i].low * e->gradient[j].low;
+            product[j][i] = product[i][j];
+        }
+    double stretch = 0;
+    for (const auto& row : product) stretch = std::max(stretch, std::abs(row[0]) + std::abs(row[1]) + std::abs(row[2]));
+    const Range inverse = f.value.low > 0 ? limited(1 / f.value.high, 1 / f.value.low)
+                                          : limited(f.value.high > 0 ? 1 / f.value.high : 0, Range::most);
+    for (std::size_t i = 0; i < 3; ++i) {
+        Range sum{};
+        double sum_at_centre = 0;
+        for (const Enclosure* e : x) {
+            const double g = e->gradient[i].low;
+            if (g == 0) continue;
+            sum = sum + e->value * g;
+            sum_at_centre += e->centre * g;
+        }
+        const double steepest = std::sqrt(product[i][i]);
+        const Range slope = sum * inverse;
+        f.gradient[i] = {std::max(slope.low, -steepest), std::min(slope.high, steepest)};
+        f.centre_gradient[i] = f.centre > 0 ? sum_at_centre / f.centre : 0;
+    }
+    const Range bends = limited(0, stretch);
+    f.curvature = f.value.low > 0 ? bends * inverse : limited(0, Range::most);
+    f.value_curvature = bends;
+    return f;
+}
 }  // namespace detail
 
 inline Enclosure length(const Vec3<Enclosure>& a) {
-    return detail::with_curvature_of_length<3>(sqrt(dot(a, a)), {&a.x, &a.y, &a.z});
+    const std::array<const Enclosure*, 3> x{&a.x, &a.y, &a.z};
+    if (detail::are_affine(x)) return detail::length_of_affine(x);
+    return detail::with_curvature_of_length(sqrt(dot(a, a)), x);
 }
 inline Enclosure length(const Enclosure& x, const Enclosure& y) {
-    return detail::with_curvature_of_length<2>(sqrt(x * x + y * y), {&x, &y});
+    const std::array<const Enclosure*, 2> both{&x, &y};
+    if (detail::are_affine(both)) return detail::length_of_affine(both);
+    return detail::with_curvature_of_length(sqrt(x * x + y * y), both);
 }
 
 /// As the template, whose seams are none: with h(δ) = |δ|/2 + r/6·max(1 − |δ|/r, 0)³ for δ = b − a it is (a + b)/2 −
