@@ -79,13 +79,11 @@ struct Share {
 };
 
 /// Encloses a program in a share's box, and takes from it what cannot matter there. Nothing if no interface passes.
-std::optional<Candidate> candidate(const Share& share, const WorkingProgram& program, const Division& d, Worker& w) {
-    const Bounds all = share.box.inflated(d.reach);
+std::optional<Candidate> candidate(const Share& share, const Bounds& all, const WorkingProgram& program,
+                                   Encloser& encloser, const Division& d, Worker& w) {
     Candidate cell{program, all};
     for (int i = 0; i < 2; ++i) {
-        const ArenaScope scratch(w.scratch);
-        const std::optional<Enclosed> enclosed =
-            enclose(cell.program, d.constants, d.options.opaque, all, d.rounding, w.scratch);
+        const std::optional<Enclosed> enclosed = encloser(cell.program);
         if (!enclosed) break;
         if (enclosed->is_free) return std::nullopt;
         cell.bound = enclosed->bound;
@@ -107,13 +105,16 @@ std::optional<Candidate> candidate(const Share& share, const WorkingProgram& pro
 
 /// Makes a share ready. False if no interface passes.
 bool prepare(Share& share, const Division& d, Worker& w) {
-    const auto whole = candidate(share, share.program, d, w);
+    const ArenaScope scratch(w.scratch);
+    const Bounds all = share.box.inflated(d.reach);
+    Encloser encloser(d.constants, d.options.opaque, all, d.rounding, w.scratch);
+    const auto whole = candidate(share, all, share.program, encloser, d, w);
     if (!whole) return false;
     share.program = whole->program;
     share.cell = *whole;
     // Its parts may want what tells more far away.
     if (const auto near = without_far_bounds(share.program, d.constants, d.options.opaque, w.programs, w.scratch)) {
-        const auto other = candidate(share, *near, d, w);
+        const auto other = candidate(share, all, *near, encloser, d, w);
         if (!other) return false;
         if (other->cost < share.cell.cost) share.cell = *other;
     }

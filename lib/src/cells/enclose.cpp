@@ -83,34 +83,66 @@ void tighten(Bounds& box, const glm::vec3& normal, float value, float slack) {
 
 }  // namespace
 
-std::optional<Enclosed> enclose(const WorkingProgram& program, std::span<const float> constants, PhaseSet opaque,
-                                const Bounds& box, float rounding, Arena& scratch) {
+Encloser::Encloser(std::span<const float> constants, PhaseSet opaque, const Bounds& box, float rounding, Arena& scratch)
+    : constants_(constants), opaque_(opaque), box_(box), rounding_(rounding), scratch_(scratch) {
+    const glm::vec3 extent = box.extent();
+    for (int i = 0; i < 3; ++i) half_[static_cast<std::size_t>(i)] = 0.5 * static_cast<double>(extent[i]) * (1 + 1e-6);
+}
+
+/// For each instruction its number in the last program, if it is a primitive, or a map of space, that was in it; or 0.
+std::span<const std::uint32_t> Encloser::known_of(const WorkingProgram& program) const {
+    const std::span<std::uint32_t> known = scratch_.take<std::uint32_t>(program.code.size());
+    std::ranges::fill(known, 0u);
+    std::size_t at = 0;  // mostly they are in the same order
+    for (std::size_t i = 1; i < known.size() && !code_.empty(); ++i) {
+        const Instruction& in = program.code[i];
+        if (in.op < Op::first_primitive || (in.a != 0 && known[in.a] == 0)) continue;
+        for (std::size_t tries = code_.size(); tries > 0 && known[i] == 0; --tries) {
+            at = at + 1 < code_.size() ? at + 1 : 0;
+            const Instruction& old = code_[at];
+            if (old.op == in.op && old.data == in.data && old.a == known[in.a])
+                known[i] = static_cast<std::uint32_t>(at);
+        }
+    }
+    return known;
+}
+
+void Encloser::compute(const WorkingProgram& program) {
+    const std::span<const std::uint32_t> known = known_of(program);
+    const Steps steps = keep_all(program, scratch_, [&](std::size_t i) { return known[i] != 0; });
+    const std::span<Enclosure> registers = scratch_.take<Enclosure>(steps.slots);
+    const glm::vec3 middle = box_.centre();
+    for (int i = 0; i < 3; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        registers[k] = Enclosure::coordinate(i, static_cast<double>(middle[i]), half_[k]);
+    }
+    for (std::size_t i = 1; i < known.size(); ++i)
+        if (known[i] != 0)
+            std::copy_n(registers_ + slot_[known[i]], gives_point(program.code[i].op) ? 3 : 1,
+                        registers.data() + steps.slot[i]);
+    interpret(
+        steps.routine(constants_.data()), registers.data(),
+        [&]<class P>(const float* c, const Vec3<Enclosure>& q) { return enclose_by_slope<P>(c, q, half_); },
+        [&](Enclosure& e) { e = e.tightened(half_); });
+    code_ = program.code;
+    slot_ = steps.slot;
+    registers_ = registers.data();
+}
+
+std::optional<Enclosed> Encloser::operator()(const WorkingProgram& program) {
     const std::size_t size = program.code.size();
     if (size > longest_enclosed) return std::nullopt;
     // A fold of space may jump, and then it has no gradient.
     for (const Instruction& in : program.code)
         if (is_fold(in.op)) return std::nullopt;
-
-    const Steps steps = keep_all(program, scratch);
-    const std::span<Enclosure> registers = scratch.take<Enclosure>(steps.slots);
-    const glm::vec3 middle = box.centre(), extent = box.extent();
-    Half half;
-    for (int i = 0; i < 3; ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        half[k] = 0.5 * static_cast<double>(extent[i]) * (1 + 1e-6);
-        registers[k] = Enclosure::coordinate(i, static_cast<double>(middle[i]), half[k]);
-    }
-    interpret(
-        steps.routine(constants.data()), registers.data(),
-        [&]<class P>(const float* c, const Vec3<Enclosure>& q) { return enclose_by_slope<P>(c, q, half); },
-        [&](Enclosure& e) { e = e.tightened(half); });
+    compute(program);
 
     Enclosed result;
-    result.box = box;
-    const double margin = static_cast<double>(rounding);
-    const std::span<float> low = scratch.take<float>(size), high = scratch.take<float>(size);
+    result.box = box_;
+    const double margin = static_cast<double>(rounding_);
+    const std::span<float> low = scratch_.take<float>(size), high = scratch_.take<float>(size);
     for (std::size_t i = 0; i < size; ++i) {
-        const Range& v = registers[steps.slot[i]].value;
+        const Range& v = registers_[slot_[i]].value;
         if (!(v.low <= v.high)) return std::nullopt;  // not a number somewhere
         low[i] = static_cast<float>(std::max(v.low - margin, -1e30));
         high[i] = static_cast<float>(std::min(v.high + margin, 1e30));
@@ -119,9 +151,9 @@ std::optional<Enclosed> enclose(const WorkingProgram& program, std::span<const f
 
     // Components are 1-Lipschitz, whatever their instructions are.
     const auto component = [&](std::size_t i) {
-        Enclosure e = registers[steps.slot[program.outputs[i].value]];
+        Enclosure e = registers_[slot_[program.outputs[i].value]];
         for (Range& g : e.gradient) g = {std::max(g.low, -1.0), std::min(g.high, 1.0)};
-        return e.tightened(half) * (program.outputs[i].negate ? -1.f : 1.f);
+        return e.tightened(half_) * (program.outputs[i].negate ? -1.f : 1.f);
     };
     std::size_t possible = 0, clear = 0;
     // Of s as Routine::is_by_own says, both ways.
@@ -130,7 +162,7 @@ std::optional<Enclosed> enclose(const WorkingProgram& program, std::span<const f
         const Enclosure c = component(i);
         if (c.value.high < -margin) result.is_free = true;
         possible += c.value.low <= margin;
-        clear += c.value.low <= margin && !opaque.contains(program.outputs[i].phase);
+        clear += c.value.low <= margin && !opaque_.contains(program.outputs[i].phase);
         if (i > 0) by_others[0] = std::max(by_others[0], c.curvature.high);
         by_others[1] = std::max(by_others[1], c.curvature.high);
         by_own[i == 0 ? 0 : 1] = std::max(by_own[i == 0 ? 0 : 1], -c.curvature.low);
@@ -149,15 +181,15 @@ std::optional<Enclosed> enclose(const WorkingProgram& program, std::span<const f
     const Enclosure f = component(0) * (program.outputs[0].negate ? -1.f : 1.f);
     for (const Range& g : f.gradient)
         if (!(g.low <= g.high)) return result;
-    const NearlyLinear linear = nearly_linear(f, half);
+    const NearlyLinear linear = nearly_linear(f, half_);
     if (!(linear.slack < 1e30)) return result;
-    const glm::vec3 farthest = glm::max(glm::abs(box.low), glm::abs(box.high));
+    const glm::vec3 farthest = glm::max(glm::abs(box_.low), glm::abs(box_.high));
     const float size_of_numbers = std::max({farthest.x, farthest.y, farthest.z});
     for (int i = 0; i < 3; ++i) result.bound.normal[i] = static_cast<float>(linear.normal[static_cast<std::size_t>(i)]);
     result.bound.offset =
-        static_cast<float>(linear.at_centre - glm::dot(glm::dvec3(result.bound.normal), glm::dvec3(middle)));
+        static_cast<float>(linear.at_centre - glm::dot(glm::dvec3(result.bound.normal), glm::dvec3(box_.centre())));
     // What the linear part's own floats lose.
-    result.bound.slack = static_cast<float>(linear.slack) * (1 + 1e-6f) + 2 * rounding + 1e-6f * size_of_numbers;
+    result.bound.slack = static_cast<float>(linear.slack) * (1 + 1e-6f) + 2 * rounding_ + 1e-6f * size_of_numbers;
     result.bound.spread =
         static_cast<float>(linear.spread) * (1 + 1e-3f) + 1e-5f;  // directions are that near unit length
     if (is_shared) tighten(result.box, result.bound.normal, static_cast<float>(linear.at_centre), result.bound.slack);

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <array>
+
 #include "cells/linear_bound.hpp"
 #include "cells/prune.hpp"
 #include "phasetree/math/bounds.hpp"
 
 namespace phasetree {
+
+struct Enclosure;
 
 struct Enclosed {
     bool is_free = false;  ///< no interface passes through the box that a ray can meet
@@ -17,10 +21,31 @@ struct Enclosed {
 /// Longer programs are not worth the time that it takes to enclose them.
 inline constexpr std::size_t longest_enclosed = 64;
 
-/// Encloses a program's values in a box: interval arithmetic with gradients, which sees what a Lipschitz bound and a
-/// ball cannot. `rounding` bounds the error of a value; for `opaque` see prune(). Nothing for a program that is too
-/// long, or that folds space.
-std::optional<Enclosed> enclose(const WorkingProgram&, std::span<const float> constants, PhaseSet opaque,
-                                const Bounds& box, float rounding, Arena& scratch);
+/// Encloses programs' values in a box: interval arithmetic with gradients, which sees what a Lipschitz bound and a ball
+/// cannot. A program that pruning has left of the last one keeps what was found of its primitives.
+class Encloser {
+  public:
+    /// `rounding` bounds the error of a value; for `opaque` see prune(). What is taken of `scratch` stays until the
+    /// last enclosing.
+    Encloser(std::span<const float> constants, PhaseSet opaque, const Bounds& box, float rounding, Arena& scratch);
+
+    /// Nothing for a program that is too long, or that folds space.
+    std::optional<Enclosed> operator()(const WorkingProgram&);
+
+  private:
+    void compute(const WorkingProgram&);
+    std::span<const std::uint32_t> known_of(const WorkingProgram&) const;
+
+    std::span<const float> constants_;
+    PhaseSet opaque_;
+    Bounds box_;
+    std::array<double, 3> half_;
+    float rounding_;
+    Arena& scratch_;
+    // Of the last program.
+    std::span<const Instruction> code_;
+    std::span<const std::uint32_t> slot_;
+    Enclosure* registers_ = nullptr;
+};
 
 }  // namespace phasetree

@@ -4,7 +4,8 @@
 
 namespace phasetree {
 
-/// A working program's steps, with a register of its own for every value so that all can be read afterwards.
+/// A working program's steps but for those to leave out, with a register of its own for every value so that all can be
+/// read afterwards.
 struct Steps {
     std::span<const Step> steps;
     std::span<const std::uint32_t> slot;  ///< of each instruction's value; a point takes three
@@ -13,7 +14,8 @@ struct Steps {
     Routine routine(const float* constants) const { return {steps.data(), steps.size(), constants, nullptr, 0}; }
 };
 
-inline Steps keep_all(const WorkingProgram& program, Arena& scratch) {
+template <class LeftOut>
+Steps keep_all(const WorkingProgram& program, Arena& scratch, LeftOut&& is_left_out) {
     const std::span<std::uint32_t> slot = scratch.take<std::uint32_t>(program.code.size());
     const std::span<Step> steps = scratch.take<Step>(program.code.size());
     std::uint32_t slots = 0;
@@ -23,10 +25,13 @@ inline Steps keep_all(const WorkingProgram& program, Arena& scratch) {
         slot[i] = slots;
         slots += gives_point(in.op) ? 3 : 1;
         const int n = operands(in.op);
-        if (n > 0)
+        if (n > 0 && !is_left_out(i))
             steps[count++] = {static_cast<std::uint32_t>(in.op), slot[i], slot[in.a], n > 1 ? slot[in.b] : 0, in.data};
     }
     return {steps.first(count), slot, slots};
+}
+inline Steps keep_all(const WorkingProgram& program, Arena& scratch) {
+    return keep_all(program, scratch, [](std::size_t) { return false; });
 }
 
 }  // namespace phasetree
