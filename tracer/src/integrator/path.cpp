@@ -120,8 +120,7 @@ glm::vec3 trace_path(const World& world, const Scene& scene, CameraRay ray, Phas
         const Frame frame(surface->normal);
         const glm::vec3 wo = frame.to_local(-ray.direction);
         if (!bsdf.is_delta()) {
-            const float choice = sampler.next();
-            if (const auto light = scene.lights.sample(surface->near_origin, choice, sampler.next2())) {
+            if (const auto light = scene.lights.sample(surface->near_origin, sampler.next2())) {
                 const glm::vec3 wi = frame.to_local(light->wi);
                 const glm::vec3 f = bsdf.evaluate(wo, wi);
                 if (f != glm::vec3(0.0f)) {

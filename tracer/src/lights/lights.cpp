@@ -1,5 +1,6 @@
 #include "lights/lights.hpp"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <memory_resource>
@@ -78,7 +79,7 @@ float Lights::pdf(const glm::vec3& p, const glm::vec3& direction) const {
     return pdf(p, direction, fluence.values(), total);
 }
 
-std::optional<LightSample> Lights::sample(const glm::vec3& p, float u_choice, const glm::vec2& u) const {
+std::optional<LightSample> Lights::sample(const glm::vec3& p, glm::vec2 u) const {
     Scratch scratch(size());
     const float total = fluences(p, scratch);
     const std::span<const float> fluence = scratch.values();
@@ -91,8 +92,9 @@ std::optional<LightSample> Lights::sample(const glm::vec3& p, float u_choice, co
         if (!(fluence[i] > 0.0f)) continue;
         chosen = i;
         below += fluence[i];
-        if (u_choice * total < below) break;
+        if (u.x * total < below) break;
     }
+    u.x = std::clamp((u.x * total - (below - fluence[chosen])) / fluence[chosen], 0.0f, 0x1.fffffep-1f);
 
     glm::vec3 wi(0.0f);
     if (chosen < infinite_.size()) {

@@ -57,8 +57,10 @@ class Lights {
 
     bool empty() const { return infinite_.empty() && area_.empty(); }
 
-    // `u_choice` chooses the light, `u` the direction; all in [0, 1). Nothing when no light reaches p.
-    std::optional<LightSample> sample(const glm::vec3& p, float u_choice, const glm::vec2& u) const;
+    // `u` in [0, 1)². Its x chooses the light, and what is left of it, stretched to [0, 1) again, is the x that the
+    // light's own sampling gets: points that are stratified in the square are so for each light. Nothing when no light
+    // reaches p.
+    std::optional<LightSample> sample(const glm::vec3& p, glm::vec2 u) const;
 
     // The nearest area light a ray meets before `distance_max`. Camera rays pass through lights that are not visible to
     // the camera.
