@@ -290,12 +290,12 @@ TEST_CASE("crossings that involve no shown phase are passed") {
 TEST_CASE("rays end where they enter an opaque phase as they would if it were not known to be") {
     const embree::Tree tree = object_tree();
     const InterfaceTracer tracer(object());
+    int entered = 0;
     for (const std::uint64_t opaque : {0b01000u, 0b11000u, 0b11110u}) {
         CAPTURE(opaque);
         PhasetreeGeometryOptions options = embree::default_options();
         options.opaquePhases = opaque;
         const Placed placed(tree, options);
-        int entered = 0;
         for (const Ray& ray : rays(600, 22)) {
             const PhaseSet set{opaque};
             if (set.contains(tracer.label(ray.origin, Evaluator::thread_workspace()))) continue;
@@ -309,6 +309,6 @@ TEST_CASE("rays end where they enter an opaque phase as they would if it were no
             REQUIRE(r.hit.v == expected[0].to.index);
             entered += set.contains(expected[0].to);
         }
-        CHECK(entered > 20);
     }
+    CHECK(entered > 100);
 }
