@@ -23,17 +23,20 @@ class FieldScene {
     struct HitWithNormal {
         Crossing crossing;
         glm::vec3 normal;
+        unsigned cell;
     };
     std::optional<HitWithNormal> intersect_with_normal(const Ray& ray) const {
         embree::Query query;
         const RTCRayHit hit = nearest(ray, query);
         if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-        return HitWithNormal{query.crossing, cells_->normal(hit.hit.primID, query.crossing, ray.direction)};
+        return HitWithNormal{query.crossing, cells_->normal(hit.hit.primID, query.crossing, ray.direction),
+                             hit.hit.primID};
     }
     // The nearest surface, the ground among them, and where a reflected ray starts from it.
     struct Surface {
         float distance;
         glm::vec3 point, normal;  // against the ray
+        std::optional<unsigned> cell{};
     };
     std::optional<Surface> surface(const Ray& ray) const;
     Checksum trace(std::span<const Ray> rays, int threads) const {
@@ -58,6 +61,7 @@ class FieldScene {
     RTCRayHit nearest(const Ray& ray, embree::Query& query) const {
         RTCRayHit hit = rayhit_of(ray);
         query.carried = ray.carried;
+        if (ray.cell) query.start = {object_id, *ray.cell, RTC_INVALID_GEOMETRY_ID};
         embree::intersect(scene_.handle(), query.context, hit);
         return hit;
     }
