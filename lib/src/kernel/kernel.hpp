@@ -50,8 +50,9 @@ struct RaySegment {
     float length;
     float behind;  ///< how far before 0 the ray has come from
     float resolution;
-    float slope;        ///< bounds what a component changes by for each unit along the ray
-    float curvature[2];      ///< as Curvature: of the distance along the ray, in the phase of the first output and in others
+    float slope;  ///< bounds what a component changes by for each unit along the ray
+    float
+        curvature[2];   ///< as Curvature: of the distance along the ray, in the phase of the first output and in others
     float carried;      ///< the phase that the ray is in; negative: the label at its start
     bool is_monotone;   ///< there is one component, and it only grows or only falls along the ray
     bool on_interface;  ///< the ray most likely starts on one: a hint where to look first
