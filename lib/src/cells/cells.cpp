@@ -37,6 +37,8 @@ struct InterfaceCells::Data {
     std::size_t routines = 0;
     std::vector<Step> steps;
     std::vector<OutputSlot> outputs;
+    std::vector<ProofStep> proofs;
+    std::vector<std::uint32_t> first_proof;  ///< of each cell, and the end; empty if there are none
     double build_seconds = 0;
 
     explicit Data(Program program) : whole(std::move(program)) {}
@@ -54,16 +56,26 @@ struct InterfaceCells::Data {
                 c.is_by_own != 0,
                 c.leading};
     }
+    /// A cell's proof is read only where curvature leaves a ray in doubt.
+    Routine routine_with_proof(std::size_t cell) const {
+        const Cell& c = cells[cell];
+        Routine r = routine(c);
+        if (c.curvature != CurvatureCode::unknown && c.other_curvature != CurvatureCode::unknown) return r;
+        r.proof = proofs.data() + first_proof[cell];
+        r.proof_steps = first_proof[cell + 1] - first_proof[cell];
+        return r;
+    }
 
     std::optional<Crossing> search(std::size_t cell, const TracedRay& ray, float t_min, float t_max,
                                    std::optional<Phase> carried, bool is_certified, Evaluator::Workspace* w,
                                    TraceCounters& counters) const {
         ++counters.visits;
         const Cell& c = cells[cell];
-        const Routine r = routine(c);
+        const Routine r = routine_with_proof(cell);
         // What is not needed before the ray is clipped is under way until then.
         __builtin_prefetch(r.steps);
         __builtin_prefetch(r.outputs);
+        __builtin_prefetch(r.proof);
         return march_within(c.box, c.bound,
                             {curvature_code.decode(c.curvature), curvature_code.decode(c.other_curvature)}, r, c.slots,
                             ray, t_min, t_max, resolution, carried, is_certified, w, counters);
@@ -72,6 +84,7 @@ struct InterfaceCells::Data {
     /// Cells with equal programs share one.
     void add(const Found& found) {
         cells.reserve(found.cells.size());
+        first_proof.reserve(found.cells.size() + 1);
         const auto bytes = [](const auto& v, std::uint32_t first, std::uint32_t count) {
             return std::string_view(reinterpret_cast<const char*>(v.data() + first), count * sizeof(v[0]));
         };
@@ -96,6 +109,7 @@ struct InterfaceCells::Data {
                              c.steps & most_steps, c.outputs & 0xffu, c.slots & most_slots, c.curvature.is_by_own,
                              curvature_code.encode(c.curvature.most[0]), curvature_code.encode(c.curvature.most[1])});
             Cell& cell = cells.back();
+            first_proof.push_back(c.first_proof);
             const auto [where, is_new] = known.emplace(key(c), &cell);
             if (is_new) {
                 const auto first = found.steps.begin() + c.first_step;
@@ -107,6 +121,8 @@ struct InterfaceCells::Data {
                 cell.first_output = where->second->first_output;
             }
         }
+        proofs = found.proofs;
+        first_proof.push_back(Found::narrow(proofs.size()));
         routines = known.size();
         steps.shrink_to_fit();
         outputs.shrink_to_fit();
@@ -200,7 +216,8 @@ CellStatistics InterfaceCells::statistics() const {
     s.cells = data_->cells.size();
     s.routines = data_->routines;
     s.bytes = data_->cells.size() * sizeof(Data::Cell) + data_->steps.size() * sizeof(Step) +
-              data_->outputs.size() * sizeof(OutputSlot) + data_->whole.bytes();
+              data_->outputs.size() * sizeof(OutputSlot) + data_->proofs.size() * sizeof(ProofStep) +
+              data_->first_proof.size() * sizeof(data_->first_proof[0]) + data_->whole.bytes();
     s.build_seconds = data_->build_seconds;
     if (data_->cells.empty()) return s;
     std::vector<std::size_t> length;

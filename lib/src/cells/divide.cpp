@@ -63,6 +63,7 @@ struct Candidate {
     Bounds box{};  ///< around its interface
     LinearBound bound{};
     Curvature curvature{};
+    std::span<const ProofPart> proof{};
     float cost = 0;
 };
 
@@ -88,6 +89,7 @@ std::optional<Candidate> candidate(const Share& share, const Bounds& all, const 
         if (enclosed->is_free) return std::nullopt;
         cell.bound = enclosed->bound;
         cell.curvature = enclosed->curvature;
+        cell.proof = w.programs.copy(enclosed->proof);
         cell.box = intersect(all, enclosed->box.inflated(d.reach));
         if (cell.box.empty()) return std::nullopt;
         if (i > 0) break;
@@ -96,6 +98,7 @@ std::optional<Candidate> candidate(const Share& share, const Bounds& all, const 
         if (pruned->code.size() == cell.program.code.size() && pruned->outputs.size() == cell.program.outputs.size())
             break;
         cell.program = *pruned;  // whose gradient is better known
+        cell.proof = {};
     }
     // Through copies without end a ray goes on and on.
     const float copies = 1 + 4 * share.box.diagonal() / share.period;
@@ -143,7 +146,10 @@ float find_cells(const Share& share, const Division& d, Worker& w) {
     const LedProgram led = cell.program.outputs.size() == 2
                                ? LedProgram{cell.program}
                                : first_component_first(cell.program, w.programs, w.scratch);
-    w.found.add(cell.box, cell.bound, cell.curvature, led.program, led.leading);
+    const std::span<ProofPart> proof = w.scratch.copy(cell.proof);
+    if (!led.renumbered.empty())
+        for (ProofPart& part : proof) part.value = led.renumbered[part.value];
+    w.found.add(cell.box, cell.bound, cell.curvature, led.program, led.leading, proof);
     return cell.cost;
 }
 

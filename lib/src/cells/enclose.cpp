@@ -178,6 +178,11 @@ std::optional<Enclosed> Encloser::operator()(const WorkingProgram& program) {
     if (!is_shared)  // the first component is known by itself
         result.curvature.most[0] = by_own[0] < 1e30 ? static_cast<float>(by_own[0]) * (1 + 1e-3f) : Curvature::unknown;
 
+    const auto is_blind = [&](std::size_t side) { return !(result.curvature.most[side] < Curvature::unknown); };
+    const auto is_clear = [&](const ProgramOutput& o) { return !opaque_.contains(o.phase); };
+    if ((is_blind(0) && is_clear(program.outputs[0])) || (is_shared && is_blind(1) && is_clear(program.outputs[1])))
+        result.proof = prove(program, constants_, registers_, slot_, scratch_);
+
     const Enclosure f = component(0) * (program.outputs[0].negate ? -1.f : 1.f);
     for (const Range& g : f.gradient)
         if (!(g.low <= g.high)) return result;

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "cells/linear_bound.hpp"
-#include "cells/prune.hpp"
+#include "cells/proof.hpp"
 #include "phasetree/math/bounds.hpp"
 
 namespace phasetree {
@@ -16,6 +16,7 @@ struct Enclosed {
     Curvature curvature;
     Bounds box;          ///< around the interface in the box
     ValueRanges ranges;  ///< of every value in the box
+    std::span<const ProofPart> proof;  ///< where a ray may be in a phase whose curvature is unknown
 };
 
 /// Longer programs are not worth the time that it takes to enclose them.

@@ -313,7 +313,7 @@ LedProgram first_component_first(const WorkingProgram& program, Arena& keep, Are
             lipschitz[count++] = program.lipschitz[i];
         }
     for (ProgramOutput& o : outputs) o.value = renumbered[o.value];
-    return {{code, lipschitz, outputs}, static_cast<std::uint32_t>(first.size())};
+    return {{code, lipschitz, outputs}, static_cast<std::uint32_t>(first.size()), renumbered};
 }
 
 float finest_jump(const WorkingProgram& program, std::span<const float> constants) {

@@ -50,6 +50,7 @@ std::optional<WorkingProgram> without_far_bounds(const WorkingProgram&, std::spa
 struct LedProgram {
     WorkingProgram program;
     std::uint32_t leading = 0;  ///< instructions that it needs, the input not counted
+    std::span<const std::uint32_t> renumbered{};  ///< where each instruction went, in `scratch`; empty if they stayed
 };
 LedProgram first_component_first(const WorkingProgram&, Arena& keep, Arena& scratch);
 

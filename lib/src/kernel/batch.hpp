@@ -21,12 +21,13 @@ inline constexpr std::size_t parts = 16 / width;
 
 #define PHASETREE_EACH _Pragma("GCC unroll 4") for (std::size_t i = 0; i < parts; ++i)
 
-/// Of a register's lanes: the last one, then the first and on.
-HWY_INLINE const std::int32_t* shift_indices() {
+/// Of a register's lanes: from so many on, and around.
+template <std::size_t first>
+HWY_INLINE const std::int32_t* turn_indices() {
     struct Table {
         alignas(64) std::int32_t index[width];
         constexpr Table() : index{} {
-            for (std::size_t i = 0; i < width; ++i) index[i] = static_cast<std::int32_t>((i + width - 1) % width);
+            for (std::size_t i = 0; i < width; ++i) index[i] = static_cast<std::int32_t>((i + first) % width);
         }
     };
     static constexpr Table table;
@@ -141,11 +142,24 @@ HWY_INLINE Batch lanes() {
 HWY_INLINE Batch shifted(const Batch& a, float before) {
     Batch r;
     Register carry = hn::Set(Tag(), before);
-    const auto back = hn::SetTableIndices(Tag(), shift_indices());
+    const auto back = hn::SetTableIndices(Tag(), turn_indices<width - 1>());
     const RegisterMask first = hn::FirstN(Tag(), 1);
     PHASETREE_EACH {
         const Register turned = hn::TableLookupLanes(a.v[i], back);  // the last lane comes first
         r.v[i] = hn::IfThenElse(first, carry, turned);
+        carry = turned;
+    }
+    return r;
+}
+/// Lane i becomes that of lane i + 1; the last one `after`.
+HWY_INLINE Batch shifted_back(const Batch& a, float after) {
+    Batch r;
+    Register carry = hn::Set(Tag(), after);
+    const auto on = hn::SetTableIndices(Tag(), turn_indices<1>());
+    const RegisterMask others = hn::FirstN(Tag(), width - 1);
+    for (std::size_t i = parts; i-- > 0;) {
+        const Register turned = hn::TableLookupLanes(a.v[i], on);  // the first lane comes last
+        r.v[i] = hn::IfThenElse(others, turned, carry);
         carry = turned;
     }
     return r;

@@ -7,6 +7,9 @@
 
 namespace phasetree {
 
+/// A proof is no longer than this.
+inline constexpr std::size_t most_proof_steps = 32;
+
 /// A resolved instruction. Slots count batches in the register file; a point takes three.
 struct Step {
     std::uint32_t op;
@@ -27,6 +30,21 @@ struct OutputSlot {
     bool operator==(const OutputSlot&) const = default;
 };
 
+/// A step of a proof, on a stack, that a field keeps its sign between samples: see proof.inl. A leaf speaks of
+///     g = factor · (the slot's value − threshold),
+/// which is 1-Lipschitz; 16-bit numbers are the upper halves of floats.
+struct ProofStep {
+    enum Kind : std::uint32_t { leaf, both, either };
+
+    float threshold;
+    std::uint32_t slot : 30, kind : 2;
+    std::uint16_t factor;
+    std::uint16_t up, down;  ///< how much g and −g curve upward at most, infinite if that is not known
+    std::uint16_t unused = 0;
+
+    bool operator==(const ProofStep&) const = default;
+};
+
 /// What a kernel runs: plain pointers, because kernels are compiled for several instruction sets and must not share
 /// inline functions of the standard library with the rest.
 struct Routine {
@@ -41,6 +59,9 @@ struct Routine {
     /// So many steps give the first component alone, 0 if that is not known: enough for a ray that is in its phase.
     std::size_t leading = 0;
     bool is_first_alone = false;  ///< only these steps
+    /// Of the first component, where its curvature is not known: that it stays negative.
+    const ProofStep* proof = nullptr;
+    std::size_t proof_steps = 0;
 };
 
 /// A piece of a ray: origin + t·direction, 0 ≤ t ≤ length.

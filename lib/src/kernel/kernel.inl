@@ -127,6 +127,11 @@ struct Classified {
 /// The label where there is only the first component, and it is positive.
 constexpr float another_phase = -2;
 
+/// Whether one value tells both components.
+HWY_INLINE bool is_shared(const Routine& routine) {
+    return routine.output_count == 2 && routine.outputs[0].slot == routine.outputs[1].slot;
+}
+
 HWY_INLINE Classified classify(const Routine& routine, float* registers) {
     const auto component = [&](std::size_t i) {
         return load(at(registers, routine.outputs[i].slot)) * routine.outputs[i].sign;
@@ -137,8 +142,7 @@ HWY_INLINE Classified classify(const Routine& routine, float* registers) {
         return {select(less(lowest, zero), Batch(routine.outputs[0].phase), Batch(another_phase)),
                 max(lowest, -lowest)};
     }
-    if (routine.output_count == 2 && routine.outputs[0].slot == routine.outputs[1].slot) {
-        // One value tells both.
+    if (is_shared(routine)) {
         const Batch other = -lowest;
         return {select(less(other, lowest), Batch(routine.outputs[1].phase), Batch(routine.outputs[0].phase)),
                 max(other, lowest)};
@@ -188,6 +192,8 @@ void sample_ray(const Routine& routine, const float* o, const float* d, const fl
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace phasetree
+
+#include "kernel/proof.inl"
 
 #include "kernel/march.inl"
 

@@ -188,6 +188,8 @@ class March {
             const Batch missing = gap * gap * half_curvature - a - b;
             open &= bits(less(zero, missing)) & bits(less(a * b * 4.f, missing * missing));
         }
+        if (is_provable_ && (open & is_long))
+            open &= ~proven(whole_, phase_ != whole_.outputs[0].phase, registers_, t, rounding());
         f.doubt |= open & is_long;
         f.phantom = open & ~is_long & ~differs;
     }
@@ -231,6 +233,7 @@ class March {
     float phase_ = 0;
     float half_curvature_ = 0;  ///< of the distance in the ray's phase
     bool is_curvature_known_ = false;
+    bool is_provable_ = false;  ///< else by a proof
     Place here_{};     ///< all up to here is in the ray's phase
     Place certain_{};  ///< the last place whose own label is the ray's phase; mostly `here`
     Place other_{};    ///< after it, the first place of the label that is there now
@@ -262,6 +265,8 @@ bool March::find(RayCrossing& result) {
         half_curvature_ = 0.5f * ray_.curvature[whole_.outputs[0].phase == phase_ ? 0 : 1];
         is_curvature_known_ = half_curvature_ < 1e30f &&
                               (whole_.outputs[0].phase != phase_ || whole_.output_count == 2 || whole_.is_by_own);
+        is_provable_ = !is_curvature_known_ && whole_.proof_steps > 0 &&
+                       (whole_.outputs[0].phase == phase_ || is_shared(whole_));
         other_.label = none;
         judge(f, t, c, here_, resolution);
         if (f.doubt == 0) return false;
@@ -359,7 +364,10 @@ Batch March::look_ahead(const Frame& f, int lane, const Place& next) const {
         const bool has_before = lane >= 1, has_after = lane >= 0 && lane + 1 < static_cast<int>(batch_size);
         const Place before = has_before ? f.place(lane - 2) : here_, after = has_after ? f.place(lane + 1) : next;
         const float root = predicted_root(here_, next, before, after);
-        return gather_around(smaller(larger(root, here_.t), next.t), here_.t, next.t, 0.49f * ray_.resolution);
+        const Batch t =
+            gather_around(smaller(larger(root, here_.t), next.t), here_.t, next.t, 0.49f * ray_.resolution);
+        // A proof speaks of what is between samples.
+        return is_provable_ ? select(less(lanes(), Batch(0.5f)), Batch(here_.t), t) : t;
     }
     const float fine = effective_resolution(ray_.resolution, batches_);
     if (const float slope = (next.distance - here_.distance) / gap; slope > 0.02f) {

@@ -63,7 +63,7 @@ bool is_fold(Op op) {
 }
 
 std::uint32_t assemble(std::span<const Instruction> code, std::span<const ProgramOutput> outputs,
-                       std::vector<Step>& steps, std::vector<OutputSlot>& ends) {
+                       std::span<KeptValue> kept, std::vector<Step>& steps, std::vector<OutputSlot>& ends) {
     constexpr auto forever = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> last_use(code.size(), 0), slot(code.size(), 0);
     for (std::uint32_t i = 0; i < code.size(); ++i) {
@@ -72,6 +72,7 @@ std::uint32_t assemble(std::span<const Instruction> code, std::span<const Progra
     }
     last_use[0] = forever;  // the input keeps slots 0 … 2
     for (const ProgramOutput& o : outputs) last_use[o.value] = forever;
+    for (const KeptValue& k : kept) last_use[k.value] = forever;
 
     Slots slots;
     for (std::uint32_t i = 0; i < code.size(); ++i) {
@@ -87,12 +88,13 @@ std::uint32_t assemble(std::span<const Instruction> code, std::span<const Progra
     }
     for (const ProgramOutput& o : outputs)
         ends.push_back({slot[o.value], static_cast<float>(o.phase.index), o.negate ? -1.f : 1.f});
+    for (KeptValue& k : kept) k.slot = slot[k.value];
     return slots.end();
 }
 
 Assembly assemble(std::span<const Instruction> code, std::span<const ProgramOutput> outputs) {
     Assembly result;
-    result.slots = assemble(code, outputs, result.steps, result.outputs);
+    result.slots = assemble(code, outputs, {}, result.steps, result.outputs);
     return result;
 }
 

@@ -25,9 +25,13 @@ struct Assembly {
 
 /// Values whose last use is past give their register to later ones.
 Assembly assemble(std::span<const Instruction> code, std::span<const ProgramOutput> outputs);
+/// A value that is read after the program has run, though it is no output, and where it is then found.
+struct KeptValue {
+    std::uint32_t value = 0, slot = 0;
+};
 /// The same, appended to others; tells how many slots it needs.
-std::uint32_t assemble(std::span<const Instruction> code, std::span<const ProgramOutput> outputs, std::vector<Step>&,
-                       std::vector<OutputSlot>&);
+std::uint32_t assemble(std::span<const Instruction> code, std::span<const ProgramOutput> outputs,
+                       std::span<KeptValue> kept, std::vector<Step>&, std::vector<OutputSlot>&);
 
 std::vector<ProgramOutput> outputs_of(const Program&);
 

@@ -1,0 +1,114 @@
+#include "cells/proof.hpp"
+
+#include <bit>
+#include <cmath>
+
+#include "phasetree/math/enclosure.hpp"
+
+namespace phasetree {
+
+namespace {
+
+constexpr double unknown = 1e30;
+
+/// The upper half of a float's bits, of a number that is no smaller, or none that is larger.
+std::uint16_t half_at_least(float x) {
+    return static_cast<std::uint16_t>((std::bit_cast<std::uint32_t>(x) + 0xffffu) >> 16);
+}
+std::uint16_t half_at_most(float x) {
+    return static_cast<std::uint16_t>(std::bit_cast<std::uint32_t>(x) >> 16);
+}
+
+class Prover {
+  public:
+    Prover(const WorkingProgram& program, std::span<const float> constants, const Enclosure* registers,
+           std::span<const std::uint32_t> slot, std::span<ProofPart> room)
+        : program_(program), constants_(constants), registers_(registers), slot_(slot), room_(room) {}
+
+    /// That sign · (v − τ) > 0. False if that takes too many steps.
+    bool add(std::uint32_t v, double sign, double tau) {
+        const Instruction& in = program_.code[v];
+        const Range& curvature = registers_[slot_[v]].curvature;
+        if (std::abs(curvature.low) < unknown || std::abs(curvature.high) < unknown) return leaf(v, sign, tau);
+        const double c = in.op < Op::first_primitive && operands(in.op) == 1 && in.op != Op::negate &&
+                                 in.op != Op::absolute
+                             ? static_cast<double>(constants_[in.data])
+                             : 0;
+        const bool is_above = sign > 0;
+        switch (in.op) {
+            case Op::minimum:
+                return add(in.a, sign, tau) && add(in.b, sign, tau) && combine(is_above);
+            case Op::maximum:
+            case Op::farther:
+                return add(in.a, sign, tau) && add(in.b, sign, tau) && combine(!is_above);
+            case Op::corner:
+                // Up to 0 it is the maximum; above, no less than each.
+                if (!is_above && tau > 0) return leaf(v, sign, tau);
+                return add(in.a, sign, tau) && add(in.b, sign, tau) && combine(!is_above);
+            case Op::smooth_minimum:
+                // No more than each.
+                if (is_above) return leaf(v, sign, tau);
+                return add(in.a, sign, tau) && add(in.b, sign, tau) && combine(false);
+            case Op::negate:
+                return add(in.a, -sign, -tau);
+            case Op::add_constant:
+                return add(in.a, sign, tau - c);
+            case Op::constant_minus:
+                return add(in.a, -sign, c - tau);
+            case Op::multiply_constant:
+                if (c == 0) return leaf(v, sign, tau);
+                return add(in.a, c > 0 ? sign : -sign, tau / c);
+            case Op::absolute:
+                if (tau < 0) return leaf(v, sign, tau);
+                return add(in.a, sign, tau) && add(in.a, -sign, -tau) && combine(!is_above);
+            default:
+                return leaf(v, sign, tau);
+        }
+    }
+    std::span<const ProofPart> result() const {
+        return is_any_known_ ? room_.first(count_) : std::span<const ProofPart>();
+    }
+
+  private:
+    bool push(const ProofPart& part) {
+        if (count_ == room_.size()) return false;
+        room_[count_++] = part;
+        return true;
+    }
+    bool combine(bool both) { return push({both ? ProofStep::both : ProofStep::either}); }
+    bool leaf(std::uint32_t v, double sign, double tau) {
+        const Range& c = registers_[slot_[v]].curvature;
+        const double factor = 1 / std::max(1.0, static_cast<double>(program_.lipschitz[v]));
+        const auto bend = [&](double most) {
+            return most < unknown ? static_cast<float>(std::max(most, 0.0) * factor) * (1 + 1e-3f) : Bounds::infinity;
+        };
+        const float up = bend(c.high), down = bend(-c.low);
+        is_any_known_ = is_any_known_ || up < Bounds::infinity || down < Bounds::infinity;
+        const bool is_above = sign > 0;
+        return push({ProofStep::leaf, v, static_cast<float>(tau), static_cast<float>(sign * factor),
+                     is_above ? up : down, is_above ? down : up});
+    }
+
+    const WorkingProgram& program_;
+    std::span<const float> constants_;
+    const Enclosure* registers_;
+    std::span<const std::uint32_t> slot_;
+    std::span<ProofPart> room_;
+    std::size_t count_ = 0;
+    bool is_any_known_ = false;
+};
+
+}  // namespace
+
+ProofStep ProofPart::step(std::uint32_t slot) const {
+    return {threshold, slot & 0x3fffffffu, static_cast<std::uint32_t>(kind) & 3u, half_at_most(factor), half_at_least(up), half_at_least(down)};
+}
+
+std::span<const ProofPart> prove(const WorkingProgram& program, std::span<const float> constants,
+                                 const Enclosure* registers, std::span<const std::uint32_t> slot, Arena& scratch) {
+    Prover prover(program, constants, registers, slot, scratch.take<ProofPart>(most_proof_steps));
+    const ProgramOutput& first = program.outputs[0];
+    return prover.add(first.value, first.negate ? 1 : -1, 0) ? prover.result() : std::span<const ProofPart>();
+}
+
+}  // namespace phasetree

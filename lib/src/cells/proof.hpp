@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "cells/prune.hpp"
+#include "kernel/kernel.hpp"
+
+namespace phasetree {
+
+struct Enclosure;
+
+/// A step of a proof (kernel/proof.inl) in the course of its making: in numbers of full length, and with the number of
+/// a value for its slot. Steps that combine keep the input, which is always there.
+struct ProofPart {
+    ProofStep::Kind kind = ProofStep::leaf;
+    std::uint32_t value = 0;
+    float threshold = 0, factor = 1, up = 0, down = 0;
+
+    ProofStep step(std::uint32_t slot) const;
+};
+
+/// How to prove that a program's first component stays negative where its curvature is not known, from the enclosures
+/// of its values in a box; those of the same program, one for each slot. Nothing if no leaf's curvature is known, or if
+/// it takes too many. The result is in `scratch`.
+std::span<const ProofPart> prove(const WorkingProgram&, std::span<const float> constants, const Enclosure* registers,
+                                 std::span<const std::uint32_t> slot, Arena& scratch);
+
+}  // namespace phasetree
