@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <string_view>
-#include <unordered_map>
+#include <optional>
 
 #include "cells/curvature_code.hpp"
 #include "cells/divide.hpp"
 #include "cells/rewrite.hpp"
+#include "cells/routines.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/trace/tracer.hpp"
 #include "program/target.hpp"
@@ -28,20 +28,18 @@ struct InterfaceCells::Data {
     };
     static_assert(sizeof(Cell) == 64);
 
-    Evaluator whole;
+    std::optional<Evaluator> whole;
     Bounds bounds;
     float resolution = 0;
     float reach = 0;
     PhaseSet opaque;
     std::vector<Cell> cells;
-    std::size_t routines = 0;
+    std::size_t routine_count = 0;
     std::vector<Step> steps;
     std::vector<OutputSlot> outputs;
     std::vector<ProofStep> proofs;
     std::vector<std::uint32_t> first_proof;  ///< of each cell, and the end; empty if there are none
     double build_seconds = 0;
-
-    explicit Data(Program program) : whole(std::move(program)) {}
 
     static constexpr std::uint32_t most_steps = 0xffffff, most_slots = 0x7fff, most_outputs = 0xffffff,
                                    most_leading = 0xff;
@@ -50,7 +48,7 @@ struct InterfaceCells::Data {
     Routine routine(const Cell& c) const {
         return {steps.data() + c.first_step,
                 c.steps,
-                whole.program().constants.data(),
+                whole->program().constants.data(),
                 outputs.data() + c.first_output,
                 c.outputs,
                 c.is_by_own != 0,
@@ -82,48 +80,28 @@ struct InterfaceCells::Data {
     }
 
     /// Cells with equal programs share one.
-    void add(const Found& found) {
+    void add(const Found& found, Routines routines) {
         cells.reserve(found.cells.size());
         first_proof.reserve(found.cells.size() + 1);
-        const auto bytes = [](const auto& v, std::uint32_t first, std::uint32_t count) {
-            return std::string_view(reinterpret_cast<const char*>(v.data() + first), count * sizeof(v[0]));
-        };
-        const auto key = [&](const Found::Cell& c) {
-            return std::pair(bytes(found.steps, c.first_step, c.steps),
-                             bytes(found.outputs, c.first_output, c.outputs));
-        };
-        const auto hash = [](const std::pair<std::string_view, std::string_view>& k) {
-            const std::hash<std::string_view> of;
-            return of(k.first) ^ (of(k.second) * 0x9e3779b97f4a7c15u);
-        };
-        std::unordered_map<std::pair<std::string_view, std::string_view>, const Cell*, decltype(hash)> known(
-            found.cells.size() / 4 + 16, hash);
         for (const Found::Cell& c : found.cells) {
-            if (c.steps > most_steps || c.slots > most_slots || outputs.size() > most_outputs)
+            const Routines::Ready& r = routines.add(found, c);
+            if (r.steps > most_steps || r.slots > most_slots || r.first_output > most_outputs)
                 throw ModelError(fmt::format(
-                    "the object's cells take too long programs, of {} instructions on {} values", c.steps, c.slots));
+                    "the object's cells take too long programs, of {} instructions on {} values", r.steps, r.slots));
             // Without its component alone a ray in the first phase knows nothing.
-            const bool is_led = c.leading > 0 && c.leading <= most_leading;
-            cells.push_back({c.box, c.outputs == 2 || is_led ? c.bound : LinearBound{}, Found::narrow(steps.size()),
-                             Found::narrow(outputs.size()) & most_outputs, is_led ? c.leading & most_leading : 0,
-                             c.steps & most_steps, c.outputs & 0xffu, c.slots & most_slots, c.curvature.is_by_own,
+            const bool is_led = r.leading > 0 && r.leading <= most_leading;
+            cells.push_back({c.box, c.outputs == 2 || is_led ? c.bound : LinearBound{}, r.first_step,
+                             r.first_output & most_outputs, is_led ? r.leading & most_leading : 0,
+                             r.steps & most_steps, r.outputs & 0xffu, r.slots & most_slots, c.curvature.is_by_own,
                              curvature_code.encode(c.curvature.most[0]), curvature_code.encode(c.curvature.most[1])});
-            Cell& cell = cells.back();
-            first_proof.push_back(c.first_proof);
-            const auto [where, is_new] = known.emplace(key(c), &cell);
-            if (is_new) {
-                const auto first = found.steps.begin() + c.first_step;
-                steps.insert(steps.end(), first, first + c.steps);
-                const auto end = found.outputs.begin() + c.first_output;
-                outputs.insert(outputs.end(), end, end + c.outputs);
-            } else {
-                cell.first_step = where->second->first_step;
-                cell.first_output = where->second->first_output;
-            }
+            first_proof.push_back(Found::narrow(proofs.size()));
+            routines.add_proof(r, found.proof_of(c), proofs);
         }
-        proofs = found.proofs;
         first_proof.push_back(Found::narrow(proofs.size()));
-        routines = known.size();
+        proofs.shrink_to_fit();
+        routine_count = routines.count();
+        steps = std::move(routines.steps);
+        outputs = std::move(routines.outputs);
         steps.shrink_to_fit();
         outputs.shrink_to_fit();
     }
@@ -135,17 +113,18 @@ InterfaceCells::InterfaceCells(const Phased& object, const CellOptions& options)
     Program recorded = phasetree::record(object);
     Arena arena;
     const WorkingProgram rewritten = rewrite(recorded, arena);
-    auto data = std::make_unique<Data>(std::move(recorded));
+    auto data = std::make_unique<Data>();
     data->bounds = traceable.bounds;
     data->resolution = traceable.resolution;
     data->reach = 4 * traceable.resolution;
     data->opaque = options.opaque;
     data->curvature_code = CurvatureCode(data->bounds.diagonal());
 
-    const Program& program = data->whole.program();
-    const Division division{options, program.constants, data->reach, 0.5f * traceable.resolution,
+    const Division division{options, recorded.constants, data->reach, 0.5f * traceable.resolution,
                             data->bounds.diagonal()};
-    data->add(divide_into_cells(data->bounds, rewritten, division));
+    const Found found = divide_into_cells(data->bounds, rewritten, division);
+    data->add(found, Routines(recorded.constants));
+    data->whole.emplace(std::move(recorded));
     data->build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     data_ = std::move(data);
 }
@@ -182,7 +161,7 @@ glm::vec3 InterfaceCells::normal(std::size_t cell, const Crossing& c, const glm:
 }
 
 Phase InterfaceCells::label(const glm::vec3& p, Evaluator::Workspace& w) const {
-    return data_->bounds.contains(p) ? data_->whole.label(p, w) : vacuum;
+    return data_->bounds.contains(p) ? data_->whole->label(p, w) : vacuum;
 }
 
 Phase InterfaceCells::label(std::size_t cell, const glm::vec3& p, Evaluator::Workspace& w) const {
@@ -198,7 +177,7 @@ Phase InterfaceCells::label(std::size_t cell, const glm::vec3& p, Evaluator::Wor
 }
 
 const Evaluator& InterfaceCells::whole() const {
-    return data_->whole;
+    return *data_->whole;
 }
 float InterfaceCells::resolution() const {
     return data_->resolution;
@@ -214,10 +193,10 @@ PhaseSet InterfaceCells::opaque() const {
 CellStatistics InterfaceCells::statistics() const {
     CellStatistics s;
     s.cells = data_->cells.size();
-    s.routines = data_->routines;
+    s.routines = data_->routine_count;
     s.bytes = data_->cells.size() * sizeof(Data::Cell) + data_->steps.size() * sizeof(Step) +
               data_->outputs.size() * sizeof(OutputSlot) + data_->proofs.size() * sizeof(ProofStep) +
-              data_->first_proof.size() * sizeof(data_->first_proof[0]) + data_->whole.bytes();
+              data_->first_proof.size() * sizeof(data_->first_proof[0]) + data_->whole->bytes();
     s.build_seconds = data_->build_seconds;
     if (data_->cells.empty()) return s;
     std::vector<std::size_t> length;

@@ -8,55 +8,67 @@
 
 namespace phasetree {
 
-/// Cells found so far, in order, with the routines that they need.
+/// Cells found so far, in order, with their programs.
 struct Found {
     struct Cell {
         Bounds box;
         LinearBound bound;
         Curvature curvature;
-        std::uint32_t first_step, steps, leading, first_output, outputs, slots, first_proof,
-            proof_steps;
+        std::uint32_t first_instruction, instructions, leading, first_output, outputs, first_proof, proof_parts;
     };
     std::vector<Cell> cells;
-    std::vector<Step> steps;
-    std::vector<OutputSlot> outputs;
-    std::vector<ProofStep> proofs;
+    std::vector<Instruction> code;
+    std::vector<ProgramOutput> outputs;
+    std::vector<ProofPart> proofs;
 
     struct Mark {
-        std::size_t cells, steps, outputs, proofs;
+        std::size_t cells, code, outputs, proofs;
     };
-    Mark mark() const { return {cells.size(), steps.size(), outputs.size(), proofs.size()}; }
+    Mark mark() const { return {cells.size(), code.size(), outputs.size(), proofs.size()}; }
     void forget_from(const Mark& m) {
         cells.resize(m.cells);
-        steps.resize(m.steps);
+        code.resize(m.code);
         outputs.resize(m.outputs);
         proofs.resize(m.proofs);
     }
     void add(const Bounds& box, const LinearBound& bound, const Curvature& curvature, const WorkingProgram& program,
              std::uint32_t leading, std::span<const ProofPart> proof) {
         const Mark m = mark();
-        std::array<KeptValue, most_proof_steps> kept;
-        for (std::size_t i = 0; i < proof.size(); ++i) kept[i].value = proof[i].value;
-        const std::uint32_t slots =
-            assemble(program.code, program.outputs, std::span(kept).first(proof.size()), steps, outputs);
-        for (std::size_t i = 0; i < proof.size(); ++i) proofs.push_back(proof[i].step(kept[i].slot));
-        cells.push_back({box, bound, curvature, narrow(m.steps), narrow(steps.size() - m.steps), leading,
-                         narrow(m.outputs), narrow(outputs.size() - m.outputs), slots, narrow(m.proofs),
-                         narrow(proof.size())});
+        append(code, program.code);
+        append(outputs, program.outputs);
+        append(proofs, proof);
+        cells.push_back({box, bound, curvature, narrow(m.code), narrow(program.code.size()), leading,
+                         narrow(m.outputs), narrow(program.outputs.size()), narrow(m.proofs), narrow(proof.size())});
     }
     void add(const Found& more) {
         const Mark m = mark();
         for (Cell c : more.cells) {
-            c.first_step += narrow(m.steps);
+            c.first_instruction += narrow(m.code);
             c.first_output += narrow(m.outputs);
             c.first_proof += narrow(m.proofs);
             cells.push_back(c);
         }
-        steps.insert(steps.end(), more.steps.begin(), more.steps.end());
-        outputs.insert(outputs.end(), more.outputs.begin(), more.outputs.end());
-        proofs.insert(proofs.end(), more.proofs.begin(), more.proofs.end());
+        append(code, std::span(more.code));
+        append(outputs, std::span(more.outputs));
+        append(proofs, std::span(more.proofs));
     }
     static std::uint32_t narrow(std::size_t n) { return static_cast<std::uint32_t>(n); }
+
+    std::span<const Instruction> code_of(const Cell& c) const {
+        return std::span(code).subspan(c.first_instruction, c.instructions);
+    }
+    std::span<const ProgramOutput> outputs_of(const Cell& c) const {
+        return std::span(outputs).subspan(c.first_output, c.outputs);
+    }
+    std::span<const ProofPart> proof_of(const Cell& c) const {
+        return std::span(proofs).subspan(c.first_proof, c.proof_parts);
+    }
+
+  private:
+    template <class T, class From>
+    static void append(std::vector<T>& to, const From& from) {
+        to.insert(to.end(), from.begin(), from.end());
+    }
 };
 
 }  // namespace phasetree

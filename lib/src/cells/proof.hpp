@@ -11,7 +11,7 @@ namespace phasetree {
 struct Enclosure;
 
 /// A step of a proof (kernel/proof.inl) in the course of its making: in numbers of full length, and with the number of
-/// a value for its slot. Steps that combine keep the input, which is always there.
+/// a value for its slot. Only leaves have one.
 struct ProofPart {
     ProofStep::Kind kind = ProofStep::leaf;
     std::uint32_t value = 0;

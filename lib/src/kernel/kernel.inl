@@ -3,11 +3,12 @@
 
 #define HWY_COMPILE_ONLY_STATIC
 #include <cstring>
+#include <type_traits>
 #include <utility>
 
 #include "kernel/batch.hpp"
 #include "kernel/kernel.hpp"
-#include "phasetree/nodes/list.hpp"
+#include "program/fused.hpp"
 
 namespace phasetree {
 namespace HWY_NAMESPACE {
@@ -17,11 +18,12 @@ HWY_INLINE float* at(float* registers, std::uint32_t slot) {
     return registers + std::size_t{slot} * batch_size;
 }
 
+/// In place: a copy would be written and read again before its numbers can be used. The file is compiled without
+/// strict aliasing.
 template <class Struct>
-HWY_INLINE Struct constants_of(const Step& s, const float* constants) {
-    Struct result;
-    std::memcpy(static_cast<void*>(&result), constants + s.data, sizeof(Struct));
-    return result;
+HWY_INLINE const Struct& constants_of(const float* constants) {
+    static_assert(std::is_trivially_copyable_v<Struct> && alignof(Struct) <= alignof(float));
+    return *reinterpret_cast<const Struct*>(constants);
 }
 
 HWY_INLINE Vec3<Batch> load_point(float* registers, std::uint32_t slot) {
@@ -33,7 +35,7 @@ using Handler = void (*)(const Step&, const float* constants, float* registers);
 
 template <class P>
 HWY_FLATTEN void run_primitive(const Step& s, const float* constants, float* registers) {
-    store(constants_of<P>(s, constants).distance(load_point(registers, s.a)), at(registers, s.to));
+    store(constants_of<P>(constants + s.data).distance(load_point(registers, s.a)), at(registers, s.to));
 }
 
 template <class P>
@@ -43,18 +45,33 @@ HWY_FLATTEN void run_data_primitive(const Step& s, const float* constants, float
 
 template <class M>
 HWY_FLATTEN void run_map(const Step& s, const float* constants, float* registers) {
-    const Vec3<Batch> q = constants_of<M>(s, constants)(load_point(registers, s.a));
+    const Vec3<Batch> q = constants_of<M>(constants + s.data)(load_point(registers, s.a));
     float* to = at(registers, s.to);
     store(q.x, to);
     store(q.y, to + batch_size);
     store(q.z, to + 2 * batch_size);
 }
 
+template <class P>
+HWY_FLATTEN void run_placed(const Step& s, const float* constants, float* registers) {
+    const auto& frame = constants_of<PlacedPrimitive>(constants + s.data);
+    const Batch d = constants_of<P>(constants + s.data + placed_floats).distance(frame.map(load_point(registers, s.a)));
+    store(d * frame.scale + frame.offset, at(registers, s.to));
+}
+template <class P>
+constexpr Handler placed() {
+    if constexpr (LongPrimitive<P>)
+        return nullptr;
+    else
+        return run_placed<P>;
+}
+
 template <class PrimitiveList, class DataPrimitiveList, class MapList>
 struct Table;
 template <class... Ps, class... Ds, class... Ms>
 struct Table<TypeList<Ps...>, TypeList<Ds...>, TypeList<Ms...>> {
-    static constexpr Handler handlers[] = {run_primitive<Ps>..., run_data_primitive<Ds>..., run_map<Ms>...};
+    static constexpr Handler handlers[] = {run_primitive<Ps>..., run_data_primitive<Ds>..., run_map<Ms>...,
+                                           run_map<AffineMap>, placed<Ps>()...};
 };
 using Handlers = Table<Primitives, DataPrimitives, PointMaps>;
 

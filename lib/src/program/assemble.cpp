@@ -3,14 +3,11 @@
 #include <array>
 #include <limits>
 
-#include "phasetree/nodes/list.hpp"
+#include "program/fused.hpp"
 
 namespace phasetree {
 
 namespace {
-
-constexpr std::uint32_t first_map = static_cast<std::uint32_t>(Op::first_primitive) +
-                                    static_cast<std::uint32_t>(Primitives::size + DataPrimitives::size);
 
 /// Hands out register slots; a freed one is used again.
 class Slots {
@@ -41,7 +38,8 @@ std::uint32_t size_of(Op op) {
 }  // namespace
 
 bool gives_point(Op op) {
-    return op == Op::input || static_cast<std::uint32_t>(op) >= first_map;
+    const auto code = static_cast<std::uint32_t>(op);
+    return op == Op::input || (code >= first_map && code < first_placed);
 }
 
 namespace {

@@ -2,8 +2,8 @@
 
 #include <cstring>
 
-#include "phasetree/nodes/list.hpp"
 #include "program/assemble.hpp"
+#include "program/fused.hpp"
 
 /// A routine run with any number type, one number at a time: for gradients and enclosures. Kernels have their own.
 namespace phasetree {
@@ -100,30 +100,41 @@ void interpret(const Routine& routine, T* registers, LongPrimitiveOf&& long_prim
                 to = corner(a, b);
                 break;
             default: {
-                const Vec3<T> point{registers[s.a], registers[s.a + 1], registers[s.a + 2]};
+                const Vec3<T> input{registers[s.a], registers[s.a + 1], registers[s.a + 2]};
                 const std::uint32_t index = s.op - first_primitive;
-                const auto primitive = [&]<class P>() {
-                    if constexpr (LongPrimitive<P>)
-                        to = long_primitive.template operator()<P>(c, point);
-                    else if constexpr (ConvexPrimitive<P>)
-                        to = known_to_be_convex(detail::distance_of<P>(c, point), point);
-                    else
-                        to = detail::distance_of<P>(c, point);
-                };
-                if (index < Primitives::size) {
-                    detail::dispatch(Primitives(), index, primitive);
-                } else if (index < Primitives::size + DataPrimitives::size) {
-                    detail::dispatch(DataPrimitives(), index - static_cast<std::uint32_t>(Primitives::size), primitive);
-                } else {
-                    constexpr auto before = static_cast<std::uint32_t>(Primitives::size + DataPrimitives::size);
-                    detail::dispatch(PointMaps(), index - before, [&]<class M>() {
-                        const Vec3<T> q = detail::constants_of<M>(s, routine.constants)(point);
-                        registers[s.to] = q.x;
-                        registers[s.to + 1] = q.y;
-                        registers[s.to + 2] = q.z;
-                    });
+                const auto set_point = [&](const Vec3<T>& q) {
+                    registers[s.to] = q.x;
+                    registers[s.to + 1] = q.y;
+                    registers[s.to + 2] = q.z;
                     done(registers[s.to + 1]);
                     done(registers[s.to + 2]);
+                };
+                const auto primitive = [&]<class P>(const float* floats, const Vec3<T>& point) {
+                    if constexpr (LongPrimitive<P>)
+                        to = long_primitive.template operator()<P>(floats, point);
+                    else if constexpr (ConvexPrimitive<P>)
+                        to = known_to_be_convex(detail::distance_of<P>(floats, point), point);
+                    else
+                        to = detail::distance_of<P>(floats, point);
+                };
+                if (s.op >= first_placed) {
+                    const auto placed = detail::constants_of<PlacedPrimitive>(s, routine.constants);
+                    detail::dispatch(Primitives(), s.op - first_placed, [&]<class P>() {
+                        primitive.template operator()<P>(c + placed_floats, placed.map(input));
+                    });
+                    to = to * placed.scale + placed.offset;
+                } else if (s.op == affine_map) {
+                    set_point(detail::constants_of<AffineMap>(s, routine.constants)(input));
+                } else if (index < Primitives::size) {
+                    detail::dispatch(Primitives(), index,
+                                     [&]<class P>() { primitive.template operator()<P>(c, input); });
+                } else if (index < Primitives::size + DataPrimitives::size) {
+                    detail::dispatch(DataPrimitives(), index - static_cast<std::uint32_t>(Primitives::size),
+                                     [&]<class P>() { primitive.template operator()<P>(c, input); });
+                } else {
+                    detail::dispatch(PointMaps(), s.op - first_map, [&]<class M>() {
+                        set_point(detail::constants_of<M>(s, routine.constants)(input));
+                    });
                 }
             }
         }

@@ -45,6 +45,12 @@ concept PointMap = std::is_trivially_copyable_v<M> && requires(const M& m, const
     { m(p) } -> std::same_as<Vec3<float>>;
 };
 
+/// One that is affine: such are composed with each other and with the primitives behind them.
+template <class M>
+concept AffinePointMap = PointMap<M> && requires {
+    M::is_affine;
+};
+
 /// Calls `n.prepare()` if the node has something to derive from its parameters.
 template <class N>
 void prepare(N& n) {

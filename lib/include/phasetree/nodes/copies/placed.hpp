@@ -17,6 +17,7 @@ namespace phasetree {
 
 /// p ↦ R(−a)(p − v)/s about the z axis: the inverse of scaling by s, then turning by a, then moving by v.
 struct PlacementMap {
+    static constexpr bool is_affine = true;
     glm::vec3 by{0};
     float cosine = 1;  ///< cos a / s
     float sine = 0;    ///< sin a / s
@@ -31,6 +32,7 @@ struct PlacementMap {
 
 /// p ↦ R⁻¹(p − v)/s for any turn R.
 struct StandingMap {
+    static constexpr bool is_affine = true;
     glm::vec3 by{0};
     glm::vec3 row[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< the columns of R, divided by s
 

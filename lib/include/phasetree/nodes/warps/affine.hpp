@@ -21,6 +21,7 @@ struct Affine {
     float scale = 1;       ///< 1/λ, derived
 
     struct Map {
+        static constexpr bool is_affine = true;
         glm::vec3 by;
         glm::vec3 row[3];
         template <class T>

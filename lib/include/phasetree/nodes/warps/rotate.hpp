@@ -14,6 +14,7 @@ struct Rotate {
     glm::mat3 matrix{1};  ///< R, derived
 
     struct Map {
+        static constexpr bool is_affine = true;
         glm::vec3 column[3];
         template <class T>
         Vec3<T> operator()(const Vec3<T>& p) const {

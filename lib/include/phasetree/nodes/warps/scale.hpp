@@ -10,6 +10,7 @@ struct Scale {
     float factor = 1;
 
     struct Map {
+        static constexpr bool is_affine = true;
         float inverse;
         template <class T>
         Vec3<T> operator()(const Vec3<T>& p) const {

@@ -11,6 +11,7 @@ struct Stretch {
     glm::vec3 factors{1};
 
     struct Map {
+        static constexpr bool is_affine = true;
         glm::vec3 inverse;
         template <class T>
         Vec3<T> operator()(const Vec3<T>& p) const {

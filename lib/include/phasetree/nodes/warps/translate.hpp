@@ -9,6 +9,7 @@ struct Translate {
     glm::vec3 by{0};
 
     struct Map {
+        static constexpr bool is_affine = true;
         glm::vec3 by;
         template <class T>
         Vec3<T> operator()(const Vec3<T>& p) const {
