@@ -50,12 +50,18 @@ inline Enclosure falloff(const Enclosure& d, float reach) {
 }
 
 namespace detail {
-/// Of a convex function that grows with each of these and is 1-Lipschitz in them.
-inline Enclosure with_least_curvature(Enclosure f, std::initializer_list<const Enclosure*> x) {
+/// Of a convex function that grows with each of these and is 1-Lipschitz in them: its derivatives by them are weights
+/// from 0 to 1.
+inline Enclosure convex_combination(Enclosure f, std::initializer_list<const Enclosure*> x) {
     double sum = 0;
     for (const Enclosure* e : x) sum += std::min(e->curvature.low, 0.0) * std::min(e->curvature.low, 0.0);
     f.curvature.low = std::max(f.curvature.low, std::max(-std::sqrt(sum), -Range::most));
     f.value_curvature = f.value * f.curvature;
+    for (std::size_t i = 0; i < 3; ++i) {
+        Range weighted{};
+        for (const Enclosure* e : x) weighted = weighted + hull(e->gradient[i], {});
+        f.gradient[i] = {std::max(f.gradient[i].low, weighted.low), std::min(f.gradient[i].high, weighted.high)};
+    }
     return f;
 }
 }  // namespace detail
@@ -64,13 +70,13 @@ inline Enclosure with_least_curvature(Enclosure f, std::initializer_list<const E
 /// it is convex: outside the largest sum of the two, weighted by a vector of unit length without negative components.
 inline Enclosure corner(const Enclosure& a, const Enclosure& b) {
     if (a.value.high <= 0 || b.value.high <= 0) return max(a, b);
-    return detail::with_least_curvature(corner<Enclosure>(a, b), {&a, &b});
+    return detail::convex_combination(corner<Enclosure>(a, b), {&a, &b});
 }
 inline Enclosure corner(const Enclosure& a, const Enclosure& b, const Enclosure& c) {
     if (a.value.high <= 0) return max(a, corner(b, c));
     if (b.value.high <= 0) return max(b, corner(a, c));
     if (c.value.high <= 0) return max(c, corner(a, b));
-    return detail::with_least_curvature(corner<Enclosure>(a, b, c), {&a, &b, &c});
+    return detail::convex_combination(corner<Enclosure>(a, b, c), {&a, &b, &c});
 }
 
 /// Slopes agree on the seam, so it bends nothing.
