@@ -11,12 +11,13 @@ namespace phasetree {
 /// only what is dearer than what matters.
 namespace price {
 inline constexpr float parts = 12;               ///< of Embree's going down to the parts of a box
-inline constexpr float visit = 45;               ///< of entering a cell
-inline constexpr float batch = 25, step = 4.5f;  ///< of a batch, and of each of its instructions
+inline constexpr float visit = 60;               ///< of entering a cell
+inline constexpr float batch = 25, step = 3;  ///< of a batch, and of each of its instructions
 inline constexpr float certain = 1.5f;           ///< batches where the field is linear,
 inline constexpr float unknown = 0.5f;           ///< more of them the less it lets rays pass without one,
-inline constexpr float uneven = 1;               ///< the more its gradient varies,
-inline constexpr float blind = 1.5f;             ///< and where it may bend at will
+inline constexpr float uneven = 3;               ///< the more its gradient varies,
+inline constexpr float proven = 0.5f;            ///< and where only a proof tells how it bends,
+inline constexpr float blind = 1.5f;             ///< or nothing
 }  // namespace price
 
 /// How much work an instruction is, in simple ones.
@@ -44,7 +45,7 @@ inline float surface(const Bounds& box) {
 }
 
 /// How many batches a visit takes of rays in one phase: of the first component or of the others.
-inline float batches(const Bounds& box, const LinearBound& bound, float most_curved) {
+inline float batches(const Bounds& box, const LinearBound& bound, float most_curved, bool has_proof) {
     float unknown = 3, spread = 1;
     if (bound.slack < Bounds::infinity) {
         const float thickness = 0.5f * glm::dot(glm::abs(bound.normal), box.extent());
@@ -52,22 +53,22 @@ inline float batches(const Bounds& box, const LinearBound& bound, float most_cur
         spread = std::min(1.f, bound.spread);
     }
     const bool is_blind = !(most_curved < Curvature::unknown);
-    return price::certain + price::unknown * unknown + price::uneven * spread + (is_blind ? price::blind : 0.f);
+    return price::certain + price::unknown * unknown + price::uneven * spread + (!is_blind ? 0.f : has_proof ? price::proven : price::blind);
 }
 /// Half of the rays are taken to be in the first phase, if that is the vacuum; all, if the others are opaque. Where
 /// more than two phases meet they need its component alone, and the rest where they leave it.
 inline float cost(const Bounds& box, const LinearBound& bound, const Curvature& curvature,
-                  const WorkingProgram& program, PhaseSet opaque, Arena& scratch) {
+                  const WorkingProgram& program, bool has_proof, PhaseSet opaque, Arena& scratch) {
     const float all = price::batch + price::step * work(program);
     const auto is_opaque = [&](const ProgramOutput& o) { return opaque.contains(o.phase); };
     const bool is_one_clear = std::ranges::all_of(program.outputs.subspan(1), is_opaque);
     const bool has_two = program.outputs.size() == 2;
-    const float others = batches(box, has_two ? bound : LinearBound{}, curvature.most[1]) * all;
-    float first = batches(box, bound, curvature.most[0]) * all;
+    const float others = batches(box, has_two ? bound : LinearBound{}, curvature.most[1], has_two && has_proof) * all;
+    float first = batches(box, bound, curvature.most[0], has_proof) * all;
     if (!has_two) {
         first = others;
         if (program.outputs[0].phase == vacuum || is_one_clear)
-            first = batches(box, bound, curvature.most[0]) *
+            first = batches(box, bound, curvature.most[0], has_proof) *
                         (price::batch + price::step * work_of_first(program, scratch)) +
                     all;
     }
