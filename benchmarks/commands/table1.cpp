@@ -39,7 +39,7 @@ Checksum trace_with_bounce(const FieldScene& scene, const Rays& rays, const std:
         const glm::vec3 scattered = first->normal + sphere[static_cast<std::size_t>(&ray - rays.data())];
         const float length = glm::length(scattered);
         const glm::vec3 direction = length > 1e-4f ? scattered / length : first->normal;
-        const auto second = scene.surface({first->point, direction, vacuum, first->cell});
+        const auto second = scene.surface({first->point, direction, vacuum, first->cell, first->from, first->gradient});
         return first->distance + (second ? second->distance : 0.f);
     });
 }

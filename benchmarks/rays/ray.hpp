@@ -12,7 +12,10 @@ struct Ray {
     glm::vec3 origin{0};
     glm::vec3 direction{0};          // of unit length
     Phase carried;                   // the phase it is in
-    std::optional<unsigned> cell{};  // that found the crossing it starts from; a path tracer knows it, too
+    // The crossing it starts from, which a path tracer knows, too: the cell that found it and its gradient.
+    std::optional<unsigned> cell{};
+    Phase from{};
+    glm::vec3 gradient{0};
 };
 
 using Rays = std::vector<Ray>;

@@ -40,7 +40,8 @@ std::optional<FieldScene::Surface> FieldScene::surface(const Ray& ray) const {
     if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     if (hit.hit.geomID == object_id) {
         const Crossing& c = query.crossing;
-        return Surface{c.t_in, c.p_in, -cells_->normal(hit.hit.primID, c, ray.direction), hit.hit.primID};
+        const CrossingNormal normal = cells_->normal(hit.hit.primID, c, ray.direction);
+        return Surface{c.t_in, c.p_in, -normal.unit, hit.hit.primID, c.from, normal.gradient};
     }
     const float up = ray.direction.z < 0 ? 1.f : -1.f;
     const glm::vec3 point = ray.origin + hit.ray.tfar * ray.direction;

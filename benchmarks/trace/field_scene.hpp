@@ -22,7 +22,7 @@ class FieldScene {
     }
     struct HitWithNormal {
         Crossing crossing;
-        glm::vec3 normal;
+        CrossingNormal normal;
         unsigned cell;
     };
     std::optional<HitWithNormal> intersect_with_normal(const Ray& ray) const {
@@ -37,6 +37,8 @@ class FieldScene {
         float distance;
         glm::vec3 point, normal;  // against the ray
         std::optional<unsigned> cell{};
+        Phase from{};
+        glm::vec3 gradient{0};
     };
     std::optional<Surface> surface(const Ray& ray) const;
     Checksum trace(std::span<const Ray> rays, int threads) const {
@@ -61,7 +63,7 @@ class FieldScene {
     RTCRayHit nearest(const Ray& ray, embree::Query& query) const {
         RTCRayHit hit = rayhit_of(ray);
         query.carried = ray.carried;
-        if (ray.cell) query.start = {object_id, *ray.cell, RTC_INVALID_GEOMETRY_ID};
+        if (ray.cell) query.start = {object_id, *ray.cell, RTC_INVALID_GEOMETRY_ID, ray.from, ray.gradient};
         embree::intersect(scene_.handle(), query.context, hit);
         return hit;
     }

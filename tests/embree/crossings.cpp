@@ -19,6 +19,7 @@ class CellTracer {
   public:
     struct Hit : Crossing {
         unsigned cell = 0;
+        CrossingNormal normal{};
     };
 
     CellTracer(RTCDevice device, const Phased& object)
@@ -35,7 +36,7 @@ class CellTracer {
                                       const Hit* start, TraceCounters& counters) const {
         embree::Query query;
         query.carried = carried;
-        if (start) query.start = {0, start->cell, RTC_INVALID_GEOMETRY_ID};
+        if (start) query.start = {0, start->cell, RTC_INVALID_GEOMETRY_ID, start->from, start->normal.gradient};
         RTCRayHit ray{};
         ray.ray.org_x = o.x;
         ray.ray.org_y = o.y;
@@ -49,9 +50,9 @@ class CellTracer {
         embree::intersect(scene_.get(), query.context, ray);
         counters = query.counters;
         if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-        return Hit{query.crossing, ray.hit.primID};
+        return Hit{query.crossing, ray.hit.primID, cells_->normal(ray.hit.primID, query.crossing, d)};
     }
-    glm::vec3 normal(const Hit& hit, const glm::vec3& d) const { return cells_->normal(hit.cell, hit, d); }
+    glm::vec3 normal(const Hit& hit, const glm::vec3& d) const { return cells_->normal(hit.cell, hit, d).unit; }
     Phase label(const glm::vec3& p) const { return cells_->label(p, Evaluator::thread_workspace()); }
     Bounds bounds() const { return cells_->bounds(); }
     float resolution() const { return cells_->resolution(); }

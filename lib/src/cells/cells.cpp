@@ -65,7 +65,8 @@ struct InterfaceCells::Data {
     }
 
     std::optional<Crossing> search(std::size_t cell, const TracedRay& ray, float t_min, float t_max,
-                                   std::optional<Phase> carried, bool is_certified, Evaluator::Workspace* w,
+                                   std::optional<Phase> carried, const std::optional<Departure>& departure,
+                                   Evaluator::Workspace* w,
                                    TraceCounters& counters) const {
         ++counters.visits;
         const Cell& c = cells[cell];
@@ -76,7 +77,7 @@ struct InterfaceCells::Data {
         __builtin_prefetch(r.proof);
         return march_within(c.box, c.bound,
                             {curvature_code.decode(c.curvature), curvature_code.decode(c.other_curvature)}, r, c.slots,
-                            ray, t_min, t_max, resolution, carried, is_certified, w, counters);
+                            ray, t_min, t_max, resolution, carried, departure, w, counters);
     }
 
     /// Cells with equal programs share one.
@@ -145,16 +146,16 @@ std::optional<Crossing> InterfaceCells::first_crossing(std::size_t cell, const g
                                                        const glm::vec3& direction, float t_min, float t_max,
                                                        std::optional<Phase> carried, Evaluator::Workspace& w,
                                                        TraceCounters& counters) const {
-    return data_->search(cell, TracedRay(origin, direction), t_min, t_max, carried, false, &w, counters);
+    return data_->search(cell, TracedRay(origin, direction), t_min, t_max, carried, {}, &w, counters);
 }
 
 std::optional<Crossing> InterfaceCells::first_crossing(std::size_t cell, const TracedRay& ray, float t_min, float t_max,
-                                                       std::optional<Phase> carried, bool is_certified,
+                                                       std::optional<Phase> carried, const std::optional<Departure>& departure,
                                                        TraceCounters& counters) const {
-    return data_->search(cell, ray, t_min, t_max, carried, is_certified, nullptr, counters);
+    return data_->search(cell, ray, t_min, t_max, carried, departure, nullptr, counters);
 }
 
-glm::vec3 InterfaceCells::normal(std::size_t cell, const Crossing& c, const glm::vec3& direction) const {
+CrossingNormal InterfaceCells::normal(std::size_t cell, const Crossing& c, const glm::vec3& direction) const {
     const Data::Cell& at = data_->cells[cell];
     return normal_of(c, direction,
                      [&](const glm::vec3& p, Phase phase) { return gradient(data_->routine(at), at.slots, p, phase); });

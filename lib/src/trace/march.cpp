@@ -29,9 +29,12 @@ Interval clip(const Bounds& box, const TracedRay& ray, double t_min, double t_ma
     return r;
 }
 
+/// Of a ray that leaves an interface; below, rounding has more to say.
+constexpr float least_rise = 0.02f;
+
 std::optional<Crossing> march_within(const Bounds& box, const LinearBound& bound, const Curvature& curvature,
                                      const Routine& routine, std::uint32_t slots, const TracedRay& traced, float t_min,
-                                     float t_max, float resolution, std::optional<Phase> carried, bool is_certified,
+                                     float t_max, float resolution, std::optional<Phase> carried, const std::optional<Departure>& departure,
                                      Evaluator::Workspace* workspace, TraceCounters& counters) {
     if (!traced.is_traceable) return std::nullopt;
     const glm::vec3 &origin = traced.origin, &direction = traced.direction;
@@ -46,6 +49,19 @@ std::optional<Crossing> march_within(const Bounds& box, const LinearBound& bound
     float slope = 1;
     bool is_monotone = false;
     const bool is_in_first = carried && routine.outputs[0].phase == static_cast<float>(carried->index);
+    if (departure && on_interface && departure->rise > least_rise && routine.output_count == 2 &&
+        routine.outputs[0].slot == routine.outputs[1].slot) {
+        // From an interface s = rise·t − K/2·t² at least, where K is how much s curves downward: as much as upward in
+        // the other phase. A tenth is left for what the rise is off. That is positive up to here:
+        const double safe = 1.8 * static_cast<double>(departure->rise) /
+                            std::max(static_cast<double>(curvature.most[is_in_first ? 1 : 0]), 1e-30);
+        if (safe >= span.high - span.low) return std::nullopt;
+        if (safe > 8 * static_cast<double>(resolution)) {
+            span.low += safe;
+            start = at(span.low);
+            on_interface = false;
+        }
+    }
     if (bound.slack < Bounds::infinity && (routine.output_count == 2 || is_in_first)) {
         // The field along the ray is value + rise·t within the slack: where that is not zero, there is no interface.
         const float value = glm::dot(bound.normal, start) + bound.offset, rise = glm::dot(bound.normal, direction);
@@ -53,7 +69,7 @@ std::optional<Crossing> march_within(const Bounds& box, const LinearBound& bound
         slope = std::min(1.f, std::abs(rise) + bound.spread);
         is_monotone = std::abs(rise) > bound.spread;
         // A ray that has left the interface for the phase that the field grows into stays there.
-        if (is_certified && on_interface && is_monotone) {
+        if (departure && on_interface && is_monotone) {
             const bool is_first = routine.outputs[0].phase == static_cast<float>(carried->index);
             if (routine.outputs[is_first ? 0 : 1].sign * rise < 0) return std::nullopt;
         }

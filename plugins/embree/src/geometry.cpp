@@ -62,10 +62,14 @@ std::optional<Lane> trace(const TreeGeometry::Data& data, const Where& where, RT
         const float near = RTCRayN_tnear(rays, n, i) * s.length, far = RTCRayN_tfar(rays, n, i) * s.length;
         if (!(near <= far)) return std::nullopt;
         const Query::Start& start = query->start;
-        const bool is_certified = start.cell == where.cell && start.geometry == where.geometry &&
-                                  start.instance == where.instance && near == 0;
+        std::optional<Departure> departure;
+        if (start.cell == where.cell && start.geometry == where.geometry && start.instance == where.instance &&
+            near == 0) {
+            const float along = glm::dot(start.gradient, s.ray.direction);
+            departure = Departure{query->carried == start.from ? -along : along};
+        }
         crossing =
-            data.object->first_crossing(where.cell, s.ray, near, far, query->carried, is_certified, query->counters);
+            data.object->first_crossing(where.cell, s.ray, near, far, query->carried, departure, query->counters);
         if (!crossing || !(crossing->t_in <= far)) return std::nullopt;
         return Lane{*crossing, s.ray.direction, s.length};
     }
@@ -73,7 +77,7 @@ std::optional<Lane> trace(const TreeGeometry::Data& data, const Where& where, RT
     if (!ray) return std::nullopt;
     TraceCounters unused;
     crossing = data.object->first_crossing(where.cell, TracedRay(ray->origin, ray->direction), ray->near, ray->far,
-                                           std::nullopt, false, unused);
+                                           std::nullopt, std::nullopt, unused);
     if (!crossing || !(crossing->t_in <= ray->far)) return std::nullopt;
     return Lane{*crossing, ray->direction, ray->length};
 }
@@ -90,7 +94,7 @@ void intersect(const RTCIntersectFunctionNArguments* arguments) noexcept {
         const auto lane = trace(data, where, rays, n, i, query);
         if (!lane) continue;
         const Crossing& c = lane->crossing;
-        const glm::vec3 normal = query ? -lane->direction : -data.object->normal(arguments->primID, c, lane->direction);
+        const glm::vec3 normal = query ? -lane->direction : -data.object->normal(arguments->primID, c, lane->direction).unit;
         RTCRayN_tfar(rays, n, i) = c.t_in / lane->length;
         RTCHitN_Ng_x(hits, n, i) = normal.x;
         RTCHitN_Ng_y(hits, n, i) = normal.y;

@@ -85,13 +85,14 @@ std::optional<Surface> World::intersect(const glm::vec3& origin, const glm::vec3
     const Crossing& c = query.crossing;
     Surface s;
     s.distance = c.t_in;
-    s.normal = -object_->normal(ray.hit.primID, c, direction);
+    const CrossingNormal normal = object_->normal(ray.hit.primID, c, direction);
+    s.normal = -normal.unit;
     s.near_origin = c.p_in;
     s.far_origin = c.p_out;
     s.near_phase = c.from;
     s.far_phase = c.to;
     s.optics = &interfaces_.between(c.from.index, c.to.index);
-    s.start = {tree_id, ray.hit.primID, ray.hit.instID[0]};
+    s.start = {tree_id, ray.hit.primID, ray.hit.instID[0], c.from, normal.gradient};
     return s;
 }
 

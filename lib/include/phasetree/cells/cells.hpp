@@ -54,15 +54,15 @@ class InterfaceCells {
     /// The box of the whole object, with a margin of vacuum.
     const Bounds& bounds() const;
 
-    /// As InterfaceTracer::first_crossing, within one cell. `is_certified`: the ray starts (t_min = 0) at p_in or p_out
-    /// of a crossing that was found in this very cell, and `carried` is the phase there; mostly it then costs nothing.
+    /// As InterfaceTracer::first_crossing, within one cell.
     std::optional<Crossing> first_crossing(std::size_t cell, const TracedRay&, float t_min, float t_max,
-                                           std::optional<Phase> carried, bool is_certified, TraceCounters&) const;
+                                           std::optional<Phase> carried, const std::optional<Departure>&,
+                                           TraceCounters&) const;
     std::optional<Crossing> first_crossing(std::size_t cell, const glm::vec3& origin, const glm::vec3& direction,
                                            float t_min, float t_max, std::optional<Phase> carried,
                                            Evaluator::Workspace&, TraceCounters&) const;
-    /// Unit normal of a crossing found in the cell, from `from` into `to`.
-    glm::vec3 normal(std::size_t cell, const Crossing&, const glm::vec3& direction) const;
+    /// The normal of a crossing found in the cell.
+    CrossingNormal normal(std::size_t cell, const Crossing&, const glm::vec3& direction) const;
 
     /// The phase at a point, by the whole object's program; vacuum outside the bounds.
     Phase label(const glm::vec3& p, Evaluator::Workspace&) const;

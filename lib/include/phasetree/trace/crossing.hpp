@@ -21,6 +21,14 @@ struct Crossing {
     Phase to;
 };
 
+/// The side of a crossing that a ray leaves it on: its direction there, and how it leaves.
+struct CrossingNormal {
+    glm::vec3 unit{0};  ///< from `from` into `to`, so that it points along the ray
+    /// How the distance from `from` grows at p_in, as a vector: along `unit`, and 1 long at most. Zero where only the
+    /// other phase's component told the normal.
+    glm::vec3 gradient{0};
+};
+
 /// What tracing cost, for --stats.
 struct TraceCounters {
     std::uint64_t visits = 0;    ///< searches: one for each cell that a ray meets

@@ -15,4 +15,11 @@ struct TracedRay {
     TracedRay(const glm::vec3& origin, const glm::vec3& direction);
 };
 
+/// What is known of a ray that starts (t_min = 0) at p_in or p_out of a crossing that was found in the very cell which
+/// is asked, and carries the phase there: mostly that it does not come back, so that looking costs nothing.
+struct Departure {
+    /// How fast the distance from the interface grows along the ray, as far as it is known: 0 if it is not.
+    float rise = 0;
+};
+
 }  // namespace phasetree

@@ -15,9 +15,12 @@ struct Query {
     /// The phase the ray is in. Without it the geometry takes the label at the ray's start.
     std::optional<Phase> carried;
     /// If the ray starts at p_in or p_out of a crossing, whose hit had these IDs (the instance's that of level 0), and
-    /// carries the phase there: they save the cell from finding that out again.
+    /// carries the phase there: they save the cell from finding that out again, and all the more with the phase that was
+    /// left and CrossingNormal::gradient.
     struct Start {
         unsigned geometry = RTC_INVALID_GEOMETRY_ID, cell = 0, instance = RTC_INVALID_GEOMETRY_ID;
+        Phase from{};
+        glm::vec3 gradient{0};
     } start;
     /// The crossing behind the last hit that a PhaseTree reported. If the ray's final geomID is the tree's, this is
     /// that hit's, in the object's own space, and the hit's primID is its cell: InterfaceCells::normal gives the

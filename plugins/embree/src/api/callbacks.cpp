@@ -127,7 +127,7 @@ class Packet {
             occlude(i);
             return true;
         }
-        glm::vec3 normal = -data_.object->cells().normal(found.cell, c, ray.ray.direction);
+        glm::vec3 normal = -data_.object->cells().normal(found.cell, c, ray.ray.direction).unit;
         if (placement) normal = placement->normal(normal);
         RTCHitN_Ng_x(candidate, n_, i) = normal.x;
         RTCHitN_Ng_y(candidate, n_, i) = normal.y;
