@@ -131,7 +131,8 @@ TEST_CASE("endless copies are pruned as single ones are, away from the faces whe
     const CellStatistics a = InterfaceCells(endless).statistics(), b = InterfaceCells(listed).statistics();
     MESSAGE("endless: ", a.cells, " cells of ", a.median_instructions, " instructions, ", a.routines,
             " routines; listed: ", b.cells, " of ", b.median_instructions, ", ", b.routines);
-    CHECK(a.median_instructions <= b.median_instructions + 1);
+    // One ball is one instruction, with where it is; the fold comes on top, and what guards its jumps.
+    CHECK(a.median_instructions <= b.median_instructions + 3);
     CHECK(a.cells < 3 * b.cells);
     CHECK(a.routines < b.routines / 10);
     Random rng(9);

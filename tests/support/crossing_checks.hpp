@@ -37,7 +37,7 @@ struct Totals {
     std::size_t rays = 0, crossings = 0, wrong = 0, uncertified = 0, rounded = 0, wide = 0, over_sliver = 0,
                 misplaced = 0, bad_normals = 0;
     std::size_t passed_coarsely = 0, most_crossings = 0, flickering = 0;
-    std::size_t normals = 0, reflections = 0, self_hits = 0, coarsened = 0;
+    std::size_t normals = 0, reflections = 0, self_hits = 0, departures = 0, strayed = 0, coarsened = 0;
 };
 
 inline std::string report(const char* what, const Scene& scene, const Probe& probe, int n) {
@@ -236,6 +236,21 @@ void check_ray(const Scene& scene, const Tracer& tracer, const Probe& probe, int
         if (again && again->t_out < tracer.resolution()) {
             if (totals.self_hits++ < 3) complain("a reflected ray hits where it starts");
         }
+        // What is known of a ray's start changes nothing of what it meets, on whichever side it leaves.
+        Random rng(static_cast<std::uint64_t>(number) + 1);
+        for (const bool is_near : {true, false}) {
+            glm::vec3 away = rng.direction();
+            if ((glm::dot(away, normal) < 0) != is_near) away = -away;
+            const auto leave = [&](const Hit* start) {
+                return tracer.first_crossing(is_near ? hit.p_in : hit.p_out, away, length, is_near ? hit.from : hit.to,
+                                             start, unused);
+            };
+            const auto known = leave(&hit), unknown = leave(nullptr);
+            ++totals.departures;
+            if (known.has_value() != unknown.has_value() ||
+                (known && std::abs(known->t_in - unknown->t_in) > 4 * tracer.resolution()))
+                if (totals.strayed++ < 3) complain("a ray that leaves an interface strays");
+        }
     }
 }
 
@@ -284,7 +299,7 @@ void trace_scenes(std::uint64_t seed, int scenes, int rays_each, Make&& make, Pr
 inline void check_totals(const Totals& totals, const std::vector<std::string>& complaints) {
     for (const std::string& c : complaints) MESSAGE(c);
     MESSAGE(totals.rays, " rays, ", totals.crossings, " crossings, ", totals.normals, " normals, ", totals.reflections,
-            " reflections, ", totals.coarsened, " rays creep, of which ", totals.passed_coarsely, " passed something; ",
+            " reflections, ", totals.departures, " departures, ", totals.strayed, " of them astray, ", totals.coarsened, " rays creep, of which ", totals.passed_coarsely, " passed something; ",
             totals.flickering, " rays within rounding of a face cross it more than 100 times, at most ",
             totals.most_crossings, "; ", totals.rounded, " crossings certain only up to rounding");
     CHECK(totals.wrong == 0);
@@ -297,6 +312,7 @@ inline void check_totals(const Totals& totals, const std::vector<std::string>& c
     CHECK(totals.misplaced == 0);
     CHECK(totals.bad_normals == 0);
     CHECK(totals.self_hits == 0);
+    CHECK(totals.strayed == 0);
     CHECK(totals.crossings > totals.rays);
     CHECK(totals.normals > totals.rays / 2);
 }

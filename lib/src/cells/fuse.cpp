@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstring>
+#include <optional>
 
 #include "program/fused.hpp"
 
@@ -9,28 +10,20 @@ namespace phasetree {
 
 namespace {
 
-/// The map of an instruction that is affine, from where its operand's origin and axes go.
+/// The map of the index-th type of a list, if it is affine.
 template <class... Ms>
-bool find_affine(TypeList<Ms...>, std::uint32_t index, const float* constants, glm::dmat3& a, glm::dvec3& b) {
+std::optional<AffineMap> find_affine(TypeList<Ms...>, std::uint32_t index, const float* constants) {
+    std::optional<AffineMap> found;
     const auto read = [&]<class M>() {
         if constexpr (AffinePointMap<M>) {
             M map;
             std::memcpy(static_cast<void*>(&map), constants, sizeof map);
-            const auto at = [&](double x, double y, double z) {
-                const Vec3<double> q = map(Vec3<double>{x, y, z});
-                return glm::dvec3(q.x, q.y, q.z);
-            };
-            b = at(0, 0, 0);
-            a = glm::dmat3(at(1, 0, 0) - b, at(0, 1, 0) - b, at(0, 0, 1) - b);
-            return true;
-        } else {
-            return false;
+            found = map.affine();
         }
     };
     std::uint32_t k = 0;
-    bool is_affine = false;
-    (void)((k++ == index ? (is_affine = read.template operator()<Ms>(), true) : false) || ...);
-    return is_affine;
+    (void)((k++ == index ? (read.template operator()<Ms>(), true) : false) || ...);
+    return found;
 }
 
 template <class... Ps>
@@ -44,11 +37,6 @@ bool is_map(Op op) {
 bool is_short_primitive(Op op) {
     const auto code = static_cast<std::uint32_t>(op), first = static_cast<std::uint32_t>(Op::first_primitive);
     return code >= first && code < first + Primitives::size && !is_long_primitive(op);
-}
-
-AffineMap rounded(const glm::dmat3& a, const glm::dvec3& b) {
-    const glm::mat3 rows(glm::transpose(a));
-    return {{rows[0], rows[1], rows[2]}, glm::vec3(b)};
 }
 
 }  // namespace
@@ -71,13 +59,12 @@ void Fuser::follow(std::span<const Instruction> code) {
     for (std::uint32_t i = 1; i < code.size(); ++i) {
         const Instruction& in = code[i];
         if (is_map(in.op)) {
-            glm::dmat3 a;
-            glm::dvec3 b;
-            if (!find_affine(PointMaps(), static_cast<std::uint32_t>(in.op) - first_map, &constants_[in.data], a, b))
-                continue;
+            const auto map =
+                find_affine(PointMaps(), static_cast<std::uint32_t>(in.op) - first_map, &constants_[in.data]);
+            if (!map) continue;
             const Frame& before = frames_[in.a];
-            frames_[i] = before.maps > 0 ? Frame{before.base, before.maps + 1, a * before.a, a * before.b + b}
-                                         : Frame{in.a, 1, a, b};
+            const auto both = before.maps > 0 ? before.map.then(*map) : std::nullopt;
+            frames_[i] = both ? Frame{before.base, before.maps + 1, *both} : Frame{in.a, 1, *map};
             continue;
         }
         if (is_short_primitive(in.op)) {
@@ -86,24 +73,17 @@ void Fuser::follow(std::span<const Instruction> code) {
         }
         const Group& before = groups_[in.a];
         if (operands(in.op) != 1 || before.primitive == 0 || uses_[in.a] != 1) continue;
-        const double c = static_cast<double>(constants_[in.data]);
+        const float c = constants_[in.data];
+        const bool is_moved = before.offset != 0, is_scaled = before.scale != 1 && before.scale != -1;
         Group& g = groups_[i];
-        switch (in.op) {
-            case Op::negate:
-                g = {before.primitive, -before.scale, -before.offset};
-                break;
-            case Op::add_constant:
-                g = {before.primitive, before.scale, before.offset + c};
-                break;
-            case Op::constant_minus:
-                g = {before.primitive, -before.scale, c - before.offset};
-                break;
-            case Op::multiply_constant:
-                g = {before.primitive, before.scale * c, before.offset * c};
-                break;
-            default:
-                break;
-        }
+        if (in.op == Op::negate)
+            g = {before.primitive, -before.scale, -before.offset};
+        else if (in.op == Op::add_constant && !is_moved)
+            g = {before.primitive, before.scale, c};
+        else if (in.op == Op::constant_minus && !is_moved)
+            g = {before.primitive, -before.scale, c};
+        else if (in.op == Op::multiply_constant && !is_moved && !is_scaled)
+            g = {before.primitive, before.scale * c, 0};
     }
 }
 
@@ -112,7 +92,7 @@ Instruction Fuser::fused(std::span<const Instruction> code, std::uint32_t i) {
     static constexpr auto size = floats_of(Primitives());
     const Instruction& in = code[i];
     if (frames_[i].maps > 1) {
-        const AffineMap map = rounded(frames_[i].a, frames_[i].b);
+        const AffineMap& map = frames_[i].map;
         return {static_cast<Op>(affine_map), frames_[i].base, 0, constant(&map, sizeof map / sizeof(float))};
     }
     const Group& g = groups_[i];
@@ -121,7 +101,7 @@ Instruction Fuser::fused(std::span<const Instruction> code, std::uint32_t i) {
     const Frame& frame = frames_[primitive.a];
     if (frame.maps == 0 && g.primitive == i) return in;
     const auto index = static_cast<std::uint32_t>(primitive.op) - static_cast<std::uint32_t>(Op::first_primitive);
-    const PlacedPrimitive placed{rounded(frame.a, frame.b), static_cast<float>(g.scale), static_cast<float>(g.offset)};
+    const PlacedPrimitive placed{frame.map, g.scale, g.offset};
     std::vector<float> floats(placed_floats + size[index]);
     std::memcpy(floats.data(), &placed, sizeof placed);
     std::memcpy(floats.data() + placed_floats, &constants_[primitive.data], size[index] * sizeof(float));

@@ -1,19 +1,19 @@
 #pragma once
 
-#include <glm/mat3x3.hpp>
-#include <glm/vec3.hpp>
 #include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
+#include "phasetree/math/affine_map.hpp"
 #include "program/assemble.hpp"
 
 namespace phasetree {
 
 /// Writes programs with fewer, larger instructions (program/fused.hpp): maps of space that are affine are composed with
 /// each other and with the primitive behind them, and a scale and an offset with the primitive before them. What an
-/// instruction costs is mostly the way to it and its operands' way through memory. Values are the same up to rounding.
+/// instruction costs is mostly the way to it and its operands' way through memory. Only where values stay the same to
+/// the last bit, but for the sign of a zero: a cell's labels are the whole object's.
 class Fuser {
   public:
     /// New constants are appended to these, equal ones once.
@@ -29,17 +29,16 @@ class Fuser {
                             std::span<const std::uint32_t> kept, std::uint32_t leading);
 
   private:
-    /// p ↦ A p + b of the value `base`, or nothing affine.
+    /// An affine map of the value `base`, or nothing affine.
     struct Frame {
         std::uint32_t base = 0;
         int maps = 0;  ///< how many are in it
-        glm::dmat3 a{1};
-        glm::dvec3 b{0};
+        AffineMap map{};
     };
-    /// offset + scale · a primitive, which is instruction `primitive`, or none.
+    /// scale · a primitive + offset, which is instruction `primitive`, or none.
     struct Group {
         std::uint32_t primitive = 0;
-        double scale = 1, offset = 0;
+        float scale = 1, offset = 0;
     };
 
     void follow(std::span<const Instruction> code);

@@ -86,15 +86,17 @@ HWY_INLINE Batch spread_growing(float low, float high, float s, float slope) {
     return min(Batch(low) + (power - 1.f) * (s / slope), Batch(high));
 }
 
-/// On both sides of root, from the smallest offset to half way to the gap's ends, in equal ratios.
-HWY_INLINE Batch gather_around(float root, float low, float high, float smallest) {
+/// On both sides of root, from the smallest offset to half way to the gap's ends, in equal ratios; the first one may be
+/// low itself.
+HWY_INLINE Batch gather_around(float root, float low, float high, float smallest, bool has_low) {
     constexpr float half = batch_size / 2;
     const std::uint32_t a = bits_of(smallest);
-    const std::uint32_t below = geometric_step(smallest, 0.6f * (root - low), batch_size / 2 - 1);
+    const std::uint32_t below = geometric_step(smallest, 0.6f * (root - low), batch_size / 2 - (has_low ? 2 : 1));
     const std::uint32_t above = geometric_step(smallest, 0.6f * (high - root), batch_size / 2 - 1);
     const Batch before = max(Batch(root) - geometric((half - 1) - lanes(), a, below), Batch(low));
     const Batch after = min(Batch(root) + geometric(lanes() - half, a, above), Batch(high));
-    return select(less(lanes(), Batch(half)), before, after);
+    const Batch t = select(less(lanes(), Batch(half)), before, after);
+    return has_low ? select(less(lanes(), Batch(0.5f)), Batch(low), t) : t;
 }
 
 /// Where the label changes between two places, by the distances there and, if there are such, at one before and after.
@@ -364,10 +366,9 @@ Batch March::look_ahead(const Frame& f, int lane, const Place& next) const {
         const bool has_before = lane >= 1, has_after = lane >= 0 && lane + 1 < static_cast<int>(batch_size);
         const Place before = has_before ? f.place(lane - 2) : here_, after = has_after ? f.place(lane + 1) : next;
         const float root = predicted_root(here_, next, before, after);
-        const Batch t =
-            gather_around(smaller(larger(root, here_.t), next.t), here_.t, next.t, 0.49f * ray_.resolution);
         // A proof speaks of what is between samples.
-        return is_provable_ ? select(less(lanes(), Batch(0.5f)), Batch(here_.t), t) : t;
+        return gather_around(smaller(larger(root, here_.t), next.t), here_.t, next.t, 0.49f * ray_.resolution,
+                             is_provable_);
     }
     const float fine = effective_resolution(ray_.resolution, batches_);
     if (const float slope = (next.distance - here_.distance) / gap; slope > 0.02f) {

@@ -6,22 +6,12 @@
 #include "phasetree/nodes/list.hpp"
 #include "phasetree/program/program.hpp"
 
-/// Instructions that only cells have (cells/fuse.hpp): what is affine before a primitive and after it, in one with it.
+/// Instructions that only cells have (cells/fuse.hpp): what is affine before a
+/// primitive and after it, in one with it, rounded as it would be alone.
 /// Their operations follow those of the maps of space: first a map alone, then one for each primitive.
 namespace phasetree {
 
-/// p ↦ A p + b.
-struct AffineMap {
-    glm::vec3 row[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    glm::vec3 by{0};
-
-    template <class T>
-    Vec3<T> operator()(const Vec3<T>& p) const {
-        return {dot(p, row[0]) + by.x, dot(p, row[1]) + by.y, dot(p, row[2]) + by.z};
-    }
-};
-
-/// offset + scale · d(A p + b): the floats of d follow.
+/// scale · d(map(p)) + offset: the floats of d follow.
 struct PlacedPrimitive {
     AffineMap map;
     float scale = 1, offset = 0;

@@ -3,6 +3,7 @@
 #include <span>
 #include <type_traits>
 
+#include "phasetree/math/affine_map.hpp"
 #include "phasetree/model/handle.hpp"
 
 namespace phasetree {
@@ -45,10 +46,10 @@ concept PointMap = std::is_trivially_copyable_v<M> && requires(const M& m, const
     { m(p) } -> std::same_as<Vec3<float>>;
 };
 
-/// One that is affine: such are composed with each other and with the primitives behind them.
+/// One that is affine, and equal to affine() to the last bit: such are composed with what follows.
 template <class M>
-concept AffinePointMap = PointMap<M> && requires {
-    M::is_affine;
+concept AffinePointMap = PointMap<M> && requires(const M& m) {
+    { m.affine() } -> std::same_as<AffineMap>;
 };
 
 /// Calls `n.prepare()` if the node has something to derive from its parameters.

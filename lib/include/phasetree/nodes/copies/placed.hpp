@@ -17,7 +17,6 @@ namespace phasetree {
 
 /// p ↦ R(−a)(p − v)/s about the z axis: the inverse of scaling by s, then turning by a, then moving by v.
 struct PlacementMap {
-    static constexpr bool is_affine = true;
     glm::vec3 by{0};
     float cosine = 1;  ///< cos a / s
     float sine = 0;    ///< sin a / s
@@ -28,11 +27,13 @@ struct PlacementMap {
         const Vec3<T> q = p - by;
         return {q.x * cosine + q.y * sine, q.y * cosine - q.x * sine, q.z * inverse};
     }
+    AffineMap affine() const {
+        return {.row = {{cosine, sine, 0}, {-sine, cosine, 0}, {0, 0, inverse}}, .before = by};
+    }
 };
 
 /// p ↦ R⁻¹(p − v)/s for any turn R.
 struct StandingMap {
-    static constexpr bool is_affine = true;
     glm::vec3 by{0};
     glm::vec3 row[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< the columns of R, divided by s
 
@@ -41,6 +42,7 @@ struct StandingMap {
         const Vec3<T> q = p - by;
         return {dot(q, row[0]), dot(q, row[1]), dot(q, row[2])};
     }
+    AffineMap affine() const { return {.row = {row[0], row[1], row[2]}, .before = by}; }
 };
 
 /// Where a copy stands.

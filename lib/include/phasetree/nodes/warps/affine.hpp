@@ -21,7 +21,6 @@ struct Affine {
     float scale = 1;       ///< 1/λ, derived
 
     struct Map {
-        static constexpr bool is_affine = true;
         glm::vec3 by;
         glm::vec3 row[3];
         template <class T>
@@ -29,6 +28,7 @@ struct Affine {
             const Vec3<T> q = p - by;
             return {dot(q, row[0]), dot(q, row[1]), dot(q, row[2])};
         }
+        AffineMap affine() const { return {.row = {row[0], row[1], row[2]}, .before = by}; }
     };
 
     template <class V>

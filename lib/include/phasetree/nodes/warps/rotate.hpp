@@ -14,12 +14,12 @@ struct Rotate {
     glm::mat3 matrix{1};  ///< R, derived
 
     struct Map {
-        static constexpr bool is_affine = true;
         glm::vec3 column[3];
         template <class T>
         Vec3<T> operator()(const Vec3<T>& p) const {
             return {dot(p, column[0]), dot(p, column[1]), dot(p, column[2])};
         }
+        AffineMap affine() const { return {.row = {column[0], column[1], column[2]}}; }
     };
 
     template <class V>

@@ -10,12 +10,12 @@ struct Scale {
     float factor = 1;
 
     struct Map {
-        static constexpr bool is_affine = true;
         float inverse;
         template <class T>
         Vec3<T> operator()(const Vec3<T>& p) const {
             return p * inverse;
         }
+        AffineMap affine() const { return {.row = {{inverse, 0, 0}, {0, inverse, 0}, {0, 0, inverse}}}; }
     };
 
     template <class V>

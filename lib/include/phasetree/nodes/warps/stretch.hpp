@@ -11,12 +11,12 @@ struct Stretch {
     glm::vec3 factors{1};
 
     struct Map {
-        static constexpr bool is_affine = true;
         glm::vec3 inverse;
         template <class T>
         Vec3<T> operator()(const Vec3<T>& p) const {
             return {p.x * inverse.x, p.y * inverse.y, p.z * inverse.z};
         }
+        AffineMap affine() const { return {.row = {{inverse.x, 0, 0}, {0, inverse.y, 0}, {0, 0, inverse.z}}}; }
     };
 
     template <class V>

@@ -9,12 +9,12 @@ struct Translate {
     glm::vec3 by{0};
 
     struct Map {
-        static constexpr bool is_affine = true;
         glm::vec3 by;
         template <class T>
         Vec3<T> operator()(const Vec3<T>& p) const {
             return p - by;
         }
+        AffineMap affine() const { return {.before = by}; }
     };
 
     template <class V>

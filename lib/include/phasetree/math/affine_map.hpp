@@ -1,0 +1,37 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "phasetree/math/vec3.hpp"
+
+namespace phasetree {
+
+/// p ↦ A (p − before) − after, in this order, where A has these rows. Where one of them does nothing the others are
+/// rounded as if it were not there.
+struct AffineMap {
+    glm::vec3 row[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    glm::vec3 before{0}, after{0};
+
+    template <class T>
+    Vec3<T> operator()(const Vec3<T>& p) const {
+        const Vec3<T> q = p - before;
+        return Vec3<T>{dot(q, row[0]), dot(q, row[1]), dot(q, row[2])} - after;
+    }
+
+    bool moves_before() const { return before != glm::vec3(0); }
+    bool moves_after() const { return after != glm::vec3(0); }
+    bool turns() const {
+        return row[0] != glm::vec3(1, 0, 0) || row[1] != glm::vec3(0, 1, 0) || row[2] != glm::vec3(0, 0, 1);
+    }
+    /// This one, then the next, if one map does the same to the last bit (but for the sign of a zero).
+    std::optional<AffineMap> then(const AffineMap& next) const {
+        if (!turns() && !moves_after() && !(moves_before() && next.moves_before()))
+            return AffineMap{{next.row[0], next.row[1], next.row[2]}, moves_before() ? before : next.before, next.after};
+        if (!moves_after() && !next.turns() && !(next.moves_before() && next.moves_after()))
+            return AffineMap{{row[0], row[1], row[2]}, before, next.moves_before() ? next.before : next.after};
+        return std::nullopt;
+    }
+};
+
+}  // namespace phasetree
