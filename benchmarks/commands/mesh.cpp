@@ -61,8 +61,8 @@ SurfaceRays leaving(const FieldScene& field, const MeshScene& mesh, const Rays& 
         if (!f || !m || std::abs(f->crossing.t_in - m->distance) > 300 * hair) continue;
         glm::vec3 flat = glm::normalize(m->normal);
         if (glm::dot(flat, ray.direction) > 0) flat = -flat;
-        starts.of_field.push_back({f->crossing.p_in, -f->normal.unit, f->crossing.from, f->cell, f->crossing.from,
-                                   f->normal.gradient});
+        starts.of_field.push_back(
+            {f->crossing.p_in, -f->normal.unit, f->crossing.from, f->cell, f->crossing.from, f->normal.gradient});
         starts.of_mesh.push_back({ray.origin + m->distance * ray.direction + hair * flat, flat, f->crossing.from});
     }
     if (starts.of_field.empty()) return rays;

@@ -10,8 +10,8 @@ namespace phasetree::bench {
 
 struct Ray {
     glm::vec3 origin{0};
-    glm::vec3 direction{0};          // of unit length
-    Phase carried;                   // the phase it is in
+    glm::vec3 direction{0};  // of unit length
+    Phase carried;           // the phase it is in
     // The crossing it starts from, which a path tracer knows, too: the cell that found it and its gradient.
     std::optional<unsigned> cell{};
     Phase from{};

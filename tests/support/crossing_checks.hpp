@@ -299,9 +299,10 @@ void trace_scenes(std::uint64_t seed, int scenes, int rays_each, Make&& make, Pr
 inline void check_totals(const Totals& totals, const std::vector<std::string>& complaints) {
     for (const std::string& c : complaints) MESSAGE(c);
     MESSAGE(totals.rays, " rays, ", totals.crossings, " crossings, ", totals.normals, " normals, ", totals.reflections,
-            " reflections, ", totals.departures, " departures, ", totals.strayed, " of them astray, ", totals.coarsened, " rays creep, of which ", totals.passed_coarsely, " passed something; ",
-            totals.flickering, " rays within rounding of a face cross it more than 100 times, at most ",
-            totals.most_crossings, "; ", totals.rounded, " crossings certain only up to rounding");
+            " reflections, ", totals.departures, " departures, ", totals.strayed, " of them astray, ", totals.coarsened,
+            " rays creep, of which ", totals.passed_coarsely, " passed something; ", totals.flickering,
+            " rays within rounding of a face cross it more than 100 times, at most ", totals.most_crossings, "; ",
+            totals.rounded, " crossings certain only up to rounding");
     CHECK(totals.wrong == 0);
     CHECK(totals.flickering < totals.rays / 2000);
     CHECK(totals.passed_coarsely < totals.rays / 50);

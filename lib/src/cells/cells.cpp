@@ -66,8 +66,7 @@ struct InterfaceCells::Data {
 
     std::optional<Crossing> search(std::size_t cell, const TracedRay& ray, float t_min, float t_max,
                                    std::optional<Phase> carried, const std::optional<Departure>& departure,
-                                   Evaluator::Workspace* w,
-                                   TraceCounters& counters) const {
+                                   Evaluator::Workspace* w, TraceCounters& counters) const {
         ++counters.visits;
         const Cell& c = cells[cell];
         const Routine r = routine_with_proof(cell);
@@ -92,8 +91,8 @@ struct InterfaceCells::Data {
             // Without its component alone a ray in the first phase knows nothing.
             const bool is_led = r.leading > 0 && r.leading <= most_leading;
             cells.push_back({c.box, c.outputs == 2 || is_led ? c.bound : LinearBound{}, r.first_step,
-                             r.first_output & most_outputs, is_led ? r.leading & most_leading : 0,
-                             r.steps & most_steps, r.outputs & 0xffu, r.slots & most_slots, c.curvature.is_by_own,
+                             r.first_output & most_outputs, is_led ? r.leading & most_leading : 0, r.steps & most_steps,
+                             r.outputs & 0xffu, r.slots & most_slots, c.curvature.is_by_own,
                              curvature_code.encode(c.curvature.most[0]), curvature_code.encode(c.curvature.most[1])});
             first_proof.push_back(Found::narrow(proofs.size()));
             routines.add_proof(r, found.proof_of(c), proofs);
@@ -150,7 +149,8 @@ std::optional<Crossing> InterfaceCells::first_crossing(std::size_t cell, const g
 }
 
 std::optional<Crossing> InterfaceCells::first_crossing(std::size_t cell, const TracedRay& ray, float t_min, float t_max,
-                                                       std::optional<Phase> carried, const std::optional<Departure>& departure,
+                                                       std::optional<Phase> carried,
+                                                       const std::optional<Departure>& departure,
                                                        TraceCounters& counters) const {
     return data_->search(cell, ray, t_min, t_max, carried, departure, nullptr, counters);
 }

@@ -102,7 +102,9 @@ std::optional<Candidate> candidate(const Share& share, const Bounds& all, const 
     }
     // Through copies without end a ray goes on and on.
     const float copies = 1 + 4 * share.box.diagonal() / share.period;
-    cell.cost = cost(cell.box, cell.bound, cell.curvature, cell.program, !cell.proof.empty(), d.options.opaque, w.scratch) * copies;
+    cell.cost =
+        cost(cell.box, cell.bound, cell.curvature, cell.program, !cell.proof.empty(), d.options.opaque, w.scratch) *
+        copies;
     return cell;
 }
 

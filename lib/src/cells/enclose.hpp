@@ -14,8 +14,8 @@ struct Enclosed {
     bool is_free = false;  ///< no interface passes through the box that a ray can meet
     LinearBound bound;
     Curvature curvature;
-    Bounds box;          ///< around the interface in the box
-    ValueRanges ranges;  ///< of every value in the box
+    Bounds box;                        ///< around the interface in the box
+    ValueRanges ranges;                ///< of every value in the box
     std::span<const ProofPart> proof;  ///< where a ray may be in a phase whose curvature is unknown
 };
 

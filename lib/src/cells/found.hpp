@@ -37,8 +37,8 @@ struct Found {
         append(code, program.code);
         append(outputs, program.outputs);
         append(proofs, proof);
-        cells.push_back({box, bound, curvature, narrow(m.code), narrow(program.code.size()), leading,
-                         narrow(m.outputs), narrow(program.outputs.size()), narrow(m.proofs), narrow(proof.size())});
+        cells.push_back({box, bound, curvature, narrow(m.code), narrow(program.code.size()), leading, narrow(m.outputs),
+                         narrow(program.outputs.size()), narrow(m.proofs), narrow(proof.size())});
     }
     void add(const Found& more) {
         const Mark m = mark();

@@ -10,14 +10,14 @@ namespace phasetree {
 /// What rays spend in a cell, in nanoseconds for each unit of surface (which is how many come, up to a factor). Rough:
 /// only what is dearer than what matters.
 namespace price {
-inline constexpr float parts = 12;               ///< of Embree's going down to the parts of a box
-inline constexpr float visit = 60;               ///< of entering a cell
+inline constexpr float parts = 12;            ///< of Embree's going down to the parts of a box
+inline constexpr float visit = 60;            ///< of entering a cell
 inline constexpr float batch = 25, step = 3;  ///< of a batch, and of each of its instructions
-inline constexpr float certain = 1.5f;           ///< batches where the field is linear,
-inline constexpr float unknown = 0.5f;           ///< more of them the less it lets rays pass without one,
-inline constexpr float uneven = 3;               ///< the more its gradient varies,
-inline constexpr float proven = 0.5f;            ///< and where only a proof tells how it bends,
-inline constexpr float blind = 1.5f;             ///< or nothing
+inline constexpr float certain = 1.5f;        ///< batches where the field is linear,
+inline constexpr float unknown = 0.5f;        ///< more of them the less it lets rays pass without one,
+inline constexpr float uneven = 3;            ///< the more its gradient varies,
+inline constexpr float proven = 0.5f;         ///< and where only a proof tells how it bends,
+inline constexpr float blind = 1.5f;          ///< or nothing
 }  // namespace price
 
 /// How much work an instruction is, in simple ones.
@@ -53,7 +53,10 @@ inline float batches(const Bounds& box, const LinearBound& bound, float most_cur
         spread = std::min(1.f, bound.spread);
     }
     const bool is_blind = !(most_curved < Curvature::unknown);
-    return price::certain + price::unknown * unknown + price::uneven * spread + (!is_blind ? 0.f : has_proof ? price::proven : price::blind);
+    return price::certain + price::unknown * unknown + price::uneven * spread +
+           (!is_blind   ? 0.f
+            : has_proof ? price::proven
+                        : price::blind);
 }
 /// Half of the rays are taken to be in the first phase, if that is the vacuum; all, if the others are opaque. Where
 /// more than two phases meet they need its component alone, and the rest where they leave it.

@@ -30,10 +30,10 @@ class Prover {
         const Instruction& in = program_.code[v];
         const Range& curvature = registers_[slot_[v]].curvature;
         if (std::abs(curvature.low) < unknown || std::abs(curvature.high) < unknown) return leaf(v, sign, tau);
-        const double c = in.op < Op::first_primitive && operands(in.op) == 1 && in.op != Op::negate &&
-                                 in.op != Op::absolute
-                             ? static_cast<double>(constants_[in.data])
-                             : 0;
+        const double c =
+            in.op < Op::first_primitive && operands(in.op) == 1 && in.op != Op::negate && in.op != Op::absolute
+                ? static_cast<double>(constants_[in.data])
+                : 0;
         const bool is_above = sign > 0;
         switch (in.op) {
             case Op::minimum:
@@ -101,7 +101,8 @@ class Prover {
 }  // namespace
 
 ProofStep ProofPart::step(std::uint32_t slot) const {
-    return {threshold, slot & 0x3fffffffu, static_cast<std::uint32_t>(kind) & 3u, half_at_most(factor), half_at_least(up), half_at_least(down)};
+    return {threshold,         slot & 0x3fffffffu, static_cast<std::uint32_t>(kind) & 3u, half_at_most(factor),
+            half_at_least(up), half_at_least(down)};
 }
 
 std::span<const ProofPart> prove(const WorkingProgram& program, std::span<const float> constants,

@@ -28,8 +28,13 @@ Routines::Ready Routines::make(const Found& found, const Found::Cell& cell) {
     const std::size_t first_step = steps.size(), first_output = outputs.size(), first_kept = kept_slots_.size();
     const std::uint32_t slots = assemble(fused.code, ends, kept, steps, outputs);
     for (const KeptValue& k : kept) kept_slots_.push_back(k.slot);
-    return {Found::narrow(first_step), Found::narrow(steps.size() - first_step), fused.leading,
-            Found::narrow(first_output), Found::narrow(ends.size()), slots, Found::narrow(first_kept)};
+    return {Found::narrow(first_step),
+            Found::narrow(steps.size() - first_step),
+            fused.leading,
+            Found::narrow(first_output),
+            Found::narrow(ends.size()),
+            slots,
+            Found::narrow(first_kept)};
 }
 
 void Routines::add_proof(const Ready& ready, std::span<const ProofPart> proof, std::vector<ProofStep>& proofs) const {

@@ -236,10 +236,10 @@ class March {
     float half_curvature_ = 0;  ///< of the distance in the ray's phase
     bool is_curvature_known_ = false;
     bool is_provable_ = false;  ///< else by a proof
-    Place here_{};     ///< all up to here is in the ray's phase
-    Place certain_{};  ///< the last place whose own label is the ray's phase; mostly `here`
-    Place other_{};    ///< after it, the first place of the label that is there now
-    float left_ = 0;   ///< and where that was another for the first time
+    Place here_{};              ///< all up to here is in the ray's phase
+    Place certain_{};           ///< the last place whose own label is the ray's phase; mostly `here`
+    Place other_{};             ///< after it, the first place of the label that is there now
+    float left_ = 0;            ///< and where that was another for the first time
 };
 
 bool March::find(RayCrossing& result) {
@@ -267,8 +267,8 @@ bool March::find(RayCrossing& result) {
         half_curvature_ = 0.5f * ray_.curvature[whole_.outputs[0].phase == phase_ ? 0 : 1];
         is_curvature_known_ = half_curvature_ < 1e30f &&
                               (whole_.outputs[0].phase != phase_ || whole_.output_count == 2 || whole_.is_by_own);
-        is_provable_ = !is_curvature_known_ && whole_.proof_steps > 0 &&
-                       (whole_.outputs[0].phase == phase_ || is_shared(whole_));
+        is_provable_ =
+            !is_curvature_known_ && whole_.proof_steps > 0 && (whole_.outputs[0].phase == phase_ || is_shared(whole_));
         other_.label = none;
         judge(f, t, c, here_, resolution);
         if (f.doubt == 0) return false;

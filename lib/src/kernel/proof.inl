@@ -1,5 +1,5 @@
-/// Whether a field keeps its sign between neighbouring samples along a ray, where its own curvature is not known: by the
-/// fields that it is the minimum or maximum of. Included by kernel.inl.
+/// Whether a field keeps its sign between neighbouring samples along a ray, where its own curvature is not known: by
+/// the fields that it is the minimum or maximum of. Included by kernel.inl.
 ///
 /// A minimum is positive where both operands are; a maximum is, for one, between two samples between which one of its
 /// operands is. So a proof is a tree of such choices, in the order of a stack, over leaves; what is passed around is a

@@ -34,8 +34,9 @@ constexpr float least_rise = 0.02f;
 
 std::optional<Crossing> march_within(const Bounds& box, const LinearBound& bound, const Curvature& curvature,
                                      const Routine& routine, std::uint32_t slots, const TracedRay& traced, float t_min,
-                                     float t_max, float resolution, std::optional<Phase> carried, const std::optional<Departure>& departure,
-                                     Evaluator::Workspace* workspace, TraceCounters& counters) {
+                                     float t_max, float resolution, std::optional<Phase> carried,
+                                     const std::optional<Departure>& departure, Evaluator::Workspace* workspace,
+                                     TraceCounters& counters) {
     if (!traced.is_traceable) return std::nullopt;
     const glm::vec3 &origin = traced.origin, &direction = traced.direction;
     Interval span = clip(box, traced, static_cast<double>(t_min), static_cast<double>(t_max));

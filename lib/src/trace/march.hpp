@@ -21,7 +21,7 @@ Interval clip(const Bounds& box, const TracedRay&, double t_min, double t_max);
 /// src/kernel/march.inl. Departure is about a crossing that this routine found.
 std::optional<Crossing> march_within(const Bounds& box, const LinearBound&, const Curvature&, const Routine&,
                                      std::uint32_t slots, const TracedRay&, float t_min, float t_max, float resolution,
-                                     std::optional<Phase> carried, const std::optional<Departure>&, Evaluator::Workspace*,
-                                     TraceCounters&);
+                                     std::optional<Phase> carried, const std::optional<Departure>&,
+                                     Evaluator::Workspace*, TraceCounters&);
 
 }  // namespace phasetree

@@ -37,8 +37,7 @@ std::optional<Crossing> InterfaceTracer::first_crossing(const glm::vec3& origin,
     TraceCounters& c = counters ? *counters : unused;
     const Assembly& assembly = *evaluator_->assembly_;
     ++c.visits;
-    return march_within(bounds_, {}, {},
-                        assembly.routine(evaluator_->program().constants.data()), assembly.slots,
+    return march_within(bounds_, {}, {}, assembly.routine(evaluator_->program().constants.data()), assembly.slots,
                         TracedRay(origin, direction), t_min, t_max, resolution_, carried, {}, &w, c);
 }
 
@@ -58,7 +57,8 @@ CrossingNormal normal_of(const Crossing& c, const glm::vec3& direction,
 }
 
 glm::vec3 InterfaceTracer::normal(const Crossing& c, const glm::vec3& direction) const {
-    return normal_of(c, direction, [&](const glm::vec3& p, Phase phase) { return evaluator_->gradient(p, phase); }).unit;
+    return normal_of(c, direction, [&](const glm::vec3& p, Phase phase) { return evaluator_->gradient(p, phase); })
+        .unit;
 }
 
 Phase InterfaceTracer::label(const glm::vec3& p, Evaluator::Workspace& w) const {

@@ -94,7 +94,8 @@ void intersect(const RTCIntersectFunctionNArguments* arguments) noexcept {
         const auto lane = trace(data, where, rays, n, i, query);
         if (!lane) continue;
         const Crossing& c = lane->crossing;
-        const glm::vec3 normal = query ? -lane->direction : -data.object->normal(arguments->primID, c, lane->direction).unit;
+        const glm::vec3 normal =
+            query ? -lane->direction : -data.object->normal(arguments->primID, c, lane->direction).unit;
         RTCRayN_tfar(rays, n, i) = c.t_in / lane->length;
         RTCHitN_Ng_x(hits, n, i) = normal.x;
         RTCHitN_Ng_y(hits, n, i) = normal.y;

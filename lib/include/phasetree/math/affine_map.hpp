@@ -27,7 +27,8 @@ struct AffineMap {
     /// This one, then the next, if one map does the same to the last bit (but for the sign of a zero).
     std::optional<AffineMap> then(const AffineMap& next) const {
         if (!turns() && !moves_after() && !(moves_before() && next.moves_before()))
-            return AffineMap{{next.row[0], next.row[1], next.row[2]}, moves_before() ? before : next.before, next.after};
+            return AffineMap{
+                {next.row[0], next.row[1], next.row[2]}, moves_before() ? before : next.before, next.after};
         if (!moves_after() && !next.turns() && !(next.moves_before() && next.moves_after()))
             return AffineMap{{row[0], row[1], row[2]}, before, next.moves_before() ? next.before : next.after};
         return std::nullopt;

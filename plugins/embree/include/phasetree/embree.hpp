@@ -15,8 +15,8 @@ struct Query {
     /// The phase the ray is in. Without it the geometry takes the label at the ray's start.
     std::optional<Phase> carried;
     /// If the ray starts at p_in or p_out of a crossing, whose hit had these IDs (the instance's that of level 0), and
-    /// carries the phase there: they save the cell from finding that out again, and all the more with the phase that was
-    /// left and CrossingNormal::gradient.
+    /// carries the phase there: they save the cell from finding that out again, and all the more with the phase that
+    /// was left and CrossingNormal::gradient.
     struct Start {
         unsigned geometry = RTC_INVALID_GEOMETRY_ID, cell = 0, instance = RTC_INVALID_GEOMETRY_ID;
         Phase from{};

@@ -27,9 +27,7 @@ struct PlacementMap {
         const Vec3<T> q = p - by;
         return {q.x * cosine + q.y * sine, q.y * cosine - q.x * sine, q.z * inverse};
     }
-    AffineMap affine() const {
-        return {.row = {{cosine, sine, 0}, {-sine, cosine, 0}, {0, 0, inverse}}, .before = by};
-    }
+    AffineMap affine() const { return {.row = {{cosine, sine, 0}, {-sine, cosine, 0}, {0, 0, inverse}}, .before = by}; }
 };
 
 /// p ↦ R⁻¹(p − v)/s for any turn R.

@@ -1,0 +1,88 @@
+// Where a cell's field has no curvature that bounds it, at the edges of convex solids: rays near them must take few
+// batches, and miss nothing. That nothing is missed anywhere is for tests/embree/crossings.cpp; here are solids that
+// nearly touch, which a proof that is too bold passes between.
+
+#include <doctest/doctest.h>
+
+#include "phasetree/cells/cells.hpp"
+#include "phasetree/phasetree.hpp"
+#include "phasetree/trace/tracer.hpp"
+#include "support/random_tree.hpp"
+
+using namespace phasetree;
+using namespace phasetree::tests;
+
+namespace {
+
+Phased solid(Field of) {
+    return Set{.phase = Phase{1}, .of = std::move(of)};
+}
+
+/// Plates, bars and cones, some of them cut or bitten out of others, a hair or a hand apart.
+Field edges(Random& rng) {
+    const auto part = [&]() -> Field {
+        const float size = rng.uniform(0.2f, 0.7f);
+        Field shape = Box{.size = {size, rng.uniform(0.05f, 0.4f), rng.uniform(0.05f, 0.4f)}};
+        if (rng.chance(0.3)) shape = Cylinder{.radius = 0.5f * size, .height = rng.uniform(0.02f, 0.4f)};
+        if (rng.chance(0.2)) shape = CappedCone{.radius_bottom = 0.4f * size, .radius_top = 0, .height = size};
+        if (rng.chance(0.2)) shape = Offset{.of = shape, .amount = rng.uniform(0, 0.05f)};
+        if (rng.chance(0.3))  // dented by a ball: edges beside what curves inward
+            shape = Intersection{
+                .of = {shape, Difference{.from = Box{.size = glm::vec3(3)},
+                                         .subtract = {warped(Translate{0.2f * rng.direction()},
+                                                             Sphere{.radius = rng.uniform(0.03f, 0.2f)})}}}};
+        if (rng.chance(0.1)) shape = Shell{.of = shape, .half_thickness = rng.uniform(0.002f, 0.02f)};
+        shape = warped(Rotate{.axis = rng.direction(), .angle = rng.uniform(0, 90)}, shape);
+        return warped(Translate{0.4f * rng.direction()}, shape);
+    };
+    Field all = part();
+    for (int i = 0; i < 4; ++i) {
+        const float which = rng.uniform(0, 1);
+        if (which < 0.4f)
+            all = Union{.of = {all, part()}};
+        else if (which < 0.6f)
+            all = Difference{.from = all, .subtract = {part()}};
+        else if (which < 0.7f)
+            all = Union{.of = {all, Intersection{.of = {part(), part()}}}};
+        else if (which < 0.85f)
+            all = SmoothUnion{.of = {all, part()}, .radius = rng.uniform(0.01f, 0.1f)};
+        else  // a gap of a hundredth to a ten-thousandth
+            all = Union{.of = {all, warped(Translate{{0, 0, rng.uniform(1e-4f, 1e-2f)}},
+                                           Difference{.from = part(), .subtract = {all}})}};
+    }
+    return all;
+}
+
+}  // namespace
+
+TEST_CASE("near edges rays take few batches, and meet what the whole object's rays meet") {
+    Random rng(31);
+    std::size_t rays = 0, crossings = 0, different = 0;
+    TraceCounters all;
+    Evaluator::Workspace w;
+    for (int n = 0; n < (long_tests() ? 4000 : 200); ++n) {
+        const Phased object = solid(edges(rng));
+        const InterfaceCells cells(object);
+        const InterfaceTracer tracer(object);
+        for (int i = 0; i < 200; ++i) {
+            const glm::vec3 p = rng.in(cells.bounds());
+            const glm::vec3 d = glm::normalize(rng.in(cells.bounds()) - p);
+            const Phase phase = tracer.label(p, w);
+            const auto expected = tracer.first_crossing(p, d, 0, 1e6f, phase, w);
+            std::optional<Crossing> nearest;
+            for (std::size_t c = 0; c < cells.size(); ++c) {
+                const auto hit = cells.first_crossing(c, p, d, 0, nearest ? nearest->t_in : 1e6f, phase, w, all);
+                if (hit && (!nearest || hit->t_in < nearest->t_in)) nearest = hit;
+            }
+            ++rays;
+            crossings += expected.has_value();
+            different += expected.has_value() != nearest.has_value() ||
+                         (expected && std::abs(expected->t_in - nearest->t_in) > 4 * tracer.resolution());
+        }
+    }
+    const double batches = static_cast<double>(all.batches) / static_cast<double>(rays);
+    MESSAGE(rays, " rays, ", crossings, " crossings, ", different, " different; ", batches, " batches a ray");
+    CHECK(crossings > rays / 3);
+    CHECK(different == 0);
+    CHECK(batches < 5);
+}
