@@ -50,6 +50,9 @@ Field edges(Random& rng) {
             all = Union{.of = {all, warped(Translate{{0, 0, rng.uniform(1e-4f, 1e-2f)}},
                                            Difference{.from = part(), .subtract = {all}})}};
     }
+    // Of seams as of edges.
+    if (rng.chance(0.3)) all = Offset{.of = all, .amount = rng.uniform(-0.02f, 0.05f)};
+    if (rng.chance(0.4)) all = Shell{.of = all, .half_thickness = rng.uniform(0.002f, 0.02f)};
     return all;
 }
 

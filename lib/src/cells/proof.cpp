@@ -37,18 +37,17 @@ class Prover {
         const bool is_above = sign > 0;
         switch (in.op) {
             case Op::minimum:
-                return add(in.a, sign, tau) && add(in.b, sign, tau) && combine(is_above);
+                return both(in, sign, tau, is_above ? ProofStep::both : ProofStep::either);
             case Op::maximum:
             case Op::farther:
-                return add(in.a, sign, tau) && add(in.b, sign, tau) && combine(!is_above);
+                return both(in, sign, tau, is_above ? ProofStep::either : ProofStep::both);
             case Op::corner:
                 // Up to 0 it is the maximum; above, no less than each.
-                if (!is_above && tau > 0) return leaf(v, sign, tau);
-                return add(in.a, sign, tau) && add(in.b, sign, tau) && combine(!is_above);
+                if (tau <= 0) return both(in, sign, tau, is_above ? ProofStep::either : ProofStep::both);
+                return is_above ? both(in, sign, tau, ProofStep::either_one_way) : leaf(v, sign, tau);
             case Op::smooth_minimum:
                 // No more than each.
-                if (is_above) return leaf(v, sign, tau);
-                return add(in.a, sign, tau) && add(in.b, sign, tau) && combine(false);
+                return is_above ? leaf(v, sign, tau) : both(in, sign, tau, ProofStep::either_one_way);
             case Op::negate:
                 return add(in.a, -sign, -tau);
             case Op::add_constant:
@@ -60,7 +59,8 @@ class Prover {
                 return add(in.a, c > 0 ? sign : -sign, tau / c);
             case Op::absolute:
                 if (tau < 0) return leaf(v, sign, tau);
-                return add(in.a, sign, tau) && add(in.a, -sign, -tau) && combine(!is_above);
+                return add(in.a, sign, tau) && add(in.a, -sign, -tau) &&
+                       push({is_above ? ProofStep::either : ProofStep::both});
             default:
                 return leaf(v, sign, tau);
         }
@@ -75,7 +75,10 @@ class Prover {
         room_[count_++] = part;
         return true;
     }
-    bool combine(bool both) { return push({both ? ProofStep::both : ProofStep::either}); }
+    /// Of both operands, combined.
+    bool both(const Instruction& in, double sign, double tau, ProofStep::Kind kind) {
+        return add(in.a, sign, tau) && add(in.b, sign, tau) && push({kind});
+    }
     bool leaf(std::uint32_t v, double sign, double tau) {
         const Range& c = registers_[slot_[v]].curvature;
         const double factor = 1 / std::max(1.0, static_cast<double>(program_.lipschitz[v]));

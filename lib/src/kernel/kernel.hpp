@@ -34,7 +34,7 @@ struct OutputSlot {
 ///     g = factor · (the slot's value − threshold),
 /// which is 1-Lipschitz; 16-bit numbers are the upper halves of floats.
 struct ProofStep {
-    enum Kind : std::uint32_t { leaf, both, either };
+    enum Kind : std::uint32_t { leaf, both, either, either_one_way };
 
     float threshold;
     std::uint32_t slot : 30, kind : 2;

@@ -3,7 +3,8 @@
 ///
 /// A minimum is positive where both operands are; a maximum is, for one, between two samples between which one of its
 /// operands is. So a proof is a tree of such choices, in the order of a stack, over leaves; what is passed around is a
-/// mask of gaps.
+/// mask of gaps. The same proof, with signs and choices turned, is that of the other side; but for a step that implies
+/// what it stands for and is not implied by it.
 ///
 /// A leaf g, 1-Lipschitz, is known at the samples. It is positive in a gap of length h between a and b
 ///  * if g″ ≤ K and √a + √b ≥ h √(K/2): see March::is_bridged;
@@ -35,7 +36,7 @@ HWY_INLINE Gaps gaps_between(const Batch& t, float rounding) {
     return {length, Batch(1.f) / length, length + shifted(length, 0), length + shifted_back(length, 0), rounding};
 }
 
-/// Bit i: the leaf is positive in the gap that ends at lane i; never for the first.
+/// Bit i: the leaf is positive in the gap that ends at lane i; never for the first, where a is 0.
 HWY_INLINE std::uint32_t proven_by_leaf(const ProofStep& s, bool is_turned, const float* registers, const Gaps& gaps) {
     const float factor = float_of_half(s.factor);
     const float up = float_of_half(is_turned ? s.down : s.up), down = float_of_half(is_turned ? s.up : s.down);
@@ -57,7 +58,7 @@ HWY_INLINE std::uint32_t proven_by_leaf(const ProofStep& s, bool is_turned, cons
     } else {
         free |= ~bits(less(a + b, gaps.length));
     }
-    return free & bits(less(zero, min(a, b))) & 0xfffeu;
+    return free & bits(less(zero, min(a, b)));
 }
 
 /// Bit i: the first component keeps its sign in the gap that ends at lane i, which is that of a ray in the first phase;
@@ -71,8 +72,12 @@ std::uint32_t proven(const Routine& routine, bool is_turned, const float* regist
             *top++ = proven_by_leaf(*s, is_turned, registers, gaps);
             continue;
         }
-        const bool is_both = (s->kind == ProofStep::both) != is_turned;
         --top;
+        if (s->kind == ProofStep::either_one_way) {
+            top[-1] = is_turned ? 0 : top[-1] | *top;
+            continue;
+        }
+        const bool is_both = (s->kind == ProofStep::both) != is_turned;
         top[-1] = is_both ? top[-1] & *top : top[-1] | *top;
     }
     return stack[0];
