@@ -38,7 +38,7 @@ struct InterfaceCells::Data {
     std::vector<Step> steps;
     std::vector<OutputSlot> outputs;
     std::vector<ProofStep> proofs;
-    std::vector<std::uint32_t> first_proof;  ///< of each cell, and the end; empty if there are none
+    std::vector<std::uint32_t> first_proof;  ///< of each cell, and the end
     double build_seconds = 0;
 
     static constexpr std::uint32_t most_steps = 0xffffff, most_slots = 0x7fff, most_outputs = 0xffffff,

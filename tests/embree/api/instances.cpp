@@ -9,13 +9,13 @@ using namespace phasetree::tests;
 
 namespace {
 
-struct AffineMap {
+struct AffineTransform {
     const char* name;
     glm::mat3 linear;
     glm::vec3 shift;
 };
 
-std::array<float, 12> columns(const AffineMap& a) {
+std::array<float, 12> columns(const AffineTransform& a) {
     std::array<float, 12> m{};
     for (int column = 0; column < 3; ++column)
         for (int row = 0; row < 3; ++row) m[static_cast<std::size_t>(3 * column + row)] = a.linear[column][row];
@@ -23,7 +23,7 @@ std::array<float, 12> columns(const AffineMap& a) {
     return m;
 }
 
-const AffineMap affines[] = {
+const AffineTransform affines[] = {
     {"moved", glm::mat3(1), {1, 2, 3}},
     {"tiny", glm::mat3(1e-3f), {0.5f, 0, 0}},
     {"huge", glm::mat3(1e3f), {-500, 20, 100}},
@@ -33,7 +33,7 @@ const AffineMap affines[] = {
     {"mirrored, sheared, scaled", glm::mat3(-2, 0.2f, 0, 0.4f, 1.5f, 0, 0, 0.3f, 1), {0, 0, -4}},
 };
 
-RTCGeometry add_instance(RTCDevice device, RTCScene outer, RTCScene inner, const AffineMap& a, unsigned& id) {
+RTCGeometry add_instance(RTCDevice device, RTCScene outer, RTCScene inner, const AffineTransform& a, unsigned& id) {
     const RTCGeometry instance = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(instance, inner);
     rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns(a).data());
@@ -76,7 +76,7 @@ TEST_CASE("instances: scaled, sheared and mirrored ones hit the same points, wit
     const unsigned geom_id = inner.add(geometry.embree());
     inner.commit();
     const float resolution = geometry.statistics().resolution;
-    for (const AffineMap& a : affines) {
+    for (const AffineTransform& a : affines) {
         CAPTURE(a.name);
         EmbreeScene outer(device);
         unsigned other = 0, id = 0;

@@ -21,7 +21,7 @@ struct Crossing {
     Phase to;
 };
 
-/// The side of a crossing that a ray leaves it on: its direction there, and how it leaves.
+/// The normal of a crossing, and what a ray that leaves it may tell the cell that found it (Departure).
 struct CrossingNormal {
     glm::vec3 unit{0};  ///< from `from` into `to`, so that it points along the ray
     /// How the distance from `from` grows at p_in, as a vector: along `unit`, and 1 long at most. Zero where only the
