@@ -87,5 +87,6 @@ TEST_CASE("near edges rays take few batches, and meet what the whole object's ra
     MESSAGE(rays, " rays, ", crossings, " crossings, ", different, " different; ", batches, " batches a ray");
     CHECK(crossings > rays / 3);
     CHECK(different == 0);
-    CHECK(batches < 5);
+    // Without proofs it were 3.98, with them 3.35: the same rays, the same counts on every machine.
+    CHECK(batches < (long_tests() ? 3.5 : 3.6));
 }

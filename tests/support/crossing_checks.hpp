@@ -37,7 +37,8 @@ struct Totals {
     std::size_t rays = 0, crossings = 0, wrong = 0, uncertified = 0, rounded = 0, wide = 0, over_sliver = 0,
                 misplaced = 0, bad_normals = 0;
     std::size_t passed_coarsely = 0, most_crossings = 0, flickering = 0;
-    std::size_t normals = 0, reflections = 0, self_hits = 0, departures = 0, strayed = 0, coarsened = 0;
+    std::size_t normals = 0, reflections = 0, self_hits = 0, departures = 0, strayed = 0, batches_knowing = 0,
+                batches_unknowing = 0, coarsened = 0;
 };
 
 inline std::string report(const char* what, const Scene& scene, const Probe& probe, int n) {
@@ -241,11 +242,14 @@ void check_ray(const Scene& scene, const Tracer& tracer, const Probe& probe, int
         for (const bool is_near : {true, false}) {
             glm::vec3 away = rng.direction();
             if ((glm::dot(away, normal) < 0) != is_near) away = -away;
-            const auto leave = [&](const Hit* start) {
+            TraceCounters knowing, unknowing;
+            const auto leave = [&](const Hit* start, TraceCounters& counters) {
                 return tracer.first_crossing(is_near ? hit.p_in : hit.p_out, away, length, is_near ? hit.from : hit.to,
-                                             start, unused);
+                                             start, counters);
             };
-            const auto known = leave(&hit), unknown = leave(nullptr);
+            const auto known = leave(&hit, knowing), unknown = leave(nullptr, unknowing);
+            totals.batches_knowing += knowing.batches;
+            totals.batches_unknowing += unknowing.batches;
             ++totals.departures;
             if (known.has_value() != unknown.has_value() ||
                 (known && std::abs(known->t_in - unknown->t_in) > 4 * tracer.resolution()))
