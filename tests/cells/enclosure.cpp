@@ -67,11 +67,11 @@ void look(const Primitive& n, Random& rng, int boxes, Found& found) {
             const glm::vec3 d = half * glm::vec3(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
             const glm::vec3 q = centre + d;
             const Dual g = n.distance(Vec3<Dual>{Dual(q.x, 1, 0, 0), Dual(q.y, 0, 1, 0), Dual(q.z, 0, 0, 1)});
-            const auto v = static_cast<double>(g.value);
+            const auto v = static_cast<double>(g.value());
             ++found.points;
             found.outside += !(v >= e.value.low - value_error && v <= e.value.high + value_error);
             Range change{0, 0};
-            const float slope[] = {g.dx, g.dy, g.dz};
+            const glm::vec3 slope = g.gradient();
             for (std::size_t i = 0; i < 3; ++i) {
                 change = change + e.gradient[i] * static_cast<double>(d[static_cast<int>(i)]);
                 const auto s = static_cast<double>(slope[i]);

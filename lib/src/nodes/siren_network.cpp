@@ -81,9 +81,7 @@ double SirenNetwork::sampled_slope(int points) const {
         if (x * x + y * y + z * z > radius * radius) continue;
         const Dual f = Siren::Network::distance(network.values.data(),
                                                 Vec3<Dual>{Dual(x, 1, 0, 0), Dual(y, 0, 1, 0), Dual(z, 0, 0, 1)});
-        steepest = std::max(steepest, std::sqrt(static_cast<double>(f.dx) * static_cast<double>(f.dx) +
-                                                static_cast<double>(f.dy) * static_cast<double>(f.dy) +
-                                                static_cast<double>(f.dz) * static_cast<double>(f.dz)));
+        steepest = std::max(steepest, glm::length(glm::dvec3(f.gradient())));
     }
     return 1.1 * steepest;
 }

@@ -18,8 +18,7 @@ glm::vec3 gradient(const Routine& routine, std::uint32_t slots, const glm::vec3&
         routine, registers.data(),
         []<class P>(const float* constants, const Vec3<Dual>& q) { return detail::distance_of<P>(constants, q); },
         [](const Dual&) {});
-    const Dual& g = registers[output->slot];
-    return glm::vec3(g.dx, g.dy, g.dz) * output->sign;
+    return registers[output->slot].gradient() * output->sign;
 }
 
 }  // namespace phasetree

@@ -1,81 +1,97 @@
 #pragma once
 
+#include <glm/vec3.hpp>
+
 #include "phasetree/math/vec3.hpp"
 
 namespace phasetree {
 
 /// A number with its gradient in space: forward-mode differentiation. Comparisons look at the value alone, so the
-/// gradient is that of the branch which the value takes.
-struct Dual {
-    float value = 0;
-    float dx = 0, dy = 0, dz = 0;
+/// gradient is that of the branch which the value takes. The four floats are one register, and choices are made
+/// without branches, which a processor would guess wrong at every other hit.
+class Dual {
+  public:
+    using Lanes [[gnu::vector_size(16)]] = float;
+    using Bits [[gnu::vector_size(16)]] = int;
 
     Dual() = default;
-    explicit Dual(float v) : value(v) {}
-    Dual(float v, float x, float y, float z) : value(v), dx(x), dy(y), dz(z) {}
+    explicit Dual(float v) : lanes_{v, 0, 0, 0} {}
+    Dual(float v, float x, float y, float z) : lanes_{v, x, y, z} {}
+    explicit Dual(const Lanes& lanes) : lanes_(lanes) {}
+    /// With this value instead.
+    Dual(float v, const Lanes& slopes) : lanes_(slopes) { lanes_[0] = v; }
+
+    float value() const { return lanes_[0]; }
+    glm::vec3 gradient() const { return {lanes_[1], lanes_[2], lanes_[3]}; }
+    const Lanes& lanes() const { return lanes_; }
+    Lanes values() const { return each(lanes_[0]); }
+    static Lanes each(float v) { return Lanes{v, v, v, v}; }
+
+  private:
+    Lanes lanes_{};  // the value, and its derivatives by x, y and z
 };
 
-inline Dual operator-(const Dual& a) {
-    return {-a.value, -a.dx, -a.dy, -a.dz};
+[[gnu::always_inline]] inline Dual operator-(const Dual& a) {
+    return Dual(-a.lanes());
 }
-inline Dual operator+(const Dual& a, const Dual& b) {
-    return {a.value + b.value, a.dx + b.dx, a.dy + b.dy, a.dz + b.dz};
+[[gnu::always_inline]] inline Dual operator+(const Dual& a, const Dual& b) {
+    return Dual(a.lanes() + b.lanes());
 }
-inline Dual operator-(const Dual& a, const Dual& b) {
-    return {a.value - b.value, a.dx - b.dx, a.dy - b.dy, a.dz - b.dz};
+[[gnu::always_inline]] inline Dual operator-(const Dual& a, const Dual& b) {
+    return Dual(a.lanes() - b.lanes());
 }
-inline Dual operator*(const Dual& a, const Dual& b) {
-    return {a.value * b.value, a.dx * b.value + a.value * b.dx, a.dy * b.value + a.value * b.dy,
-            a.dz * b.value + a.value * b.dz};
+[[gnu::always_inline]] inline Dual operator*(const Dual& a, const Dual& b) {
+    return Dual(a.value() * b.value(), a.lanes() * b.values() + a.values() * b.lanes());
 }
-inline Dual operator/(const Dual& a, const Dual& b) {
-    const float v = a.value / b.value;
-    return {v, (a.dx - v * b.dx) / b.value, (a.dy - v * b.dy) / b.value, (a.dz - v * b.dz) / b.value};
+[[gnu::always_inline]] inline Dual operator/(const Dual& a, const Dual& b) {
+    const float v = a.value() / b.value();
+    return Dual(v, (a.lanes() - Dual::each(v) * b.lanes()) / b.values());
 }
-inline Dual operator+(const Dual& a, float b) {
-    return {a.value + b, a.dx, a.dy, a.dz};
+[[gnu::always_inline]] inline Dual operator+(const Dual& a, float b) {
+    return Dual(a.value() + b, a.lanes());
 }
-inline Dual operator-(const Dual& a, float b) {
-    return {a.value - b, a.dx, a.dy, a.dz};
+[[gnu::always_inline]] inline Dual operator-(const Dual& a, float b) {
+    return Dual(a.value() - b, a.lanes());
 }
-inline Dual operator*(const Dual& a, float b) {
-    return {a.value * b, a.dx * b, a.dy * b, a.dz * b};
+[[gnu::always_inline]] inline Dual operator*(const Dual& a, float b) {
+    return Dual(a.lanes() * Dual::each(b));
 }
-inline Dual operator+(float a, const Dual& b) {
-    return {a + b.value, b.dx, b.dy, b.dz};
+[[gnu::always_inline]] inline Dual operator+(float a, const Dual& b) {
+    return b + a;
 }
-inline Dual operator-(float a, const Dual& b) {
-    return {a - b.value, -b.dx, -b.dy, -b.dz};
+[[gnu::always_inline]] inline Dual operator-(float a, const Dual& b) {
+    return Dual(a - b.value(), -b.lanes());
 }
-inline Dual operator*(float a, const Dual& b) {
-    return {a * b.value, a * b.dx, a * b.dy, a * b.dz};
+[[gnu::always_inline]] inline Dual operator*(float a, const Dual& b) {
+    return b * a;
 }
 
-inline bool less(const Dual& a, const Dual& b) {
-    return a.value < b.value;
+[[gnu::always_inline]] inline bool less(const Dual& a, const Dual& b) {
+    return a.value() < b.value();
 }
-inline Dual select(bool condition, const Dual& yes, const Dual& no) {
-    return condition ? yes : no;
+[[gnu::always_inline]] inline Dual select(bool condition, const Dual& yes, const Dual& no) {
+    const Dual::Bits all = Dual::Bits{} - static_cast<int>(condition);
+    return Dual(all ? yes.lanes() : no.lanes());
 }
-inline Dual min(const Dual& a, const Dual& b) {
-    return a.value < b.value ? a : b;
+[[gnu::always_inline]] inline Dual min(const Dual& a, const Dual& b) {
+    return Dual(a.values() < b.values() ? a.lanes() : b.lanes());
 }
-inline Dual max(const Dual& a, const Dual& b) {
-    return a.value > b.value ? a : b;
+[[gnu::always_inline]] inline Dual max(const Dual& a, const Dual& b) {
+    return Dual(a.values() > b.values() ? a.lanes() : b.lanes());
 }
-inline Dual abs(const Dual& a) {
-    return std::signbit(a.value) ? -a : a;
+[[gnu::always_inline]] inline Dual abs(const Dual& a) {
+    return select(std::signbit(a.value()), -a, a);
 }
-inline Dual lookup(const float* table, const Dual& index) {
-    return Dual(table[static_cast<int>(index.value)]);
+[[gnu::always_inline]] inline Dual lookup(const float* table, const Dual& index) {
+    return Dual(table[static_cast<int>(index.value())]);
 }
-inline Dual floor(const Dual& a) {
-    return Dual(std::floor(a.value));
+[[gnu::always_inline]] inline Dual floor(const Dual& a) {
+    return Dual(std::floor(a.value()));
 }
-inline Dual sqrt(const Dual& a) {
-    const float v = std::sqrt(a.value);
+[[gnu::always_inline]] inline Dual sqrt(const Dual& a) {
+    const float v = std::sqrt(a.value());
     const float k = v > 0 ? 0.5f / v : 0.f;  // at a cone's apex every direction is as good: none
-    return {v, k * a.dx, k * a.dy, k * a.dz};
+    return Dual(v, Dual::each(k) * a.lanes());
 }
 
 }  // namespace phasetree
