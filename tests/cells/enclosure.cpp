@@ -71,7 +71,8 @@ void look(const Primitive& n, Random& rng, int boxes, Found& found) {
             ++found.points;
             found.outside += !(v >= e.value.low - value_error && v <= e.value.high + value_error);
             Range change{0, 0};
-            const glm::vec3 slope = g.gradient();
+            const glm::vec3 gradient = g.gradient();
+            const std::array<float, 3> slope{gradient.x, gradient.y, gradient.z};
             for (std::size_t i = 0; i < 3; ++i) {
                 change = change + e.gradient[i] * static_cast<double>(d[static_cast<int>(i)]);
                 const auto s = static_cast<double>(slope[i]);

@@ -22,17 +22,27 @@ struct Worker {
 
 /// How long it goes on where nothing is won. A share of more than this part of the object is divided all the same, for
 /// an object's features are smaller; then so many times more. Programs of little but long primitives (Voronoi cells)
-/// are tried less, because a trial costs them as much as many rays.
+/// are tried less, because a trial costs them as much as many rays. But a neural field costs rays so much, and is known
+/// so much better in a small box, that it is divided until its gradient hardly varies.
 struct Patience {
     float large = 0.06f;
     int divisions = 2;
+    float uneven = Bounds::infinity;  ///< a gradient that varies more is divided, too,
+    float fine = 0.004f;              ///< down to this part of the object
 
-    explicit Patience(const WorkingProgram& program) {
+    Patience(const WorkingProgram& program, std::span<const float> constants) {
         const auto size = static_cast<float>(program.code.size());
-        if (work(program) > 10 * size)
+        const float all = work(program, constants);
+        const auto is_field = [](const Instruction& in) { return is_network(in.op); };
+        if (all > 200 + 10 * size && std::ranges::any_of(program.code, is_field)) {
             large = 0.25f;
-        else if (size > 24)
+            divisions = 1;
+            uneven = 0.2f;
+        } else if (all > 10 * size) {
+            large = 0.25f;
+        } else if (size > 24) {
             divisions = 5;
+        }
     }
 };
 
@@ -102,9 +112,9 @@ std::optional<Candidate> candidate(const Share& share, const Bounds& all, const 
     }
     // Through copies without end a ray goes on and on.
     const float copies = 1 + 4 * share.box.diagonal() / share.period;
-    cell.cost =
-        cost(cell.box, cell.bound, cell.curvature, cell.program, !cell.proof.empty(), d.options.opaque, w.scratch) *
-        copies;
+    cell.cost = cost(cell.box, cell.bound, cell.curvature, cell.program, d.constants, !cell.proof.empty(),
+                     d.options.opaque, w.scratch) *
+                copies;
     return cell;
 }
 
@@ -133,7 +143,7 @@ float find_cells(const Share& share, const Division& d, Worker& w) {
     // Small cells must promise more, for they are many.
     const float size = share.box.diagonal() / d.size;
     const float promise = d.options.least_gain * (1 + 0.1f / size);
-    const bool is_hopeless = share.stale >= Patience(share.program).divisions;
+    const bool is_hopeless = share.stale >= Patience(share.program, d.constants).divisions;
     const bool is_final =
         is_hopeless || share.depth >= d.options.deepest || share.box.diagonal() < 64 * d.reach ||
         share.cell.cost < (1 + promise) * least_cost(share.cell.box) + price::parts * surface(share.box);
@@ -210,8 +220,11 @@ float divide(const Share& share, const Division& d, Worker& w) {
         if (!divided[i]) return;
         Share& part = *divided[i];
         // An object's features are smaller than a period of a fold, too.
-        const float coarse = std::isfinite(part.period) ? 0.25f * part.period : Patience(part.program).large * d.size;
-        const bool is_too_coarse = part.box.diagonal() > coarse;
+        const Patience patience(part.program, d.constants);
+        const float coarse = std::isfinite(part.period) ? 0.25f * part.period : patience.large * d.size;
+        const float diagonal = part.box.diagonal();
+        const bool is_too_coarse =
+            diagonal > coarse || (part.cell.bound.spread > patience.uneven && diagonal > patience.fine * d.size);
         part.stale = is_won || is_too_coarse ? 0 : share.stale + 1;
         part.left = is_won ? 1.f : left;
         costs[i] = find_cells(part, d, own);

@@ -5,6 +5,7 @@
 
 #include "cells/steps.hpp"
 #include "phasetree/math/enclosure.hpp"
+#include "phasetree/math/enclosure/network_in_box.hpp"
 #include "program/interpret.hpp"
 
 namespace phasetree {
@@ -13,9 +14,40 @@ namespace {
 
 using Half = Enclosure::Vector;
 
-/// Of a long primitive (a network, an image, noise) only its slope is used: at most 1 in its own space.
+/// A neural field within its cube. Nothing beyond.
+std::optional<Enclosure> enclose_network(const float* data, const Vec3<Enclosure>& q, const Half& half) {
+    const std::array<const Enclosure*, 3> x{&q.x, &q.y, &q.z};
+    Half centre{}, reach{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Range& v = x[i]->value;
+        if (!(v.magnitude() < static_cast<double>(data[1]))) return std::nullopt;
+        centre[i] = x[i]->centre;
+        reach[i] = std::max(v.high - centre[i], centre[i] - v.low);
+    }
+    const NetworkInBox f = network_in_box(data, centre, reach);
+    Enclosure e;
+    e.centre = f.value;
+    double change = 0, squared_slope = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double steepest = f.gradients[i].magnitude();
+        change += steepest * reach[i];
+        squared_slope += steepest * steepest;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            e.gradient[axis] = e.gradient[axis] + f.gradients[i] * x[i]->gradient[axis];
+            e.centre_gradient[axis] += f.gradient[i] * x[i]->centre_gradient[axis];
+        }
+    }
+    e.value = limited(f.value - change, f.value + change);
+    const double stretch = detail::squared_stretch(x), bent = std::sqrt(squared_slope) * detail::curvature_of(x);
+    e.set_curvature(hull(f.curvature, {}) * stretch + within(bent));
+    return e.tightened(half);
+}
+
+/// Of another long primitive (an image, noise) only its slope is used: at most 1 in its own space.
 template <class P>
 Enclosure enclose_by_slope(const float* constants, const Vec3<Enclosure>& q, const Half& half) {
+    if constexpr (std::is_same_v<P, Siren::Network>)
+        if (const auto known = enclose_network(constants, q, half)) return *known;
     const auto centre = [](const Enclosure& e) { return static_cast<float>(e.centre); };
     const double value =
         static_cast<double>(detail::distance_of<P>(constants, Vec3<float>{centre(q.x), centre(q.y), centre(q.z)}));

@@ -4,6 +4,7 @@
 
 #include "cells/linear_bound.hpp"
 #include "cells/reach.hpp"
+#include "phasetree/nodes/fields/siren.hpp"
 
 namespace phasetree {
 
@@ -21,21 +22,23 @@ inline constexpr float blind = 1.5f;          ///< or nothing
 }  // namespace price
 
 /// How much work an instruction is, in simple ones.
-inline float work(Op op) {
-    return op < Op::first_primitive ? 1.f : is_long_primitive(op) ? 60.f : 1.5f;
+inline float work(const Instruction& in, std::span<const float> constants) {
+    if (in.op < Op::first_primitive) return 1;
+    if (is_network(in.op)) return Siren::Network::multiplications(&constants[in.data]) / 6;
+    return is_long_primitive(in.op) ? 60.f : 1.5f;
 }
-inline float work(const WorkingProgram& program) {
+inline float work(const WorkingProgram& program, std::span<const float> constants) {
     float sum = 0;
-    for (const Instruction& in : program.code.subspan(1)) sum += work(in.op);
+    for (const Instruction& in : program.code.subspan(1)) sum += work(in, constants);
     return sum;
 }
 /// Of its first component alone.
-inline float work_of_first(const WorkingProgram& program, Arena& scratch) {
+inline float work_of_first(const WorkingProgram& program, std::span<const float> constants, Arena& scratch) {
     const ArenaScope scope(scratch);
     const Reach first(program, program.outputs.first(1), scratch);
     float sum = 0;
     for (std::size_t i = 1; i < program.code.size(); ++i)
-        if (first.has(i)) sum += work(program.code[i].op);
+        if (first.has(i)) sum += work(program.code[i], constants);
     return sum;
 }
 
@@ -61,8 +64,9 @@ inline float batches(const Bounds& box, const LinearBound& bound, float most_cur
 /// Half of the rays are taken to be in the first phase, if that is the vacuum; all, if the others are opaque. Where
 /// more than two phases meet they need its component alone, and the rest where they leave it.
 inline float cost(const Bounds& box, const LinearBound& bound, const Curvature& curvature,
-                  const WorkingProgram& program, bool has_proof, PhaseSet opaque, Arena& scratch) {
-    const float all = price::batch + price::step * work(program);
+                  const WorkingProgram& program, std::span<const float> constants, bool has_proof, PhaseSet opaque,
+                  Arena& scratch) {
+    const float all = price::batch + price::step * work(program, constants);
     const auto is_opaque = [&](const ProgramOutput& o) { return opaque.contains(o.phase); };
     const bool is_one_clear = std::ranges::all_of(program.outputs.subspan(1), is_opaque);
     const bool has_two = program.outputs.size() == 2;
@@ -72,7 +76,7 @@ inline float cost(const Bounds& box, const LinearBound& bound, const Curvature& 
         first = others;
         if (program.outputs[0].phase == vacuum || is_one_clear)
             first = batches(box, bound, curvature.most[0], has_proof) *
-                        (price::batch + price::step * work_of_first(program, scratch)) +
+                        (price::batch + price::step * work_of_first(program, constants, scratch)) +
                     all;
     }
     const float in_first = is_one_clear ? 1.f : is_opaque(program.outputs[0]) ? 0.f : 0.5f;

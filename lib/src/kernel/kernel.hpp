@@ -86,6 +86,9 @@ struct RayCrossing {
     std::uint32_t batches, phantoms;
 };
 
+/// Of a neuron's numbers in network_layer().
+inline constexpr std::size_t network_lanes = 24, absolute_lane = 20;
+
 /// A kernel: the same functions for one instruction set. Slot 0 … 2 is the input point.
 struct Kernel {
     void (*evaluate)(const Routine&, const float* x, const float* y, const float* z, float* registers, float* out);
@@ -95,6 +98,9 @@ struct Kernel {
                        float* label, float* distance);
     /// Whether the label changes on the segment, and where first: march.inl.
     bool (*march)(const Routine&, const RaySegment&, float* registers, RayCrossing&);
+    /// A linear layer of a network whose neurons have several lanes: network_layer.inl.
+    void (*network_layer)(const float* weights, const float* bias, std::size_t inputs, std::size_t outputs,
+                          const double* in, double* out);
 };
 
 extern const Kernel kernel_baseline;

@@ -55,7 +55,7 @@ const char* SirenNetwork::mistake() const {
             for (std::size_t i = 0; i < static_cast<std::size_t>(layer.inputs); ++i)
                 sum += std::abs(static_cast<double>(layer.weights[o * static_cast<std::size_t>(layer.inputs) + i])) *
                        reach;
-            // sine_cosine() is exact so far.
+            // sine() is exact so far.
             if (!(sum < 9000)) return "a layer's weights are too large";
         }
         width = layer.outputs;

@@ -56,6 +56,11 @@ bool is_long_primitive(Op op) {
     return index >= primitives.size() || primitives[index];  // then come those with data
 }
 
+bool is_network(Op op) {
+    constexpr auto index = Primitives::size + index_in<Siren::Network>(DataPrimitives());
+    return static_cast<std::uint32_t>(op) == static_cast<std::uint32_t>(Op::first_primitive) + index;
+}
+
 bool is_fold(Op op) {
     return static_cast<std::uint32_t>(op) == first_map + static_cast<std::uint32_t>(index_in<FoldMap>(PointMaps()));
 }

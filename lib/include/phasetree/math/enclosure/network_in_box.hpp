@@ -1,0 +1,27 @@
+#pragma once
+
+#include <array>
+
+#include "phasetree/math/enclosure/range.hpp"
+
+namespace phasetree {
+
+/// What a neural field does in a box: proven, but for the rounding of doubles.
+struct NetworkInBox {
+    double value = 0;                  ///< at the box's centre
+    std::array<double, 3> gradient{};  ///< there
+    std::array<Range, 3> gradients{};  ///< anywhere in the box
+    Range curvature{};                 ///< of d²f/dt² along straight lines of unit speed
+};
+
+/// Of a network as Siren::Network has it in its data, without its cube: the box must lie within that.
+///
+/// Layer by layer z = W·h + b, h = sin z, with each neuron's Taylor polynomial of degree three about the centre; that
+/// is exact, so that whatever cancels between neurons does. Only the fourth derivatives along lines are bounded, by
+/// sums of absolute values:
+///     |h⁗| ≤ |cos z|·(q + 6g²k) + |sin z|·(4gt + 3k² + g⁴),
+/// where g, k, t and q bound z's derivatives of order one to four within the radius of the box: the first three what
+/// they are at the centre and what the following ones add.
+NetworkInBox network_in_box(const float* data, const std::array<double, 3>& centre, const std::array<double, 3>& half);
+
+}  // namespace phasetree

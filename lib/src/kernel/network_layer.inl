@@ -1,0 +1,53 @@
+/// A linear layer of a network for numbers of several lanes (math/enclosure/network_in_box.hpp). Included by
+/// kernel.inl.
+
+namespace phasetree::HWY_NAMESPACE {
+namespace {
+
+using Doubles = hn::CappedTag<double, 8>;
+constexpr std::size_t double_lanes = hn::MaxLanes(Doubles());
+constexpr std::size_t neuron_registers = network_lanes / double_lanes;
+
+/// So many outputs at a time, because one sum alone waits for each of its additions.
+template <std::size_t count>
+HWY_INLINE void outputs_of_layer(const float* weights, const float* bias, std::size_t inputs, const double* in,
+                                 double* out) {
+    constexpr std::size_t mixed = absolute_lane / double_lanes;  // the register in which |W| begins
+    const Doubles tag;
+    const auto is_plain = hn::FirstN(tag, absolute_lane % double_lanes), is_value = hn::FirstN(tag, 1);
+    hn::Vec<Doubles> sum[count][neuron_registers];
+    for (std::size_t o = 0; o < count; ++o) {
+        for (std::size_t k = 0; k < neuron_registers; ++k) sum[o][k] = hn::Zero(tag);
+        sum[o][0] = hn::IfThenElse(is_value, hn::Set(tag, static_cast<double>(bias[o])), sum[o][0]);
+    }
+    for (std::size_t i = 0; i < inputs; ++i, in += network_lanes) {
+#pragma GCC unroll 4
+        for (std::size_t o = 0; o < count; ++o) {
+            const auto w = hn::Set(tag, static_cast<double>(weights[o * inputs + i])), most = hn::Abs(w);
+#pragma GCC unroll 12
+            for (std::size_t k = 0; k < neuron_registers; ++k) {
+                const auto by = k < mixed ? w : k > mixed ? most : hn::IfThenElse(is_plain, w, most);
+                sum[o][k] = hn::Add(sum[o][k], hn::Mul(by, hn::Load(tag, in + k * double_lanes)));
+            }
+        }
+    }
+    for (std::size_t o = 0; o < count; ++o)
+        for (std::size_t k = 0; k < neuron_registers; ++k)
+            hn::Store(sum[o][k], tag, out + o * network_lanes + k * double_lanes);
+}
+
+/// out = W·in + bias, of `network_lanes` doubles a neuron; the bias goes to the first, and those from
+/// `absolute_lane` on are sums by |W|. Sums run over the inputs in their order, for every instruction set the same.
+HWY_FLATTEN void network_layer(const float* weights, const float* bias, std::size_t inputs, std::size_t outputs,
+                               const double* in, double* out) {
+    constexpr std::size_t together = neuron_registers > 6   ? 1
+                                     : neuron_registers > 3 ? 2
+                                                            : 4;  // what registers there are
+    std::size_t o = 0;
+    for (; o + together <= outputs; o += together)
+        outputs_of_layer<together>(weights + o * inputs, bias + o, inputs, in, out + o * network_lanes);
+    for (; o < outputs; ++o) outputs_of_layer<1>(weights + o * inputs, bias + o, inputs, in, out + o * network_lanes);
+}
+
+}  // namespace
+}  // namespace phasetree::HWY_NAMESPACE

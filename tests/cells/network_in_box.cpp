@@ -1,0 +1,201 @@
+// What is known of a neural field in a box, against the field itself, along lines, in double.
+#include "phasetree/math/enclosure/network_in_box.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "phasetree/cells/cells.hpp"
+#include "phasetree/phasetree.hpp"
+#include "phasetree/trace/tracer.hpp"
+#include "support/random_tree.hpp"
+
+using namespace phasetree;
+using namespace phasetree::tests;
+
+namespace {
+
+SirenNetwork random_network(Random& rng, int width, float frequency) {
+    SirenNetwork network;
+    const int widths[] = {3, width, width, 1};
+    for (int n = 0; n < 3; ++n) {
+        SirenNetwork::Layer layer{widths[n], widths[n + 1], {}, {}};
+        const float scale = (n == 0 ? frequency : 1.5f) / std::sqrt(static_cast<float>(widths[n]));
+        for (int i = 0; i < layer.inputs * layer.outputs; ++i) layer.weights.push_back(scale * rng.uniform(-1, 1));
+        for (int o = 0; o < layer.outputs; ++o) layer.bias.push_back(rng.uniform(-3, 3));
+        network.layers.push_back(std::move(layer));
+    }
+    return network;
+}
+
+/// A number along a line, with its first and second derivative.
+struct OnLine {
+    double value = 0, slope = 0, bend = 0;
+};
+
+OnLine along(const SirenNetwork& network, const glm::dvec3& p, const glm::dvec3& d) {
+    std::vector<OnLine> now;
+    for (int i = 0; i < 3; ++i) now.push_back({p[i], d[i], 0});
+    for (const SirenNetwork::Layer& layer : network.layers) {
+        std::vector<OnLine> next;
+        for (std::size_t o = 0; o < layer.bias.size(); ++o) {
+            OnLine z{static_cast<double>(layer.bias[o]), 0, 0};
+            for (std::size_t i = 0; i < now.size(); ++i) {
+                const auto w = static_cast<double>(layer.weights[o * now.size() + i]);
+                z = {z.value + w * now[i].value, z.slope + w * now[i].slope, z.bend + w * now[i].bend};
+            }
+            if (&layer != &network.layers.back()) {
+                const double s = std::sin(z.value), c = std::cos(z.value);
+                z = {s, c * z.slope, c * z.bend - s * z.slope * z.slope};
+            }
+            next.push_back(z);
+        }
+        now = std::move(next);
+    }
+    return now[0];
+}
+
+/// Along lines of all directions the second derivative is between these: the eigenvalues of what it is along six.
+Range bends(const SirenNetwork& network, const glm::dvec3& p) {
+    const auto on = [&](const glm::dvec3& d) { return along(network, p, d).bend; };
+    glm::dmat3 h(0);
+    for (int i = 0; i < 3; ++i) h[i][i] = on(glm::dvec3(i == 0, i == 1, i == 2));
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3;
+        glm::dvec3 d(1);
+        d[3 - i - j] = 0;
+        h[i][j] = h[j][i] = 0.5 * (on(d) - h[i][i] - h[j][j]);
+    }
+    // The power method, with a shift that makes all eigenvalues of one sign.
+    const double shift = std::sqrt(glm::dot(h[0], h[0]) + glm::dot(h[1], h[1]) + glm::dot(h[2], h[2]));
+    const auto farthest = [&](const glm::dmat3& m) {
+        glm::dvec3 d(0.6, 0.48, 0.64);
+        for (int i = 0; i < 100; ++i) d = glm::normalize(m * d);
+        return on(d);
+    };
+    return shift > 0 ? Range{farthest(h - glm::dmat3(shift)), farthest(h + glm::dmat3(shift))} : Range{};
+}
+
+struct Found {
+    std::size_t points = 0, outside = 0, steep = 0, bent = 0;
+};
+
+/// Looks at points of a box that is so many times as large as the one of which the bounds speak.
+Found look(double larger, double& slack) {
+    Random rng(211);
+    Found found;
+    double known = 0, met = 0;
+    for (int n = 0; n < (long_tests() ? 2000 : 60); ++n) {
+        const SirenNetwork network = random_network(rng, 2 + rng.below(31), rng.uniform(1, 12));
+        const std::vector<float> data = network.table(1);
+        for (int box = 0; box < 10; ++box) {
+            const glm::dvec3 centre(0.5f * rng.direction());
+            const glm::dvec3 half = static_cast<double>(std::exp2(rng.uniform(-12, -2))) *
+                                    glm::dvec3(rng.uniform(0.1f, 1), rng.uniform(0.1f, 1), rng.uniform(0.1f, 1));
+            const NetworkInBox f =
+                network_in_box(data.data(), {centre.x, centre.y, centre.z}, {half.x, half.y, half.z});
+            const OnLine middle = along(network, centre, {1, 0, 0});
+            REQUIRE(std::abs(f.value - middle.value) < 1e-12 * (1 + std::abs(f.value)));
+            double most = 0;
+            for (std::size_t i = 0; i < 3; ++i) most += f.gradients[i].magnitude() * half[static_cast<int>(i)] * larger;
+            double highest = -Range::most, lowest = Range::most;
+            for (int point = 0; point < 24; ++point) {
+                // Corners, where there is most to see, and others.
+                const auto one = [&] { return rng.chance(0.5) ? (rng.chance(0.5) ? 1 : -1) : rng.uniform(-1, 1); };
+                const glm::dvec3 p = centre + larger * half * glm::dvec3(one(), one(), one());
+                const double rounding = 1e-9 * (1 + f.curvature.magnitude());
+                ++found.points;
+                found.outside += std::abs(along(network, p, {1, 0, 0}).value - f.value) > most + rounding;
+                for (int axis = 0; axis < 3; ++axis) {
+                    glm::dvec3 d(0);
+                    d[axis] = 1;
+                    const double slope = along(network, p, d).slope;
+                    const Range& range = f.gradients[static_cast<std::size_t>(axis)];
+                    found.steep += slope < range.low - rounding || slope > range.high + rounding;
+                    if (point == 0) {
+                        const double at_centre = along(network, centre, d).slope;
+                        const double error = f.gradient[static_cast<std::size_t>(axis)] - at_centre;
+                        REQUIRE(std::abs(error) < 1e-10 * (1 + std::abs(at_centre)));
+                    }
+                }
+                const Range bend = bends(network, p);
+                found.bent += bend.low < f.curvature.low - rounding || bend.high > f.curvature.high + rounding;
+                highest = std::max(highest, bend.high);
+                lowest = std::min(lowest, bend.low);
+            }
+            if (glm::length(half) < 0.004) {
+                known += f.curvature.high - f.curvature.low;
+                met += highest - lowest;
+            }
+        }
+    }
+    slack = known / met;
+    return found;
+}
+
+}  // namespace
+
+TEST_CASE("a neural field's values, gradients and curvatures in a box are within what is known of them") {
+    double slack = 0;
+    const Found found = look(1, slack);
+    CHECK(found.outside == 0);
+    CHECK(found.steep == 0);
+    CHECK(found.bent == 0);
+    // In small boxes hardly anything is given away.
+    MESSAGE(found.points, " points; in small boxes the curvature's range is ", slack, " times what was met");
+    CHECK(slack < 2);
+    // And it is no more than so small: of boxes that are larger it would be wrong.
+    const Found beyond = look(1.5, slack), far = look(4, slack);
+    MESSAGE("half as large again, ", beyond.steep, " slopes would be outside; four times, ", far.bent, " curvatures");
+    CHECK(beyond.steep > found.points / 100);
+    CHECK(far.bent > found.points / 100);
+}
+
+TEST_CASE("rays through a neural field's cells find what marching through the whole finds") {
+    Random rng(212);
+    std::size_t rays = 0, hits = 0, different = 0, batches = 0;
+    for (int n = 0; n < (long_tests() ? 20 : 2); ++n) {
+        SirenNetwork network = random_network(rng, 48, 3);
+        const Phased object =
+            Set{.phase = Phase{1},
+                .of = Siren{.file = {.content = std::make_shared<const SirenNetwork>(std::move(network))},
+                            .samples = 2000}};
+        const InterfaceCells cells(object);
+        const InterfaceTracer tracer(object);
+        Evaluator::Workspace w;
+        TraceCounters counters;
+        for (int k = 0; k < (long_tests() ? 20'000 : 500); ++k) {
+            const glm::vec3 origin = 1.5f * rng.direction();
+            const glm::vec3 direction = glm::normalize(0.7f * rng.direction() - origin);
+            const auto expected = tracer.first_crossing(origin, direction, 0, 10, vacuum, w);
+            std::vector<std::pair<float, std::size_t>> met;
+            for (std::size_t c = 0; c < cells.size(); ++c) {
+                const Bounds box = cells.bounds(c);
+                const glm::vec3 a = (box.low - origin) / direction, b = (box.high - origin) / direction;
+                const glm::vec3 near = glm::min(a, b), far = glm::max(a, b);
+                const float enter = std::max({near.x, near.y, near.z});
+                if (enter <= std::min({far.x, far.y, far.z})) met.emplace_back(enter, c);
+            }
+            std::sort(met.begin(), met.end());
+            std::optional<Crossing> first;
+            for (const auto& [enter, c] : met) {
+                if (first && first->t_in < enter) break;
+                const auto found = cells.first_crossing(c, origin, direction, 0, 10, vacuum, w, counters);
+                if (found && (!first || found->t_in < first->t_in)) first = found;
+            }
+            ++rays;
+            hits += expected.has_value();
+            different += first.has_value() != expected.has_value() ||
+                         (first && std::abs(first->t_in - expected->t_in) > 8 * cells.resolution());
+        }
+        batches += counters.batches;
+    }
+    const double each = static_cast<double>(batches) / static_cast<double>(rays);
+    MESSAGE(rays, " rays, ", hits, " hits, ", each, " batches a ray");
+    CHECK(each < 1.9);  // 2.5 if only the slope is known
+    CHECK(hits > rays / 4);
+    CHECK(different == 0);
+}
