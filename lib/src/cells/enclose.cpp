@@ -65,7 +65,7 @@ Enclosure enclose_by_slope(const float* constants, const Vec3<Enclosure>& q, con
         if (noise.is_within_cube(farthest))
             curvature = within(noise.curvature() * detail::squared_stretch(x) + detail::curvature_of(x));
     }
-    return Enclosure(value, Range::all(), slope, {}, curvature).tightened(half);
+    return Enclosure(value, Range::all(), slope, detail::no_gradient, curvature).tightened(half);
 }
 
 /// As LinearBound, but about the box's centre.
