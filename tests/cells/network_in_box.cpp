@@ -95,8 +95,7 @@ Found look(double larger, double& slack) {
             const glm::dvec3 centre(0.5f * rng.direction());
             const glm::dvec3 half = static_cast<double>(std::exp2(rng.uniform(-12, -2))) *
                                     glm::dvec3(rng.uniform(0.1f, 1), rng.uniform(0.1f, 1), rng.uniform(0.1f, 1));
-            const NetworkInBox f =
-                network_in_box(data.data(), {centre.x, centre.y, centre.z}, {half.x, half.y, half.z});
+            const FieldInBox f = network_in_box(data.data(), {centre.x, centre.y, centre.z}, {half.x, half.y, half.z});
             const OnLine middle = along(network, centre, {1, 0, 0});
             REQUIRE(std::abs(f.value - middle.value) < 1e-12 * (1 + std::abs(f.value)));
             double most = 0;

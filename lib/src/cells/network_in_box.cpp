@@ -86,7 +86,7 @@ void activate(Jet& z, double radius) {
 
 }  // namespace
 
-NetworkInBox network_in_box(const float* data, const std::array<double, 3>& centre, const std::array<double, 3>& half) {
+FieldInBox network_in_box(const float* data, const std::array<double, 3>& centre, const std::array<double, 3>& half) {
     const double radius = norm1(half.data());
     std::array<Jet, SirenNetwork::widest> now, next;
     Jet *in = now.data(), *out = next.data();
@@ -110,7 +110,7 @@ NetworkInBox network_in_box(const float* data, const std::array<double, 3>& cent
     Jet& f = *in;
     constexpr double rounding = 1 + 1e-9;
     const double rest = f.fourth() * rounding;
-    NetworkInBox result;
+    FieldInBox result;
     result.value = f.value();
     for (std::size_t i = 0; i < 3; ++i) {
         // A symmetric multilinear form is nowhere larger than along lines (Banach, 1938): so `rest` bounds mixed

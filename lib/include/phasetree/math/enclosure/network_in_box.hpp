@@ -6,8 +6,8 @@
 
 namespace phasetree {
 
-/// What a neural field does in a box: proven, but for the rounding of doubles.
-struct NetworkInBox {
+/// What a field does in a box: proven, but for the rounding of doubles.
+struct FieldInBox {
     double value = 0;                  ///< at the box's centre
     std::array<double, 3> gradient{};  ///< there
     std::array<Range, 3> gradients{};  ///< anywhere in the box
@@ -22,6 +22,6 @@ struct NetworkInBox {
 ///     |h⁗| ≤ |cos z|·(q + 6g²k) + |sin z|·(4gt + 3k² + g⁴),
 /// where g, k, t and q bound z's derivatives of order one to four within the radius of the box: the first three what
 /// they are at the centre and what the following ones add.
-NetworkInBox network_in_box(const float* data, const std::array<double, 3>& centre, const std::array<double, 3>& half);
+FieldInBox network_in_box(const float* data, const std::array<double, 3>& centre, const std::array<double, 3>& half);
 
 }  // namespace phasetree
