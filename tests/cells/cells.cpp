@@ -10,6 +10,7 @@
 
 #include "phasetree/phasetree.hpp"
 #include "phasetree/reading/tree.hpp"
+#include "support/compared_crossings.hpp"
 #include "support/random_tree.hpp"
 
 using namespace phasetree;
@@ -174,67 +175,35 @@ TEST_CASE("no interface passes outside the cells") {
     CHECK(found > 3000);
 }
 
-/// Whether two crossings at one place differ only by a phase thinner along the ray than the resolution, which one of
-/// them saw and the other passed: the crossing that follows the shorter one at once leads to where the other is.
-bool is_sliver(const InterfaceTracer& tracer, const Crossing& a, const Crossing& b, const glm::vec3& d,
-               Evaluator::Workspace& w) {
-    if (a.from != b.from) return false;
-    const auto leads_to = [&](const Crossing& seen, const Crossing& passed) {
-        const auto next = tracer.first_crossing(seen.p_out, d, 0, 2 * tracer.resolution(), seen.to, w);
-        return next && next->to == passed.to;
-    };
-    return leads_to(a, b) || leads_to(b, a);
-}
-
-struct Compared {
-    std::size_t rays = 0, crossings = 0, different = 0, into_opaque = 0;
-};
-
-/// The nearest crossing over all cells against the whole object's, along rays until they enter an opaque phase.
-void compare_crossings(const Phased& object, PhaseSet opaque, Random& rng, Compared& result) {
-    Evaluator::Workspace w;
-    const InterfaceCells cells(object, {.opaque = opaque});
-    const InterfaceTracer tracer(object);
-    const float tolerance = 4 * tracer.resolution();
-    for (int i = 0; i < 300; ++i) {
-        glm::vec3 p = rng.in(cells.bounds().inflated(0.5f));
-        const glm::vec3 d = glm::normalize(rng.in(cells.bounds()) - p);
-        Phase phase = tracer.label(p, w);
-        ++result.rays;
-        for (int n = 0; n < 100 && !opaque.contains(phase); ++n) {
-            const auto expected = tracer.first_crossing(p, d, 0, 1e6f, phase, w);
-            std::optional<Crossing> nearest;
-            TraceCounters counters;
-            for (std::size_t c = 0; c < cells.size(); ++c) {
-                const auto hit = cells.first_crossing(c, p, d, 0, nearest ? nearest->t_in : 1e6f, phase, w, counters);
-                if (hit && (!nearest || hit->t_in < nearest->t_in)) nearest = hit;
-            }
-            if (expected.has_value() != nearest.has_value()) {
-                ++result.different;
-                break;
-            }
-            if (!expected) break;
-            ++result.crossings;
-            const bool same = nearest->from == expected->from && nearest->to == expected->to;
-            if (std::abs(nearest->t_in - expected->t_in) > tolerance ||
-                (!same && !is_sliver(tracer, *expected, *nearest, d, w)))
-                ++result.different;
-            p = nearest->p_out;
-            phase = nearest->to;
-            result.into_opaque += opaque.contains(phase);
-        }
-    }
-}
-
 TEST_CASE("the nearest crossing over all cells is the whole object's") {
     Random rng(13);
     std::vector<Phased> objects{hourglass()};
     for (int i = 0; i < (long_tests() ? 300 : 12); ++i) objects.push_back(traceable_object(rng, 3));
     Compared all;
-    for (const Phased& object : objects) compare_crossings(object, {}, rng, all);
+    for (const Phased& object : objects) compare_crossings(object, {}, 300, rng, all);
     MESSAGE(all.rays, " rays, ", all.crossings, " crossings, ", all.different, " different");
     CHECK(all.crossings > all.rays);
     CHECK(all.different == 0);
+}
+
+TEST_CASE("the nearest crossing over all cells is the whole object's with each kind of node at the root") {
+    Random rng(14);
+    const int trees = long_tests() ? 100 : 1;
+    Compared all;
+    int attempt_of_all = 0;
+    for (const NodeKind& kind : node_kinds()) {
+        CAPTURE(kind.name);
+        for (int i = 0, attempt = 0; i < trees && attempt < 50 * trees; ++attempt) {
+            const Phased object = cut_to_size(kind.object(rng, 1 + attempt_of_all++ % 3));
+            if (bounds(object).empty()) continue;
+            ++i;
+            const std::size_t before = all.different;
+            compare_crossings(object, {}, long_tests() ? 400 : 150, rng, all);
+            CHECK(all.different == before);
+        }
+    }
+    MESSAGE(all.rays, " rays, ", all.crossings, " crossings, ", all.different, " different");
+    CHECK(all.crossings > all.rays / 2);
 }
 
 TEST_CASE("with opaque phases rays in the others meet what they met, and where opaque ones meet there are no cells") {
@@ -248,7 +217,7 @@ TEST_CASE("with opaque phases rays in the others meet what they met, and where o
         for_each_phase(phases(object).bits & ~std::uint64_t{1}, [&](int i) {
             if (rng.chance(0.7)) opaque = opaque | PhaseSet::of(Phase{static_cast<std::uint8_t>(i)});
         });
-        compare_crossings(object, opaque, rng, all);
+        compare_crossings(object, opaque, 300, rng, all);
         cells_without += InterfaceCells(object).size();
         cells_with += InterfaceCells(object, {.opaque = opaque}).size();
     }

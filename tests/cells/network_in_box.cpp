@@ -3,15 +3,12 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "phasetree/cells/cells.hpp"
 #include "phasetree/phasetree.hpp"
-#include "phasetree/trace/tracer.hpp"
-#include "support/random_tree.hpp"
+#include "support/compared_crossings.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;
@@ -155,46 +152,16 @@ TEST_CASE("a neural field's values, gradients and curvatures in a box are within
 
 TEST_CASE("rays through a neural field's cells find what marching through the whole finds") {
     Random rng(212);
-    std::size_t rays = 0, hits = 0, different = 0, batches = 0;
+    Compared all;
     for (int n = 0; n < (long_tests() ? 20 : 2); ++n) {
         SirenNetwork network = random_network(rng, 48, 3);
-        const Phased object =
-            Set{.phase = Phase{1},
-                .of = Siren{.file = {.content = std::make_shared<const SirenNetwork>(std::move(network))},
-                            .samples = 2000}};
-        const InterfaceCells cells(object);
-        const InterfaceTracer tracer(object);
-        Evaluator::Workspace w;
-        TraceCounters counters;
-        for (int k = 0; k < (long_tests() ? 20'000 : 500); ++k) {
-            const glm::vec3 origin = 1.5f * rng.direction();
-            const glm::vec3 direction = glm::normalize(0.7f * rng.direction() - origin);
-            const auto expected = tracer.first_crossing(origin, direction, 0, 10, vacuum, w);
-            std::vector<std::pair<float, std::size_t>> met;
-            for (std::size_t c = 0; c < cells.size(); ++c) {
-                const Bounds box = cells.bounds(c);
-                const glm::vec3 a = (box.low - origin) / direction, b = (box.high - origin) / direction;
-                const glm::vec3 near = glm::min(a, b), far = glm::max(a, b);
-                const float enter = std::max({near.x, near.y, near.z});
-                if (enter <= std::min({far.x, far.y, far.z})) met.emplace_back(enter, c);
-            }
-            std::sort(met.begin(), met.end());
-            std::optional<Crossing> first;
-            for (const auto& [enter, c] : met) {
-                if (first && first->t_in < enter) break;
-                const auto found = cells.first_crossing(c, origin, direction, 0, 10, vacuum, w, counters);
-                if (found && (!first || found->t_in < first->t_in)) first = found;
-            }
-            ++rays;
-            hits += expected.has_value();
-            different += first.has_value() != expected.has_value() ||
-                         (first && std::abs(first->t_in - expected->t_in) > 8 * cells.resolution());
-        }
-        batches += counters.batches;
+        const Siren field{.file = {.content = std::make_shared<const SirenNetwork>(std::move(network))},
+                          .samples = 2000};
+        compare_crossings(Set{.phase = Phase{1}, .of = field}, {}, long_tests() ? 5000 : 300, rng, all);
     }
-    const double each = static_cast<double>(batches) / static_cast<double>(rays);
-    MESSAGE(rays, " rays, ", hits, " hits, ", each, " batches a ray");
-    CHECK(each < 1.9);  // 2.5 if only the slope is known
-    CHECK(hits > rays / 4);
-    CHECK(different == 0);
+    const double each = static_cast<double>(all.counters.batches) / static_cast<double>(all.rays + all.crossings);
+    MESSAGE(all.rays, " rays, ", all.crossings, " crossings, ", each, " batches for each");
+    CHECK(all.crossings > all.rays / 2);
+    CHECK(all.different == 0);
+    CHECK(each < 1.9);
 }

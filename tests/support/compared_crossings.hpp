@@ -1,0 +1,89 @@
+#pragma once
+
+/// The nearest crossing over all cells of an object against that of the whole object, along rays.
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "phasetree/cells/cells.hpp"
+#include "phasetree/trace/tracer.hpp"
+#include "support/random_tree.hpp"
+
+namespace phasetree::tests {
+
+/// Whether two crossings at one place differ only by a phase thinner along the ray than the resolution, which one of
+/// them saw and the other passed: the crossing that follows the shorter one at once leads to where the other is.
+inline bool is_sliver(const InterfaceTracer& tracer, const Crossing& a, const Crossing& b, const glm::vec3& d,
+                      Evaluator::Workspace& w) {
+    if (a.from != b.from) return false;
+    const auto leads_to = [&](const Crossing& seen, const Crossing& passed) {
+        const auto next = tracer.first_crossing(seen.p_out, d, 0, 2 * tracer.resolution(), seen.to, w);
+        return next && next->to == passed.to;
+    };
+    return leads_to(a, b) || leads_to(b, a);
+}
+
+/// Over all cells, in the order in which the ray enters them.
+inline std::optional<Crossing> nearest_crossing(const InterfaceCells& cells, const glm::vec3& p, const glm::vec3& d,
+                                                Phase phase, Evaluator::Workspace& w, TraceCounters& counters) {
+    std::vector<std::pair<float, std::size_t>> met;
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        const Bounds box = cells.bounds(c);
+        float enter = 0, leave = Bounds::infinity;
+        for (int i = 0; i < 3; ++i) {
+            const float a = (box.low[i] - p[i]) / d[i], b = (box.high[i] - p[i]) / d[i];
+            enter = std::max(enter, std::min(a, b) - 1e-5f);
+            leave = std::min(leave, std::max(a, b) + 1e-5f);
+        }
+        if (!(enter > leave)) met.emplace_back(enter, c);
+    }
+    std::sort(met.begin(), met.end());
+    std::optional<Crossing> nearest;
+    for (const auto& [enter, c] : met) {
+        if (nearest && nearest->t_in < enter) break;
+        const auto hit = cells.first_crossing(c, p, d, 0, nearest ? nearest->t_in : 1e6f, phase, w, counters);
+        if (hit && (!nearest || hit->t_in < nearest->t_in)) nearest = hit;
+    }
+    return nearest;
+}
+
+struct Compared {
+    std::size_t rays = 0, crossings = 0, different = 0, into_opaque = 0;
+    TraceCounters counters{};
+};
+
+/// Along so many rays, until they enter an opaque phase.
+inline void compare_crossings(const Phased& object, PhaseSet opaque, int rays, Random& rng, Compared& result) {
+    Evaluator::Workspace w;
+    const InterfaceCells cells(object, {.opaque = opaque});
+    const InterfaceTracer tracer(object);
+    const float tolerance = 4 * tracer.resolution();
+    for (int i = 0; i < rays; ++i) {
+        glm::vec3 p = rng.in(cells.bounds().inflated(0.5f));
+        const glm::vec3 d = glm::normalize(rng.in(cells.bounds()) - p);
+        Phase phase = tracer.label(p, w);
+        ++result.rays;
+        for (int n = 0; n < 100 && !opaque.contains(phase); ++n) {
+            const auto expected = tracer.first_crossing(p, d, 0, 1e6f, phase, w);
+            const auto nearest = nearest_crossing(cells, p, d, phase, w, result.counters);
+            if (expected.has_value() != nearest.has_value()) {
+                ++result.different;
+                break;
+            }
+            if (!expected) break;
+            ++result.crossings;
+            const bool same = nearest->from == expected->from && nearest->to == expected->to;
+            if (std::abs(nearest->t_in - expected->t_in) > tolerance ||
+                (!same && !is_sliver(tracer, *expected, *nearest, d, w)))
+                ++result.different;
+            p = nearest->p_out;
+            phase = nearest->to;
+            result.into_opaque += opaque.contains(phase);
+        }
+    }
+}
+
+}  // namespace phasetree::tests
