@@ -80,9 +80,19 @@ struct InterfaceCells::Data {
     }
 
     /// Cells with equal programs share one.
-    void add(const Found& found, Routines routines) {
-        cells.reserve(found.cells.size());
-        first_proof.reserve(found.cells.size() + 1);
+    void add(const FoundPieces& found, Routines routines) {
+        cells.reserve(found.cells());
+        first_proof.reserve(found.cells() + 1);
+        for (const Found& piece : found) add(piece, routines);
+        first_proof.push_back(Found::narrow(proofs.size()));
+        proofs.shrink_to_fit();
+        routine_count = routines.count();
+        steps = std::move(routines.steps);
+        outputs = std::move(routines.outputs);
+        steps.shrink_to_fit();
+        outputs.shrink_to_fit();
+    }
+    void add(const Found& found, Routines& routines) {
         for (const Found::Cell& c : found.cells) {
             const Routines::Ready& r = routines.add(found, c);
             if (r.steps > most_steps || r.slots > most_slots || r.first_output > most_outputs)
@@ -97,13 +107,6 @@ struct InterfaceCells::Data {
             first_proof.push_back(Found::narrow(proofs.size()));
             routines.add_proof(r, found.proof_of(c), proofs);
         }
-        first_proof.push_back(Found::narrow(proofs.size()));
-        proofs.shrink_to_fit();
-        routine_count = routines.count();
-        steps = std::move(routines.steps);
-        outputs = std::move(routines.outputs);
-        steps.shrink_to_fit();
-        outputs.shrink_to_fit();
     }
 };
 
@@ -122,7 +125,7 @@ InterfaceCells::InterfaceCells(const Phased& object, const CellOptions& options)
 
     const Division division{options, recorded.constants, data->reach, 0.5f * traceable.resolution,
                             data->bounds.diagonal()};
-    const Found found = divide_into_cells(data->bounds, rewritten, division);
+    const FoundPieces found = divide_into_cells(data->bounds, rewritten, division);
     data->add(found, Routines(recorded.constants));
     data->whole.emplace(std::move(recorded));
     data->build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

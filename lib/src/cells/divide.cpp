@@ -8,17 +8,12 @@
 #include "cells/enclose.hpp"
 #include "cells/price.hpp"
 #include "cells/steps.hpp"
+#include "cells/workers.hpp"
 #include "program/target.hpp"
 
 namespace phasetree {
 
 namespace {
-
-/// What a thread works with.
-struct Worker {
-    Arena programs, scratch;
-    Found found;
-};
 
 /// How long it goes on where nothing is won. A share of more than this part of the object is divided all the same, for
 /// an object's features are smaller; then so many times more. Programs of little but long primitives (Voronoi cells)
@@ -30,10 +25,11 @@ struct Patience {
     float uneven = Bounds::infinity;  ///< a gradient that varies more is divided, too,
     float fine = 0.004f;              ///< down to this part of the object
 
+    Patience() = default;
     Patience(const WorkingProgram& program, std::span<const float> constants) {
         const auto size = static_cast<float>(program.code.size());
         const float all = work(program, constants);
-        const auto is_field = [](const Instruction& in) { return is_network(in.op); };
+        const auto is_field = [](const Instruction& in) { return traits(in.op).is_network; };
         if (all > 200 + 10 * size && std::ranges::any_of(program.code, is_field)) {
             large = 0.25f;
             divisions = 1;
@@ -84,6 +80,7 @@ struct Share {
     WorkingProgram program;
     int depth = 0;
     int stale = 0;
+    Patience patience{};
     float left = 1;                   ///< what is left of the cost since something was won
     float period = Bounds::infinity;  ///< of the finest fold that still jumps
     Candidate cell{};
@@ -126,6 +123,7 @@ bool prepare(Share& share, const Division& d, Worker& w) {
     const auto whole = candidate(share, all, share.program, encloser, d, w);
     if (!whole) return false;
     share.program = whole->program;
+    share.patience = Patience(share.program, d.constants);
     share.cell = *whole;
     // Its parts may want what tells more far away.
     if (const auto near = without_far_bounds(share.program, d.constants, d.options.opaque, w.programs, w.scratch)) {
@@ -143,12 +141,12 @@ float find_cells(const Share& share, const Division& d, Worker& w) {
     // Small cells must promise more, for they are many.
     const float size = share.box.diagonal() / d.size;
     const float promise = d.options.least_gain * (1 + 0.1f / size);
-    const bool is_hopeless = share.stale >= Patience(share.program, d.constants).divisions;
+    const bool is_hopeless = share.stale >= share.patience.divisions;
     const bool is_final =
         is_hopeless || share.depth >= d.options.deepest || share.box.diagonal() < 64 * d.reach ||
         share.cell.cost < (1 + promise) * least_cost(share.cell.box) + price::parts * surface(share.box);
     if (!is_final) {
-        const Found::Mark before = w.found.mark();
+        const FoundPieces::Mark before = w.found.mark();
         const float divided = divide(share, d, w) + price::parts * surface(share.box);
         if (divided < share.cell.cost) return divided;
         w.found.forget_from(before);
@@ -161,7 +159,7 @@ float find_cells(const Share& share, const Division& d, Worker& w) {
     const std::span<ProofPart> proof = w.scratch.copy(cell.proof);
     if (!led.renumbered.empty())
         for (ProofPart& part : proof) part.value = led.renumbered[part.value];
-    w.found.add(cell.box, cell.bound, cell.curvature, led.program, led.leading, proof);
+    w.found.last().add(cell.box, cell.bound, cell.curvature, led.program, led.leading, proof);
     return cell.cost;
 }
 
@@ -186,14 +184,16 @@ float divide(const Share& share, const Division& d, Worker& w) {
     const ArenaScope programs(w.programs), scratch(w.scratch);
     const Parts parts(share.box);
     const ValuesAt values = values_at_centres(share.program, parts, d, w.scratch);
+    const bool has_jumps = may_jump(share.program);
 
     // High up the parts are divided by as many threads, each with memory of its own; the order of the cells is that of
     // the parts, whichever thread finds them.
     const bool in_parallel = share.depth < 3;
-    std::vector<Worker> workers(in_parallel ? parts.count : 0);
+    std::vector<Workers::Borrowed> workers;
+    for (std::size_t i = 0; in_parallel && i < parts.count; ++i) workers.push_back(w.others.borrow());
     const auto each = [&](auto&& f) {
         if (in_parallel)
-            tbb::parallel_for(std::size_t{0}, parts.count, [&](std::size_t i) { f(i, workers[i]); });
+            tbb::parallel_for(std::size_t{0}, parts.count, [&](std::size_t i) { f(i, *workers[i]); });
         else
             for (std::size_t i = 0; i < parts.count; ++i) f(i, w);
     };
@@ -202,7 +202,7 @@ float divide(const Share& share, const Division& d, Worker& w) {
         const ArenaScope scope(own.scratch);
         const float radius = 0.5f * parts.box[i].inflated(d.reach).diagonal() * (1 + 1e-5f);
         const ValueRanges ranges = ranges_in_ball(share.program, d.constants, {values.registers, values.slot, i},
-                                                  radius, d.rounding, own.scratch);
+                                                  has_jumps, radius, d.rounding, own.scratch);
         const auto program = prune(share.program, d.constants, ranges, d.options.opaque, own.programs, own.scratch);
         if (!program) return;
         Share part{parts.box[i], *program, share.depth + 1};
@@ -220,16 +220,15 @@ float divide(const Share& share, const Division& d, Worker& w) {
         if (!divided[i]) return;
         Share& part = *divided[i];
         // An object's features are smaller than a period of a fold, too.
-        const Patience patience(part.program, d.constants);
-        const float coarse = std::isfinite(part.period) ? 0.25f * part.period : patience.large * d.size;
+        const float coarse = std::isfinite(part.period) ? 0.25f * part.period : part.patience.large * d.size;
         const float diagonal = part.box.diagonal();
-        const bool is_too_coarse =
-            diagonal > coarse || (part.cell.bound.spread > patience.uneven && diagonal > patience.fine * d.size);
+        const bool is_too_coarse = diagonal > coarse || (part.cell.bound.spread > part.patience.uneven &&
+                                                         diagonal > part.patience.fine * d.size);
         part.stale = is_won || is_too_coarse ? 0 : share.stale + 1;
         part.left = is_won ? 1.f : left;
         costs[i] = find_cells(part, d, own);
     });
-    for (const Worker& worker : workers) w.found.add(worker.found);
+    for (const Workers::Borrowed& worker : workers) w.found.take(worker->found);
     float all = 0;
     for (const float c : costs) all += c;
     return all;
@@ -237,10 +236,11 @@ float divide(const Share& share, const Division& d, Worker& w) {
 
 }  // namespace
 
-Found divide_into_cells(const Bounds& box, const WorkingProgram& program, const Division& d) {
+FoundPieces divide_into_cells(const Bounds& box, const WorkingProgram& program, const Division& d) {
     Share root{box, program};
     root.period = finest_jump(program, d.constants);
-    Worker worker;
+    Workers workers;
+    Worker worker{workers};
     if (prepare(root, d, worker)) divide(root, d, worker);
     return std::move(worker.found);
 }

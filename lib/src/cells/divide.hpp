@@ -15,6 +15,6 @@ struct Division {
 };
 
 /// Cuts a box into cells, by as many threads as TBB has; the result does not depend on them. Throws BuildCancelled.
-Found divide_into_cells(const Bounds&, const WorkingProgram&, const Division&);
+FoundPieces divide_into_cells(const Bounds&, const WorkingProgram&, const Division&);
 
 }  // namespace phasetree

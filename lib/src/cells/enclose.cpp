@@ -140,9 +140,18 @@ void tighten(Bounds& box, const glm::vec3& normal, float value, float slack) {
 }  // namespace
 
 Encloser::Encloser(std::span<const float> constants, PhaseSet opaque, const Bounds& box, float rounding, Arena& scratch)
-    : constants_(constants), opaque_(opaque), box_(box), rounding_(rounding), scratch_(scratch) {
-    const glm::vec3 extent = box.extent();
-    for (int i = 0; i < 3; ++i) half_[static_cast<std::size_t>(i)] = 0.5 * static_cast<double>(extent[i]) * (1 + 1e-6);
+    : constants_(constants),
+      opaque_(opaque),
+      box_(box),
+      rounding_(rounding),
+      scratch_(scratch),
+      point_(scratch.take<Enclosure>(3)) {
+    const glm::vec3 extent = box.extent(), middle = box.centre();
+    for (int i = 0; i < 3; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        half_[k] = 0.5 * static_cast<double>(extent[i]) * (1 + 1e-6);
+        point_[k] = Enclosure::coordinate(i, static_cast<double>(middle[i]), half_[k]);
+    }
 }
 
 /// For each instruction its number in the last program, if it is a primitive, or a map of space, that was in it; or 0.
@@ -167,11 +176,7 @@ void Encloser::compute(const WorkingProgram& program) {
     const std::span<const std::uint32_t> known = known_of(program);
     const Steps steps = keep_all(program, scratch_, [&](std::size_t i) { return known[i] != 0; });
     const std::span<Enclosure> registers = scratch_.take<Enclosure>(steps.slots);
-    const glm::vec3 middle = box_.centre();
-    for (int i = 0; i < 3; ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        registers[k] = Enclosure::coordinate(i, static_cast<double>(middle[i]), half_[k]);
-    }
+    std::ranges::copy(point_, registers.begin());
     for (std::size_t i = 1; i < known.size(); ++i)
         if (known[i] != 0)
             std::copy_n(registers_ + slot_[known[i]], gives_point(program.code[i].op) ? 3 : 1,
@@ -179,7 +184,7 @@ void Encloser::compute(const WorkingProgram& program) {
     interpret(
         steps.routine(constants_.data()), registers.data(),
         [&]<class P>(const float* c, const Vec3<Enclosure>& q) { return enclose_long_primitive<P>(c, q, half_); },
-        [&](Enclosure& e) { e = e.tightened(half_); });
+        [&](Enclosure& e) { e.tighten(half_); });
     code_ = program.code;
     slot_ = steps.slot;
     registers_ = registers.data();
@@ -209,19 +214,24 @@ std::optional<Enclosed> Encloser::operator()(const WorkingProgram& program) {
     const auto component = [&](std::size_t i) {
         Enclosure e = registers_[slot_[program.outputs[i].value]];
         for (Range& g : e.gradient) g = {std::max(g.low, -1.0), std::min(g.high, 1.0)};
-        return e.tightened(half_) * (program.outputs[i].negate ? -1.f : 1.f);
+        e.tighten(half_);
+        return e;
     };
+    const bool is_shared = program.outputs.size() == 2 && program.outputs[0].value == program.outputs[1].value;
+    const Enclosure f = component(0);  // the first, but for its sign
     std::size_t possible = 0, clear = 0;
     // Of s as Routine::is_by_own says, both ways.
     double by_others[] = {0, 0}, by_own[] = {0, 0};
     for (std::size_t i = 0; i < program.outputs.size(); ++i) {
-        const Enclosure c = component(i);
-        if (c.value.high < -margin) result.is_free = true;
-        possible += c.value.low <= margin;
-        clear += c.value.low <= margin && !opaque_.contains(program.outputs[i].phase);
-        if (i > 0) by_others[0] = std::max(by_others[0], c.curvature.high);
-        by_others[1] = std::max(by_others[1], c.curvature.high);
-        by_own[i == 0 ? 0 : 1] = std::max(by_own[i == 0 ? 0 : 1], -c.curvature.low);
+        const Enclosure& e = i == 0 || is_shared ? f : component(i);
+        const bool is_negated = program.outputs[i].negate;
+        const Range value = is_negated ? -e.value : e.value, curvature = is_negated ? -e.curvature : e.curvature;
+        if (value.high < -margin) result.is_free = true;
+        possible += value.low <= margin;
+        clear += value.low <= margin && !opaque_.contains(program.outputs[i].phase);
+        if (i > 0) by_others[0] = std::max(by_others[0], curvature.high);
+        by_others[1] = std::max(by_others[1], curvature.high);
+        by_own[i == 0 ? 0 : 1] = std::max(by_own[i == 0 ? 0 : 1], -curvature.low);
     }
     if (possible < 2 || clear == 0) result.is_free = true;
     if (result.is_free) return result;
@@ -230,7 +240,6 @@ std::optional<Enclosed> Encloser::operator()(const WorkingProgram& program) {
         const double most = result.curvature.is_by_own ? by_own[i] : by_others[i];
         result.curvature.most[i] = most < 1e30 ? static_cast<float>(most) * (1 + 1e-3f) : Curvature::unknown;
     }
-    const bool is_shared = program.outputs.size() == 2 && program.outputs[0].value == program.outputs[1].value;
     if (!is_shared)  // the first component is known by itself
         result.curvature.most[0] = by_own[0] < 1e30 ? static_cast<float>(by_own[0]) * (1 + 1e-3f) : Curvature::unknown;
 
@@ -239,7 +248,6 @@ std::optional<Enclosed> Encloser::operator()(const WorkingProgram& program) {
     if ((is_blind(0) && is_clear(program.outputs[0])) || (is_shared && is_blind(1) && is_clear(program.outputs[1])))
         result.proof = prove(program, constants_, registers_, slot_, scratch_);
 
-    const Enclosure f = component(0) * (program.outputs[0].negate ? -1.f : 1.f);
     for (const Range& g : f.gradient)
         if (!(g.low <= g.high)) return result;
     const NearlyLinear linear = nearly_linear(f, half_);

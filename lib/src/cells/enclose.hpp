@@ -43,6 +43,7 @@ class Encloser {
     std::array<double, 3> half_;
     float rounding_;
     Arena& scratch_;
+    std::span<Enclosure> point_;  ///< of the box, in each coordinate
     // Of the last program.
     std::span<const Instruction> code_;
     std::span<const std::uint32_t> slot_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "cells/linear_bound.hpp"
@@ -40,18 +41,6 @@ struct Found {
         cells.push_back({box, bound, curvature, narrow(m.code), narrow(program.code.size()), leading, narrow(m.outputs),
                          narrow(program.outputs.size()), narrow(m.proofs), narrow(proof.size())});
     }
-    void add(const Found& more) {
-        const Mark m = mark();
-        for (Cell c : more.cells) {
-            c.first_instruction += narrow(m.code);
-            c.first_output += narrow(m.outputs);
-            c.first_proof += narrow(m.proofs);
-            cells.push_back(c);
-        }
-        append(code, std::span(more.code));
-        append(outputs, std::span(more.outputs));
-        append(proofs, std::span(more.proofs));
-    }
     static std::uint32_t narrow(std::size_t n) { return static_cast<std::uint32_t>(n); }
 
     std::span<const Instruction> code_of(const Cell& c) const {
@@ -69,6 +58,38 @@ struct Found {
     static void append(std::vector<T>& to, const From& from) {
         to.insert(to.end(), from.begin(), from.end());
     }
+};
+
+/// The same in pieces: what others have found is taken over, and none of it copied.
+class FoundPieces {
+  public:
+    struct Mark {
+        std::size_t pieces;
+        Found::Mark last;
+    };
+    Mark mark() const { return {pieces_.size(), pieces_.back().mark()}; }
+    void forget_from(const Mark& m) {
+        pieces_.resize(m.pieces);
+        pieces_.back().forget_from(m.last);
+    }
+    /// The piece to which more can be added.
+    Found& last() { return pieces_.back(); }
+    /// All of another's, which has nothing then.
+    void take(FoundPieces& more) {
+        for (Found& piece : more.pieces_)
+            if (!piece.cells.empty()) pieces_.push_back(std::move(piece));
+        more.pieces_ = std::vector<Found>(1);
+    }
+    std::size_t cells() const {
+        std::size_t sum = 0;
+        for (const Found& piece : pieces_) sum += piece.cells.size();
+        return sum;
+    }
+    auto begin() const { return pieces_.begin(); }
+    auto end() const { return pieces_.end(); }
+
+  private:
+    std::vector<Found> pieces_ = std::vector<Found>(1);
 };
 
 }  // namespace phasetree

@@ -21,25 +21,26 @@ inline constexpr float proven = 0.5f;         ///< and where only a proof tells 
 inline constexpr float blind = 1.5f;          ///< or nothing
 }  // namespace price
 
-/// How much work an instruction is, in simple ones.
-inline float work(const Instruction& in, std::span<const float> constants) {
-    if (in.op < Op::first_primitive) return 1;
-    if (is_network(in.op)) return Siren::Network::multiplications(&constants[in.data]) / 6;
-    return is_long_primitive(in.op) ? 60.f : 1.5f;
+/// How much work an instruction is, in halves of a simple one.
+inline unsigned half_works(const Instruction& in, std::span<const float> constants) {
+    const OpTraits& t = traits(in.op);
+    return t.is_network ? static_cast<unsigned>(Siren::Network::multiplications(&constants[in.data])) / 3
+                        : t.half_works;
 }
+/// How much work a program is, in simple instructions.
 inline float work(const WorkingProgram& program, std::span<const float> constants) {
-    float sum = 0;
-    for (const Instruction& in : program.code.subspan(1)) sum += work(in, constants);
-    return sum;
+    unsigned halves = 0;
+    for (const Instruction& in : program.code.subspan(1)) halves += half_works(in, constants);
+    return 0.5f * static_cast<float>(halves);
 }
 /// Of its first component alone.
 inline float work_of_first(const WorkingProgram& program, std::span<const float> constants, Arena& scratch) {
     const ArenaScope scope(scratch);
     const Reach first(program, program.outputs.first(1), scratch);
-    float sum = 0;
+    unsigned halves = 0;
     for (std::size_t i = 1; i < program.code.size(); ++i)
-        if (first.has(i)) sum += work(program.code[i], constants);
-    return sum;
+        halves += first.has(i) ? half_works(program.code[i], constants) : 0u;
+    return 0.5f * static_cast<float>(halves);
 }
 
 inline float surface(const Bounds& box) {

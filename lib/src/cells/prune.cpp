@@ -1,6 +1,7 @@
 #include "cells/prune.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -22,9 +23,31 @@ namespace phasetree {
 
 namespace {
 
-struct Demand {
-    enum Kind : unsigned char { none, threshold, value } kind = none;
-    float tau = 0;
+/// What a value is wanted for: nothing, its sign relative to a threshold, or itself. In one word, which is written and
+/// read again as a whole; two numbers that are none stand for the first and the last.
+class Demand {
+  public:
+    Demand() = default;
+    /// A zero's sign means nothing.
+    static Demand threshold(float tau) {
+        return std::isnan(tau) ? value() : Demand(std::bit_cast<std::uint32_t>(tau + 0.f));
+    }
+    static Demand value() { return Demand(as_value); }
+
+    bool is_none() const { return word_ == as_none; }
+    bool is_threshold() const { return word_ < as_none || word_ > as_value; }
+    float tau() const { return std::bit_cast<float>(word_); }
+    bool is_sign() const { return word_ == 0; }
+    /// Both this and another one.
+    Demand with(Demand other) const { return is_none() || *this == other ? other : value(); }
+    bool operator==(const Demand&) const = default;
+
+  private:
+    static constexpr std::uint32_t as_none = 0x7fc00001u, as_value = 0x7fc00002u;
+
+    explicit Demand(std::uint32_t word) : word_(word) {}
+
+    std::uint32_t word_ = as_none;
 };
 
 /// A slope above this has a jump in it.
@@ -54,9 +77,8 @@ class Pruner {
           scratch_(scratch),
           demand_(scratch.take<Demand>(program.code.size())),
           instead_(scratch.take<std::uint32_t>(program.code.size())),
-          op_(scratch.take<Op>(program.code.size())) {
-        std::ranges::fill(demand_, Demand{});
-    }
+          op_(scratch.take<Op>(program.code.size())),
+          demanded_(scratch.take<std::uint32_t>(program.code.size())) {}
 
     std::optional<WorkingProgram> run(Arena& keep) {
         const std::span<ProgramOutput> room = scratch_.take<ProgramOutput>(program_.outputs.size());
@@ -70,9 +92,14 @@ class Pruner {
         const std::span<const ProgramOutput> outputs = room.first(count);
         if (!has_interface(outputs)) return std::nullopt;
 
-        for (const ProgramOutput& o : outputs) ask(o.value, {Demand::threshold, 0});
+        std::ranges::fill(demand_, Demand{});
+        for (const ProgramOutput& o : outputs) ask(o.value, Demand::threshold(0));
         for (auto i = static_cast<std::uint32_t>(program_.code.size()); i-- > 1;)
-            if (demand_[i].kind != Demand::none) resolve(i);
+            if (!demand_[i].is_none()) {
+                demanded_[demanded_count_++] = i;
+                resolve(i);
+            }
+        if (is_all_left(outputs)) return program_;
         const WorkingProgram left = rewritten(outputs);
         if (!has_interface(left.outputs)) return std::nullopt;
         if (left.outputs.size() == 2 && left.outputs[0].value != left.outputs[1].value)
@@ -86,41 +113,38 @@ class Pruner {
         return outputs.size() > 1 &&
                !std::ranges::all_of(outputs, [&](const ProgramOutput& o) { return opaque_.contains(o.phase); });
     }
-    void ask(std::uint32_t i, Demand d) {
-        Demand& known = demand_[i];
-        if (known.kind == Demand::none)
-            known = d;
-        else if (known.kind != d.kind || (d.kind == Demand::threshold && known.tau != d.tau))
-            known = {Demand::value, 0};
+    /// Whether every instruction is still what it was. Pruning wrote them as short as it could when it made them.
+    bool is_all_left(std::span<const ProgramOutput> outputs) const {
+        return !is_changed_ && outputs.size() == program_.outputs.size() &&
+               (outputs.size() != 2 || outputs[0].value == outputs[1].value) &&
+               ranges_.slope.data() == program_.lipschitz.data() && demanded_count_ + 1 == program_.code.size();
     }
+    void ask(std::uint32_t i, Demand d) { demand_[i] = demand_[i].with(d); }
 
     /// What is demanded, written anew; without phases whose component is nowhere negative.
     WorkingProgram rewritten(std::span<const ProgramOutput> outputs) {
-        const auto size = static_cast<std::uint32_t>(program_.code.size());
-        std::size_t demanded = 0;
-        for (const Demand& d : demand_) demanded += d.kind != Demand::none;
-        Rewriter rewriter(constants_, demanded, scratch_);
-        const std::span<SignedValue> written = scratch_.take<SignedValue>(size);
+        Rewriter rewriter(constants_, demanded_count_, scratch_);
+        const std::span<SignedValue> written = scratch_.take<SignedValue>(program_.code.size());
         written[0] = {};
-        for (std::uint32_t i = 1; i < size; ++i) {
-            const Demand& d = demand_[i];
-            if (d.kind == Demand::none) continue;
+        const std::span<const Instruction> code = program_.code;
+        const std::span<const float> slope = ranges_.slope;
+        for (std::size_t k = demanded_count_; k-- > 0;) {
+            const std::uint32_t i = demanded_[k];
             if (instead_[i] != i) {
                 written[i] = written[instead_[i]];
                 continue;
             }
-            const Instruction& in = program_.code[i];
-            const int n = operands(op_[i]);
-            written[i] =
-                rewriter.write(op_[i], n > 0 ? written[in.a] : SignedValue{}, n > 1 ? written[in.b] : SignedValue{},
-                               in.data, ranges_.slope[i], d.kind == Demand::threshold && d.tau == 0);
+            const Instruction& in = code[i];
+            written[i] = rewriter.write(op_[i], written[in.a], operands(op_[i]) > 1 ? written[in.b] : SignedValue{},
+                                        in.data, slope[i], demand_[i].is_sign());
         }
         const std::span<ProgramOutput> ends = scratch_.take<ProgramOutput>(outputs.size());
         std::size_t count = 0;
         for (const ProgramOutput& o : outputs) {
             const SignedValue& v = written[o.value];
-            const bool is_negative = v.is_negative != o.negate;
-            if (is_negative || rewriter.code()[v.id].op != Op::absolute) ends[count++] = {o.phase, v.id, is_negative};
+            const bool is_negative = v.is_negative() != o.negate;
+            if (is_negative || rewriter.code()[v.id()].op != Op::absolute)
+                ends[count++] = {o.phase, v.id(), is_negative};
         }
         return {rewriter.code(), rewriter.lipschitz(), ends.first(count)};
     }
@@ -129,13 +153,14 @@ class Pruner {
 
     void replace(std::uint32_t i, std::uint32_t by) {
         instead_[i] = by;
+        is_changed_ = true;
         ask(by, demand_[i]);
     }
 
     void resolve(std::uint32_t i) {
         const Instruction& in = program_.code[i];
         const Demand d = demand_[i];
-        const bool relative = d.kind == Demand::threshold;
+        const bool relative = d.is_threshold();
         const auto constant = [&] { return constants_[in.data]; };
         instead_[i] = i;
         op_[i] = in.op;
@@ -144,16 +169,16 @@ class Pruner {
                 if (low(in.b) > high(in.a)) return replace(i, in.a);
                 if (low(in.a) > high(in.b)) return replace(i, in.b);
                 if (relative) {
-                    if (low(in.a) > d.tau) return replace(i, in.b);
-                    if (low(in.b) > d.tau) return replace(i, in.a);
-                    if (high(in.a) < d.tau) return replace(i, in.a);
-                    if (high(in.b) < d.tau) return replace(i, in.b);
+                    if (low(in.a) > d.tau()) return replace(i, in.b);
+                    if (low(in.b) > d.tau()) return replace(i, in.a);
+                    if (high(in.a) < d.tau()) return replace(i, in.a);
+                    if (high(in.b) < d.tau()) return replace(i, in.b);
                 }
                 ask(in.a, d);
                 ask(in.b, d);
                 return;
             case Op::farther:
-                if (relative && d.tau == 0 && is_near_) return replace(i, in.a);
+                if (d.is_sign() && is_near_) return replace(i, in.a);
                 return resolve_maximum(i, d);
             case Op::maximum:
                 return resolve_maximum(i, d);
@@ -163,47 +188,48 @@ class Pruner {
                 if (low(in.a) > high(in.b) + r) return replace(i, in.b);
                 if (relative) {
                     // Beyond τ + r, what a takes off b is less than b's own distance from τ.
-                    if (low(in.a) > d.tau + r) return replace(i, in.b);
-                    if (low(in.b) > d.tau + r) return replace(i, in.a);
-                    if (high(in.a) < d.tau) return replace(i, in.a);
-                    if (high(in.b) < d.tau) return replace(i, in.b);
+                    if (low(in.a) > d.tau() + r) return replace(i, in.b);
+                    if (low(in.b) > d.tau() + r) return replace(i, in.a);
+                    if (high(in.a) < d.tau()) return replace(i, in.a);
+                    if (high(in.b) < d.tau()) return replace(i, in.b);
                 }
-                ask(in.a, {Demand::value, 0});
-                ask(in.b, {Demand::value, 0});
+                ask(in.a, Demand::value());
+                ask(in.b, Demand::value());
                 return;
             }
             case Op::guarded: {
                 const float half = 0.5f * constant();
-                if (low(in.a) > half || (relative && d.tau == 0 && low(in.a) > 0)) return replace(i, in.a);
+                if (low(in.a) > half || (d.is_sign() && low(in.a) > 0)) return replace(i, in.a);
                 // Without a jump the plain intersection has the same sign.
-                if (relative && d.tau == 0 && ranges_.slope[in.b] <= 2 * ranges_.slope[in.a]) {
+                if (d.is_sign() && ranges_.slope[in.b] <= 2 * ranges_.slope[in.a]) {
                     op_[i] = Op::maximum;
+                    is_changed_ = true;
                     return resolve_maximum(i, d);
                 }
-                ask(in.a, {Demand::value, 0});
-                ask(in.b, {Demand::value, 0});
+                ask(in.a, Demand::value());
+                ask(in.b, Demand::value());
                 return;
             }
             case Op::add:
                 // A skeleton out of reach adds nothing.
                 if (is_zero(in.a)) return replace(i, in.b);
                 if (is_zero(in.b)) return replace(i, in.a);
-                ask(in.a, {Demand::value, 0});
-                ask(in.b, {Demand::value, 0});
+                ask(in.a, Demand::value());
+                ask(in.b, Demand::value());
                 return;
             case Op::corner: {
                 // Where one is negative and the smaller, the corner is the other.
                 if (high(in.a) < 0 && low(in.b) > high(in.a)) return replace(i, in.b);
                 if (high(in.b) < 0 && low(in.a) > high(in.b)) return replace(i, in.a);
                 if (relative) {
-                    const float below = std::min(d.tau, 0.f);
+                    const float below = std::min(d.tau(), 0.f);
                     if (high(in.a) < below) return replace(i, in.b);
                     if (high(in.b) < below) return replace(i, in.a);
-                    if (low(in.a) > d.tau) return replace(i, in.a);
-                    if (low(in.b) > d.tau) return replace(i, in.b);
+                    if (low(in.a) > d.tau()) return replace(i, in.a);
+                    if (low(in.b) > d.tau()) return replace(i, in.b);
                 }
                 // Up to 0 it is the maximum, and so relative to a τ ≤ 0 it has the sign that the maximum has.
-                const Demand each = relative && d.tau <= 0 ? d : Demand{Demand::value, 0};
+                const Demand each = relative && d.tau() <= 0 ? d : Demand::value();
                 ask(in.a, each);
                 ask(in.b, each);
                 return;
@@ -212,21 +238,22 @@ class Pruner {
                 if (low(in.a) > 0) return replace(i, in.a);
                 if (high(in.a) < 0) {
                     op_[i] = Op::negate;
-                    return ask(in.a, relative ? Demand{Demand::threshold, -d.tau} : d);
+                    is_changed_ = true;
+                    return ask(in.a, relative ? Demand::threshold(-d.tau()) : d);
                 }
-                return ask(in.a, {Demand::value, 0});
+                return ask(in.a, Demand::value());
             case Op::negate:
-                return ask(in.a, relative ? Demand{Demand::threshold, -d.tau} : d);
+                return ask(in.a, relative ? Demand::threshold(-d.tau()) : d);
             case Op::add_constant:
-                return ask(in.a, relative ? Demand{Demand::threshold, d.tau - constant()} : d);
+                return ask(in.a, relative ? Demand::threshold(d.tau() - constant()) : d);
             case Op::constant_minus:
-                return ask(in.a, relative ? Demand{Demand::threshold, constant() - d.tau} : d);
+                return ask(in.a, relative ? Demand::threshold(constant() - d.tau()) : d);
             case Op::multiply_constant:
-                if (relative && constant() != 0) return ask(in.a, {Demand::threshold, d.tau / constant()});
-                return ask(in.a, {Demand::value, 0});
+                if (relative && constant() != 0) return ask(in.a, Demand::threshold(d.tau() / constant()));
+                return ask(in.a, Demand::value());
             default:
-                if (operands(in.op) > 0) ask(in.a, {Demand::value, 0});
-                if (operands(in.op) > 1) ask(in.b, {Demand::value, 0});
+                if (operands(in.op) > 0) ask(in.a, Demand::value());
+                if (operands(in.op) > 1) ask(in.b, Demand::value());
         }
     }
 
@@ -234,11 +261,11 @@ class Pruner {
         const Instruction& in = program_.code[i];
         if (low(in.a) > high(in.b)) return replace(i, in.a);
         if (low(in.b) > high(in.a)) return replace(i, in.b);
-        if (d.kind == Demand::threshold) {
-            if (high(in.a) < d.tau) return replace(i, in.b);
-            if (high(in.b) < d.tau) return replace(i, in.a);
-            if (low(in.a) > d.tau) return replace(i, in.a);
-            if (low(in.b) > d.tau) return replace(i, in.b);
+        if (d.is_threshold()) {
+            if (high(in.a) < d.tau()) return replace(i, in.b);
+            if (high(in.b) < d.tau()) return replace(i, in.a);
+            if (low(in.a) > d.tau()) return replace(i, in.a);
+            if (low(in.b) > d.tau()) return replace(i, in.b);
         }
         ask(in.a, d);
         ask(in.b, d);
@@ -260,6 +287,9 @@ class Pruner {
     std::span<Demand> demand_;
     std::span<std::uint32_t> instead_;  ///< what a value is replaced by: itself, or an earlier one
     std::span<Op> op_;
+    std::span<std::uint32_t> demanded_;  ///< what is, from the last one on
+    std::size_t demanded_count_ = 0;
+    bool is_changed_ = false;
 };
 
 /// Slopes within the ball. A fold of space jumps, which is recorded as a slope of FoldMap::jump; in a ball that
@@ -267,7 +297,6 @@ class Pruner {
 /// more than half of `far` wherever the fold jumps.
 std::span<const float> local_slopes(const WorkingProgram& program, std::span<const float> constants,
                                     const ValuesAt& value, float radius, float rounding, Arena& scratch) {
-    if (std::ranges::none_of(program.lipschitz, [](float l) { return l > half_a_jump; })) return program.lipschitz;
     const std::span<float> slope = scratch.copy(program.lipschitz);
     const auto size = static_cast<std::uint32_t>(program.code.size());
     const std::span<char> is_still = scratch.take<char>(size);  // folds without a jump in the ball
@@ -307,9 +336,8 @@ LedProgram first_component_first(const WorkingProgram& program, Arena& keep, Are
         for (std::uint32_t i = 0; i < size; ++i) {
             if (first.has(i) != is_first) continue;
             const Instruction& in = program.code[i];
-            const int n = operands(in.op);
             renumbered[i] = count;
-            code[count] = {in.op, n > 0 ? renumbered[in.a] : 0, n > 1 ? renumbered[in.b] : 0, in.data};
+            code[count] = {in.op, i > 0 ? renumbered[in.a] : 0, i > 0 ? renumbered[in.b] : 0, in.data};
             lipschitz[count++] = program.lipschitz[i];
         }
     for (ProgramOutput& o : outputs) o.value = renumbered[o.value];
@@ -328,9 +356,14 @@ float finest_jump(const WorkingProgram& program, std::span<const float> constant
     return finest;
 }
 
+bool may_jump(const WorkingProgram& program) {
+    return std::ranges::any_of(program.lipschitz, [](float l) { return l > half_a_jump; });
+}
+
 ValueRanges ranges_in_ball(const WorkingProgram& program, std::span<const float> constants, const ValuesAt& centre,
-                           float radius, float rounding, Arena& scratch) {
-    const std::span<const float> slope = local_slopes(program, constants, centre, radius, rounding, scratch);
+                           bool may_jump, float radius, float rounding, Arena& scratch) {
+    const std::span<const float> slope =
+        may_jump ? local_slopes(program, constants, centre, radius, rounding, scratch) : program.lipschitz;
     const std::span<float> low = scratch.take<float>(slope.size()), high = scratch.take<float>(slope.size());
     for (std::size_t i = 0; i < slope.size(); ++i) {
         const float value = centre[i], slack = slope[i] * radius + rounding;

@@ -8,7 +8,8 @@
 
 namespace phasetree {
 
-/// A program in the course of pruning: as Program, but its constants stay those of the whole. Its memory is an arena's.
+/// A program in the course of pruning: as Program, but its constants stay those of the whole, and operands that an
+/// operation does not take are 0, the input. Its memory is an arena's.
 struct WorkingProgram {
     std::span<const Instruction> code;
     std::span<const float> lipschitz;
@@ -29,13 +30,16 @@ struct ValueRanges {
     std::span<const float> low, high, slope;
 };
 
+/// Whether anything in it has a slope that only a jump can have.
+bool may_jump(const WorkingProgram&);
+
 /// In a ball about a point with these values, by Lipschitz bounds. `rounding` bounds the error of any value.
 ValueRanges ranges_in_ball(const WorkingProgram&, std::span<const float> constants, const ValuesAt& centre,
-                           float radius, float rounding, Arena& scratch);
+                           bool may_jump, float radius, float rounding, Arena& scratch);
 
 /// What is left of a program in a region where its values are within these ranges, if an interface may pass through it
-/// that a ray can meet, which is in a phase that is not opaque; nothing otherwise. The result is in `keep`; `scratch`
-/// is left as it was.
+/// that a ray can meet, which is in a phase that is not opaque; nothing otherwise. The result is in `keep`, or it is
+/// the program itself, if that was pruned before and all of it is left; `scratch` is left as it was.
 ///
 /// What remains gives the same labels in the region, and its components' absolute values are still lower bounds of the
 /// distance to where the label changes there. See prune.cpp.

@@ -14,9 +14,8 @@ class Reach {
         for (std::size_t i = program.code.size(); i-- > 1;) {
             if (!is_reached_[i]) continue;
             ++size_;
-            const Instruction& in = program.code[i];
-            if (operands(in.op) > 0) is_reached_[in.a] = 1;
-            if (operands(in.op) > 1) is_reached_[in.b] = 1;
+            is_reached_[program.code[i].a] = 1;
+            is_reached_[program.code[i].b] = 1;
         }
     }
     std::size_t size() const { return size_; }
@@ -33,8 +32,7 @@ class Reach {
             renumbered[i] = count;
             if (i > 0 && !is_reached_[i]) continue;
             const Instruction& in = program_.code[i];
-            const int n = operands(in.op);
-            code[count] = {in.op, n > 0 ? renumbered[in.a] : 0, n > 1 ? renumbered[in.b] : 0, in.data};
+            code[count] = {in.op, renumbered[in.a], renumbered[in.b], in.data};
             lipschitz[count++] = program_.lipschitz[i];
         }
         for (std::size_t k = 0; k < outputs_.size(); ++k)

@@ -42,7 +42,7 @@ Rewriter::Rewriter(std::span<const float> constants, std::size_t instructions, A
     code_ = scratch.take<Instruction>(most);
     lipschitz_ = scratch.take<float>(most);
     twin_ = scratch.take<std::uint32_t>(most);
-    known_ = scratch.take<std::uint32_t>(std::bit_ceil(2 * most));
+    known_ = scratch.take<std::uint32_t>(std::bit_ceil(most + 1));  // mostly a third of it is used
     std::ranges::fill(known_, 0u);
     code_[0] = {};
     lipschitz_[0] = 1;
@@ -51,14 +51,17 @@ Rewriter::Rewriter(std::span<const float> constants, std::size_t instructions, A
 }
 
 SignedValue Rewriter::emit(Op op, std::uint32_t a, std::uint32_t b, std::uint32_t data, float lipschitz) {
+    const bool is_constant = has_one_constant(op), is_index = has_data(op);
     const auto content = [&](std::uint32_t index) {
-        return has_one_constant(op) ? std::bit_cast<std::uint32_t>(constants_[index]) : has_data(op) ? index : 0u;
+        return is_constant ? std::bit_cast<std::uint32_t>(constants_[index]) : is_index ? index : 0u;
     };
     const bool is_swapped = is_commutative(op) && b < a;
     const std::uint32_t first = is_swapped ? b : a, second = is_swapped ? a : b;
-    std::uint64_t hash = static_cast<std::uint64_t>(op);
-    for (const std::uint32_t word : {first, second, content(data)})
-        hash = (hash ^ word) * 0x9e3779b97f4a7c15u, hash ^= hash >> 29;
+    const std::uint32_t known_content = content(data);
+    std::uint64_t hash = static_cast<std::uint64_t>(op) * 0x9e3779b97f4a7c15u +
+                         std::uint64_t{first} * 0xbf58476d1ce4e5b9u + std::uint64_t{second} * 0x94d049bb133111ebu +
+                         std::uint64_t{known_content} * 0xd6e8feb86659fd93u;
+    hash ^= hash >> 32;
     for (std::size_t at = hash & (known_.size() - 1);; at = (at + 1) & (known_.size() - 1)) {
         const std::uint32_t found = known_[at];
         if (found == 0) {
@@ -67,7 +70,7 @@ SignedValue Rewriter::emit(Op op, std::uint32_t a, std::uint32_t b, std::uint32_
         }
         const Instruction& in = code_[found];
         const bool is_same = (in.a == a && in.b == b) || (is_commutative(op) && in.a == b && in.b == a);
-        if (in.op == op && is_same && content(in.data) == content(data)) return {found, false};
+        if (in.op == op && is_same && content(in.data) == known_content) return {found, false};
     }
     code_[size_] = {op, a, b, data};
     lipschitz_[size_] = lipschitz;
@@ -84,9 +87,9 @@ std::uint32_t Rewriter::negated(std::uint32_t v) {
     if (more_ && (in.op == Op::add_constant || in.op == Op::constant_minus)) {
         more_->push_back(-constants_[in.data]);
         const Op other = in.op == Op::add_constant ? Op::constant_minus : Op::add_constant;
-        n = emit(other, in.a, 0, static_cast<std::uint32_t>(more_->size() - 1), l).id;
+        n = emit(other, in.a, 0, static_cast<std::uint32_t>(more_->size() - 1), l).id();
     } else {
-        n = emit(Op::negate, v, 0, 0, l).id;
+        n = emit(Op::negate, v, 0, 0, l).id();
     }
     twin_[v] = n;
     twin_[n] = v;
@@ -95,15 +98,15 @@ std::uint32_t Rewriter::negated(std::uint32_t v) {
 
 /// Of a value and its twin the one that was there first.
 SignedValue Rewriter::canonical(const SignedValue& v) const {
-    const std::uint32_t twin = twin_[v.id];
-    return twin && twin < v.id ? SignedValue{twin, !v.is_negative} : v;
+    const std::uint32_t twin = twin_[v.id()];
+    return twin && twin < v.id() ? SignedValue{twin, !v.is_negative()} : v;
 }
 
 /// The operands of a value that is the minimum, or maximum, of two.
 std::optional<Rewriter::Pair> Rewriter::operands_if(Op op, const SignedValue& v) const {
-    const Instruction& in = code_[v.id];
-    if (in.op != (v.is_negative ? mirrored(op) : op)) return std::nullopt;
-    return Pair{canonical({in.a, v.is_negative}), canonical({in.b, v.is_negative})};
+    const Instruction& in = code_[v.id()];
+    if (in.op != (v.is_negative() ? mirrored(op) : op)) return std::nullopt;
+    return Pair{canonical({in.a, v.is_negative()}), canonical({in.b, v.is_negative()})};
 }
 
 SignedValue Rewriter::extremum(Op op, SignedValue a, SignedValue b, float lipschitz, bool is_sign_enough) {
@@ -114,10 +117,10 @@ SignedValue Rewriter::extremum(Op op, SignedValue a, SignedValue b, float lipsch
         if (is_sign_enough && (inner->a == -a || inner->b == -a)) b = inner->a == -a ? inner->b : inner->a;
     }
     if (a == b) return a;
-    if (a == -b) return {emit(Op::absolute, a.id, 0, 0, lipschitz).id, op == Op::minimum};
-    const bool is_negative = a.is_negative == b.is_negative
-                                 ? a.is_negative
-                                 : twin_[(a.is_negative ? a : b).id] == 0 && twin_[(a.is_negative ? b : a).id] != 0;
+    if (a == -b) return {emit(Op::absolute, a.id(), 0, 0, lipschitz).id(), op == Op::minimum};
+    const bool is_negative = a.is_negative() == b.is_negative() ? a.is_negative()
+                                                                : twin_[(a.is_negative() ? a : b).id()] == 0 &&
+                                                                      twin_[(a.is_negative() ? b : a).id()] != 0;
     if (!is_negative) return emit(op, plain(a), plain(b), 0, lipschitz);
     return -emit(mirrored(op), plain(-a), plain(-b), 0, lipschitz);
 }
@@ -134,19 +137,19 @@ SignedValue Rewriter::write(Op op, const SignedValue& left, const SignedValue& r
         case Op::add:
         case Op::subtract: {
             // ±(|a| + |b|) or ±(|a| − |b|)
-            const bool is_difference = a.is_negative != (b.is_negative != (op == Op::subtract));
-            if (!is_difference) return {emit(Op::add, a.id, b.id, 0, lipschitz).id, a.is_negative};
-            return {emit(Op::subtract, a.id, b.id, 0, lipschitz).id, a.is_negative};
+            const bool is_difference = a.is_negative() != (b.is_negative() != (op == Op::subtract));
+            if (!is_difference) return {emit(Op::add, a.id(), b.id(), 0, lipschitz).id(), a.is_negative()};
+            return {emit(Op::subtract, a.id(), b.id(), 0, lipschitz).id(), a.is_negative()};
         }
         case Op::add_constant:
-            return emit(a.is_negative ? Op::constant_minus : Op::add_constant, a.id, 0, data, lipschitz);
+            return emit(a.is_negative() ? Op::constant_minus : Op::add_constant, a.id(), 0, data, lipschitz);
         case Op::constant_minus:
-            return emit(a.is_negative ? Op::add_constant : Op::constant_minus, a.id, 0, data, lipschitz);
+            return emit(a.is_negative() ? Op::add_constant : Op::constant_minus, a.id(), 0, data, lipschitz);
         case Op::multiply_constant:
-            return {emit(op, a.id, 0, data, lipschitz).id, a.is_negative};
+            return {emit(op, a.id(), 0, data, lipschitz).id(), a.is_negative()};
         case Op::absolute:
-            if (code_[a.id].op == Op::absolute) return {a.id, false};
-            return emit(op, a.id, 0, 0, lipschitz);
+            if (code_[a.id()].op == Op::absolute) return {a.id(), false};
+            return emit(op, a.id(), 0, 0, lipschitz);
         default:
             return emit(op, plain(a), plain(b), data, lipschitz);
     }
@@ -167,7 +170,7 @@ WorkingProgram rewrite(Program& program, Arena& arena) {
     const std::span<ProgramOutput> outputs = arena.take<ProgramOutput>(program.outputs.size());
     for (std::size_t k = 0; k < outputs.size(); ++k) {
         const SignedValue& v = written[program.outputs[k].value];
-        outputs[k] = {program.outputs[k].phase, v.id, v.is_negative};
+        outputs[k] = {program.outputs[k].phase, v.id(), v.is_negative()};
     }
     return {rewriter.code(), rewriter.lipschitz(), outputs};
 }

@@ -5,13 +5,19 @@
 
 namespace phasetree {
 
-/// A value as another one and a sign.
-struct SignedValue {
-    std::uint32_t id = 0;
-    bool is_negative = false;
+/// A value as another one and a sign: in one word, which is written and read again as a whole.
+class SignedValue {
+  public:
+    SignedValue() = default;
+    SignedValue(std::uint32_t id, bool is_negative) : word_(2 * id + (is_negative ? 1 : 0)) {}
 
-    SignedValue operator-() const { return {id, !is_negative}; }
+    std::uint32_t id() const { return word_ / 2; }
+    bool is_negative() const { return word_ % 2 != 0; }
+    SignedValue operator-() const { return {id(), !is_negative()}; }
     bool operator==(const SignedValue&) const = default;
+
+  private:
+    std::uint32_t word_ = 0;
 };
 
 /// Writes a program anew, instruction by instruction, so that it is shorter:
@@ -43,7 +49,7 @@ class Rewriter {
     SignedValue emit(Op, std::uint32_t a, std::uint32_t b, std::uint32_t data, float lipschitz);
     SignedValue extremum(Op, SignedValue a, SignedValue b, float lipschitz, bool is_sign_enough);
     std::uint32_t negated(std::uint32_t);
-    std::uint32_t plain(const SignedValue& v) { return v.is_negative ? negated(v.id) : v.id; }
+    std::uint32_t plain(const SignedValue& v) { return v.is_negative() ? negated(v.id()) : v.id(); }
     SignedValue canonical(const SignedValue&) const;
     std::optional<Pair> operands_if(Op, const SignedValue&) const;
 

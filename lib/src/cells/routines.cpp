@@ -1,19 +1,57 @@
 #include "cells/routines.hpp"
 
+#include <algorithm>
+#include <ranges>
+
 namespace phasetree {
 
+namespace {
+
+bool is_equal(const Instruction& a, const Instruction& b) {
+    return a.op == b.op && a.a == b.a && a.b == b.b && a.data == b.data;
+}
+bool is_equal(const ProgramOutput& a, const ProgramOutput& b) {
+    return a.phase == b.phase && a.value == b.value && a.negate == b.negate;
+}
+constexpr auto is_leaf = [](const ProofPart& part) { return part.kind == ProofStep::leaf; };
+
+/// What a routine has to know of a proof: which values it speaks of, in which order.
+auto values_of(std::span<const ProofPart> proof) {
+    return proof | std::views::filter(is_leaf) | std::views::transform(&ProofPart::value);
+}
+
+}  // namespace
+
+Routines::Key Routines::key_of(const Found& found, const Found::Cell& cell) {
+    std::uint64_t hash = cell.leading;
+    const auto put = [&](std::uint64_t first, std::uint64_t second) {
+        hash = (hash ^ first) * 0x9e3779b97f4a7c15u + second * 0xbf58476d1ce4e5b9u;
+        hash ^= hash >> 32;
+    };
+    const auto both = [](std::uint64_t high, std::uint32_t low) { return high << 32 | low; };
+    for (const Instruction& in : found.code_of(cell))
+        put(both(static_cast<std::uint32_t>(in.op), in.data), both(in.a, in.b));
+    for (const ProgramOutput& o : found.outputs_of(cell)) put(both(o.phase.index, o.value), o.negate);
+    for (const std::uint32_t value : values_of(found.proof_of(cell))) put(value, 1);
+    return {&found, &cell, hash};
+}
+
+bool Routines::Key::operator==(const Key& other) const {
+    const auto are_equal = [](const auto& a, const auto& b) {
+        return std::ranges::equal(a, b, [](const auto& x, const auto& y) { return is_equal(x, y); });
+    };
+    return hash == other.hash && cell->leading == other.cell->leading &&
+           are_equal(found->code_of(*cell), other.found->code_of(*other.cell)) &&
+           are_equal(found->outputs_of(*cell), other.found->outputs_of(*other.cell)) &&
+           std::ranges::equal(values_of(found->proof_of(*cell)), values_of(other.found->proof_of(*other.cell)));
+}
+
 const Routines::Ready& Routines::add(const Found& found, const Found::Cell& cell) {
+    const Key key = key_of(found, cell);
+    if (const auto known = known_.find(key); known != known_.end()) return known->second;
     kept_.clear();
-    for (const ProofPart& part : found.proof_of(cell))
-        if (part.kind == ProofStep::leaf) kept_.push_back(part.value);
-    key_.clear();
-    const auto put = [&](auto... words) { (key_.push_back(static_cast<char32_t>(words)), ...); };
-    for (const Instruction& in : found.code_of(cell)) put(in.op, in.a, in.b, in.data);
-    for (const ProgramOutput& o : found.outputs_of(cell)) put(o.phase.index, o.value, o.negate);
-    put(cell.leading, found.outputs_of(cell).size());
-    for (const std::uint32_t v : kept_) put(v);
-    if (const auto known = known_.find(key_); known != known_.end()) return known->second;
-    return known_.emplace(key_, make(found, cell)).first->second;
+    for (const std::uint32_t value : values_of(found.proof_of(cell))) kept_.push_back(value);
+    return known_.emplace(key, make(found, cell)).first->second;
 }
 
 Routines::Ready Routines::make(const Found& found, const Found::Cell& cell) {

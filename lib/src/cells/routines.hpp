@@ -1,7 +1,6 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -20,6 +19,7 @@ class Routines {
         std::uint32_t first_step, steps, leading, first_output, outputs, slots;
         std::uint32_t first_kept;  ///< where the slots start of the values that the proof speaks of, in its order
     };
+    /// What was found must stay as long as others are added.
     const Ready& add(const Found&, const Found::Cell&);
     /// The proof of a cell whose routine this is, appended.
     void add_proof(const Ready&, std::span<const ProofPart>, std::vector<ProofStep>&) const;
@@ -31,9 +31,21 @@ class Routines {
   private:
     Ready make(const Found&, const Found::Cell&);
 
+    /// A cell's program, where it was found.
+    struct Key {
+        const Found* found;
+        const Found::Cell* cell;
+        std::size_t hash;
+
+        bool operator==(const Key&) const;
+    };
+    struct Hash {
+        std::size_t operator()(const Key& key) const { return key.hash; }
+    };
+    static Key key_of(const Found&, const Found::Cell&);
+
     Fuser fuse_;
-    std::unordered_map<std::u32string, Ready> known_;
-    std::u32string key_;
+    std::unordered_map<Key, Ready, Hash> known_;
     std::vector<std::uint32_t> kept_, kept_slots_;
 };
 

@@ -37,33 +37,37 @@ std::uint32_t size_of(Op op) {
 
 }  // namespace
 
-bool gives_point(Op op) {
-    const auto code = static_cast<std::uint32_t>(op);
-    return op == Op::input || (code >= first_map && code < first_placed);
-}
-
 namespace {
+
+constexpr std::size_t operation_count = first_placed + Primitives::size;
+
 template <class... Ps>
 constexpr auto long_ones(TypeList<Ps...>) {
     return std::array<bool, sizeof...(Ps)>{LongPrimitive<Ps>...};
 }
+
+constexpr auto all_traits() {
+    std::array<OpTraits, operation_count> all{};
+    constexpr auto first_primitive = static_cast<std::size_t>(Op::first_primitive);
+    const auto of = [&](Op op) -> OpTraits& { return all[static_cast<std::size_t>(op)]; };
+    of(Op::input) = {.operands = 0, .gives_point = true};
+    for (const Op op :
+         {Op::add, Op::subtract, Op::minimum, Op::maximum, Op::farther, Op::smooth_minimum, Op::guarded, Op::corner})
+        of(op).operands = 2;
+    constexpr auto is_long = long_ones(Primitives());
+    for (std::size_t i = 0; i < Primitives::size + DataPrimitives::size; ++i)
+        all[first_primitive + i].is_long_primitive = i >= is_long.size() || is_long[i];  // then come those with data
+    for (std::size_t i = first_primitive; i < all.size(); ++i) all[i].half_works = all[i].is_long_primitive ? 120 : 3;
+    for (std::size_t i = first_map; i < first_placed; ++i) all[i].gives_point = true;
+    all[first_map + index_in<FoldMap>(PointMaps())].is_fold = true;
+    all[first_primitive + Primitives::size + index_in<Siren::Network>(DataPrimitives())].is_network = true;
+    return all;
+}
+constexpr auto known_traits = all_traits();
+
 }  // namespace
 
-bool is_long_primitive(Op op) {
-    static constexpr auto primitives = long_ones(Primitives());
-    if (op < Op::first_primitive || static_cast<std::uint32_t>(op) >= first_map) return false;
-    const std::size_t index = static_cast<std::uint32_t>(op) - static_cast<std::uint32_t>(Op::first_primitive);
-    return index >= primitives.size() || primitives[index];  // then come those with data
-}
-
-bool is_network(Op op) {
-    constexpr auto index = Primitives::size + index_in<Siren::Network>(DataPrimitives());
-    return static_cast<std::uint32_t>(op) == static_cast<std::uint32_t>(Op::first_primitive) + index;
-}
-
-bool is_fold(Op op) {
-    return static_cast<std::uint32_t>(op) == first_map + static_cast<std::uint32_t>(index_in<FoldMap>(PointMaps()));
-}
+const OpTraits* const op_traits = known_traits.data();
 
 std::uint32_t assemble(std::span<const Instruction> code, std::span<const ProgramOutput> outputs,
                        std::span<KeptValue> kept, std::vector<Step>& steps, std::vector<OutputSlot>& ends) {

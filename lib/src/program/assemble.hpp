@@ -35,33 +35,32 @@ std::uint32_t assemble(std::span<const Instruction> code, std::span<const Progra
 
 std::vector<ProgramOutput> outputs_of(const Program&);
 
-/// How many values an operation takes.
-inline int operands(Op op) {
-    switch (op) {
-        case Op::input:
-            return 0;
-        case Op::add:
-        case Op::subtract:
-        case Op::minimum:
-        case Op::maximum:
-        case Op::farther:
-        case Op::smooth_minimum:
-        case Op::guarded:
-        case Op::corner:
-            return 2;
-        default:
-            return 1;
-    }
-}
-/// Whether an operation's result is a point and not a number.
-bool gives_point(Op);
+/// What is known of an operation.
+struct OpTraits {
+    std::uint8_t operands = 1;       ///< how many values it takes
+    std::uint8_t half_works = 2;     ///< how much work it is, in halves of a simple one
+    bool gives_point = false;        ///< its result is a point and not a number
+    bool is_long_primitive = false;  ///< a primitive whose equation is long (concepts.hpp)
+    bool is_network = false;         ///< a neural field: Siren::Network
+    bool is_fold = false;            ///< a fold of space, which jumps
+};
+extern const OpTraits* const op_traits;  ///< of every operation, those of fused.hpp too
 
-/// Whether an operation is a primitive whose equation is long (concepts.hpp).
-bool is_long_primitive(Op);
-/// Whether it is a neural field: Siren::Network.
-bool is_network(Op);
-/// Whether an operation is a fold of space, which jumps.
-bool is_fold(Op);
+inline const OpTraits& traits(Op op) {
+    return op_traits[static_cast<std::size_t>(op)];
+}
+inline int operands(Op op) {
+    return traits(op).operands;
+}
+inline bool gives_point(Op op) {
+    return traits(op).gives_point;
+}
+inline bool is_long_primitive(Op op) {
+    return traits(op).is_long_primitive;
+}
+inline bool is_fold(Op op) {
+    return traits(op).is_fold;
+}
 
 /// Gradient of one component at a point, by dual numbers.
 glm::vec3 gradient(const Routine&, std::uint32_t slots, const glm::vec3& p, Phase);

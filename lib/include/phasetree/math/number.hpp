@@ -109,6 +109,16 @@ T select_smoothly(const Condition& condition, const T& yes, const T& no) {
     return select(condition, yes, no);
 }
 
+/// The same of functions that give the two: a number type that knows which one it is asks only that.
+template <class Condition, class Yes, class No>
+[[gnu::always_inline]] inline auto choose_smoothly(const Condition& condition, const Yes& yes, const No& no) {
+    return select_smoothly(condition, yes(), no());
+}
+template <class Yes, class No>
+[[gnu::always_inline]] inline auto choose_smoothly(bool condition, const Yes& yes, const No& no) {
+    return condition ? yes() : no();
+}
+
 /// What else f is, where that is certain: for who wants to know. `other(certainly)` gives whether and what, asking
 /// certainly(comparison).
 template <class T, class Other>

@@ -88,6 +88,14 @@ inline Enclosure select_smoothly(const Decision& d, const Enclosure& yes, const 
     return r;
 }
 
+/// Where a comparison is decided there is only one branch.
+template <class Yes, class No>
+Enclosure choose_smoothly(const Decision& d, const Yes& yes, const No& no) {
+    if (!d.can_be_false) return yes();
+    if (!d.can_be_true) return no();
+    return select_smoothly(d, yes(), no());
+}
+
 template <class Other>
 Enclosure also_known_as(const Enclosure& f, const Other& other) {
     const auto [is_certain, g] = other([](const Decision& d) { return !d.can_be_false; });

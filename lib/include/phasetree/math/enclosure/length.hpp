@@ -49,50 +49,58 @@ Enclosure with_curvature_of_length(Enclosure f, const std::array<const Enclosure
 /// Whether their gradients are constant, as a point's coordinates' mostly are.
 template <std::size_t n>
 bool are_affine(const std::array<const Enclosure*, n>& x) {
+    double width = 0;
     for (const Enclosure* e : x) {
-        if (e->curvature.low != 0 || e->curvature.high != 0) return false;
-        for (const Range& g : e->gradient)
-            if (g.low != g.high) return false;
+        width += std::abs(e->curvature.low) + std::abs(e->curvature.high);
+        for (const Range& g : e->gradient) width += std::abs(g.high - g.low);
     }
-    return true;
+    return width == 0;
 }
-/// The length of a vector of such, without the detour over its square.
+/// The length of a vector of such, without the detour over its square. Of four numbers for three axes, because these
+/// loops are what vector registers are for.
 template <std::size_t n>
 Enclosure length_of_affine(const std::array<const Enclosure*, n>& x) {
+    using Axes = std::array<double, 4>;
+    std::array<Axes, n> slope;
     Range squared{};
     double at_centre = 0;
-    for (const Enclosure* e : x) {
-        const Range s = square(e->value);
+    for (std::size_t k = 0; k < n; ++k) {
+        const Enclosure& e = *x[k];
+        const Range s = square(e.value);
         squared.low += s.low;
         squared.high += s.high;
-        at_centre += e->centre * e->centre;
+        at_centre += e.centre * e.centre;
+        slope[k] = {e.gradient[0].low, e.gradient[1].low, e.gradient[2].low, 0};
+    }
+    std::array<Axes, 3> product{};  // of the Jacobian with itself
+    Axes low{}, high{}, middle{};   // of the vector's product with it
+    for (std::size_t k = 0; k < n; ++k) {
+        const Enclosure& e = *x[k];
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t j = 0; j < 4; ++j) product[i][j] += slope[k][i] * slope[k][j];
+        for (std::size_t j = 0; j < 4; ++j) {
+            const double one = e.value.low * slope[k][j], other = e.value.high * slope[k][j];
+            low[j] += one < other ? one : other;
+            high[j] += one < other ? other : one;
+            middle[j] += e.centre * slope[k][j];
+        }
     }
     Enclosure f;
     f.centre = std::sqrt(at_centre);
     f.value = limited(std::sqrt(squared.low), std::sqrt(squared.high));
-    std::array<std::array<double, 3>, 3> product{};  // of the Jacobian with itself
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = i; j < 3; ++j) {
-            for (const Enclosure* e : x) product[i][j] += e->gradient[i].low * e->gradient[j].low;
-            product[j][i] = product[i][j];
-        }
     double stretch = 0;
-    for (const auto& row : product) stretch = std::max(stretch, std::abs(row[0]) + std::abs(row[1]) + std::abs(row[2]));
+    for (const Axes& row : product) stretch = std::max(stretch, std::abs(row[0]) + std::abs(row[1]) + std::abs(row[2]));
     const Range inverse = f.value.low > 0 ? limited(1 / f.value.high, 1 / f.value.low)
                                           : limited(f.value.high > 0 ? 1 / f.value.high : 0, Range::most);
+    // The inverse is positive.
+    const auto times_inverse = [&](double l, double h) {
+        return limited(l < 0 ? l * inverse.high : l * inverse.low, h > 0 ? h * inverse.high : h * inverse.low);
+    };
     for (std::size_t i = 0; i < 3; ++i) {
-        Range sum{};
-        double sum_at_centre = 0;
-        for (const Enclosure* e : x) {
-            const double g = e->gradient[i].low;
-            if (g == 0) continue;
-            sum = sum + e->value * g;
-            sum_at_centre += e->centre * g;
-        }
         const double steepest = std::sqrt(product[i][i]);
-        const Range slope = sum * inverse;
-        f.gradient[i] = {std::max(slope.low, -steepest), std::min(slope.high, steepest)};
-        f.centre_gradient[i] = f.centre > 0 ? sum_at_centre / f.centre : 0;
+        const Range g = times_inverse(std::max(low[i], -Range::most), std::min(high[i], Range::most));
+        f.gradient[i] = {std::max(g.low, -steepest), std::min(g.high, steepest)};
+        f.centre_gradient[i] = f.centre > 0 ? middle[i] / f.centre : 0;
     }
     const Range bends = limited(0, stretch);
     f.curvature = f.value.low > 0 ? bends * inverse : limited(0, Range::most);

@@ -34,7 +34,8 @@ struct Enclosure {
 
     Enclosure() = default;
     explicit Enclosure(float v) : centre(static_cast<double>(v)), value{centre, centre} {}
-    Enclosure(double c, const Range& v, const std::array<Range, 3>& g, const Vector& cg, const Range& b)
+    [[gnu::always_inline]] Enclosure(double c, const Range& v, const std::array<Range, 3>& g, const Vector& cg,
+                                     const Range& b)
         : centre(c), value(v), gradient(g), centre_gradient(cg), curvature(b), value_curvature(v * b) {}
 
     /// A coordinate of a point of the box.
@@ -46,17 +47,19 @@ struct Enclosure {
         e.centre_gradient[static_cast<std::size_t>(axis)] = 1;
         return e;
     }
-    /// With the value's range cut to what the gradient allows in a box of these half extents.
+    /// Cuts the value's range to what the gradient allows in a box of these half extents.
+    void tighten(const Vector& half) {
+        const double reach =
+            gradient[0].magnitude() * half[0] + gradient[1].magnitude() * half[1] + gradient[2].magnitude() * half[2];
+        const double low = std::max(value.low, centre - reach), high = std::min(value.high, centre + reach);
+        value = {std::min(low, high), std::max(low, high)};  // one number, but for rounding, if they cross
+    }
     Enclosure tightened(const Vector& half) const {
-        double reach = 0;
-        for (std::size_t i = 0; i < 3; ++i) reach += gradient[i].magnitude() * half[i];
         Enclosure e = *this;
-        e.value.low = std::max(value.low, centre - reach);
-        e.value.high = std::min(value.high, centre + reach);
-        if (e.value.low > e.value.high) std::swap(e.value.low, e.value.high);  // one number, but for rounding
+        e.tighten(half);
         return e;
     }
-    void set_curvature(const Range& c) {
+    [[gnu::always_inline]] void set_curvature(const Range& c) {
         curvature = c;
         value_curvature = value * c;
     }
@@ -70,11 +73,11 @@ struct Enclosure {
 
 namespace detail {
 template <class F>
-std::array<Range, 3> each_axis(F&& f) {
+[[gnu::always_inline]] inline std::array<Range, 3> each_axis(F&& f) {
     return {f(std::size_t{0}), f(std::size_t{1}), f(std::size_t{2})};
 }
 template <class F>
-Enclosure::Vector each_number(F&& f) {
+[[gnu::always_inline]] inline Enclosure::Vector each_number(F&& f) {
     return {f(std::size_t{0}), f(std::size_t{1}), f(std::size_t{2})};
 }
 /// Of the products of two numbers' slopes.

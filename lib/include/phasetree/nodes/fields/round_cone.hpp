@@ -47,9 +47,11 @@ struct RoundCone {
         const T x = dot(q, axis);
         const T y = length(Vec3<T>{q.x - x * axis.x, q.y - x * axis.y, q.z - x * axis.z});
         const T k = x * cosine - y * sine;
-        const T side = x * sine + y * cosine - radius_from;
-        const T second = select_smoothly(less(T(cosine * separation), k), length(p - to) - radius_to, side);
-        return select_smoothly(less(k, T(0.f)), length(q) - radius_from, second);
+        const auto at_first = [&] { return length(q) - radius_from; };
+        const auto at_second = [&] { return length(p - to) - radius_to; };
+        const auto at_side = [&] { return x * sine + y * cosine - radius_from; };
+        const auto behind = [&] { return choose_smoothly(less(T(cosine * separation), k), at_second, at_side); };
+        return choose_smoothly(less(k, T(0.f)), at_first, behind);
     }
     Bounds bounds(BoundsQuery&, float level) const {
         return unite(Bounds{from, from}.inflated(radius_from + std::max(level, -radius_from)),
