@@ -22,7 +22,7 @@ namespace {
 struct Patience {
     float large = 0.06f;
     int divisions = 2;
-    float uneven = Bounds::infinity;  ///< a gradient that varies more is divided, too,
+    float uneven = Bounds::infinity;  ///< where a gradient varies by a larger share of it, it goes on, too,
     float fine = 0.004f;              ///< down to this part of the object
 
     Patience() = default;
@@ -222,8 +222,10 @@ float divide(const Share& share, const Division& d, Worker& w) {
         // An object's features are smaller than a period of a fold, too.
         const float coarse = std::isfinite(part.period) ? 0.25f * part.period : part.patience.large * d.size;
         const float diagonal = part.box.diagonal();
-        const bool is_too_coarse = diagonal > coarse || (part.cell.bound.spread > part.patience.uneven &&
-                                                         diagonal > part.patience.fine * d.size);
+        const LinearBound& bound = part.cell.bound;
+        const bool is_uneven =
+            bound.slack < Bounds::infinity && bound.spread > part.patience.uneven * glm::length(bound.normal);
+        const bool is_too_coarse = diagonal > coarse || (is_uneven && diagonal > part.patience.fine * d.size);
         part.stale = is_won || is_too_coarse ? 0 : share.stale + 1;
         part.left = is_won ? 1.f : left;
         costs[i] = find_cells(part, d, own);
