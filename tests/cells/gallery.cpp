@@ -1,0 +1,29 @@
+// The gallery's objects, which have nodes of all kinds at their real sizes: over their cells, every interface of the
+// whole object and no other.
+#include <doctest/doctest.h>
+
+#include <filesystem>
+
+#include "phasetree/reading/tree.hpp"
+#include "support/compared_crossings.hpp"
+
+using namespace phasetree;
+using namespace phasetree::tests;
+
+TEST_CASE("the nearest crossing over all cells is the whole object's in the gallery's scenes") {
+    Compared all;
+    int scenes = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(PHASETREE_SOURCE_DIR "/scenes")) {
+        if (entry.path().extension() != ".json" || entry.path().stem() == "scene.schema") continue;
+        const std::string path = entry.path().string();
+        CAPTURE(path);
+        Random rng(15);  // files come in any order
+        const std::size_t before = all.different;
+        compare_crossings(read_tree(Document::from_file(path)).object, {}, long_tests() ? 2000 : 40, rng, all);
+        CHECK(all.different == before);
+        ++scenes;
+    }
+    MESSAGE(scenes, " scenes, ", all.rays, " rays, ", all.crossings, " crossings");
+    CHECK(scenes > 20);
+    CHECK(all.crossings > all.rays);
+}
