@@ -152,6 +152,29 @@ TEST_CASE("endless copies are pruned as single ones are, away from the faces whe
     CHECK(d.wrong == 0);
 }
 
+TEST_CASE("two endless grids of one point do not vouch for each other's folds") {
+    const Phased object = read_tree(Document::from_text(R"({
+        "version": 1,
+        "phases": {"a": {"diffuse": {"color": [1, 1, 1]}}, "b": {"diffuse": {"color": [1, 1, 1]}}},
+        "tree": {"intersect_shape": {"shape": {"box": {"size": [3, 3, 3]}}, "of": {"scatter": {
+            "on": {"tetrahedron": {"radius": 1}}, "count": 2, "spacing": 1.017562, "smallest": 1, "seed": 1,
+            "of": {"intersect_shape": {"shape": {"sphere": {"radius": 1.0702261}}, "of": {"under": {"of": [
+                {"endless_grid": {"spacing": [0, 3.3410234, 1.5882553], "of": {"intersect_shape": {
+                    "shape": {"sphere": {"radius": 1.4627479}},
+                    "of": {"set": {"phase": "b", "of": {"plane": {"normal": [0, 0, 1], "offset": -0.29539108}}}}}}}},
+                {"endless_grid": {"spacing": [1.3123698, 1.7285374, 3.243533], "of": {"intersect_shape": {
+                    "shape": {"sphere": {"radius": 0.9170874}},
+                    "of": {"set": {"phase": "a", "of": {"star":
+                        {"points": 3, "radius": 0.7647479, "inner_radius": 0.04206609}}}}}}}}
+            ]}}}}}}}}
+    })"))
+                              .object;
+    Random rng(16);
+    const Disagreements d = compare_labels(object, rng, 30);
+    CHECK(d.points > 100'000);
+    CHECK(d.wrong == 0);
+}
+
 TEST_CASE("no interface passes outside the cells") {
     Random rng(11);
     const Phased object = hourglass();

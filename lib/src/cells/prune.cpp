@@ -299,7 +299,7 @@ std::span<const float> local_slopes(const WorkingProgram& program, std::span<con
                                     const ValuesAt& value, float radius, float rounding, Arena& scratch) {
     const std::span<float> slope = scratch.copy(program.lipschitz);
     const auto size = static_cast<std::uint32_t>(program.code.size());
-    const std::span<char> is_still = scratch.take<char>(size);  // folds without a jump in the ball
+    const std::span<char> is_still = scratch.take<char>(size);  // 1: folds without a jump in the ball
     const std::span<char> jumps = scratch.take<char>(size);
     std::ranges::fill(is_still, 0);
     std::ranges::fill(jumps, 0);
@@ -308,15 +308,17 @@ std::span<const float> local_slopes(const WorkingProgram& program, std::span<con
         if (guard.op != Op::guarded) continue;
         // The bound's own slope is that of its point.
         const float high = value[guard.a] + slope[guard.a] * radius + rounding;
-        if (!(high < 0.5f * constants[guard.data])) continue;
+        // Several folds may have one point: none is still unless all of their guards say so.
+        const char says = high < 0.5f * constants[guard.data] ? 1 : 2;
         for (std::uint32_t k = 1; k < i; ++k)
-            if (is_fold(program.code[k].op) && program.code[k].a == program.code[guard.a].a) is_still[k] = 1;
+            if (is_fold(program.code[k].op) && program.code[k].a == program.code[guard.a].a)
+                is_still[k] = static_cast<char>(is_still[k] | says);
     }
     for (std::uint32_t i = 1; i < size; ++i) {
         const Instruction& in = program.code[i];
         if (slope[i] <= half_a_jump) continue;
         const int n = operands(in.op);
-        jumps[i] = (n > 0 && jumps[in.a]) || (n > 1 && jumps[in.b]) || (is_fold(in.op) && !is_still[i]);
+        jumps[i] = (n > 0 && jumps[in.a]) || (n > 1 && jumps[in.b]) || (is_fold(in.op) && is_still[i] != 1);
         while (!jumps[i] && slope[i] > half_a_jump) slope[i] /= FoldMap::jump;
     }
     return slope;
