@@ -11,9 +11,9 @@ namespace phasetree {
 
 namespace {
 
-/// A neuron's Taylor polynomial: the value, the derivatives by x, y, z, those by xx, xy, xz, yy, yz, zz, and those by
-/// xxx, xxy, xxz, xyy, xyz, xzz, yyy, yyz, yzz, zzz. All are linear in a layer's inputs. And what the fourth derivative
-/// is at most, which takes the weights' absolute values.
+/// A neuron's Taylor polynomial: the value, then the first, second and third derivatives, each by the axes in the order
+/// of a dictionary (xx, xy, xz, yy …), which are 3, 6 and 10. All are linear in a layer's inputs. And what the fourth
+/// derivative is at most, which takes the weights' absolute values.
 struct alignas(64) Jet {
     std::array<double, network_lanes> all;
 

@@ -2,17 +2,9 @@
 
 #include <array>
 
-#include "phasetree/math/enclosure/range.hpp"
+#include "phasetree/math/enclosure/field_in_box.hpp"
 
 namespace phasetree {
-
-/// What a field does in a box: proven, but for the rounding of doubles.
-struct FieldInBox {
-    double value = 0;                  ///< at the box's centre
-    std::array<double, 3> gradient{};  ///< there
-    std::array<Range, 3> gradients{};  ///< anywhere in the box
-    Range curvature{};                 ///< of d²f/dt² along straight lines of unit speed
-};
 
 /// Of a network as Siren::Network has it in its data, without its cube: the box must lie within that.
 ///
