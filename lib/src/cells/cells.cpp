@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <utility>
 
 #include "cells/curvature_code.hpp"
 #include "cells/divide.hpp"
@@ -80,10 +81,13 @@ struct InterfaceCells::Data {
     }
 
     /// Cells with equal programs share one.
-    void add(const FoundPieces& found, Routines routines) {
+    void add(FoundPieces found, Routines routines) {
         cells.reserve(found.cells());
         first_proof.reserve(found.cells() + 1);
-        for (const Found& piece : found) add(piece, routines);
+        for (Found& piece : found) {
+            routines.take_near(piece);
+            add(piece, routines);
+        }
         first_proof.push_back(Found::narrow(proofs.size()));
         proofs.shrink_to_fit();
         routine_count = routines.count();
@@ -125,8 +129,8 @@ InterfaceCells::InterfaceCells(const Phased& object, const CellOptions& options)
 
     const Division division{options, recorded.constants, data->reach, 0.5f * traceable.resolution,
                             data->bounds.diagonal()};
-    const FoundPieces found = divide_into_cells(data->bounds, rewritten, division);
-    data->add(found, Routines(recorded.constants));
+    FoundPieces found = divide_into_cells(data->bounds, rewritten, division);
+    data->add(std::move(found), Routines(recorded.constants));
     data->whole.emplace(std::move(recorded));
     data->build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     data_ = std::move(data);

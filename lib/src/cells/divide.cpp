@@ -26,9 +26,9 @@ struct Patience {
     float fine = 0.004f;              ///< down to this part of the object
 
     Patience() = default;
-    Patience(const WorkingProgram& program, std::span<const float> constants) {
+    Patience(const WorkingProgram& program, std::span<const float> constants, std::span<const LocalValue> local) {
         const auto size = static_cast<float>(program.code.size());
-        const float all = work(program, constants);
+        const float all = work(program, constants, local);
         const auto is_field = [](const Instruction& in) { return traits(in.op).is_network; };
         if (all > 200 + 10 * size && std::ranges::any_of(program.code, is_field)) {
             large = 0.25f;
@@ -70,6 +70,7 @@ struct Candidate {
     LinearBound bound{};
     Curvature curvature{};
     std::span<const ProofPart> proof{};
+    std::span<const LocalValue> local{};
     float cost = 0;
 };
 
@@ -78,6 +79,7 @@ struct Candidate {
 struct Share {
     Bounds box;
     WorkingProgram program;
+    std::span<const LocalValue> local{};  ///< of this program; until it is ready, of one around
     int depth = 0;
     int stale = 0;
     Patience patience{};
@@ -97,6 +99,9 @@ std::optional<Candidate> candidate(const Share& share, const Bounds& all, const 
         cell.bound = enclosed->bound;
         cell.curvature = enclosed->curvature;
         cell.proof = w.programs.copy(enclosed->proof);
+        const std::span<LocalValue> local = w.programs.copy(enclosed->local);
+        for (LocalValue& v : local) v.data = w.programs.copy(v.data);
+        cell.local = local;
         cell.box = intersect(all, enclosed->box.inflated(d.reach));
         if (cell.box.empty()) return std::nullopt;
         if (i > 0) break;
@@ -106,10 +111,11 @@ std::optional<Candidate> candidate(const Share& share, const Bounds& all, const 
             break;
         cell.program = *pruned;  // whose gradient is better known
         cell.proof = {};
+        cell.local = {};
     }
     // Through copies without end a ray goes on and on.
     const float copies = 1 + 4 * share.box.diagonal() / share.period;
-    cell.cost = cost(cell.box, cell.bound, cell.curvature, cell.program, d.constants, !cell.proof.empty(),
+    cell.cost = cost(cell.box, cell.bound, cell.curvature, cell.program, d.constants, cell.local, !cell.proof.empty(),
                      d.options.opaque, w.scratch) *
                 copies;
     return cell;
@@ -119,11 +125,12 @@ std::optional<Candidate> candidate(const Share& share, const Bounds& all, const 
 bool prepare(Share& share, const Division& d, Worker& w) {
     const ArenaScope scratch(w.scratch);
     const Bounds all = share.box.inflated(d.reach);
-    Encloser encloser(d.constants, d.options.opaque, all, d.rounding, w.scratch);
+    Encloser encloser(d.constants, d.options.opaque, all, d.rounding, share.local, w.scratch);
     const auto whole = candidate(share, all, share.program, encloser, d, w);
     if (!whole) return false;
     share.program = whole->program;
-    share.patience = Patience(share.program, d.constants);
+    share.local = whole->local;
+    share.patience = Patience(share.program, d.constants, whole->local);
     share.cell = *whole;
     // Its parts may want what tells more far away.
     if (const auto near = without_far_bounds(share.program, d.constants, d.options.opaque, w.programs, w.scratch)) {
@@ -153,9 +160,9 @@ float find_cells(const Share& share, const Division& d, Worker& w) {
     }
     const ArenaScope programs(w.programs), scratch(w.scratch);
     const Candidate& cell = share.cell;
-    const LedProgram led = cell.program.outputs.size() == 2
-                               ? LedProgram{cell.program}
-                               : first_component_first(cell.program, w.programs, w.scratch);
+    const WorkingProgram program = localised(cell.program, cell.local, w.found.last().near, w.scratch);
+    const LedProgram led =
+        program.outputs.size() == 2 ? LedProgram{program} : first_component_first(program, w.programs, w.scratch);
     const std::span<ProofPart> proof = w.scratch.copy(cell.proof);
     if (!led.renumbered.empty())
         for (ProofPart& part : proof) part.value = led.renumbered[part.value];
@@ -164,7 +171,10 @@ float find_cells(const Share& share, const Division& d, Worker& w) {
 }
 
 /// The values of a program's instructions at the centres of parts of a box, one a lane: ValuesAt for each.
-ValuesAt values_at_centres(const WorkingProgram& program, const Parts& parts, const Division& d, Arena& scratch) {
+ValuesAt values_at_centres(const Share& share, const Parts& parts, const Division& d, Worker& w) {
+    Arena& scratch = w.scratch;
+    if (w.constants.empty()) w.constants.assign(d.constants.begin(), d.constants.end());
+    const WorkingProgram program = localised(share.program, share.local, w.constants, scratch);
     const Steps steps = keep_all(program, scratch);
     BatchOfFloats x, y, z;
     for (std::size_t i = 0; i < batch_size; ++i) {
@@ -174,8 +184,9 @@ ValuesAt values_at_centres(const WorkingProgram& program, const Parts& parts, co
         z[i] = c.z;
     }
     const std::span<BatchOfFloats> registers = scratch.take<BatchOfFloats>(steps.slots);
-    active_kernel().evaluate(steps.routine(d.constants.data()), x.lane.data(), y.lane.data(), z.lane.data(),
+    active_kernel().evaluate(steps.routine(w.constants.data()), x.lane.data(), y.lane.data(), z.lane.data(),
                              registers.data()->lane.data(), nullptr);
+    w.constants.resize(d.constants.size());
     return {registers.data(), steps.slot, 0};
 }
 
@@ -183,7 +194,7 @@ float divide(const Share& share, const Division& d, Worker& w) {
     if (d.options.cancelled && d.options.cancelled()) throw BuildCancelled();
     const ArenaScope programs(w.programs), scratch(w.scratch);
     const Parts parts(share.box);
-    const ValuesAt values = values_at_centres(share.program, parts, d, w.scratch);
+    const ValuesAt values = values_at_centres(share, parts, d, w);
     const bool has_jumps = may_jump(share.program);
 
     // High up the parts are divided by as many threads, each with memory of its own; the order of the cells is that of
@@ -205,7 +216,7 @@ float divide(const Share& share, const Division& d, Worker& w) {
                                                   has_jumps, radius, d.rounding, own.scratch);
         const auto program = prune(share.program, d.constants, ranges, d.options.opaque, own.programs, own.scratch);
         if (!program) return;
-        Share part{parts.box[i], *program, share.depth + 1};
+        Share part{parts.box[i], *program, share.local, share.depth + 1};
         if (std::isfinite(share.period)) part.period = finest_jump(part.program, d.constants);
         if (prepare(part, d, own)) divided[i] = part;
     });

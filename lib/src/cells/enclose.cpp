@@ -59,13 +59,15 @@ void tighten(Bounds& box, const glm::vec3& normal, float value, float slack) {
 
 }  // namespace
 
-Encloser::Encloser(std::span<const float> constants, PhaseSet opaque, const Bounds& box, float rounding, Arena& scratch)
+Encloser::Encloser(std::span<const float> constants, PhaseSet opaque, const Bounds& box, float rounding,
+                   std::span<const LocalValue> around, Arena& scratch)
     : constants_(constants),
       opaque_(opaque),
       box_(box),
       rounding_(rounding),
       scratch_(scratch),
-      point_(scratch.take<Enclosure>(3)) {
+      point_(scratch.take<Enclosure>(3)),
+      around_(around) {
     const glm::vec3 extent = box.extent(), middle = box.centre();
     for (int i = 0; i < 3; ++i) {
         const auto k = static_cast<std::size_t>(i);
@@ -101,10 +103,44 @@ void Encloser::compute(const WorkingProgram& program) {
         if (known[i] != 0)
             std::copy_n(registers_ + slot_[known[i]], gives_point(program.code[i].op) ? 3 : 1,
                         registers.data() + steps.slot[i]);
+    // What local primitives become: known of the last program, or found now, in their order.
+    const auto is_local = [&](std::size_t i) { return traits(program.code[i].op).is_local; };
+    std::span<LocalValue> local{};
+    if (std::ranges::any_of(program.code, [](const Instruction& in) { return traits(in.op).is_local; })) {
+        local = scratch_.take<LocalValue>(known.size());
+        std::ranges::fill(local, LocalValue{});
+        for (const LocalValue& v : local_)
+            if (const auto now = std::ranges::find(known, v.value); now != known.end())
+                local[static_cast<std::size_t>(now - known.begin())] = v;
+    }
+    std::size_t at = 0;
     interpret(
         steps.routine(constants_.data()), registers.data(),
-        [&]<class P>(const float* c, const Vec3<Enclosure>& q) { return enclose_long_primitive<P>(c, q, half_); },
+        [&]<class P>(const float* c, const Vec3<Enclosure>& q) {
+            LocalValue found;
+            std::span<const float> of;
+            if constexpr (LocalPrimitive<P>) {
+                do ++at;
+                while (known[at] != 0 || !is_local(at));
+                const auto source = static_cast<std::uint32_t>(c - constants_.data());
+                for (const LocalValue& v : around_)
+                    if (v.source == source) of = v.data;
+            }
+            const Enclosure e = enclose_long_primitive<P>(c, q, half_, of, found, scratch_);
+            if constexpr (LocalPrimitive<P>) local[at] = found;
+            return e;
+        },
         [&](Enclosure& e) { e.tighten(half_); });
+    std::size_t count = 0;
+    for (std::uint32_t i = 0; i < local.size(); ++i) {
+        if (local[i].data.empty()) continue;
+        LocalValue& v = local[count++] = local[i];
+        v.value = i;
+        const Instruction& in = program.code[i];
+        const auto is_like = [&](const Instruction& other) { return other.op == in.op && other.data == in.data; };
+        v.source = std::ranges::count_if(program.code, is_like) == 1 ? in.data : LocalValue::no_source;
+    }
+    local_ = local.first(count);
     code_ = program.code;
     slot_ = steps.slot;
     registers_ = registers.data();
@@ -112,10 +148,13 @@ void Encloser::compute(const WorkingProgram& program) {
 
 std::optional<Enclosed> Encloser::operator()(const WorkingProgram& program) {
     const std::size_t size = program.code.size();
-    if (size > longest_enclosed) return std::nullopt;
-    // A fold of space may jump, and then it has no gradient.
-    for (const Instruction& in : program.code)
+    bool has_local = false;
+    for (const Instruction& in : program.code) {
+        // A fold of space may jump, and then it has no gradient.
         if (is_fold(in.op)) return std::nullopt;
+        has_local = has_local || traits(in.op).is_local;
+    }
+    if (size > (has_local ? 4 : 1) * longest_enclosed) return std::nullopt;
     compute(program);
 
     Enclosed result;
@@ -155,6 +194,7 @@ std::optional<Enclosed> Encloser::operator()(const WorkingProgram& program) {
     }
     if (possible < 2 || clear == 0) result.is_free = true;
     if (result.is_free) return result;
+    result.local = local_;
     result.curvature.is_by_own = by_own[0] + by_own[1] < by_others[0] + by_others[1];
     for (std::size_t i = 0; i < 2; ++i) {
         const double most = result.curvature.is_by_own ? by_own[i] : by_others[i];

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "cells/linear_bound.hpp"
+#include "cells/localise.hpp"
 #include "cells/proof.hpp"
 #include "phasetree/math/bounds.hpp"
 
@@ -17,9 +18,11 @@ struct Enclosed {
     Bounds box;                        ///< around the interface in the box
     ValueRanges ranges;                ///< of every value in the box
     std::span<const ProofPart> proof;  ///< where a ray may be in a phase whose curvature is unknown
+    std::span<const LocalValue> local;
 };
 
-/// Longer programs are not worth the time that it takes to enclose them.
+/// Longer programs are not worth the time that it takes to enclose them; of those with local values a few times as long
+/// ones are.
 inline constexpr std::size_t longest_enclosed = 64;
 
 /// Encloses programs' values in a box: interval arithmetic with gradients, which sees what a Lipschitz bound and a ball
@@ -27,8 +30,10 @@ inline constexpr std::size_t longest_enclosed = 64;
 class Encloser {
   public:
     /// `rounding` bounds the error of a value; for `opaque` see prune(). What is taken of `scratch` stays until the
-    /// last enclosing.
-    Encloser(std::span<const float> constants, PhaseSet opaque, const Bounds& box, float rounding, Arena& scratch);
+    /// last enclosing. `around` is what local primitives are in a box around this one, in a program of which pruning
+    /// has left those to come.
+    Encloser(std::span<const float> constants, PhaseSet opaque, const Bounds& box, float rounding,
+             std::span<const LocalValue> around, Arena& scratch);
 
     /// Nothing for a program that is too long, or that folds space.
     std::optional<Enclosed> operator()(const WorkingProgram&);
@@ -48,6 +53,7 @@ class Encloser {
     std::span<const Instruction> code_;
     std::span<const std::uint32_t> slot_;
     Enclosure* registers_ = nullptr;
+    std::span<const LocalValue> around_, local_;
 };
 
 }  // namespace phasetree

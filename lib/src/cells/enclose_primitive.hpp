@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "cells/localise.hpp"
 #include "phasetree/math/enclosure.hpp"
 #include "phasetree/math/enclosure/network_in_box.hpp"
 #include "phasetree/math/enclosure/noise_in_box.hpp"
@@ -10,10 +11,24 @@
 
 namespace phasetree {
 
+/// The value at a centre of a long primitive of which little matters in the box; what that is, or nothing, is kept.
+/// `of` is what it was in a box around.
+template <LocalPrimitive P>
+float local_value(const float* constants, const Region& at, std::span<const float> of, LocalValue& kept,
+                  Arena& scratch) {
+    P primitive;
+    std::memcpy(static_cast<void*>(&primitive), constants, sizeof primitive);
+    std::vector<float> floats;
+    if (!primitive.near(at, of, floats)) return primitive.distance(at.point());
+    kept = LocalValue::of<P>(scratch.copy(std::span<const float>(floats)));
+    return P::Near::distance(kept.data.data(), at.point());
+}
+
 /// A long primitive. Of networks and noise, where they are not cut off, there is more to know; of others (an image,
 /// Voronoi cells) only their slope is used, at most 1 in their own space.
 template <class P>
-Enclosure enclose_long_primitive(const float* constants, const Vec3<Enclosure>& q, const Enclosure::Vector& half) {
+Enclosure enclose_long_primitive(const float* constants, const Vec3<Enclosure>& q, const Enclosure::Vector& half,
+                                 std::span<const float> of, LocalValue& kept, Arena& scratch) {
     const Region at(q);
     if constexpr (std::is_same_v<P, Siren::Network>) {
         if (at.farthest() < static_cast<double>(constants[1]))
@@ -24,7 +39,11 @@ Enclosure enclose_long_primitive(const float* constants, const Vec3<Enclosure>& 
         std::memcpy(static_cast<void*>(&noise), constants, sizeof noise);
         if (noise.is_within_cube(at.farthest())) return enclose(noise_in_box(noise, at), at, half);
     }
-    const auto value = static_cast<double>(detail::distance_of<P>(constants, at.point()));
+    double value = 0;
+    if constexpr (LocalPrimitive<P>)
+        value = static_cast<double>(local_value<P>(constants, at, of, kept, scratch));
+    else
+        value = static_cast<double>(detail::distance_of<P>(constants, at.point()));
     const auto slope = detail::each_axis([&](std::size_t i) {
         return within(
             std::hypot(q.x.gradient[i].magnitude(), q.y.gradient[i].magnitude(), q.z.gradient[i].magnitude()));

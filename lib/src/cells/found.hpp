@@ -21,16 +21,18 @@ struct Found {
     std::vector<Instruction> code;
     std::vector<ProgramOutput> outputs;
     std::vector<ProofPart> proofs;
+    std::vector<float> near;  ///< the data of localised instructions
 
     struct Mark {
-        std::size_t cells, code, outputs, proofs;
+        std::size_t cells, code, outputs, proofs, near;
     };
-    Mark mark() const { return {cells.size(), code.size(), outputs.size(), proofs.size()}; }
+    Mark mark() const { return {cells.size(), code.size(), outputs.size(), proofs.size(), near.size()}; }
     void forget_from(const Mark& m) {
         cells.resize(m.cells);
         code.resize(m.code);
         outputs.resize(m.outputs);
         proofs.resize(m.proofs);
+        near.resize(m.near);
     }
     void add(const Bounds& box, const LinearBound& bound, const Curvature& curvature, const WorkingProgram& program,
              std::uint32_t leading, std::span<const ProofPart> proof) {
@@ -85,8 +87,8 @@ class FoundPieces {
         for (const Found& piece : pieces_) sum += piece.cells.size();
         return sum;
     }
-    auto begin() const { return pieces_.begin(); }
-    auto end() const { return pieces_.end(); }
+    auto begin() { return pieces_.begin(); }
+    auto end() { return pieces_.end(); }
 
   private:
     std::vector<Found> pieces_ = std::vector<Found>(1);

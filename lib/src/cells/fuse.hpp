@@ -28,6 +28,9 @@ class Fuser {
     const Fused& operator()(std::span<const Instruction> code, std::span<const ProgramOutput> outputs,
                             std::span<const std::uint32_t> kept, std::uint32_t leading);
 
+    /// Where these floats are among the constants.
+    std::uint32_t constant(const void* floats, std::size_t count);
+
   private:
     /// An affine map of the value `base`, or nothing affine.
     struct Frame {
@@ -43,7 +46,6 @@ class Fuser {
 
     void follow(std::span<const Instruction> code);
     Instruction fused(std::span<const Instruction> code, std::uint32_t i);
-    std::uint32_t constant(const void* floats, std::size_t count);
 
     std::vector<float>& constants_;
     std::unordered_map<std::string, std::uint32_t> known_;

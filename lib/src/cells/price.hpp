@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cells/linear_bound.hpp"
+#include "cells/localise.hpp"
 #include "cells/reach.hpp"
 #include "phasetree/nodes/fields/siren.hpp"
 
@@ -28,18 +29,21 @@ inline unsigned half_works(const Instruction& in, std::span<const float> constan
                         : t.half_works;
 }
 /// How much work a program is, in simple instructions.
-inline float work(const WorkingProgram& program, std::span<const float> constants) {
+inline float work(const WorkingProgram& program, std::span<const float> constants, std::span<const LocalValue> local) {
     unsigned halves = 0;
     for (const Instruction& in : program.code.subspan(1)) halves += half_works(in, constants);
+    for (const LocalValue& v : local) halves -= v.half_works_saved;
     return 0.5f * static_cast<float>(halves);
 }
 /// Of its first component alone.
-inline float work_of_first(const WorkingProgram& program, std::span<const float> constants, Arena& scratch) {
+inline float work_of_first(const WorkingProgram& program, std::span<const float> constants,
+                           std::span<const LocalValue> local, Arena& scratch) {
     const ArenaScope scope(scratch);
     const Reach first(program, program.outputs.first(1), scratch);
     unsigned halves = 0;
     for (std::size_t i = 1; i < program.code.size(); ++i)
         halves += first.has(i) ? half_works(program.code[i], constants) : 0u;
+    for (const LocalValue& v : local) halves -= first.has(v.value) ? v.half_works_saved : 0u;
     return 0.5f * static_cast<float>(halves);
 }
 
@@ -65,9 +69,9 @@ inline float batches(const Bounds& box, const LinearBound& bound, float most_cur
 /// Half of the rays are taken to be in the first phase, if that is the vacuum; all, if the others are opaque. Where
 /// more than two phases meet they need its component alone, and the rest where they leave it.
 inline float cost(const Bounds& box, const LinearBound& bound, const Curvature& curvature,
-                  const WorkingProgram& program, std::span<const float> constants, bool has_proof, PhaseSet opaque,
-                  Arena& scratch) {
-    const float all = price::batch + price::step * work(program, constants);
+                  const WorkingProgram& program, std::span<const float> constants, std::span<const LocalValue> local,
+                  bool has_proof, PhaseSet opaque, Arena& scratch) {
+    const float all = price::batch + price::step * work(program, constants, local);
     const auto is_opaque = [&](const ProgramOutput& o) { return opaque.contains(o.phase); };
     const bool is_one_clear = std::ranges::all_of(program.outputs.subspan(1), is_opaque);
     const bool has_two = program.outputs.size() == 2;
@@ -77,7 +81,7 @@ inline float cost(const Bounds& box, const LinearBound& bound, const Curvature& 
         first = others;
         if (program.outputs[0].phase == vacuum || is_one_clear)
             first = batches(box, bound, curvature.most[0], has_proof) *
-                        (price::batch + price::step * work_of_first(program, constants, scratch)) +
+                        (price::batch + price::step * work_of_first(program, constants, local, scratch)) +
                     all;
     }
     const float in_first = is_one_clear ? 1.f : is_opaque(program.outputs[0]) ? 0.f : 0.5f;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <ranges>
 
+#include "cells/localise.hpp"
+
 namespace phasetree {
 
 namespace {
@@ -44,6 +46,15 @@ bool Routines::Key::operator==(const Key& other) const {
            are_equal(found->code_of(*cell), other.found->code_of(*other.cell)) &&
            are_equal(found->outputs_of(*cell), other.found->outputs_of(*other.cell)) &&
            std::ranges::equal(values_of(found->proof_of(*cell)), values_of(other.found->proof_of(*other.cell)));
+}
+
+void Routines::take_near(Found& found) {
+    for (Instruction& in : found.code) {
+        if (!traits(in.op).is_near) continue;
+        const auto data = data_of_near(in.op, std::span(found.near).subspan(in.data));
+        in.data = fuse_.constant(data.data(), data.size());
+    }
+    found.near = {};
 }
 
 const Routines::Ready& Routines::add(const Found& found, const Found::Cell& cell) {

@@ -19,6 +19,8 @@ class Routines {
         std::uint32_t first_step, steps, leading, first_output, outputs, slots;
         std::uint32_t first_kept;  ///< where the slots start of the values that the proof speaks of, in its order
     };
+    /// Makes what localised instructions want constants. To be called before add() with what was found there.
+    void take_near(Found&);
     /// What was found must stay as long as others are added.
     const Ready& add(const Found&, const Found::Cell&);
     /// The proof of a cell whose routine this is, appended.

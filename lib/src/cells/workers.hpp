@@ -16,6 +16,7 @@ struct Worker {
     Workers& others;
     Arena programs{}, scratch{};
     FoundPieces found{};
+    std::vector<float> constants{};  ///< of the object, and for a while what local values want
 };
 
 /// Workers that come back with their memory and go out again: to map it anew for each part takes longer than many of

@@ -46,6 +46,20 @@ constexpr auto long_ones(TypeList<Ps...>) {
     return std::array<bool, sizeof...(Ps)>{LongPrimitive<Ps>...};
 }
 
+template <class... Ps>
+constexpr void mark_local(TypeList<Ps...>, auto& all) {
+    constexpr auto first = static_cast<std::size_t>(Op::first_primitive);
+    const auto mark = [&]<class P>() {
+        if constexpr (LocalPrimitive<P>) {
+            OpTraits& local = all[first + index_in<P>(Primitives())];
+            local.is_local = true;
+            local.half_works = 800;  // as long as all of it may matter
+            all[first + Primitives::size + index_in<typename P::Near>(DataPrimitives())].is_near = true;
+        }
+    };
+    (mark.template operator()<Ps>(), ...);
+}
+
 constexpr auto all_traits() {
     std::array<OpTraits, operation_count> all{};
     constexpr auto first_primitive = static_cast<std::size_t>(Op::first_primitive);
@@ -61,6 +75,7 @@ constexpr auto all_traits() {
     for (std::size_t i = first_map; i < first_placed; ++i) all[i].gives_point = true;
     all[first_map + index_in<FoldMap>(PointMaps())].is_fold = true;
     all[first_primitive + Primitives::size + index_in<Siren::Network>(DataPrimitives())].is_network = true;
+    mark_local(Primitives(), all);
     return all;
 }
 constexpr auto known_traits = all_traits();

@@ -38,11 +38,13 @@ std::vector<ProgramOutput> outputs_of(const Program&);
 /// What is known of an operation.
 struct OpTraits {
     std::uint8_t operands = 1;       ///< how many values it takes
-    std::uint8_t half_works = 2;     ///< how much work it is, in halves of a simple one
+    std::uint16_t half_works = 2;    ///< how much work it is, in halves of a simple one
     bool gives_point = false;        ///< its result is a point and not a number
     bool is_long_primitive = false;  ///< a primitive whose equation is long (concepts.hpp)
     bool is_network = false;         ///< a neural field: Siren::Network
     bool is_fold = false;            ///< a fold of space, which jumps
+    bool is_local = false;           ///< a LocalPrimitive
+    bool is_near = false;            ///< and what it becomes in a small box
 };
 extern const OpTraits* const op_traits;  ///< of every operation, those of fused.hpp too
 

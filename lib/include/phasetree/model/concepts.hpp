@@ -1,9 +1,12 @@
 #pragma once
 
+#include <concepts>
 #include <span>
 #include <type_traits>
+#include <vector>
 
 #include "phasetree/math/affine_map.hpp"
+#include "phasetree/math/point_range.hpp"
 #include "phasetree/model/handle.hpp"
 
 namespace phasetree {
@@ -32,6 +35,18 @@ concept DataPrimitive = requires(const N& n, const float* data, const Vec3<float
 template <class N>
 concept LongPrimitive = DataPrimitive<N> || requires {
     N::is_long;
+};
+
+/// A long primitive of which little matters in a small box: near() appends what P::Near, a primitive with data, wants
+/// to give the same values there to the last bit; false, and nothing appended, if that would be no gain. `of` is empty,
+/// or what it gave for a box around this one.
+template <class N>
+concept LocalPrimitive = requires(const N& n, const PointRange& range, std::span<const float> of,
+                                  std::vector<float>& floats) {
+    requires DataPrimitive<typename N::Near>;
+    { n.near(range, of, floats) } -> std::same_as<bool>;
+    { N::Near::floats(floats.data()) } -> std::same_as<std::size_t>;   // how many they are
+    { N::Near::half_works(floats.data()) } -> std::same_as<unsigned>;  // how much work, in halves of a simple one
 };
 
 /// A primitive whose distance is a convex function: that to a convex solid, if it is exact inside and out.

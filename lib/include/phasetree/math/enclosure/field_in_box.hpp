@@ -6,6 +6,7 @@
 #include "phasetree/math/enclosure/length.hpp"
 #include "phasetree/math/enclosure/number.hpp"
 #include "phasetree/math/enclosure/range.hpp"
+#include "phasetree/math/point_range.hpp"
 
 namespace phasetree {
 
@@ -17,10 +18,9 @@ struct FieldInBox {
     Range curvature{};                 ///< of d²f/dt² along straight lines of unit speed
 };
 
-/// Where a point may be that a field is given: about a centre, so far along each axis.
-struct Region {
+/// Where a point may be that a field is given.
+struct Region : PointRange {
     std::array<const Enclosure*, 3> x;
-    Enclosure::Vector centre{}, reach{};
 
     explicit Region(const Vec3<Enclosure>& q) : x{&q.x, &q.y, &q.z} {
         for (std::size_t i = 0; i < 3; ++i) {

@@ -15,6 +15,8 @@ namespace phasetree {
 /// Sites that are not looked at (voronoi_sites.hpp) have bisectors that are at least half of (their distance − the
 /// nearest one's) away. All bₜ are cut off there, so nothing jumps when the point moves on and other sites are looked
 /// at.
+///
+/// In a small box few sites matter: those that may be the nearest, and those with a bisector that is not cut off.
 struct VoronoiCells {
     static constexpr bool is_long = true;  ///< a LongPrimitive
     static constexpr bool is_field_node = true;
@@ -48,7 +50,10 @@ struct VoronoiCells {
     }
     template <class T>
     T distance(const Vec3<T>& p) const {
-        const VoronoiSites sites{jitter, seed};
+        return distance(p, VoronoiSites{jitter, seed});
+    }
+    template <class T, class Sites>
+    T distance(const Vec3<T>& p, const Sites& sites) const {
         const float scale = 1 / size;
         std::array<Vec3<T>, VoronoiSites::neighbours> to;
         std::size_t count = 0;
@@ -64,23 +69,45 @@ struct VoronoiCells {
         });
         const float c = rounding * scale;
         const T far(seen());
-        T v = far, sum(0.f);
-        for (const Vec3<T>& offset : to) {
-            const Vec3<T> between = offset - nearest;
+        const auto eighth = [&](const T& distance) {
+            const T x = max(distance + c, T(1e-4f)), x2 = x * x, x4 = x2 * x2;
+            return T(1.f) / (x4 * x4);
+        };
+        // All that are not near count alike, so that it does not matter which of them are looked at.
+        T v = far, sum(0.f), others(static_cast<float>(VoronoiSites::neighbours));
+        for (std::size_t i = 0; i < count; ++i) {
+            const Vec3<T> between = to[i] - nearest;
             const T apart = dot(between, between);
-            const T bisector = dot(between, offset + nearest) * 0.5f / sqrt(max(apart, T(1e-12f)));
+            const T bisector = dot(between, to[i] + nearest) * 0.5f / sqrt(max(apart, T(1e-12f)));
             // The nearest site itself is no neighbour of its own.
             const T counted = select(less(apart, T(1e-10f)), far, min(bisector, far));
             if (rounding > 0) {
-                const T x = max(counted + c, T(1e-4f)), x2 = x * x, x4 = x2 * x2;
-                sum = sum + T(1.f) / (x4 * x4);
+                const auto is_near = less(counted, far);
+                sum = sum + select(is_near, eighth(counted), T(0.f));
+                others = others - select(is_near, T(1.f), T(0.f));
             } else {
                 v = min(v, counted);
             }
         }
-        if (rounding > 0) v = T(1.f) / sqrt(sqrt(sqrt(sum))) - c;
+        if (rounding > 0) v = T(1.f) / sqrt(sqrt(sqrt(sum + others * eighth(far)))) - c;
         return gap * 0.5f - max(v, T(0.f)) * size;
     }
+    /// The same in a box with the few sites that matter there.
+    struct Near {
+        std::vector<float> values{};  ///< the node's parameters, how many floats follow, the sites
+
+        std::span<const float> data() const { return values; }
+        static std::size_t floats(const float* data) { return 6 + static_cast<std::size_t>(data[5]); }
+        static unsigned half_works(const float* data) {
+            return 10 + 5 * static_cast<unsigned>(data[5]) / VoronoiSites::site_floats;
+        }
+        template <class T>
+        static T distance(const float* data, const Vec3<T>& p);
+    };
+    using Parts = TypeList<Near>;
+    /// See LocalPrimitive: the sites that may be the nearest or have a bisector that is not cut off.
+    bool near(const PointRange&, std::span<const float> of, std::vector<float>& floats) const;
+
     Bounds bounds(BoundsQuery&, float) const { return Bounds::everything(); }
 
     /// Bisectors of sites that are not looked at are farther than that, in cubes.
@@ -89,5 +116,12 @@ struct VoronoiCells {
         return 0.5f * (sites.unseen() - sites.nearest()) * 0.999f;
     }
 };
+
+template <class T>
+T VoronoiCells::Near::distance(const float* data, const Vec3<T>& p) {
+    VoronoiCells node;
+    node.size = data[0], node.gap = data[1], node.rounding = data[2], node.jitter = data[3], node.seed = data[4];
+    return node.distance(p, VoronoiSiteList{{node.jitter, node.seed}, {data + 6, static_cast<std::size_t>(data[5])}});
+}
 
 }  // namespace phasetree

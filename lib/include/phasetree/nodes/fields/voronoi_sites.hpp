@@ -1,7 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <span>
+#include <vector>
 
+#include "phasetree/math/point_range.hpp"
 #include "phasetree/nodes/fields/lattice_hash.hpp"
 #include "phasetree/nodes/fields/profile.hpp"
 
@@ -24,28 +29,87 @@ struct VoronoiSites {
     /// How far the nearest site is, at the most.
     float nearest() const { return 0.8660255f * (1 + jitter); }
 
+    /// A point's cube, and where in it the point is. The pattern is constant beyond 2¹⁶ cubes, so that the hash stays
+    /// exact.
+    template <class T>
+    struct Place {
+        Vec3<T> cube, within;
+
+        explicit Place(const Vec3<T>& p) {
+            const T far(65536.f);
+            const Vec3<T> q{clamp(p.x, -far, far), clamp(p.y, -far, far), clamp(p.z, -far, far)};
+            cube = {floor(q.x), floor(q.y), floor(q.z)};
+            within = {q.x - cube.x, q.y - cube.y, q.z - cube.z};
+        }
+    };
+    /// Of a hash, the site's place in its cube along one axis, less what the jitter leaves out.
+    template <class T>
+    T moved(const T& hash) const {
+        return hash * (jitter / 288.f);
+    }
+    template <class T>
+    T from_corner(const T& step) const {
+        return step + 0.5f - 0.5f * jitter;
+    }
+
     /// Calls visit(offset from p to the site, hash) for the sites about p; the hash is whole, 0 … 288.
     template <class T, class Visit>
     void for_each(const Vec3<T>& p, Visit&& visit) const {
         using lattice::hashed, lattice::sum, lattice::wrapped;
-        // The pattern is constant beyond 2¹⁶ cubes, so that the hash stays exact.
-        const T far(65536.f);
-        const Vec3<T> q{clamp(p.x, -far, far), clamp(p.y, -far, far), clamp(p.z, -far, far)};
-        const Vec3<T> cell{floor(q.x), floor(q.y), floor(q.z)};
-        const Vec3<T> in_cell{q.x - cell.x, q.y - cell.y, q.z - cell.z};
+        const Place<T> at(p);
+        const Vec3<T>&cube = at.cube, &within = at.within;
         for (int k = -2; k <= 2; ++k) {
-            const T slice = hashed(wrapped(cell.z + (static_cast<float>(k) + seed)));
+            const T slice = hashed(wrapped(cube.z + (static_cast<float>(k) + seed)));
             for (int j = -2; j <= 2; ++j) {
-                const T row = hashed(sum(slice, wrapped(cell.y + static_cast<float>(j))));
+                const T row = hashed(sum(slice, wrapped(cube.y + static_cast<float>(j))));
                 for (int i = -2; i <= 2; ++i) {
-                    const T x = hashed(sum(row, wrapped(cell.x + static_cast<float>(i))));
+                    const T x = hashed(sum(row, wrapped(cube.x + static_cast<float>(i))));
                     const T y = hashed(x + 1.f), z = hashed(y + 2.f), hash = hashed(z + 3.f);
-                    const auto moved = [&](const T& h, int step) {
-                        return h * (jitter / 288.f) + (static_cast<float>(step) + 0.5f - 0.5f * jitter);
+                    const auto offset = [&](const T& h, int step, const T& in) {
+                        return moved(h) + from_corner(static_cast<float>(step)) - in;
                     };
-                    visit(Vec3<T>{moved(x, i) - in_cell.x, moved(y, j) - in_cell.y, moved(z, k) - in_cell.z}, hash);
+                    visit(Vec3<T>{offset(x, i, within.x), offset(y, j, within.y), offset(z, k, within.z)}, hash);
                 }
             }
+        }
+    }
+
+    /// A site: its cube, its place there as of moved(), and the hash.
+    struct Site {
+        std::array<float, 3> cube, place;
+        float hash;
+        std::array<double, 3> position;  ///< in cubes
+        double distance;                 ///< from the point about which they were looked for
+    };
+    /// Which sites matter about a point: those no farther than `most`, nor by more than `beyond` farther than the
+    /// nearest of them, with a hash from `low` on and below `high`.
+    struct Search {
+        std::array<double, 3> centre{};
+        double most = 0, beyond = 0;
+        float low = -1, high = 289;
+    };
+    /// In the order in which for_each() comes to them; of all sites, or of a list that holds them.
+    void find(const Search&, std::span<const float> list, std::vector<Site>& found) const;
+    /// How many floats a site takes in a list.
+    static constexpr unsigned site_floats = 7;
+};
+
+/// Sites as a list: for points of a box that no other site matters to, the same to the last bit as VoronoiSites.
+struct VoronoiSiteList {
+    VoronoiSites all;
+    std::span<const float> floats;  ///< VoronoiSites::site_floats for each
+
+    template <class T, class Visit>
+    void for_each(const Vec3<T>& p, Visit&& visit) const {
+        const VoronoiSites::Place<T> at(p);
+        for (std::size_t i = 0; i < floats.size(); i += VoronoiSites::site_floats) {
+            const float* site = &floats[i];
+            const auto offset = [&](int axis, const T& cube, const T& in) {
+                return T(site[3 + axis]) + all.from_corner(T(site[axis]) - cube) - in;
+            };
+            visit(Vec3<T>{offset(0, at.cube.x, at.within.x), offset(1, at.cube.y, at.within.y),
+                          offset(2, at.cube.z, at.within.z)},
+                  T(site[6]));
         }
     }
 };

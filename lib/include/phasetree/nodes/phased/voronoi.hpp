@@ -29,18 +29,42 @@ struct Voronoi {
 
         template <class T>
         T distance(const Vec3<T>& p) const {
-            const VoronoiSites sites{jitter, seed};
-            T least(sites.unseen() * sites.unseen());
-            const float low = 289 * kind / kinds - 0.5f, high = 289 * (kind + 1) / kinds - 0.5f;
+            return distance(p, VoronoiSites{jitter, seed});
+        }
+        template <class T, class Sites>
+        T distance(const Vec3<T>& p, const Sites& sites) const {
+            // A little less, so that rounding lets no site count that is not looked at.
+            const float unseen = VoronoiSites{jitter, seed}.unseen() * (1 - 1e-6f);
+            T least(unseen * unseen);
+            const T low(first_hash()), high(end_hash());
             sites.for_each(p * (1 / size), [&](const Vec3<T>& offset, const T& hash) {
-                const T squared =
-                    select(less(hash, T(low)), least, select(less(hash, T(high)), dot(offset, offset), least));
+                const T squared = select(less(hash, low), least, select(less(hash, high), dot(offset, offset), least));
                 least = min(squared, least);
             });
             return sqrt(least) * size;
         }
+        float first_hash() const { return 289 * kind / kinds - 0.5f; }
+        float end_hash() const { return 289 * (kind + 1) / kinds - 0.5f; }
+
+        /// The same in a box with the few sites of the kind that may be the nearest there.
+        struct Near {
+            std::vector<float> values{};  ///< the node's parameters, how many floats follow, the sites
+
+            std::span<const float> data() const { return values; }
+            static std::size_t floats(const float* data) { return 6 + static_cast<std::size_t>(data[5]); }
+            static unsigned half_works(const float* data) {
+                return 6 + 2 * static_cast<unsigned>(data[5]) / VoronoiSites::site_floats;
+            }
+            template <class T>
+            static T distance(const float* data, const Vec3<T>& p) {
+                const Nearest node{data[0], data[1], data[2], data[3], data[4]};
+                return node.distance(
+                    p, VoronoiSiteList{{node.jitter, node.seed}, {data + 6, static_cast<std::size_t>(data[5])}});
+            }
+        };
+        bool near(const PointRange&, std::span<const float> of, std::vector<float>& floats) const;
     };
-    using Parts = TypeList<Nearest>;
+    using Parts = TypeList<Nearest, Nearest::Near>;
 
     std::vector<Phase> of_phases{};
     float size = 1;

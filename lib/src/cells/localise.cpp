@@ -1,0 +1,30 @@
+#include "cells/localise.hpp"
+
+#include "program/interpret.hpp"
+
+namespace phasetree {
+
+WorkingProgram localised(const WorkingProgram& program, std::span<const LocalValue> values, std::vector<float>& floats,
+                         Arena& scratch) {
+    if (values.empty()) return program;
+    const std::span<Instruction> code = scratch.copy(program.code);
+    for (const LocalValue& v : values) {
+        code[v.value].op = v.op;
+        code[v.value].data = static_cast<std::uint32_t>(floats.size());
+        floats.insert(floats.end(), v.data.begin(), v.data.end());
+    }
+    WorkingProgram result = program;
+    result.code = code;
+    return result;
+}
+
+std::span<const float> data_of_near(Op op, std::span<const float> floats) {
+    std::size_t count = 0;
+    const std::uint32_t index = static_cast<std::uint32_t>(op) - static_cast<std::uint32_t>(Op::first_primitive);
+    detail::dispatch(DataPrimitives(), index - static_cast<std::uint32_t>(Primitives::size), [&]<class D>() {
+        if constexpr (requires { D::floats(floats.data()); }) count = D::floats(floats.data());
+    });
+    return floats.first(count);
+}
+
+}  // namespace phasetree

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "cells/prune.hpp"
+#include "phasetree/nodes/list.hpp"
+#include "program/assemble.hpp"
+
+namespace phasetree {
+
+/// A LocalPrimitive of a program, and what it becomes in a box: nothing if that is no gain.
+struct LocalValue {
+    static constexpr std::uint32_t no_source = 0xffffffff;
+
+    std::uint32_t value = 0;
+    std::uint32_t source = no_source;  ///< where the primitive's constants are, if no other value has the same
+    Op op{};                           ///< of P::Near
+    std::span<const float> data{};
+    unsigned half_works_saved = 0;
+
+    template <LocalPrimitive P>
+    static LocalValue of(std::span<const float> data) {
+        constexpr auto first = static_cast<std::size_t>(Op::first_primitive);
+        constexpr std::size_t before = first + index_in<P>(Primitives());
+        constexpr std::size_t near = first + Primitives::size + index_in<typename P::Near>(DataPrimitives());
+        const unsigned all = traits(static_cast<Op>(before)).half_works, now = P::Near::half_works(data.data());
+        return {0, no_source, static_cast<Op>(near), data, now < all ? all - now : 0};
+    }
+};
+
+/// The program with them in their places, and their data appended to `floats`: there such an instruction's data start.
+WorkingProgram localised(const WorkingProgram&, std::span<const LocalValue>, std::vector<float>& floats,
+                         Arena& scratch);
+
+/// The data of an instruction that localised() has made.
+std::span<const float> data_of_near(Op, std::span<const float> floats);
+
+}  // namespace phasetree
