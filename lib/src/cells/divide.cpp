@@ -83,8 +83,9 @@ struct Share {
     int depth = 0;
     int stale = 0;
     Patience patience{};
-    float left = 1;                   ///< what is left of the cost since something was won
-    float period = Bounds::infinity;  ///< of the finest fold that still jumps
+    float left = 1;                    ///< what is left of the cost since something was won
+    float period = Bounds::infinity;   ///< of the finest fold that still jumps
+    float pattern = Bounds::infinity;  ///< how large the features of local primitives are
     Candidate cell{};
 };
 
@@ -113,8 +114,9 @@ std::optional<Candidate> candidate(const Share& share, const Bounds& all, const 
         cell.proof = {};
         cell.local = {};
     }
-    // Through copies without end a ray goes on and on.
-    const float copies = 1 + 4 * share.box.diagonal() / share.period;
+    // Through copies without end a ray goes on and on, and from block to block of a pattern.
+    const float size = share.box.diagonal();
+    const float copies = (1 + 4 * size / share.period) * std::max(1.f, size / share.pattern);
     cell.cost = cost(cell.box, cell.bound, cell.curvature, cell.program, d.constants, cell.local, !cell.proof.empty(),
                      d.options.opaque, w.scratch) *
                 copies;
@@ -218,6 +220,7 @@ float divide(const Share& share, const Division& d, Worker& w) {
         if (!program) return;
         Share part{parts.box[i], *program, share.local, share.depth + 1};
         if (std::isfinite(share.period)) part.period = finest_jump(part.program, d.constants);
+        if (std::isfinite(share.pattern)) part.pattern = finest_pattern(part.program, d.constants);
         if (prepare(part, d, own)) divided[i] = part;
     });
     float sum = price::parts * surface(share.box);
@@ -252,6 +255,7 @@ float divide(const Share& share, const Division& d, Worker& w) {
 FoundPieces divide_into_cells(const Bounds& box, const WorkingProgram& program, const Division& d) {
     Share root{box, program};
     root.period = finest_jump(program, d.constants);
+    root.pattern = finest_pattern(program, d.constants);
     Workers workers;
     Worker worker{workers};
     if (prepare(root, d, worker)) divide(root, d, worker);

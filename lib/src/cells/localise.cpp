@@ -1,5 +1,8 @@
 #include "cells/localise.hpp"
 
+#include <algorithm>
+#include <cstring>
+
 #include "program/interpret.hpp"
 
 namespace phasetree {
@@ -16,6 +19,22 @@ WorkingProgram localised(const WorkingProgram& program, std::span<const LocalVal
     WorkingProgram result = program;
     result.code = code;
     return result;
+}
+
+float finest_pattern(const WorkingProgram& program, std::span<const float> constants) {
+    float finest = Bounds::infinity;
+    for (const Instruction& in : program.code) {
+        if (!traits(in.op).is_local) continue;
+        const auto op = static_cast<std::uint32_t>(in.op) - static_cast<std::uint32_t>(Op::first_primitive);
+        detail::dispatch(Primitives(), op, [&]<class P>() {
+            if constexpr (LocalPrimitive<P>) {
+                P primitive;
+                std::memcpy(static_cast<void*>(&primitive), &constants[in.data], sizeof primitive);
+                finest = std::min(finest, primitive.period() / program.lipschitz[in.a]);
+            }
+        });
+    }
+    return finest;
 }
 
 std::span<const float> data_of_near(Op op, std::span<const float> floats) {

@@ -30,6 +30,9 @@ struct LocalValue {
 WorkingProgram localised(const WorkingProgram&, std::span<const LocalValue>, std::vector<float>& floats,
                          Arena& scratch);
 
+/// How large the features of a program's local primitives are, at the least; endless if it has none.
+float finest_pattern(const WorkingProgram&, std::span<const float> constants);
+
 /// The data of an instruction that localised() has made.
 std::span<const float> data_of_near(Op, std::span<const float> floats);
 

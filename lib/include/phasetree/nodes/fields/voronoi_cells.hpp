@@ -105,6 +105,7 @@ struct VoronoiCells {
         static T distance(const float* data, const Vec3<T>& p);
     };
     using Parts = TypeList<Near>;
+    float period() const { return size; }
     /// See LocalPrimitive: the sites that may be the nearest or have a bisector that is not cut off.
     bool near(const PointRange&, std::span<const float> of, std::vector<float>& floats) const;
 

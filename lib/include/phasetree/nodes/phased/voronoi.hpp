@@ -62,6 +62,7 @@ struct Voronoi {
                     p, VoronoiSiteList{{node.jitter, node.seed}, {data + 6, static_cast<std::size_t>(data[5])}});
             }
         };
+        float period() const { return size; }
         bool near(const PointRange&, std::span<const float> of, std::vector<float>& floats) const;
     };
     using Parts = TypeList<Nearest, Nearest::Near>;
