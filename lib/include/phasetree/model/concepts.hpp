@@ -45,7 +45,7 @@ concept LocalPrimitive = requires(const N& n, const PointRange& range, std::span
                                   std::vector<float>& floats) {
     requires DataPrimitive<typename N::Near>;
     { n.near(range, of, floats) } -> std::same_as<bool>;
-    { n.period() } -> std::same_as<float>;  // how large its features are
+    { n.period() } -> std::same_as<float>;                             // how large its features are
     { N::Near::floats(floats.data()) } -> std::same_as<std::size_t>;   // how many they are
     { N::Near::half_works(floats.data()) } -> std::same_as<unsigned>;  // how much work, in halves of a simple one
 };
