@@ -50,7 +50,7 @@ void look(const P& primitive, float size, float far, Random& rng, Found& found) 
         part.centre[i] += (box.reach[i] - part.reach[i]) * static_cast<double>(rng.uniform(-1, 1));
     }
     REQUIRE(primitive.near(part, around, near));
-    found.sites += (near.size() - 6) / VoronoiSites::site_floats;
+    found.sites += P::Near::sites(near.data());
     for (int k = 0; k < 24; ++k) {
         const glm::vec3 p = within(rng, box, 1), q = within(rng, part, 1), r = within(rng, box, 4);
         const auto at = [](const glm::vec3& v) { return Vec3<float>{v.x, v.y, v.z}; };

@@ -33,10 +33,11 @@ bool is_small(const PointRange& r) {
 }
 
 /// Those of what append() has made.
-std::span<const float> sites_of(std::span<const float> list) {
-    return list.empty() ? list : list.subspan(6);
+std::span<const float> sites_of(std::span<const float> of) {
+    return of.empty() ? of : VoronoiNear::list(of.data());
 }
-bool append(std::span<const VoronoiSites::Site> sites, std::array<float, 5> parameters, std::vector<float>& floats) {
+bool append(std::span<const VoronoiSites::Site> sites, std::array<float, VoronoiNear::parameters> parameters,
+            std::vector<float>& floats) {
     if (sites.size() > most_sites) return false;
     floats.insert(floats.end(), parameters.begin(), parameters.end());
     floats.push_back(static_cast<float>(sites.size() * VoronoiSites::site_floats));

@@ -93,14 +93,8 @@ struct VoronoiCells {
         return gap * 0.5f - max(v, T(0.f)) * size;
     }
     /// The same in a box with the few sites that matter there.
-    struct Near {
-        std::vector<float> values{};  ///< the node's parameters, how many floats follow, the sites
-
-        std::span<const float> data() const { return values; }
-        static std::size_t floats(const float* data) { return 6 + static_cast<std::size_t>(data[5]); }
-        static unsigned half_works(const float* data) {
-            return 10 + 5 * static_cast<unsigned>(data[5]) / VoronoiSites::site_floats;
-        }
+    struct Near : VoronoiNear {
+        static unsigned half_works(const float* data) { return 10 + 5 * sites(data); }
         template <class T>
         static T distance(const float* data, const Vec3<T>& p);
     };
@@ -122,7 +116,7 @@ template <class T>
 T VoronoiCells::Near::distance(const float* data, const Vec3<T>& p) {
     VoronoiCells node;
     node.size = data[0], node.gap = data[1], node.rounding = data[2], node.jitter = data[3], node.seed = data[4];
-    return node.distance(p, VoronoiSiteList{{node.jitter, node.seed}, {data + 6, static_cast<std::size_t>(data[5])}});
+    return node.distance(p, VoronoiSiteList{{node.jitter, node.seed}, list(data)});
 }
 
 }  // namespace phasetree

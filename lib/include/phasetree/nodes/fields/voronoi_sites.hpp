@@ -114,6 +114,23 @@ struct VoronoiSiteList {
     }
 };
 
+/// What Voronoi primitives become in a small box (LocalPrimitive): their five parameters, how many floats follow, and
+/// the sites.
+struct VoronoiNear {
+    static constexpr std::size_t parameters = 5;
+
+    std::vector<float> values{};
+
+    std::span<const float> data() const { return values; }
+    static std::size_t floats(const float* data) { return parameters + 1 + static_cast<std::size_t>(data[parameters]); }
+    static unsigned sites(const float* data) {
+        return static_cast<unsigned>(data[parameters]) / VoronoiSites::site_floats;
+    }
+    static std::span<const float> list(const float* data) {
+        return {data + parameters + 1, static_cast<std::size_t>(data[parameters])};
+    }
+};
+
 namespace detail {
 inline constexpr Parameter voronoi_size{"size", "m", "Of the cubes that have a site each.", limits::positive};
 inline constexpr Parameter voronoi_jitter{

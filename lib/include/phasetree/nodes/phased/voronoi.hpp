@@ -47,19 +47,12 @@ struct Voronoi {
         float end_hash() const { return 289 * (kind + 1) / kinds - 0.5f; }
 
         /// The same in a box with the few sites of the kind that may be the nearest there.
-        struct Near {
-            std::vector<float> values{};  ///< the node's parameters, how many floats follow, the sites
-
-            std::span<const float> data() const { return values; }
-            static std::size_t floats(const float* data) { return 6 + static_cast<std::size_t>(data[5]); }
-            static unsigned half_works(const float* data) {
-                return 6 + 2 * static_cast<unsigned>(data[5]) / VoronoiSites::site_floats;
-            }
+        struct Near : VoronoiNear {
+            static unsigned half_works(const float* data) { return 6 + 2 * sites(data); }
             template <class T>
             static T distance(const float* data, const Vec3<T>& p) {
                 const Nearest node{data[0], data[1], data[2], data[3], data[4]};
-                return node.distance(
-                    p, VoronoiSiteList{{node.jitter, node.seed}, {data + 6, static_cast<std::size_t>(data[5])}});
+                return node.distance(p, VoronoiSiteList{{node.jitter, node.seed}, list(data)});
             }
         };
         float period() const { return size; }
