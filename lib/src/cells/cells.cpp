@@ -70,9 +70,14 @@ struct InterfaceCells::Data {
                                    Evaluator::Workspace* w, TraceCounters& counters) const {
         ++counters.visits;
         const Cell& c = cells[cell];
+        // The next cell that a ray meets is often a neighbour in this list, too.
+        __builtin_prefetch(cells.data() + cell + 1);
+        __builtin_prefetch(cells.data() + (cell > 0 ? cell - 1 : 0));
         const Routine r = routine_with_proof(cell);
         // What is not needed before the ray is clipped is under way until then.
         __builtin_prefetch(r.steps);
+        __builtin_prefetch(reinterpret_cast<const char*>(r.steps) + 64);
+        __builtin_prefetch(reinterpret_cast<const char*>(r.steps) + 128);
         __builtin_prefetch(r.outputs);
         __builtin_prefetch(r.proof);
         return march_within(c.box, c.bound,

@@ -58,7 +58,6 @@ struct Routine {
     bool is_by_own = false;
     /// So many steps give the first component alone, 0 if that is not known: enough for a ray that is in its phase.
     std::size_t leading = 0;
-    bool is_first_alone = false;  ///< only these steps
     /// Of the first component, where its curvature is not known: that it stays negative.
     const ProofStep* proof = nullptr;
     std::size_t proof_steps = 0;

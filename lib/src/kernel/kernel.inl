@@ -75,9 +75,10 @@ struct Table<TypeList<Ps...>, TypeList<Ds...>, TypeList<Ms...>> {
 };
 using Handlers = Table<Primitives, DataPrimitives, PointMaps>;
 
-HWY_FLATTEN void run(const Routine& routine, float* registers) {
+/// The first `count` steps.
+HWY_FLATTEN HWY_NOINLINE void run(const Routine& routine, std::size_t count, float* registers) {
     const float* constants = routine.constants;
-    for (const Step *s = routine.steps, *end = s + routine.count; s != end; ++s) {
+    for (const Step *s = routine.steps, *end = s + count; s != end; ++s) {
         float* to = at(registers, s->to);
         const float* a = at(registers, s->a);
         const float* b = at(registers, s->b);
@@ -149,16 +150,19 @@ HWY_INLINE bool is_shared(const Routine& routine) {
     return routine.output_count == 2 && routine.outputs[0].slot == routine.outputs[1].slot;
 }
 
-HWY_INLINE Classified classify(const Routine& routine, float* registers) {
-    const auto component = [&](std::size_t i) {
-        return load(at(registers, routine.outputs[i].slot)) * routine.outputs[i].sign;
-    };
-    Batch lowest = component(0);
-    if (routine.is_first_alone) {
-        const Batch zero(0.f);
-        return {select(less(lowest, zero), Batch(routine.outputs[0].phase), Batch(another_phase)),
-                max(lowest, -lowest)};
-    }
+HWY_INLINE Batch component(const Routine& routine, std::size_t i, float* registers) {
+    return load(at(registers, routine.outputs[i].slot)) * routine.outputs[i].sign;
+}
+
+/// By the first component alone.
+HWY_INLINE Classified classify_first(const Routine& routine, float* registers) {
+    const Batch first = component(routine, 0, registers), zero(0.f);
+    return {select(less(first, zero), Batch(routine.outputs[0].phase), Batch(another_phase)), max(first, -first)};
+}
+
+/// For `is_by_own` see Routine.
+HWY_INLINE Classified classify(const Routine& routine, bool is_by_own, float* registers) {
+    Batch lowest = component(routine, 0, registers);
     if (is_shared(routine)) {
         const Batch other = -lowest;
         return {select(less(other, lowest), Batch(routine.outputs[1].phase), Batch(routine.outputs[0].phase)),
@@ -167,25 +171,22 @@ HWY_INLINE Classified classify(const Routine& routine, float* registers) {
     Batch second(3.402823466e38f);
     Batch phase(routine.outputs[0].phase);
     for (std::size_t i = 1; i < routine.output_count; ++i) {
-        const Batch v = component(i);
+        const Batch v = component(routine, i, registers);
         const BatchMask lower = less(v, lowest);
         second = min(second, max(v, lowest));
         phase = select(lower, Batch(routine.outputs[i].phase), phase);
         lowest = min(v, lowest);
     }
-    return {phase, routine.is_by_own ? -lowest : second};
+    return {phase, is_by_own ? -lowest : second};
 }
 
-HWY_INLINE Classified classify_along(const Routine& routine, const float* o, const float* d, const Batch& t,
-                                     float* registers) {
+HWY_INLINE void place_along(const float* o, const float* d, const Batch& t, float* registers) {
     place(Batch(o[0]) + t * d[0], Batch(o[1]) + t * d[1], Batch(o[2]) + t * d[2], registers);
-    run(routine, registers);
-    return classify(routine, registers);
 }
 
 void evaluate(const Routine& routine, const float* x, const float* y, const float* z, float* registers, float* out) {
     place(load(x), load(y), load(z), registers);
-    run(routine, registers);
+    run(routine, routine.count, registers);
     for (std::size_t i = 0; i < routine.output_count; ++i)
         store(load(at(registers, routine.outputs[i].slot)) * routine.outputs[i].sign, out + i * batch_size);
 }
@@ -193,15 +194,17 @@ void evaluate(const Routine& routine, const float* x, const float* y, const floa
 void sample(const Routine& routine, const float* x, const float* y, const float* z, float* registers, float* label,
             float* distance) {
     place(load(x), load(y), load(z), registers);
-    run(routine, registers);
-    const Classified c = classify(routine, registers);
+    run(routine, routine.count, registers);
+    const Classified c = classify(routine, routine.is_by_own, registers);
     store(c.label, label);
     store(c.distance, distance);
 }
 
 void sample_ray(const Routine& routine, const float* o, const float* d, const float* t, float* registers, float* label,
                 float* distance) {
-    const Classified c = classify_along(routine, o, d, load(t), registers);
+    place_along(o, d, load(t), registers);
+    run(routine, routine.count, registers);
+    const Classified c = classify(routine, routine.is_by_own, registers);
     store(c.label, label);
     store(c.distance, distance);
 }

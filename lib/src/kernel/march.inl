@@ -58,14 +58,15 @@ HWY_INLINE Batch spread_evenly(float low, float high) {
     return ending_at(Batch(low) + lanes() * ((high - low) * (1 / last_lane)), high);
 }
 
-/// The step of geometric() that leads from a to b in so many steps.
-HWY_INLINE std::uint32_t geometric_step(float a, float b, std::uint32_t steps) {
+/// The step of geometric() that leads from a to b in so many steps; a constant, for divisions take long.
+template <std::uint32_t steps>
+HWY_INLINE std::uint32_t geometric_step(float a, float b) {
     return (bits_of(larger(a, b)) - bits_of(a)) / steps;
 }
 
 /// From an interface at 0, and 0 itself: the first step is `smallest`.
 HWY_INLINE Batch spread_from_interface(float high, float smallest) {
-    const std::uint32_t step = geometric_step(smallest, high, batch_size - 2);
+    const std::uint32_t step = geometric_step<batch_size - 2>(smallest, high);
     const Batch t = geometric(lanes() - 1.f, bits_of(smallest), step);
     return ending_at(select(less(lanes(), Batch(0.5f)), Batch(0.f), t), high);
 }
@@ -91,8 +92,11 @@ HWY_INLINE Batch spread_growing(float low, float high, float s, float slope) {
 HWY_INLINE Batch gather_around(float root, float low, float high, float smallest, bool has_low) {
     constexpr float half = batch_size / 2;
     const std::uint32_t a = bits_of(smallest);
-    const std::uint32_t below = geometric_step(smallest, 0.6f * (root - low), batch_size / 2 - (has_low ? 2 : 1));
-    const std::uint32_t above = geometric_step(smallest, 0.6f * (high - root), batch_size / 2 - 1);
+    constexpr std::uint32_t steps = batch_size / 2 - 1;
+    const float far_below = 0.6f * (root - low), far_above = 0.6f * (high - root);
+    const std::uint32_t below =
+        has_low ? geometric_step<steps - 1>(smallest, far_below) : geometric_step<steps>(smallest, far_below);
+    const std::uint32_t above = geometric_step<steps>(smallest, far_above);
     const Batch before = max(Batch(root) - geometric((half - 1) - lanes(), a, below), Batch(low));
     const Batch after = min(Batch(root) + geometric(lanes() - half, a, above), Batch(high));
     const Batch t = select(less(lanes(), Batch(half)), before, after);
@@ -103,22 +107,26 @@ HWY_INLINE Batch gather_around(float root, float low, float high, float smallest
 HWY_INLINE float predicted_root(const Place& here, const Place& next, const Place& before, const Place& after) {
     const float gap = next.t - here.t, sum = here.distance + next.distance;
     if (!(sum > 0)) return here.t + 0.5f * gap;
-    const float slope = -sum / gap;  // of the distance, counted negative beyond the change
-    const float root = here.t - here.distance / slope;
+    // No division waits for another.
+    const float per_gap = 1 / gap, per_slope = gap / sum;
+    const float slope = -sum * per_gap;  // of the distance, counted negative beyond the change
+    const float root = here.t + here.distance * per_slope;
     // The second divided difference tells how the distance curves.
     float curvature = 0;
     int known = 0;
     if (before.label == here.label && before.t < here.t) {
-        curvature += (slope - (here.distance - before.distance) / (here.t - before.t)) / (next.t - before.t);
+        const float per_both = 1 / (next.t - before.t);
+        curvature += (slope - (here.distance - before.distance) / (here.t - before.t)) * per_both;
         ++known;
     }
     if (after.label == next.label && after.t > next.t) {
-        curvature += ((next.distance - after.distance) / (after.t - next.t) - slope) / (after.t - here.t);
+        const float per_both = 1 / (after.t - here.t);
+        curvature += ((next.distance - after.distance) / (after.t - next.t) - slope) * per_both;
         ++known;
     }
     if (known == 0) return root;
-    const float there = curvature / static_cast<float>(known) * (root - here.t) * (root - next.t);
-    const float correction = -there / slope;
+    const float there = curvature * (known == 2 ? 0.5f : 1.f) * (root - here.t) * (root - next.t);
+    const float correction = there * per_slope;
     return (correction < 0 ? -correction : correction) < 0.25f * gap ? root + correction : root;
 }
 
@@ -133,16 +141,13 @@ HWY_INLINE float effective_resolution(float resolution, std::uint32_t batches) {
 class March {
   public:
     March(const Routine& routine, const RaySegment& ray, float* registers)
-        : whole_(routine),
+        : routine_(routine),
           ray_(ray),
           registers_(registers),
-          is_alone_(routine.leading > 0 && routine.outputs[0].phase == ray.carried) {
-        // Both tell the distance in the same way.
-        if (is_alone_) whole_.is_by_own = true;
-        alone_ = {routine.steps, routine.leading, routine.constants, routine.outputs, 1, true, 0, true};
-    }
+          is_alone_(routine.leading > 0 && routine.outputs[0].phase == ray.carried),
+          is_by_own_(is_alone_ || routine.is_by_own) {}  // both tell the distance in the same way
 
-    bool run(RayCrossing& crossing) {
+    bool search(RayCrossing& crossing) {
         const bool hit = find(crossing);
         crossing.batches = batches_;
         crossing.phantoms = phantoms_;
@@ -153,19 +158,19 @@ class March {
     static constexpr float none = -1;  ///< no label
 
     /// By the first component alone, if that is enough, labels are the ray's phase or another_phase.
-    Classified sample(const Batch& t) {
+    HWY_INLINE Classified sample(const Batch& t, bool is_whole = false) {
+        const bool is_alone = is_alone_ && !is_whole;
         ++batches_;
-        return classify_along(is_alone_ ? alone_ : whole_, ray_.origin, ray_.direction, t, registers_);
+        place_along(ray_.origin, ray_.direction, t, registers_);
+        run(routine_, is_alone ? routine_.leading : routine_.count, registers_);
+        return is_alone ? classify_first(routine_, registers_) : classify(routine_, is_by_own_, registers_);
     }
-    Classified sample_whole(const Batch& t) {
-        ++batches_;
-        return classify_along(whole_, ray_.origin, ray_.direction, t, registers_);
-    }
+    HWY_INLINE Classified sample_whole(const Batch& t) { return sample(t, true); }
 
     /// Samples a frame, and finds out which of its gaps are in doubt; the first one is from `from`. False, and nothing
     /// done, if no sample is strictly between `from` and `to`: no float lies there.
     bool fill(Frame& f, const Batch& t, const Place& from, float to, float fine, bool is_whole = false) {
-        const Classified c = is_whole ? sample_whole(t) : sample(t);
+        const Classified c = sample(t, is_whole);
         if (!(bits(less(Batch(from.t), t)) & bits(less(t, Batch(to))))) return false;
         store(t, f.t);
         store(c.distance, f.distance);
@@ -173,7 +178,7 @@ class March {
         judge(f, t, c, from, fine);
         return true;
     }
-    void judge(Frame& f, const Batch& t, const Classified& c, const Place& from, float fine) const {
+    HWY_INLINE void judge(Frame& f, const Batch& t, const Classified& c, const Place& from, float fine) const {
         f.from = {from.t, from.distance, phase_};
         f.next = 0;
         const std::uint32_t other = bits(less(c.label, Batch(phase_))) | bits(less(Batch(phase_), c.label));
@@ -191,7 +196,7 @@ class March {
             open &= bits(less(zero, missing)) & bits(less(a * b * 4.f, missing * missing));
         }
         if (is_provable_ && (open & is_long))
-            open &= ~proven(whole_, phase_ != whole_.outputs[0].phase, registers_, t, rounding());
+            open &= ~proven(routine_, phase_ != routine_.outputs[0].phase, registers_, t, rounding());
         f.doubt |= open & is_long;
         f.phantom = open & ~is_long & ~differs;
     }
@@ -201,6 +206,7 @@ class March {
     bool is_crossing(const Place& next, RayCrossing&);
     /// Whether a ray that starts within rounding of where it crossed came in a little before, and then where.
     bool is_entered_late(RayCrossing&);
+    Batch narrowing(const Frame&, int lane, const Place& next) const;
     Batch look_ahead(const Frame&, int lane, const Place& next) const;
 
     /// Whether the distances at a gap's ends prove it free by how much s bends. Between them s is above the chord less
@@ -227,10 +233,11 @@ class March {
         other_.label = none;
     }
 
-    Routine whole_, alone_;
+    const Routine& routine_;
     const RaySegment& ray_;
     float* registers_;
     bool is_alone_;  ///< the first component is enough
+    bool is_by_own_;
     std::uint32_t batches_ = 0, phantoms_ = 0;
     float phase_ = 0;
     float half_curvature_ = 0;  ///< of the distance in the ray's phase
@@ -249,7 +256,7 @@ bool March::find(RayCrossing& result) {
 
     // The start, and the first frame behind it.
     for (;;) {
-        const bool is_curvature_known = ray_.curvature[whole_.outputs[0].phase == ray_.carried ? 0 : 1] < 1e30f;
+        const bool is_curvature_known = ray_.curvature[routine_.outputs[0].phase == ray_.carried ? 0 : 1] < 1e30f;
         const Batch t = ray_.on_interface && !ray_.is_monotone && !is_curvature_known
                             ? spread_from_interface(length, resolution)
                             : spread_evenly(0, length);
@@ -264,11 +271,11 @@ bool March::find(RayCrossing& result) {
             is_alone_ = false;  // what it is in must be known
             continue;
         }
-        half_curvature_ = 0.5f * ray_.curvature[whole_.outputs[0].phase == phase_ ? 0 : 1];
+        half_curvature_ = 0.5f * ray_.curvature[routine_.outputs[0].phase == phase_ ? 0 : 1];
         is_curvature_known_ = half_curvature_ < 1e30f &&
-                              (whole_.outputs[0].phase != phase_ || whole_.output_count == 2 || whole_.is_by_own);
+                              (routine_.outputs[0].phase != phase_ || routine_.output_count == 2 || is_by_own_);
         is_provable_ =
-            !is_curvature_known_ && whole_.proof_steps > 0 && (whole_.outputs[0].phase == phase_ || is_shared(whole_));
+            !is_curvature_known_ && routine_.proof_steps > 0 && (routine_.outputs[0].phase == phase_ || is_shared(routine_));
         other_.label = none;
         judge(f, t, c, here_, resolution);
         if (f.doubt == 0) return false;
@@ -293,6 +300,32 @@ bool March::find(RayCrossing& result) {
         is_aligned = false;
     }
     certain_ = here_;
+
+    // Mostly the label changes at the end of the first gap in doubt, and so on until that is short enough: what the
+    // loop below does, without what else it has to ask.
+    while (is_aligned && depth < deepest) {
+        Frame& f = frames[depth - 1];
+        const std::uint32_t ahead = f.doubt >> f.next;
+        if (!ahead) break;
+        const int lane = f.next + __builtin_ctz(ahead);
+        const Place next = f.place(lane);
+        if (next.label == phase_ || !(next.t > here_.t)) break;
+        if (lane > f.next) {
+            const std::uint32_t passed = f.phantom & ((1u << lane) - (1u << f.next));
+            phantoms_ += static_cast<std::uint32_t>(__builtin_popcount(passed));
+            pass(f.place(lane - 1));
+            f.next = lane;
+        }
+        if (next.t - here_.t > resolution) {
+            if (!fill(frames[depth], narrowing(f, lane, next), here_, next.t, resolution, true)) break;
+            ++depth;
+            continue;
+        }
+        ++f.next;
+        if (is_crossing(next, result)) return true;
+        ++phantoms_;
+        is_aligned = false;
+    }
 
     for (;;) {
         if (depth == 0) {
@@ -359,17 +392,20 @@ bool March::find(RayCrossing& result) {
     }
 }
 
+/// Where to sample in the gap from `here` to next, where the label is another; for `lane` see look_ahead().
+HWY_INLINE Batch March::narrowing(const Frame& f, int lane, const Place& next) const {
+    const bool has_before = lane >= 1, has_after = lane >= 0 && lane + 1 < static_cast<int>(batch_size);
+    const Place before = has_before ? f.place(lane - 2) : here_, after = has_after ? f.place(lane + 1) : next;
+    const float root = predicted_root(here_, next, before, after);
+    // A proof speaks of what is between samples.
+    return gather_around(smaller(larger(root, here_.t), next.t), here_.t, next.t, 0.49f * ray_.resolution,
+                         is_provable_);
+}
+
 /// Where to sample in the gap from `here` to next, which is the given lane of a frame if `here` is the place before it.
 Batch March::look_ahead(const Frame& f, int lane, const Place& next) const {
+    if (next.label != phase_) return narrowing(f, lane, next);
     const float gap = next.t - here_.t;
-    if (next.label != phase_) {
-        const bool has_before = lane >= 1, has_after = lane >= 0 && lane + 1 < static_cast<int>(batch_size);
-        const Place before = has_before ? f.place(lane - 2) : here_, after = has_after ? f.place(lane + 1) : next;
-        const float root = predicted_root(here_, next, before, after);
-        // A proof speaks of what is between samples.
-        return gather_around(smaller(larger(root, here_.t), next.t), here_.t, next.t, 0.49f * ray_.resolution,
-                             is_provable_);
-    }
     const float fine = effective_resolution(ray_.resolution, batches_);
     if (const float slope = (next.distance - here_.distance) / gap; slope > 0.02f) {
         // The ray leaves an interface it started on, at a low angle: one frame for many of the gaps ahead.
@@ -440,7 +476,7 @@ bool March::is_entered_late(RayCrossing& result) {
 }
 
 bool march(const Routine& routine, const RaySegment& ray, float* registers, RayCrossing& crossing) {
-    return March(routine, ray, registers).run(crossing);
+    return March(routine, ray, registers).search(crossing);
 }
 
 }  // namespace

@@ -28,94 +28,95 @@ void bounds(const RTCBoundsFunctionArguments* arguments) {
     out.upper_z = b.high.z;
 }
 
-struct Lane {
-    Crossing crossing;
-    glm::vec3 direction;
-    float length;
-};
-
 /// Where in the scene a callback is asked to look.
 struct Where {
     unsigned geometry, cell, instance;
 };
 
-/// Makes a query's ray ready, unless it is the one that came last.
-const Query::Seen& seen(Query& query, RTCRayN* rays, unsigned n, unsigned i) {
+/// A ray made ready, unless it is the one that came last.
+const Query::Seen& see(Query::Seen& s, RTCRayN* rays, unsigned n, unsigned i) {
     const glm::vec3 origin{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)};
     const glm::vec3 direction{RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)};
-    Query::Seen& s = query.seen;
     if (s.origin != origin || s.direction != direction) {
-        s = {origin, direction, 0, {}};
-        if (const auto ray = LaneRay::of(origin, direction, 0, 0)) {
-            s.length = ray->length;
-            s.ray = TracedRay(ray->origin, ray->direction);
-        }
+        s.origin = origin;
+        s.direction = direction;
+        s.length = LaneRay::length_of(origin, direction);
+        s.ray = s.length > 0 ? TracedRay(origin, LaneRay::unit(direction, s.length)) : TracedRay();
     }
     return s;
 }
 
-std::optional<Lane> trace(const TreeGeometry::Data& data, const Where& where, RTCRayN* rays, unsigned n, unsigned i,
-                          Query* query) {
-    std::optional<Crossing> crossing;
-    if (query) {
-        const Query::Seen& s = seen(*query, rays, n, i);
-        const float near = RTCRayN_tnear(rays, n, i) * s.length, far = RTCRayN_tfar(rays, n, i) * s.length;
-        if (!(near <= far)) return std::nullopt;
-        const Query::Start& start = query->start;
-        std::optional<Departure> departure;
-        if (start.cell == where.cell && start.geometry == where.geometry && start.instance == where.instance &&
-            near == 0) {
-            const float along = glm::dot(start.gradient, s.ray.direction);
-            departure = Departure{query->carried == start.from ? -along : along};
-        }
-        crossing =
-            data.object->first_crossing(where.cell, s.ray, near, far, query->carried, departure, query->counters);
-        if (!crossing || !(crossing->t_in <= far)) return std::nullopt;
-        return Lane{*crossing, s.ray.direction, s.length};
+/// What a callback is asked.
+struct Asked {
+    const TreeGeometry::Data& data;
+    Query* query;
+    Where where;
+    TraceCounters unused{};
+    std::optional<Query::Seen> own{};
+
+    template <class Arguments>
+    explicit Asked(const Arguments& arguments)
+        : data(data_of(arguments.geometryUserPtr)),
+          query(data.options.rays_carry_phases ? reinterpret_cast<Query*>(arguments.context) : nullptr),
+          where{arguments.geomID, arguments.primID, arguments.context->instID[0]} {}
+
+    /// A lane's ray. Of a query it is kept from cell to cell.
+    const Query::Seen& seen(RTCRayN* rays, unsigned n, unsigned i) {
+        return see(query ? query->seen : own.emplace(), rays, n, i);
     }
-    const std::optional<LaneRay> ray = LaneRay::of(rays, n, i);
-    if (!ray) return std::nullopt;
-    TraceCounters unused;
-    crossing = data.object->first_crossing(where.cell, TracedRay(ray->origin, ray->direction), ray->near, ray->far,
-                                           std::nullopt, std::nullopt, unused);
-    if (!crossing || !(crossing->t_in <= ray->far)) return std::nullopt;
-    return Lane{*crossing, ray->direction, ray->length};
-}
+    /// At most `far` away, but for rounding. Returned as it is made: a copy would wait for every number of it.
+    std::optional<Crossing> crossing(const Query::Seen& s, float near, float far) {
+        std::optional<Phase> carried;
+        std::optional<Departure> departure;
+        if (!(near <= far)) return std::nullopt;
+        if (query) {
+            carried = query->carried;
+            const Query::Start& start = query->start;
+            if (start.cell == where.cell && start.geometry == where.geometry && start.instance == where.instance &&
+                near == 0) {
+                const float along = glm::dot(start.gradient, s.ray.direction);
+                departure = Departure{carried == start.from ? -along : along};
+            }
+        }
+        return data.object->first_crossing(where.cell, s.ray, near, far, carried, departure,
+                                           query ? query->counters : unused);
+    }
+};
 
 void intersect(const RTCIntersectFunctionNArguments* arguments) noexcept {
-    const TreeGeometry::Data& data = data_of(arguments->geometryUserPtr);
-    Query* query = data.options.rays_carry_phases ? reinterpret_cast<Query*>(arguments->context) : nullptr;
+    Asked asked(*arguments);
     const unsigned n = arguments->N;
     RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, n);
     RTCHitN* hits = RTCRayHitN_HitN(arguments->rayhit, n);
-    const Where where{arguments->geomID, arguments->primID, arguments->context->instID[0]};
     for (unsigned i = 0; i < n; ++i) {
         if (arguments->valid[i] != -1) continue;
-        const auto lane = trace(data, where, rays, n, i, query);
-        if (!lane) continue;
-        const Crossing& c = lane->crossing;
-        const glm::vec3 normal =
-            query ? -lane->direction : -data.object->normal(arguments->primID, c, lane->direction).unit;
-        RTCRayN_tfar(rays, n, i) = c.t_in / lane->length;
+        const Query::Seen& s = asked.seen(rays, n, i);
+        const float far = RTCRayN_tfar(rays, n, i) * s.length;
+        const std::optional<Crossing> c = asked.crossing(s, RTCRayN_tnear(rays, n, i) * s.length, far);
+        if (!c || !(c->t_in <= far)) continue;
+        const glm::vec3& along = s.ray.direction;
+        const glm::vec3 normal = asked.query ? -along : -asked.data.object->normal(arguments->primID, *c, along).unit;
+        RTCRayN_tfar(rays, n, i) = c->t_in / s.length;
         RTCHitN_Ng_x(hits, n, i) = normal.x;
         RTCHitN_Ng_y(hits, n, i) = normal.y;
         RTCHitN_Ng_z(hits, n, i) = normal.z;
-        RTCHitN_u(hits, n, i) = static_cast<float>(c.from.index);
-        RTCHitN_v(hits, n, i) = static_cast<float>(c.to.index);
+        RTCHitN_u(hits, n, i) = static_cast<float>(c->from.index);
+        RTCHitN_v(hits, n, i) = static_cast<float>(c->to.index);
         set_place(hits, n, i, arguments->primID, arguments->geomID, *arguments->context);
-        if (query) query->crossing = c;
+        if (asked.query) asked.query->crossing = *c;
     }
 }
 
 void occluded(const RTCOccludedFunctionNArguments* arguments) noexcept {
-    const TreeGeometry::Data& data = data_of(arguments->geometryUserPtr);
-    Query* query = data.options.rays_carry_phases ? reinterpret_cast<Query*>(arguments->context) : nullptr;
+    Asked asked(*arguments);
+    RTCRayN* rays = arguments->ray;
     const unsigned n = arguments->N;
-    const Where where{arguments->geomID, arguments->primID, arguments->context->instID[0]};
     for (unsigned i = 0; i < n; ++i) {
         if (arguments->valid[i] != -1) continue;
-        if (trace(data, where, arguments->ray, n, i, query))
-            RTCRayN_tfar(arguments->ray, n, i) = -std::numeric_limits<float>::infinity();
+        const Query::Seen& s = asked.seen(rays, n, i);
+        const float far = RTCRayN_tfar(rays, n, i) * s.length;
+        const std::optional<Crossing> c = asked.crossing(s, RTCRayN_tnear(rays, n, i) * s.length, far);
+        if (c && c->t_in <= far) RTCRayN_tfar(rays, n, i) = -std::numeric_limits<float>::infinity();
     }
 }
 

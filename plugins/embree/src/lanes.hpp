@@ -17,6 +17,17 @@ struct LaneRay {
     float near, far;
     float length;  ///< of the direction as it was; now it is a unit vector
 
+    /// Of a direction, if the ray can hit anything; else 0.
+    static float length_of(const glm::vec3& origin, const glm::vec3& direction) {
+        const float length = glm::length(direction);
+        const bool is_finite = std::isfinite(origin.x) && std::isfinite(origin.y) && std::isfinite(origin.z);
+        return is_finite && std::isfinite(length) ? length : 0.f;
+    }
+    /// Dividing a unit vector by its rounded length would move a carried start's samples off its bracket for nothing.
+    static glm::vec3 unit(const glm::vec3& direction, float length) {
+        return std::abs(length - 1) < 1e-6f ? direction : direction / length;
+    }
+
     /// Nothing for a ray that can hit nothing: with numbers that are not finite, without a direction, or reversed.
     static std::optional<LaneRay> of(RTCRayN* rays, unsigned n, unsigned i) {
         return of({RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)},
@@ -26,13 +37,9 @@ struct LaneRay {
     static std::optional<LaneRay> of(const glm::vec3& origin, const glm::vec3& d, float t_near, float t_far) {
         LaneRay r;
         r.origin = origin;
-        r.length = glm::length(d);
-        if (!(r.length > 0) || !std::isfinite(r.length)) return std::nullopt;
-        // Dividing a unit vector by its rounded length would move a carried start's samples off its bracket for
-        // nothing.
-        r.direction = std::abs(r.length - 1) < 1e-6f ? d : d / r.length;
-        for (int k = 0; k < 3; ++k)
-            if (!std::isfinite(r.origin[k])) return std::nullopt;
+        r.length = length_of(origin, d);
+        if (r.length == 0) return std::nullopt;
+        r.direction = unit(d, r.length);
         r.near = t_near * r.length;
         r.far = t_far * r.length;
         if (!(r.near <= r.far)) return std::nullopt;
