@@ -24,8 +24,9 @@ struct InterfaceCells::Data {
     struct alignas(64) Cell {
         Bounds box;
         LinearBound bound;
-        std::uint32_t first_step, first_output : 24, leading : 8, steps : 24, outputs : 8, slots : 15, is_by_own : 1,
-            curvature : 8, other_curvature : 8;
+        std::uint32_t shape, first_data;
+        std::uint8_t curvature, other_curvature;
+        bool is_by_own;
     };
     static_assert(sizeof(Cell) == 64);
 
@@ -36,25 +37,19 @@ struct InterfaceCells::Data {
     PhaseSet opaque;
     std::vector<Cell> cells;
     std::size_t routine_count = 0;
-    std::vector<Step> steps;
-    std::vector<OutputSlot> outputs;
+    RoutineTables routines;
     std::vector<ProofStep> proofs;
     std::vector<std::uint32_t> first_proof;  ///< of each cell, and the end
     double build_seconds = 0;
 
-    static constexpr std::uint32_t most_steps = 0xffffff, most_slots = 0x7fff, most_outputs = 0xffffff,
-                                   most_leading = 0xff;
     CurvatureCode curvature_code;
 
     Routine routine(const Cell& c) const {
-        return {steps.data() + c.first_step,
-                c.steps,
-                whole->program().constants.data(),
-                outputs.data() + c.first_output,
-                c.outputs,
-                c.is_by_own != 0,
-                c.leading};
+        Routine r = routines.routine(routines.shapes[c.shape], c.first_data, whole->program().constants.data());
+        r.is_by_own = c.is_by_own;
+        return r;
     }
+    std::uint32_t slots(const Cell& c) const { return routines.shapes[c.shape].slots; }
     /// A cell's proof is read only where curvature leaves a ray in doubt.
     Routine routine_with_proof(std::size_t cell) const {
         const Cell& c = cells[cell];
@@ -75,46 +70,38 @@ struct InterfaceCells::Data {
         __builtin_prefetch(cells.data() + (cell > 0 ? cell - 1 : 0));
         const Routine r = routine_with_proof(cell);
         // What is not needed before the ray is clipped is under way until then.
-        __builtin_prefetch(r.steps);
-        __builtin_prefetch(reinterpret_cast<const char*>(r.steps) + 64);
-        __builtin_prefetch(reinterpret_cast<const char*>(r.steps) + 128);
-        __builtin_prefetch(r.outputs);
+        __builtin_prefetch(r.data);
+        __builtin_prefetch(r.data + r.count);
         __builtin_prefetch(r.proof);
         return march_within(c.box, c.bound,
-                            {curvature_code.decode(c.curvature), curvature_code.decode(c.other_curvature)}, r, c.slots,
+                            {curvature_code.decode(c.curvature), curvature_code.decode(c.other_curvature)}, r, slots(c),
                             ray, t_min, t_max, resolution, carried, departure, w, counters);
     }
 
     /// Cells with equal programs share one.
-    void add(FoundPieces found, Routines routines) {
+    void add(FoundPieces found, Routines made) {
         cells.reserve(found.cells());
         first_proof.reserve(found.cells() + 1);
         for (Found& piece : found) {
-            routines.take_near(piece);
-            add(piece, routines);
+            made.take_near(piece);
+            add(piece, made);
         }
         first_proof.push_back(Found::narrow(proofs.size()));
         proofs.shrink_to_fit();
-        routine_count = routines.count();
-        steps = std::move(routines.steps);
-        outputs = std::move(routines.outputs);
-        steps.shrink_to_fit();
-        outputs.shrink_to_fit();
+        routine_count = made.count();
+        routines = std::move(made.tables);
+        routines.shrink_to_fit();
     }
-    void add(const Found& found, Routines& routines) {
+    void add(const Found& found, Routines& made) {
         for (const Found::Cell& c : found.cells) {
-            const Routines::Ready& r = routines.add(found, c);
-            if (r.steps > most_steps || r.slots > most_slots || r.first_output > most_outputs)
-                throw ModelError(fmt::format(
-                    "the object's cells take too long programs, of {} instructions on {} values", r.steps, r.slots));
+            const Routines::Ready& r = made.add(found, c);
             // Without its component alone a ray in the first phase knows nothing.
-            const bool is_led = r.leading > 0 && r.leading <= most_leading;
-            cells.push_back({c.box, c.outputs == 2 || is_led ? c.bound : LinearBound{}, r.first_step,
-                             r.first_output & most_outputs, is_led ? r.leading & most_leading : 0, r.steps & most_steps,
-                             r.outputs & 0xffu, r.slots & most_slots, c.curvature.is_by_own,
-                             curvature_code.encode(c.curvature.most[0]), curvature_code.encode(c.curvature.most[1])});
+            const bool is_known = c.outputs == 2 || made.tables.shapes[r.shape].leading > 0;
+            cells.push_back({c.box, is_known ? c.bound : LinearBound{}, r.shape, r.first_data,
+                             curvature_code.encode(c.curvature.most[0]), curvature_code.encode(c.curvature.most[1]),
+                             c.curvature.is_by_own});
             first_proof.push_back(Found::narrow(proofs.size()));
-            routines.add_proof(r, found.proof_of(c), proofs);
+            made.add_proof(r, found.proof_of(c), proofs);
         }
     }
 };
@@ -169,8 +156,9 @@ std::optional<Crossing> InterfaceCells::first_crossing(std::size_t cell, const T
 
 CrossingNormal InterfaceCells::normal(std::size_t cell, const Crossing& c, const glm::vec3& direction) const {
     const Data::Cell& at = data_->cells[cell];
-    return normal_of(c, direction,
-                     [&](const glm::vec3& p, Phase phase) { return gradient(data_->routine(at), at.slots, p, phase); });
+    return normal_of(c, direction, [&](const glm::vec3& p, Phase phase) {
+        return gradient(data_->routine(at), data_->slots(at), p, phase);
+    });
 }
 
 Phase InterfaceCells::label(const glm::vec3& p, Evaluator::Workspace& w) const {
@@ -184,7 +172,7 @@ Phase InterfaceCells::label(std::size_t cell, const glm::vec3& p, Evaluator::Wor
     z.lane.fill(p.z);
     Samples s;
     const Data::Cell& c = data_->cells[cell];
-    active_kernel().sample(data_->routine(c), x.lane.data(), y.lane.data(), z.lane.data(), w.registers(c.slots),
+    active_kernel().sample(data_->routine(c), x.lane.data(), y.lane.data(), z.lane.data(), w.registers(data_->slots(c)),
                            s.label.lane.data(), s.distance.lane.data());
     return Phase{static_cast<std::uint8_t>(s.label[0])};
 }
@@ -207,13 +195,13 @@ CellStatistics InterfaceCells::statistics() const {
     CellStatistics s;
     s.cells = data_->cells.size();
     s.routines = data_->routine_count;
-    s.bytes = data_->cells.size() * sizeof(Data::Cell) + data_->steps.size() * sizeof(Step) +
-              data_->outputs.size() * sizeof(OutputSlot) + data_->proofs.size() * sizeof(ProofStep) +
-              data_->first_proof.size() * sizeof(data_->first_proof[0]) + data_->whole->bytes();
+    s.bytes = data_->cells.size() * sizeof(Data::Cell) + data_->routines.bytes() +
+              data_->proofs.size() * sizeof(ProofStep) + data_->first_proof.size() * sizeof(data_->first_proof[0]) +
+              data_->whole->bytes();
     s.build_seconds = data_->build_seconds;
     if (data_->cells.empty()) return s;
     std::vector<std::size_t> length;
-    for (std::size_t i = 0; i < size(); ++i) length.push_back(data_->cells[i].steps);
+    for (std::size_t i = 0; i < size(); ++i) length.push_back(data_->routines.shapes[data_->cells[i].shape].steps);
     std::sort(length.begin(), length.end());
     s.median_instructions = length[length.size() / 2];
     s.percentile90_instructions = length[length.size() * 9 / 10];

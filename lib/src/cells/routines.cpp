@@ -1,6 +1,7 @@
 #include "cells/routines.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <ranges>
 
 #include "cells/localise.hpp"
@@ -12,6 +13,23 @@ namespace {
 bool is_equal(const Instruction& a, const Instruction& b) {
     return a.op == b.op && a.a == b.a && a.b == b.b && a.data == b.data;
 }
+/// Of words, two at a time.
+class Hash64 {
+  public:
+    explicit Hash64(std::uint64_t start) : hash_(start) {}
+    void put(std::uint64_t first, std::uint64_t second) {
+        hash_ = (hash_ ^ first) * 0x9e3779b97f4a7c15u + second * 0xbf58476d1ce4e5b9u;
+        hash_ ^= hash_ >> 32;
+    }
+    std::uint64_t get() const { return hash_; }
+
+  private:
+    std::uint64_t hash_;
+};
+std::uint64_t both(std::uint64_t high, std::uint32_t low) {
+    return high << 32 | low;
+}
+
 bool is_equal(const ProgramOutput& a, const ProgramOutput& b) {
     return a.phase == b.phase && a.value == b.value && a.negate == b.negate;
 }
@@ -25,17 +43,12 @@ auto values_of(std::span<const ProofPart> proof) {
 }  // namespace
 
 Routines::Key Routines::key_of(const Found& found, const Found::Cell& cell) {
-    std::uint64_t hash = cell.leading;
-    const auto put = [&](std::uint64_t first, std::uint64_t second) {
-        hash = (hash ^ first) * 0x9e3779b97f4a7c15u + second * 0xbf58476d1ce4e5b9u;
-        hash ^= hash >> 32;
-    };
-    const auto both = [](std::uint64_t high, std::uint32_t low) { return high << 32 | low; };
+    Hash64 hash(cell.leading);
     for (const Instruction& in : found.code_of(cell))
-        put(both(static_cast<std::uint32_t>(in.op), in.data), both(in.a, in.b));
-    for (const ProgramOutput& o : found.outputs_of(cell)) put(both(o.phase.index, o.value), o.negate);
-    for (const std::uint32_t value : values_of(found.proof_of(cell))) put(value, 1);
-    return {&found, &cell, hash};
+        hash.put(both(static_cast<std::uint32_t>(in.op), in.data), both(in.a, in.b));
+    for (const ProgramOutput& o : found.outputs_of(cell)) hash.put(both(o.phase.index, o.value), o.negate);
+    for (const std::uint32_t value : values_of(found.proof_of(cell))) hash.put(value, 1);
+    return {&found, &cell, hash.get()};
 }
 
 bool Routines::Key::operator==(const Key& other) const {
@@ -74,16 +87,35 @@ Routines::Ready Routines::make(const Found& found, const Found::Cell& cell) {
     }
     std::vector<KeptValue> kept;
     for (const std::uint32_t v : kept_) kept.push_back({fused.where[v]});
-    const std::size_t first_step = steps.size(), first_output = outputs.size(), first_kept = kept_slots_.size();
-    const std::uint32_t slots = assemble(fused.code, ends, kept, steps, outputs);
+    const Assembly assembly = assemble(fused.code, ends, kept);
+    const Ready ready{shape_of(assembly, fused.leading), Found::narrow(tables.data.size()),
+                      Found::narrow(kept_slots_.size())};
+    tables.data.insert(tables.data.end(), assembly.data.begin(), assembly.data.end());
     for (const KeptValue& k : kept) kept_slots_.push_back(k.slot);
-    return {Found::narrow(first_step),
-            Found::narrow(steps.size() - first_step),
-            fused.leading,
-            Found::narrow(first_output),
-            Found::narrow(ends.size()),
-            slots,
-            Found::narrow(first_kept)};
+    return ready;
+}
+
+std::uint32_t Routines::shape_of(const Assembly& assembly, std::uint32_t leading) {
+    Hash64 hash(leading);
+    for (const Step& s : assembly.steps) hash.put(both(s.op, s.to), both(s.a, s.b));
+    for (const OutputSlot& o : assembly.outputs)
+        hash.put(both(o.slot, std::bit_cast<std::uint32_t>(o.phase)), std::bit_cast<std::uint32_t>(o.sign));
+    const auto is_it = [&](const RoutineTables::Shape& s) {
+        return s.leading == leading && s.slots == assembly.slots &&
+               std::ranges::equal(std::span(tables.steps).subspan(s.first_step, s.steps), assembly.steps) &&
+               std::ranges::equal(std::span(tables.outputs).subspan(s.first_output, s.outputs), assembly.outputs);
+    };
+    const auto [first, end] = shapes_.equal_range(hash.get());
+    for (auto known = first; known != end; ++known)
+        if (is_it(tables.shapes[known->second])) return known->second;
+    const std::uint32_t shape = Found::narrow(tables.shapes.size());
+    tables.shapes.push_back({Found::narrow(tables.steps.size()), Found::narrow(assembly.steps.size()), leading,
+                             Found::narrow(tables.outputs.size()), Found::narrow(assembly.outputs.size()),
+                             assembly.slots});
+    tables.steps.insert(tables.steps.end(), assembly.steps.begin(), assembly.steps.end());
+    tables.outputs.insert(tables.outputs.end(), assembly.outputs.begin(), assembly.outputs.end());
+    shapes_.emplace(hash.get(), shape);
+    return shape;
 }
 
 void Routines::add_proof(const Ready& ready, std::span<const ProofPart> proof, std::vector<ProofStep>& proofs) const {

@@ -9,6 +9,34 @@
 
 namespace phasetree {
 
+/// Many routines, as steps and as where each step's constants are. Those of one shape differ in the latter only, and
+/// shapes are so few that caches hold them.
+struct RoutineTables {
+    struct Shape {
+        std::uint32_t first_step, steps, leading, first_output, outputs, slots;
+    };
+    std::vector<Shape> shapes;
+    std::vector<Step> steps;
+    std::vector<OutputSlot> outputs;
+    std::vector<std::uint32_t> data;
+
+    Routine routine(const Shape& s, std::uint32_t first_data, const float* constants) const {
+        Routine r{&steps[s.first_step], &data[first_data], constants, s.steps, &outputs[s.first_output], s.outputs};
+        r.leading = s.leading;
+        return r;
+    }
+    std::size_t bytes() const {
+        return shapes.size() * sizeof(Shape) + steps.size() * sizeof(Step) + outputs.size() * sizeof(OutputSlot) +
+               data.size() * sizeof(data[0]);
+    }
+    void shrink_to_fit() {
+        shapes.shrink_to_fit();
+        steps.shrink_to_fit();
+        outputs.shrink_to_fit();
+        data.shrink_to_fit();
+    }
+};
+
 /// Cells' programs made ready to run, equal ones once.
 class Routines {
   public:
@@ -16,7 +44,7 @@ class Routines {
     explicit Routines(std::vector<float>& constants) : fuse_(constants) {}
 
     struct Ready {
-        std::uint32_t first_step, steps, leading, first_output, outputs, slots;
+        std::uint32_t shape, first_data;
         std::uint32_t first_kept;  ///< where the slots start of the values that the proof speaks of, in its order
     };
     /// Makes what localised instructions want constants. To be called before add() with what was found there.
@@ -27,11 +55,11 @@ class Routines {
     void add_proof(const Ready&, std::span<const ProofPart>, std::vector<ProofStep>&) const;
 
     std::size_t count() const { return known_.size(); }
-    std::vector<Step> steps;
-    std::vector<OutputSlot> outputs;
+    RoutineTables tables;
 
   private:
     Ready make(const Found&, const Found::Cell&);
+    std::uint32_t shape_of(const Assembly&, std::uint32_t leading);
 
     /// A cell's program, where it was found.
     struct Key {
@@ -48,6 +76,7 @@ class Routines {
 
     Fuser fuse_;
     std::unordered_map<Key, Ready, Hash> known_;
+    std::unordered_multimap<std::uint64_t, std::uint32_t> shapes_;  ///< by a hash
     std::vector<std::uint32_t> kept_, kept_slots_;
 };
 

@@ -10,13 +10,13 @@ namespace phasetree {
 /// A proof is no longer than this.
 inline constexpr std::size_t most_proof_steps = 32;
 
-/// A resolved instruction. Slots count batches in the register file; a point takes three.
+/// A resolved instruction. Slots count batches in the register file; a point takes three. Where its constants are is
+/// kept apart, so that many routines share their steps.
 struct Step {
     std::uint32_t op;
     std::uint32_t to;
     std::uint32_t a;
     std::uint32_t b;
-    std::uint32_t data;
 
     bool operator==(const Step&) const = default;
 };
@@ -49,8 +49,9 @@ struct ProofStep {
 /// inline functions of the standard library with the rest.
 struct Routine {
     const Step* steps;
-    std::size_t count;
+    const std::uint32_t* data;  ///< for each step where its constants are among these:
     const float* constants;
+    std::size_t count;
     const OutputSlot* outputs;
     std::size_t output_count;
     /// Which lower bound of the distance to where the label changes is used where each component has a value of its

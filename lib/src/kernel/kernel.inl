@@ -31,21 +31,22 @@ HWY_INLINE Vec3<Batch> load_point(float* registers, std::uint32_t slot) {
     return {load(p), load(p + batch_size), load(p + 2 * batch_size)};
 }
 
+/// A step, with its own constants.
 using Handler = void (*)(const Step&, const float* constants, float* registers);
 
 template <class P>
 HWY_FLATTEN void run_primitive(const Step& s, const float* constants, float* registers) {
-    store(constants_of<P>(constants + s.data).distance(load_point(registers, s.a)), at(registers, s.to));
+    store(constants_of<P>(constants).distance(load_point(registers, s.a)), at(registers, s.to));
 }
 
 template <class P>
 HWY_FLATTEN void run_data_primitive(const Step& s, const float* constants, float* registers) {
-    store(P::distance(constants + s.data, load_point(registers, s.a)), at(registers, s.to));
+    store(P::distance(constants, load_point(registers, s.a)), at(registers, s.to));
 }
 
 template <class M>
 HWY_FLATTEN void run_map(const Step& s, const float* constants, float* registers) {
-    const Vec3<Batch> q = constants_of<M>(constants + s.data)(load_point(registers, s.a));
+    const Vec3<Batch> q = constants_of<M>(constants)(load_point(registers, s.a));
     float* to = at(registers, s.to);
     store(q.x, to);
     store(q.y, to + batch_size);
@@ -54,8 +55,8 @@ HWY_FLATTEN void run_map(const Step& s, const float* constants, float* registers
 
 template <class P>
 HWY_FLATTEN void run_placed(const Step& s, const float* constants, float* registers) {
-    const auto& frame = constants_of<PlacedPrimitive>(constants + s.data);
-    const Batch d = constants_of<P>(constants + s.data + placed_floats).distance(frame.map(load_point(registers, s.a)));
+    const auto& frame = constants_of<PlacedPrimitive>(constants);
+    const Batch d = constants_of<P>(constants + placed_floats).distance(frame.map(load_point(registers, s.a)));
     store(d * frame.scale + frame.offset, at(registers, s.to));
 }
 template <class P>
@@ -77,8 +78,9 @@ using Handlers = Table<Primitives, DataPrimitives, PointMaps>;
 
 /// The first `count` steps.
 HWY_FLATTEN HWY_NOINLINE void run(const Routine& routine, std::size_t count, float* registers) {
-    const float* constants = routine.constants;
-    for (const Step *s = routine.steps, *end = s + count; s != end; ++s) {
+    const std::uint32_t* data = routine.data;
+    for (const Step *s = routine.steps, *end = s + count; s != end; ++s, ++data) {
+        const float* constants = routine.constants + *data;
         float* to = at(registers, s->to);
         const float* a = at(registers, s->a);
         const float* b = at(registers, s->b);
@@ -105,22 +107,22 @@ HWY_FLATTEN HWY_NOINLINE void run(const Routine& routine, std::size_t count, flo
                 store(abs(load(a)), to);
                 break;
             case Op::add_constant:
-                store(load(a) + constants[s->data], to);
+                store(load(a) + *constants, to);
                 break;
             case Op::constant_minus:
-                store(constants[s->data] - load(a), to);
+                store(*constants - load(a), to);
                 break;
             case Op::multiply_constant:
-                store(load(a) * constants[s->data], to);
+                store(load(a) * *constants, to);
                 break;
             case Op::smooth_minimum:
-                store(smooth_min(load(a), load(b), constants[s->data]), to);
+                store(smooth_min(load(a), load(b), *constants), to);
                 break;
             case Op::guarded:
-                store(guarded(load(a), load(b), constants[s->data]), to);
+                store(guarded(load(a), load(b), *constants), to);
                 break;
             case Op::falloff:
-                store(falloff(load(a), constants[s->data]), to);
+                store(falloff(load(a), *constants), to);
                 break;
             case Op::corner:
                 store(corner(load(a), load(b)), to);

@@ -274,8 +274,8 @@ bool March::find(RayCrossing& result) {
         half_curvature_ = 0.5f * ray_.curvature[routine_.outputs[0].phase == phase_ ? 0 : 1];
         is_curvature_known_ = half_curvature_ < 1e30f &&
                               (routine_.outputs[0].phase != phase_ || routine_.output_count == 2 || is_by_own_);
-        is_provable_ =
-            !is_curvature_known_ && routine_.proof_steps > 0 && (routine_.outputs[0].phase == phase_ || is_shared(routine_));
+        is_provable_ = !is_curvature_known_ && routine_.proof_steps > 0 &&
+                       (routine_.outputs[0].phase == phase_ || is_shared(routine_));
         other_.label = none;
         judge(f, t, c, here_, resolution);
         if (f.doubt == 0) return false;

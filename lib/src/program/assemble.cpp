@@ -84,8 +84,9 @@ constexpr auto known_traits = all_traits();
 
 const OpTraits* const op_traits = known_traits.data();
 
-std::uint32_t assemble(std::span<const Instruction> code, std::span<const ProgramOutput> outputs,
-                       std::span<KeptValue> kept, std::vector<Step>& steps, std::vector<OutputSlot>& ends) {
+Assembly assemble(std::span<const Instruction> code, std::span<const ProgramOutput> outputs,
+                  std::span<KeptValue> kept) {
+    Assembly result;
     constexpr auto forever = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> last_use(code.size(), 0), slot(code.size(), 0);
     for (std::uint32_t i = 0; i < code.size(); ++i) {
@@ -102,21 +103,18 @@ std::uint32_t assemble(std::span<const Instruction> code, std::span<const Progra
         const int n = operands(in.op);
         // A map writes its result one component at a time, so it is placed before its operand's slots are freed.
         slot[i] = slots.take(size_of(in.op));
-        if (in.op != Op::input)
-            steps.push_back(
-                {static_cast<std::uint32_t>(in.op), slot[i], n > 0 ? slot[in.a] : 0, n > 1 ? slot[in.b] : 0, in.data});
+        if (in.op != Op::input) {
+            result.steps.push_back(
+                {static_cast<std::uint32_t>(in.op), slot[i], n > 0 ? slot[in.a] : 0, n > 1 ? slot[in.b] : 0});
+            result.data.push_back(in.data);
+        }
         if (n > 0 && last_use[in.a] == i) slots.give_back(slot[in.a], size_of(code[in.a].op));
         if (n > 1 && in.b != in.a && last_use[in.b] == i) slots.give_back(slot[in.b], size_of(code[in.b].op));
     }
     for (const ProgramOutput& o : outputs)
-        ends.push_back({slot[o.value], static_cast<float>(o.phase.index), o.negate ? -1.f : 1.f});
+        result.outputs.push_back({slot[o.value], static_cast<float>(o.phase.index), o.negate ? -1.f : 1.f});
     for (KeptValue& k : kept) k.slot = slot[k.value];
-    return slots.end();
-}
-
-Assembly assemble(std::span<const Instruction> code, std::span<const ProgramOutput> outputs) {
-    Assembly result;
-    result.slots = assemble(code, outputs, {}, result.steps, result.outputs);
+    result.slots = slots.end();
     return result;
 }
 

@@ -15,23 +15,22 @@ struct ProgramOutput {
 /// Instructions made ready to run: registers assigned, operations resolved.
 struct Assembly {
     std::vector<Step> steps;
+    std::vector<std::uint32_t> data;  ///< for each step where its constants are
     std::vector<OutputSlot> outputs;
     std::uint32_t slots = 0;
 
     Routine routine(const float* constants) const {
-        return {steps.data(), steps.size(), constants, outputs.data(), outputs.size()};
+        return {steps.data(), data.data(), constants, steps.size(), outputs.data(), outputs.size()};
     }
 };
 
-/// Values whose last use is past give their register to later ones.
-Assembly assemble(std::span<const Instruction> code, std::span<const ProgramOutput> outputs);
 /// A value that is read after the program has run, though it is no output, and where it is then found.
 struct KeptValue {
     std::uint32_t value = 0, slot = 0;
 };
-/// The same, appended to others; tells how many slots it needs.
-std::uint32_t assemble(std::span<const Instruction> code, std::span<const ProgramOutput> outputs,
-                       std::span<KeptValue> kept, std::vector<Step>&, std::vector<OutputSlot>&);
+/// Values whose last use is past give their register to later ones.
+Assembly assemble(std::span<const Instruction> code, std::span<const ProgramOutput> outputs,
+                  std::span<KeptValue> kept = {});
 
 std::vector<ProgramOutput> outputs_of(const Program&);
 

@@ -48,8 +48,8 @@ glm::vec3 Evaluator::gradient(const glm::vec3& p, Phase phase) const {
 }
 
 std::size_t Evaluator::bytes() const {
-    return program_.bytes() + assembly_->steps.size() * sizeof(Step) + assembly_->outputs.size() * sizeof(OutputSlot) +
-           sizeof(*this);
+    return program_.bytes() + assembly_->steps.size() * (sizeof(Step) + sizeof(std::uint32_t)) +
+           assembly_->outputs.size() * sizeof(OutputSlot) + sizeof(*this);
 }
 
 Evaluator::Workspace& Evaluator::thread_workspace() {

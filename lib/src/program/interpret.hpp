@@ -18,9 +18,9 @@ void dispatch(TypeList<Ts...>, std::uint32_t index, Run&& run) {
 }
 
 template <class Struct>
-Struct constants_of(const Step& s, const float* constants) {
+Struct read(const float* constants) {
     Struct result;
-    std::memcpy(static_cast<void*>(&result), constants + s.data, sizeof result);
+    std::memcpy(static_cast<void*>(&result), constants, sizeof result);
     return result;
 }
 
@@ -30,9 +30,7 @@ T distance_of(const float* constants, const Vec3<T>& q) {
     if constexpr (DataPrimitive<P>) {
         return P::distance(constants, q);
     } else {
-        P primitive;
-        std::memcpy(static_cast<void*>(&primitive), constants, sizeof primitive);
-        return primitive.distance(q);
+        return read<P>(constants).distance(q);
     }
 }
 
@@ -55,7 +53,7 @@ void interpret(const Routine& routine, T* registers, LongPrimitiveOf&& long_prim
         const T& a = registers[s.a];
         const T& b = registers[s.b];
         T& to = registers[s.to];
-        const float* c = routine.constants + s.data;
+        const float* c = routine.constants + routine.data[i];
         switch (static_cast<Op>(s.op)) {
             case Op::input:
                 break;
@@ -118,13 +116,13 @@ void interpret(const Routine& routine, T* registers, LongPrimitiveOf&& long_prim
                         to = detail::distance_of<P>(floats, point);
                 };
                 if (s.op >= first_placed) {
-                    const auto placed = detail::constants_of<PlacedPrimitive>(s, routine.constants);
+                    const auto placed = detail::read<PlacedPrimitive>(c);
                     detail::dispatch(Primitives(), s.op - first_placed, [&]<class P>() {
                         primitive.template operator()<P>(c + placed_floats, placed.map(input));
                     });
                     to = to * placed.scale + placed.offset;
                 } else if (s.op == affine_map) {
-                    set_point(detail::constants_of<AffineMap>(s, routine.constants)(input));
+                    set_point(detail::read<AffineMap>(c)(input));
                 } else if (index < Primitives::size) {
                     detail::dispatch(Primitives(), index,
                                      [&]<class P>() { primitive.template operator()<P>(c, input); });
@@ -132,9 +130,8 @@ void interpret(const Routine& routine, T* registers, LongPrimitiveOf&& long_prim
                     detail::dispatch(DataPrimitives(), index - static_cast<std::uint32_t>(Primitives::size),
                                      [&]<class P>() { primitive.template operator()<P>(c, input); });
                 } else {
-                    detail::dispatch(PointMaps(), s.op - first_map, [&]<class M>() {
-                        set_point(detail::constants_of<M>(s, routine.constants)(input));
-                    });
+                    detail::dispatch(PointMaps(), s.op - first_map,
+                                     [&]<class M>() { set_point(detail::read<M>(c)(input)); });
                 }
             }
         }
