@@ -51,6 +51,45 @@ TEST_CASE("rays that carry their phase go from interface to interface as the tra
     CHECK(crossings > 2500);
 }
 
+TEST_CASE("one query serves ray after ray, from one point, along one direction, through instances") {
+    const Alone alone({.rays_carry_phases = true});
+    EmbreeScene instances(alone.device);
+    for (const float shift : {0.f, 4.f}) {
+        const RTCGeometry instance = rtcNewGeometry(alone.device, RTC_GEOMETRY_TYPE_INSTANCE);
+        const float moved[] = {1, 0, 0, 0, 1, 0, 0, 0, 1, shift, 0, 0};
+        rtcSetGeometryInstancedScene(instance, alone.scene);
+        rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, moved);
+        instances.add(instance);
+        rtcReleaseGeometry(instance);
+    }
+    instances.commit();
+    std::vector<Ray> sequence;
+    for (const Ray& ray : rays(400, 5)) {
+        const glm::vec3 aside = glm::normalize(glm::vec3(ray.direction.y, ray.direction.z, -ray.direction.x));
+        const glm::vec3 along(std::copysign(1.f, ray.direction.x), 0, 0);  // through both
+        for (const glm::vec3& d : {ray.direction, glm::normalize(ray.direction + 0.1f * aside), along})
+            sequence.push_back({ray.origin, d});
+        sequence.push_back({ray.origin + 0.1f * aside, along});
+    }
+    embree::Query one;
+    int hit = 0;
+    for (const Ray& ray : sequence) {
+        embree::Query fresh;
+        RTCRayHit expected = rayhit(ray), found = rayhit(ray);
+        embree::intersect(instances, fresh.context, expected);
+        embree::initialise(one.context);
+        embree::intersect(instances, one.context, found);
+        REQUIRE(hits(found) == hits(expected));
+        if (!hits(found)) continue;
+        ++hit;
+        CHECK(found.ray.tfar == expected.ray.tfar);
+        CHECK(found.hit.instID[0] == expected.hit.instID[0]);
+        CHECK(one.crossing.p_in == fresh.crossing.p_in);
+        CHECK(one.crossing.to == fresh.crossing.to);
+    }
+    CHECK(hit > 500);
+}
+
 TEST_CASE("a ray that carries another phase than is at its start meets an interface before the next one") {
     const Alone alone({.rays_carry_phases = true});
     embree::Query query;
