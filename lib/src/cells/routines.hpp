@@ -21,7 +21,12 @@ struct RoutineTables {
     std::vector<std::uint32_t> data;
 
     Routine routine(const Shape& s, std::uint32_t first_data, const float* constants) const {
-        Routine r{&steps[s.first_step], &data[first_data], constants, s.steps, &outputs[s.first_output], s.outputs};
+        Routine r{steps.data() + s.first_step,
+                  data.data() + first_data,
+                  constants,
+                  s.steps,
+                  outputs.data() + s.first_output,
+                  s.outputs};
         r.leading = s.leading;
         return r;
     }
