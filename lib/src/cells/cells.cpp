@@ -1,7 +1,5 @@
 #include "phasetree/cells/cells.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <optional>
