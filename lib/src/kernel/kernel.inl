@@ -217,6 +217,8 @@ void sample_ray(const Routine& routine, const float* o, const float* d, const fl
 
 #include "kernel/proof.inl"
 
+#include "kernel/places.inl"
+
 #include "kernel/march.inl"
 
 #include "kernel/network_layer.inl"

@@ -7,15 +7,13 @@
 /// predict the interface; or, where the ray starts on an interface, spread out geometrically from there. A gap no
 /// longer than the resolution is either the crossing or, with equal labels, passed.
 ///
+/// Where samples are taken: places.inl.
+///
 /// A hit is a change of label, never a small distance: phantom zeros, where components vanish without a change, cost
 /// samples but are never hits.
 
 namespace phasetree::HWY_NAMESPACE {
 namespace {
-
-struct Place {
-    float t, distance, label;
-};
 
 /// Sixteen samples in rising order, and the place that the frame starts from.
 struct alignas(64) Frame {
@@ -30,105 +28,6 @@ struct alignas(64) Frame {
     Frame() {}  // unset on purpose: most rays use one or two
     Place place(int lane) const { return lane < 0 ? from : Place{t[lane], distance[lane], label[lane]}; }
 };
-
-HWY_INLINE float smaller(float a, float b) {
-    return a < b ? a : b;
-}
-HWY_INLINE float larger(float a, float b) {
-    return a > b ? a : b;
-}
-HWY_INLINE std::uint32_t bits_of(float x) {
-    std::uint32_t u;
-    std::memcpy(&u, &x, sizeof u);
-    return u;
-}
-HWY_INLINE float float_of(std::uint32_t u) {
-    float x;
-    std::memcpy(&x, &u, sizeof x);
-    return x;
-}
-
-constexpr float last_lane = batch_size - 1;
-
-HWY_INLINE Batch ending_at(const Batch& t, float high) {
-    return select(less(lanes(), Batch(last_lane)), min(t, Batch(high)), Batch(high));
-}
-
-HWY_INLINE Batch spread_evenly(float low, float high) {
-    return ending_at(Batch(low) + lanes() * ((high - low) * (1 / last_lane)), high);
-}
-
-/// The step of geometric() that leads from a to b in so many steps; a constant, for divisions take long.
-template <std::uint32_t steps>
-HWY_INLINE std::uint32_t geometric_step(float a, float b) {
-    return (bits_of(larger(a, b)) - bits_of(a)) / steps;
-}
-
-/// From an interface at 0, and 0 itself: the first step is `smallest`.
-HWY_INLINE Batch spread_from_interface(float high, float smallest) {
-    const std::uint32_t step = geometric_step<batch_size - 2>(smallest, high);
-    const Batch t = geometric(lanes() - 1.f, bits_of(smallest), step);
-    return ending_at(select(less(lanes(), Batch(0.5f)), Batch(0.f), t), high);
-}
-
-/// From low on, as far as the steps reach that the distance s, growing by `slope` for each unit, is expected to cover:
-/// two balls cover a step d if d ≤ s + (s + slope·d); a tenth less, for what is not straight. Step by step s grows by
-/// the same factor, so the steps' ends are a geometric sum.
-HWY_INLINE Batch spread_growing(float low, float high, float s, float slope) {
-    const float growth = 1.8f / (1.f - 0.9f * slope);
-    float factor = 1.f + slope * growth;
-    // factor to the power of the lane's number + 1, by the number's bits.
-    Batch power(factor), number = lanes();
-    for (float bit = 1; bit < batch_size; bit *= 2, factor *= factor) {
-        const Batch half = floor(number * 0.5f);
-        power = select(less(Batch(0.5f), number - half * 2.f), power * factor, power);
-        number = half;
-    }
-    return min(Batch(low) + (power - 1.f) * (s / slope), Batch(high));
-}
-
-/// On both sides of root, from the smallest offset to half way to the gap's ends, in equal ratios; the first one may be
-/// low itself.
-HWY_INLINE Batch gather_around(float root, float low, float high, float smallest, bool has_low) {
-    constexpr float half = batch_size / 2;
-    const std::uint32_t a = bits_of(smallest);
-    constexpr std::uint32_t steps = batch_size / 2 - 1;
-    const float far_below = 0.6f * (root - low), far_above = 0.6f * (high - root);
-    const std::uint32_t below =
-        has_low ? geometric_step<steps - 1>(smallest, far_below) : geometric_step<steps>(smallest, far_below);
-    const std::uint32_t above = geometric_step<steps>(smallest, far_above);
-    const Batch before = max(Batch(root) - geometric((half - 1) - lanes(), a, below), Batch(low));
-    const Batch after = min(Batch(root) + geometric(lanes() - half, a, above), Batch(high));
-    const Batch t = select(less(lanes(), Batch(half)), before, after);
-    return has_low ? select(less(lanes(), Batch(0.5f)), Batch(low), t) : t;
-}
-
-/// Where the label changes between two places, by the distances there and, if there are such, at one before and after.
-HWY_INLINE float predicted_root(const Place& here, const Place& next, const Place& before, const Place& after) {
-    const float gap = next.t - here.t, sum = here.distance + next.distance;
-    if (!(sum > 0)) return here.t + 0.5f * gap;
-    // No division waits for another.
-    const float per_gap = 1 / gap, per_slope = gap / sum;
-    const float slope = -sum * per_gap;  // of the distance, counted negative beyond the change
-    const float root = here.t + here.distance * per_slope;
-    // The second divided difference tells how the distance curves.
-    float curvature = 0;
-    int known = 0;
-    if (before.label == here.label && before.t < here.t) {
-        const float per_both = 1 / (next.t - before.t);
-        curvature += (slope - (here.distance - before.distance) / (here.t - before.t)) * per_both;
-        ++known;
-    }
-    if (after.label == next.label && after.t > next.t) {
-        const float per_both = 1 / (after.t - here.t);
-        curvature += ((next.distance - after.distance) / (after.t - next.t) - slope) * per_both;
-        ++known;
-    }
-    if (known == 0) return root;
-    const float there = curvature * (known == 2 ? 0.5f : 1.f) * (root - here.t) * (root - next.t);
-    const float correction = there * per_slope;
-    return (correction < 0 ? -correction : correction) < 0.25f * gap ? root + correction : root;
-}
 
 /// Makes the resolution coarser for a ray that creeps along an interface, so that the work stays bounded: it doubles
 /// for every 32 batches past the first 128.
