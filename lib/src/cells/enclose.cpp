@@ -117,18 +117,22 @@ void Encloser::compute(const WorkingProgram& program) {
     interpret(
         steps.routine(constants_.data()), registers.data(),
         [&]<class P>(const float* c, const Vec3<Enclosure>& q) {
-            LocalValue found;
-            std::span<const float> of;
-            if constexpr (LocalPrimitive<P>) {
-                do ++at;
-                while (known[at] != 0 || !is_local(at));
-                const auto source = static_cast<std::uint32_t>(c - constants_.data());
-                for (const LocalValue& v : around_)
-                    if (v.source == source) of = v.data;
+            if constexpr (LongPrimitive<P>) {
+                LocalValue found;
+                std::span<const float> of;
+                if constexpr (LocalPrimitive<P>) {
+                    do ++at;
+                    while (known[at] != 0 || !is_local(at));
+                    const auto source = static_cast<std::uint32_t>(c - constants_.data());
+                    for (const LocalValue& v : around_)
+                        if (v.source == source) of = v.data;
+                }
+                const Enclosure e = enclose_long_primitive<P>(c, q, half_, of, found, scratch_);
+                if constexpr (LocalPrimitive<P>) local[at] = found;
+                return e;
+            } else {
+                return enclose_primitive<P>(c, q, half_);
             }
-            const Enclosure e = enclose_long_primitive<P>(c, q, half_, of, found, scratch_);
-            if constexpr (LocalPrimitive<P>) local[at] = found;
-            return e;
         },
         [&](Enclosure& e) { e.tighten(half_); });
     std::size_t count = 0;
@@ -159,7 +163,8 @@ std::optional<Enclosed> Encloser::operator()(const WorkingProgram& program) {
 
     Enclosed result;
     result.box = box_;
-    const double margin = static_cast<double>(rounding_);
+    // Of a value, and of what is known at the centre.
+    const double margin = 2 * static_cast<double>(rounding_);
     const std::span<float> low = scratch_.take<float>(size), high = scratch_.take<float>(size);
     for (std::size_t i = 0; i < size; ++i) {
         const Range& v = registers_[slot_[i]].value;
@@ -218,7 +223,7 @@ std::optional<Enclosed> Encloser::operator()(const WorkingProgram& program) {
     result.bound.offset =
         static_cast<float>(linear.at_centre - glm::dot(glm::dvec3(result.bound.normal), glm::dvec3(box_.centre())));
     // What the linear part's own floats lose.
-    result.bound.slack = static_cast<float>(linear.slack) * (1 + 1e-6f) + 2 * rounding_ + 1e-6f * size_of_numbers;
+    result.bound.slack = static_cast<float>(linear.slack) * (1 + 1e-6f) + 3 * rounding_ + 1e-6f * size_of_numbers;
     result.bound.spread =
         static_cast<float>(linear.spread) * (1 + 1e-3f) + 1e-5f;  // directions are that near unit length
     if (is_shared) tighten(result.box, result.bound.normal, static_cast<float>(linear.at_centre), result.bound.slack);

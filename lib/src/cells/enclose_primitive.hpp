@@ -5,6 +5,7 @@
 
 #include "cells/localise.hpp"
 #include "phasetree/math/enclosure.hpp"
+#include "phasetree/math/enclosure/convex_in_box.hpp"
 #include "phasetree/math/enclosure/network_in_box.hpp"
 #include "phasetree/math/enclosure/noise_in_box.hpp"
 #include "program/interpret.hpp"
@@ -49,6 +50,19 @@ Enclosure enclose_long_primitive(const float* constants, const Vec3<Enclosure>& 
             std::hypot(q.x.gradient[i].magnitude(), q.y.gradient[i].magnitude(), q.z.gradient[i].magnitude()));
     });
     return Enclosure(value, Range::all(), slope, detail::no_gradient, Range::all()).tightened(half);
+}
+
+/// One that is not.
+template <class P>
+Enclosure enclose_primitive(const float* constants, const Vec3<Enclosure>& q, const Enclosure::Vector& half) {
+    if constexpr (RoundedPrimitive<P>) {
+        if (const auto near = convex_in_box(detail::read<P>(constants), q, half)) return *near;
+    }
+    const Enclosure e = detail::distance_of<P>(constants, q);
+    if constexpr (ConvexPrimitive<P>)
+        return known_to_be_convex(e, q);
+    else
+        return e;
 }
 
 }  // namespace phasetree

@@ -36,17 +36,10 @@ T distance_of(const float* constants, const Vec3<T>& q) {
 
 }  // namespace detail
 
-/// What it means to a number type that f, computed from q, is a convex function of it: mostly nothing.
-template <class T>
-T known_to_be_convex(const T& f, const Vec3<T>& q) {
-    (void)q;
-    return f;
-}
-
-/// Registers 0 … 2 hold the point. `long_primitive.template operator()<P>(constants, point)` evaluates those;
+/// Registers 0 … 2 hold the point. `distance.template operator()<P>(constants, point)` is that of a primitive;
 /// `done(number)` is called with each number that a step has made.
-template <class T, class LongPrimitiveOf, class Done>
-void interpret(const Routine& routine, T* registers, LongPrimitiveOf&& long_primitive, Done&& done) {
+template <class T, class Distance, class Done>
+void interpret(const Routine& routine, T* registers, Distance&& distance, Done&& done) {
     constexpr auto first_primitive = static_cast<std::uint32_t>(Op::first_primitive);
     for (std::size_t i = 0; i < routine.count; ++i) {
         const Step& s = routine.steps[i];
@@ -108,12 +101,7 @@ void interpret(const Routine& routine, T* registers, LongPrimitiveOf&& long_prim
                     done(registers[s.to + 2]);
                 };
                 const auto primitive = [&]<class P>(const float* floats, const Vec3<T>& point) {
-                    if constexpr (LongPrimitive<P>)
-                        to = long_primitive.template operator()<P>(floats, point);
-                    else if constexpr (ConvexPrimitive<P>)
-                        to = known_to_be_convex(detail::distance_of<P>(floats, point), point);
-                    else
-                        to = detail::distance_of<P>(floats, point);
+                    to = distance.template operator()<P>(floats, point);
                 };
                 if (s.op >= first_placed) {
                     const auto placed = detail::read<PlacedPrimitive>(c);

@@ -56,6 +56,13 @@ concept ConvexPrimitive = requires {
     N::is_convex;
 };
 
+/// A convex solid, its distance exact inside and out, which is rounded: in its surface lies a ball of this radius at
+/// least wherever a point within `reach` of p is nearest to it. An infinite ball lies in a half-space.
+template <class N>
+concept RoundedPrimitive = ConvexPrimitive<N> && requires(const N& n, const glm::dvec3& p, double reach) {
+    { n.rolling_radius(p, reach) } -> std::same_as<double>;
+};
+
 /// A map of space: a plain struct of floats, p ↦ ω⁻¹(p), one instruction.
 template <class M>
 concept PointMap = std::is_trivially_copyable_v<M> && requires(const M& m, const Vec3<float>& p) {

@@ -46,6 +46,21 @@ Enclosure with_curvature_of_length(Enclosure f, const std::array<const Enclosure
     f.set_curvature({std::max(f.curvature.low, curvature.low), std::min(f.curvature.high, curvature.high)});
     return f;
 }
+/// The same of a vector whose gradients are constant.
+template <std::size_t n>
+double squared_stretch_of_affine(const std::array<const Enclosure*, n>& x) {
+    double most = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        double row = 0;
+        for (std::size_t j = 0; j < 3; ++j) {
+            double product = 0;
+            for (const Enclosure* e : x) product += e->gradient[i].low * e->gradient[j].low;
+            row += std::abs(product);
+        }
+        most = std::max(most, row);
+    }
+    return most;
+}
 /// Whether their gradients are constant, as a point's coordinates' mostly are.
 template <std::size_t n>
 bool are_affine(const std::array<const Enclosure*, n>& x) {

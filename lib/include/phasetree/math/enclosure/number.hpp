@@ -21,7 +21,8 @@ namespace phasetree {
 /// a distance h apart, f half way lies above the mean of f at both by −curvature.high·h²/8 to −curvature.low·h²/8; and
 /// f is semiconcave with the constant curvature.high: minima of such fields are so too, whatever their seams.
 ///
-/// In double, without directed rounding: who uses it allows for the rounding of floats, which is larger.
+/// In double, without directed rounding: who uses it allows for the rounding of floats, which is larger; twice, for
+/// primitives may be known at the centre by floats.
 struct Enclosure {
     using Vector = std::array<double, 3>;
 

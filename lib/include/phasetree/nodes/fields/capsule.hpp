@@ -25,6 +25,7 @@ struct Capsule {
         const float squared = glm::dot(axis, axis);
         return sqrt(squared_distance_to_segment(p - from, axis, squared > 0 ? 1.f / squared : 0.f)) - radius;
     }
+    double rolling_radius(const glm::dvec3&, double) const { return static_cast<double>(radius); }
     Bounds bounds(BoundsQuery&, float level) const {
         if (radius + level < 0) return {};
         return Bounds{glm::min(from, to), glm::max(from, to)}.inflated(radius + level);

@@ -6,6 +6,7 @@ namespace phasetree {
 
 struct Plane {
     static constexpr bool is_field_node = true;
+    static constexpr bool is_convex = true;
     static constexpr NodeInfo info{"plane", "", "p·n − d",
                                    "The half-space below a plane: the solid is where p·n < d; exact."};
     glm::vec3 normal{0, 0, 1};
@@ -27,6 +28,7 @@ struct Plane {
     T distance(const Vec3<T>& p) const {
         return dot(p, normal) - offset;
     }
+    double rolling_radius(const glm::dvec3&, double) const { return Bounds::infinity; }
     /// Infinite, but for the side that an axis-parallel plane bounds.
     Bounds bounds(BoundsQuery&, float level) const {
         Bounds b = Bounds::everything();

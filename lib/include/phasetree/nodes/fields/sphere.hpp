@@ -18,6 +18,7 @@ struct Sphere {
     T distance(const Vec3<T>& p) const {
         return length(p) - radius;
     }
+    double rolling_radius(const glm::dvec3&, double) const { return static_cast<double>(radius); }
     Bounds bounds(BoundsQuery&, float level) const { return Bounds::centred(glm::vec3(radius + level)); }
 };
 
