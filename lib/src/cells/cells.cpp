@@ -23,7 +23,7 @@ struct InterfaceCells::Data {
         Bounds box;
         LinearBound bound;
         std::uint32_t shape, first_data;
-        std::uint8_t curvature, other_curvature;
+        std::uint8_t curvature, other_curvature, first_phase;
         bool is_by_own;
     };
     static_assert(sizeof(Cell) == 64);
@@ -48,14 +48,17 @@ struct InterfaceCells::Data {
         return r;
     }
     std::uint32_t slots(const Cell& c) const { return routines.shapes[c.shape].slots; }
-    /// A cell's proof is read only where curvature leaves a ray in doubt.
-    Routine routine_with_proof(std::size_t cell) const {
-        const Cell& c = cells[cell];
-        Routine r = routine(c);
-        if (c.curvature != CurvatureCode::unknown && c.other_curvature != CurvatureCode::unknown) return r;
+    /// Adds a cell's proof, which is needed where curvature leaves the ray in doubt.
+    void prove(Routine& r, std::size_t cell) const {
         r.proof = proofs.data() + first_proof[cell];
         r.proof_steps = first_proof[cell + 1] - first_proof[cell];
-        return r;
+    }
+    /// Whether curvature may leave a ray in doubt that carries this phase.
+    bool is_in_doubt(const Cell& c, const Routine& r, const std::optional<Phase>& carried) const {
+        const bool is_known = c.curvature != CurvatureCode::unknown,
+                   is_other_known = c.other_curvature != CurvatureCode::unknown;
+        if (!carried || r.output_count > 2) return !is_known || !is_other_known;
+        return !(carried->index == c.first_phase ? is_known : is_other_known);
     }
 
     std::optional<Crossing> search(std::size_t cell, const TracedRay& ray, float t_min, float t_max,
@@ -66,14 +69,28 @@ struct InterfaceCells::Data {
         // The next cell that a ray meets is often a neighbour in this list, too.
         __builtin_prefetch(cells.data() + cell + 1);
         __builtin_prefetch(cells.data() + (cell > 0 ? cell - 1 : 0));
-        const Routine r = routine_with_proof(cell);
+        Routine r = routine(c);
         // What is not needed before the ray is clipped is under way until then.
         __builtin_prefetch(r.data);
         __builtin_prefetch(r.data + r.count);
-        __builtin_prefetch(r.proof);
-        return march_within(c.box, c.bound,
-                            {curvature_code.decode(c.curvature), curvature_code.decode(c.other_curvature)}, r, slots(c),
-                            ray, t_min, t_max, resolution, carried, departure, w, counters);
+        if (is_in_doubt(c, r, carried)) {
+            prove(r, cell);
+            __builtin_prefetch(r.proof);
+        }
+        const auto many = [&] { return (w ? *w : Evaluator::thread_workspace()).registers(slots(c)); };
+        return phasetree::first_crossing(
+            {.box = &c.box,
+             .bound = &c.bound,
+             .routine = &r,
+             .ray = &ray,
+             .registers = slots(c) <= few_slots ? nullptr : many(),
+             .curvature = {curvature_code.decode(c.curvature), curvature_code.decode(c.other_curvature)},
+             .t_min = t_min,
+             .t_max = t_max,
+             .resolution = resolution,
+             .carried = carried_by(carried),
+             .rise = departure ? departure->rise : Visit::no_departure},
+            counters);
     }
 
     /// Cells with equal programs share one.
@@ -97,7 +114,7 @@ struct InterfaceCells::Data {
             const bool is_known = c.outputs == 2 || made.tables.shapes[r.shape].leading > 0;
             cells.push_back({c.box, is_known ? c.bound : LinearBound{}, r.shape, r.first_data,
                              curvature_code.encode(c.curvature.most[0]), curvature_code.encode(c.curvature.most[1]),
-                             c.curvature.is_by_own});
+                             found.outputs_of(c)[0].phase.index, c.curvature.is_by_own});
             first_proof.push_back(Found::narrow(proofs.size()));
             made.add_proof(r, found.proof_of(c), proofs);
         }

@@ -3,7 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "cells/linear_bound.hpp"
 #include "phasetree/program/evaluator.hpp"
+#include "phasetree/trace/ray.hpp"
 
 namespace phasetree {
 
@@ -64,23 +66,30 @@ struct Routine {
     std::size_t proof_steps = 0;
 };
 
-/// A piece of a ray: origin + t·direction, 0 ≤ t ≤ length.
-struct RaySegment {
-    float origin[3];
-    float direction[3];
-    float length;
-    float behind;  ///< how far before 0 the ray has come from
-    float resolution;
-    float slope;  ///< bounds what a component changes by for each unit along the ray
+/// Routines that need no more batches bring no registers.
+inline constexpr std::uint32_t few_slots = 48;
+
+/// A cell that a ray visits, or a whole object.
+struct Visit {
+    const Bounds* box;
+    const LinearBound* bound;
+    const Routine* routine;
+    const TracedRay* ray;
+    float* registers;  ///< for the routine's batches, or null for few of them
     float
-        curvature[2];   ///< as Curvature: of the distance along the ray, in the phase of the first output and in others
-    float carried;      ///< the phase that the ray is in; negative: the label at its start
-    bool is_monotone;   ///< there is one component, and it only grows or only falls along the ray
-    bool on_interface;  ///< the ray most likely starts on one: a hint where to look first
+        curvature[2];  ///< as Curvature: of the distance along the ray, in the phase of the first output and in others
+    float t_min, t_max;
+    float resolution;
+    float carried;  ///< the phase that the ray is in; negative: the label at its start
+    float rise;     ///< of a Departure, or none
+
+    static constexpr float no_departure = -2;
 };
 
-/// The first change of label on it; see Crossing. Without one, only what it cost.
+/// The first change of label there; see Crossing. Without one, only what it cost.
 struct RayCrossing {
+    double start;     ///< how far along the ray this is:
+    float origin[3];  ///< and from there
     float t_in, t_out;
     float from, to;
     std::uint32_t batches, phantoms;
@@ -96,8 +105,8 @@ struct Kernel {
                    float* distance);
     void (*sample_ray)(const Routine&, const float* origin, const float* direction, const float* t, float* registers,
                        float* label, float* distance);
-    /// Whether the label changes on the segment, and where first: march.inl.
-    bool (*march)(const Routine&, const RaySegment&, float* registers, RayCrossing&);
+    /// Whether the label changes where the ray is in the box, and where first: visit.inl.
+    bool (*visit)(const Visit&, RayCrossing&);
     /// A linear layer of a network whose neurons have several lanes: network_layer.inl.
     void (*network_layer)(const float* weights, const float* bias, std::size_t inputs, std::size_t outputs,
                           const double* in, double* out);

@@ -221,11 +221,13 @@ void sample_ray(const Routine& routine, const float* o, const float* d, const fl
 
 #include "kernel/march.inl"
 
+#include "kernel/visit.inl"
+
 #include "kernel/network_layer.inl"
 
 namespace phasetree {
 
 const Kernel PHASETREE_KERNEL = {HWY_NAMESPACE::evaluate, HWY_NAMESPACE::sample, HWY_NAMESPACE::sample_ray,
-                                 HWY_NAMESPACE::march, HWY_NAMESPACE::network_layer};
+                                 HWY_NAMESPACE::visit, HWY_NAMESPACE::network_layer};
 
 }  // namespace phasetree

@@ -37,6 +37,20 @@ HWY_INLINE float effective_resolution(float resolution, std::uint32_t batches) {
     return resolution * float_of((127 + (doublings < 60 ? doublings : 60)) << 23);
 }
 
+/// A piece of a ray: origin + t·direction, 0 ≤ t ≤ length.
+struct RaySegment {
+    float origin[3];
+    float direction[3];
+    float length;
+    float behind;  ///< how far before 0 the ray has come from
+    float resolution;
+    float slope;         ///< bounds what a component changes by for each unit along the ray
+    float curvature[2];  ///< as Visit has it
+    float carried;       ///< the phase that the ray is in; negative: the label at its start
+    bool is_monotone;    ///< there is one component, and it only grows or only falls along the ray
+    bool on_interface;   ///< the ray most likely starts on one: a hint where to look first
+};
+
 class March {
   public:
     March(const Routine& routine, const RaySegment& ray, float* registers)
@@ -121,7 +135,10 @@ class March {
     float rounding() const { return ray_.resolution * (1.f / 16); }
 
     bool report(RayCrossing& c, float t_in, float t_out, float to) const {
-        c = {t_in, t_out, phase_, to, 0, 0};
+        c.t_in = t_in;
+        c.t_out = t_out;
+        c.from = phase_;
+        c.to = to;
         return true;
     }
     /// Up to where, and from where on, a place proves that there is no change.
@@ -372,10 +389,6 @@ bool March::is_entered_late(RayCrossing& result) {
         for (std::size_t i = batch_size; i-- > 0 && in.t == low;) (label[i] == phase_ ? in : out) = {t[i], 0, label[i]};
     }
     return report(result, in.t, out.t, out.label);
-}
-
-bool march(const Routine& routine, const RaySegment& ray, float* registers, RayCrossing& crossing) {
-    return March(routine, ray, registers).search(crossing);
 }
 
 }  // namespace

@@ -37,8 +37,21 @@ std::optional<Crossing> InterfaceTracer::first_crossing(const glm::vec3& origin,
     TraceCounters& c = counters ? *counters : unused;
     const Assembly& assembly = *evaluator_->assembly_;
     ++c.visits;
-    return march_within(bounds_, {}, {}, assembly.routine(evaluator_->program().constants.data()), assembly.slots,
-                        TracedRay(origin, direction), t_min, t_max, resolution_, carried, {}, &w, c);
+    const Routine routine = assembly.routine(evaluator_->program().constants.data());
+    const TracedRay ray(origin, direction);
+    const LinearBound none;
+    return phasetree::first_crossing({.box = &bounds_,
+                                      .bound = &none,
+                                      .routine = &routine,
+                                      .ray = &ray,
+                                      .registers = w.registers(assembly.slots),
+                                      .curvature = {Curvature::unknown, Curvature::unknown},
+                                      .t_min = t_min,
+                                      .t_max = t_max,
+                                      .resolution = resolution_,
+                                      .carried = carried_by(carried),
+                                      .rise = Visit::no_departure},
+                                     c);
 }
 
 CrossingNormal normal_of(const Crossing& c, const glm::vec3& direction,
