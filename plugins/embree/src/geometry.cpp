@@ -1,3 +1,4 @@
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -8,7 +9,6 @@ namespace phasetree::embree {
 
 struct TreeGeometry::Data {
     std::shared_ptr<const InterfaceCells> object;
-    Options options;
 };
 
 namespace {
@@ -28,108 +28,114 @@ void bounds(const RTCBoundsFunctionArguments* arguments) {
     out.upper_z = b.high.z;
 }
 
-/// Where in the scene a callback is asked to look.
-struct Where {
-    unsigned geometry, cell, instance;
-};
-
-/// A ray made ready, unless it is the one that came last.
-const Query::Seen& see(Query::Seen& s, RTCRayN* rays, unsigned n, unsigned i) {
-    const glm::vec3 origin{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)};
-    const glm::vec3 direction{RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)};
-    if (s.origin != origin || s.direction != direction) {
-        s.origin = origin;
-        s.direction = direction;
-        s.length = LaneRay::length_of(origin, direction);
-        s.ray = s.length > 0 ? TracedRay(origin, LaneRay::unit(direction, s.length)) : TracedRay();
-    }
+/// As cells see a ray. Its direction may have any length.
+Query::Seen seen_as(const RTCRay& ray) {
+    Query::Seen s{{ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z}, 0, {}};
+    s.length = LaneRay::length_of(s.origin, s.direction);
+    if (s.length > 0) s.ray = TracedRay(s.origin, LaneRay::unit(s.direction, s.length));
     return s;
 }
 
-/// What a callback is asked.
-struct Asked {
-    const TreeGeometry::Data& data;
-    Query* query;
-    Where where;
-    TraceCounters unused{};
-    std::optional<Query::Seen> own{};
+/// The first crossing in a cell, no farther than tfar.
+std::optional<Crossing> crossing(const InterfaceCells& object, unsigned cell, const Query::Seen& s, const RTCRay& ray,
+                                 std::optional<Phase> carried, const std::optional<Departure>& departure,
+                                 TraceCounters& counters) {
+    const float near = ray.tnear * s.length, far = ray.tfar * s.length;
+    std::optional<Crossing> c;
+    if (!(near <= far)) return c;
+    c = object.first_crossing(cell, s.ray, near, far, carried, departure, counters);
+    if (c && !(c->t_in <= far)) c.reset();  // it was so but for rounding
+    return c;
+}
 
-    template <class Arguments>
-    explicit Asked(const Arguments& arguments)
-        : data(data_of(arguments.geometryUserPtr)),
-          query(data.options.rays_carry_phases ? reinterpret_cast<Query*>(arguments.context) : nullptr),
-          where{arguments.geomID, arguments.primID, arguments.context->instID[0]} {}
-
-    /// A lane's ray. Of a query it is kept from cell to cell.
-    const Query::Seen& seen(RTCRayN* rays, unsigned n, unsigned i) {
-        return see(query ? query->seen : own.emplace(), rays, n, i);
+/// Of a ray that comes with a query, which keeps it from cell to cell, and alone.
+template <class Arguments>
+std::optional<Crossing> crossing(const Arguments& arguments, Query& query, const RTCRay& ray) {
+    Query::Seen& s = query.seen;
+    if (std::memcmp(&s.origin, &ray.org_x, sizeof s.origin) != 0 ||
+        std::memcmp(&s.direction, &ray.dir_x, sizeof s.direction) != 0)
+        s = seen_as(ray);
+    std::optional<Departure> departure;
+    const Query::Start& start = query.start;
+    if (start.cell == arguments.primID && start.geometry == arguments.geomID &&
+        start.instance == arguments.context->instID[0] && ray.tnear == 0) {
+        const float along = glm::dot(start.gradient, s.ray.direction);
+        departure = Departure{query.carried == start.from ? -along : along};
     }
-    /// At most `far` away, but for rounding. Returned as it is made: a copy would wait for every number of it.
-    std::optional<Crossing> crossing(const Query::Seen& s, float near, float far) {
-        std::optional<Phase> carried;
-        std::optional<Departure> departure;
-        if (!(near <= far)) return std::nullopt;
-        if (query) {
-            carried = query->carried;
-            const Query::Start& start = query->start;
-            if (start.cell == where.cell && start.geometry == where.geometry && start.instance == where.instance &&
-                near == 0) {
-                const float along = glm::dot(start.gradient, s.ray.direction);
-                departure = Departure{carried == start.from ? -along : along};
-            }
-        }
-        return data.object->first_crossing(where.cell, s.ray, near, far, carried, departure,
-                                           query ? query->counters : unused);
-    }
-};
+    return crossing(*data_of(arguments.geometryUserPtr).object, arguments.primID, s, ray, query.carried, departure,
+                    query.counters);
+}
+Query& query_of(Context* context) {
+    return *reinterpret_cast<Query*>(context);
+}
 
-void intersect(const RTCIntersectFunctionNArguments* arguments) noexcept {
-    Asked asked(*arguments);
-    const unsigned n = arguments->N;
-    RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, n);
-    RTCHitN* hits = RTCRayHitN_HitN(arguments->rayhit, n);
+void write(RTCHitN* hits, unsigned n, unsigned i, const Crossing& c, const glm::vec3& normal,
+           const RTCIntersectFunctionNArguments& arguments) {
+    RTCHitN_Ng_x(hits, n, i) = normal.x;
+    RTCHitN_Ng_y(hits, n, i) = normal.y;
+    RTCHitN_Ng_z(hits, n, i) = normal.z;
+    RTCHitN_u(hits, n, i) = static_cast<float>(c.from.index);
+    RTCHitN_v(hits, n, i) = static_cast<float>(c.to.index);
+    set_place(hits, n, i, arguments.primID, arguments.geomID, *arguments.context);
+}
+
+void intersect_query(const RTCIntersectFunctionNArguments* arguments) noexcept {
+    if (arguments->valid[0] != -1) return;
+    Query& query = query_of(arguments->context);
+    RTCRay& ray = reinterpret_cast<RTCRayHit*>(arguments->rayhit)->ray;
+    const auto c = crossing(*arguments, query, ray);
+    if (!c) return;
+    ray.tfar = c->t_in / query.seen.length;
+    write(RTCRayHitN_HitN(arguments->rayhit, 1), 1, 0, *c, -query.seen.ray.direction, *arguments);
+    query.crossing = *c;
+}
+
+void occluded_query(const RTCOccludedFunctionNArguments* arguments) noexcept {
+    if (arguments->valid[0] != -1) return;
+    RTCRay& ray = *reinterpret_cast<RTCRay*>(arguments->ray);
+    if (crossing(*arguments, query_of(arguments->context), ray)) ray.tfar = -std::numeric_limits<float>::infinity();
+}
+
+/// Calls hit(lane, crossing, the ray as seen) for the lanes of a packet whose ray crosses an interface in the cell.
+template <class Arguments, class Hit>
+void each_crossing(const Arguments& arguments, RTCRayN* rays, Hit&& hit) {
+    const unsigned n = arguments.N;
+    TraceCounters unused;
     for (unsigned i = 0; i < n; ++i) {
-        if (arguments->valid[i] != -1) continue;
-        const Query::Seen& s = asked.seen(rays, n, i);
-        const float far = RTCRayN_tfar(rays, n, i) * s.length;
-        const std::optional<Crossing> c = asked.crossing(s, RTCRayN_tnear(rays, n, i) * s.length, far);
-        if (!c || !(c->t_in <= far)) continue;
-        const glm::vec3& along = s.ray.direction;
-        const glm::vec3 normal = asked.query ? -along : -asked.data.object->normal(arguments->primID, *c, along).unit;
-        RTCRayN_tfar(rays, n, i) = c->t_in / s.length;
-        RTCHitN_Ng_x(hits, n, i) = normal.x;
-        RTCHitN_Ng_y(hits, n, i) = normal.y;
-        RTCHitN_Ng_z(hits, n, i) = normal.z;
-        RTCHitN_u(hits, n, i) = static_cast<float>(c->from.index);
-        RTCHitN_v(hits, n, i) = static_cast<float>(c->to.index);
-        set_place(hits, n, i, arguments->primID, arguments->geomID, *arguments->context);
-        if (asked.query) asked.query->crossing = *c;
+        if (arguments.valid[i] != -1) continue;
+        const RTCRay ray = rtcGetRayFromRayN(rays, n, i);
+        const Query::Seen s = seen_as(ray);
+        const InterfaceCells& object = *data_of(arguments.geometryUserPtr).object;
+        if (const auto c = crossing(object, arguments.primID, s, ray, {}, {}, unused)) hit(i, *c, s);
     }
 }
 
-void occluded(const RTCOccludedFunctionNArguments* arguments) noexcept {
-    Asked asked(*arguments);
-    RTCRayN* rays = arguments->ray;
+void intersect_lanes(const RTCIntersectFunctionNArguments* arguments) noexcept {
     const unsigned n = arguments->N;
-    for (unsigned i = 0; i < n; ++i) {
-        if (arguments->valid[i] != -1) continue;
-        const Query::Seen& s = asked.seen(rays, n, i);
-        const float far = RTCRayN_tfar(rays, n, i) * s.length;
-        const std::optional<Crossing> c = asked.crossing(s, RTCRayN_tnear(rays, n, i) * s.length, far);
-        if (c && c->t_in <= far) RTCRayN_tfar(rays, n, i) = -std::numeric_limits<float>::infinity();
-    }
+    RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, n);
+    each_crossing(*arguments, rays, [&](unsigned i, const Crossing& c, const Query::Seen& s) {
+        const InterfaceCells& object = *data_of(arguments->geometryUserPtr).object;
+        RTCRayN_tfar(rays, n, i) = c.t_in / s.length;
+        write(RTCRayHitN_HitN(arguments->rayhit, n), n, i, c,
+              -object.normal(arguments->primID, c, s.ray.direction).unit, *arguments);
+    });
+}
+
+void occluded_lanes(const RTCOccludedFunctionNArguments* arguments) noexcept {
+    each_crossing(*arguments, arguments->ray, [&](unsigned i, const Crossing&, const Query::Seen&) {
+        RTCRayN_tfar(arguments->ray, arguments->N, i) = -std::numeric_limits<float>::infinity();
+    });
 }
 
 }  // namespace
 
 TreeGeometry::TreeGeometry(RTCDevice device, std::shared_ptr<const InterfaceCells> object, const Options& options)
-    : handle_(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER)),
-      data_(std::make_unique<Data>(Data{std::move(object), options})) {
+    : handle_(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER)), data_(std::make_unique<Data>(Data{std::move(object)})) {
     rtcSetGeometryUserPrimitiveCount(handle_, static_cast<unsigned>(data_->object->size()));
     rtcSetGeometryUserData(handle_, data_.get());
     rtcSetGeometryBoundsFunction(handle_, bounds, nullptr);
-    rtcSetGeometryIntersectFunction(handle_, intersect);
-    rtcSetGeometryOccludedFunction(handle_, occluded);
+    rtcSetGeometryIntersectFunction(handle_, options.rays_carry_phases ? intersect_query : intersect_lanes);
+    rtcSetGeometryOccludedFunction(handle_, options.rays_carry_phases ? occluded_query : occluded_lanes);
 }
 
 TreeGeometry::~TreeGeometry() {
