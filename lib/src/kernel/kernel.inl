@@ -31,106 +31,99 @@ HWY_INLINE Vec3<Batch> load_point(float* registers, std::uint32_t slot) {
     return {load(p), load(p + batch_size), load(p + 2 * batch_size)};
 }
 
-/// A step, with its own constants.
-using Handler = void (*)(const Step&, const float* constants, float* registers);
+/// What a step does, with its own constants.
+template <Op op>
+struct Simple {
+    HWY_INLINE static void run(const Step& s, const float* constants, float* registers) {
+        float* to = at(registers, s.to);
+        const float* a = at(registers, s.a);
+        const float* b = at(registers, s.b);
+        if constexpr (op == Op::negate) store(-load(a), to);
+        if constexpr (op == Op::add) store(load(a) + load(b), to);
+        if constexpr (op == Op::subtract) store(load(a) - load(b), to);
+        if constexpr (op == Op::minimum) store(min(load(a), load(b)), to);
+        if constexpr (op == Op::maximum || op == Op::farther) store(max(load(a), load(b)), to);
+        if constexpr (op == Op::absolute) store(abs(load(a)), to);
+        if constexpr (op == Op::add_constant) store(load(a) + *constants, to);
+        if constexpr (op == Op::constant_minus) store(*constants - load(a), to);
+        if constexpr (op == Op::multiply_constant) store(load(a) * *constants, to);
+        if constexpr (op == Op::smooth_minimum) store(smooth_min(load(a), load(b), *constants), to);
+        if constexpr (op == Op::guarded) store(guarded(load(a), load(b), *constants), to);
+        if constexpr (op == Op::falloff) store(falloff(load(a), *constants), to);
+        if constexpr (op == Op::corner) store(corner(load(a), load(b)), to);
+    }
+};
 
 template <class P>
-HWY_FLATTEN void run_primitive(const Step& s, const float* constants, float* registers) {
-    store(constants_of<P>(constants).distance(load_point(registers, s.a)), at(registers, s.to));
-}
+struct OfPrimitive {
+    HWY_INLINE static void run(const Step& s, const float* constants, float* registers) {
+        store(constants_of<P>(constants).distance(load_point(registers, s.a)), at(registers, s.to));
+    }
+};
 
 template <class P>
-HWY_FLATTEN void run_data_primitive(const Step& s, const float* constants, float* registers) {
-    store(P::distance(constants, load_point(registers, s.a)), at(registers, s.to));
-}
+struct OfDataPrimitive {
+    HWY_INLINE static void run(const Step& s, const float* constants, float* registers) {
+        store(P::distance(constants, load_point(registers, s.a)), at(registers, s.to));
+    }
+};
 
 template <class M>
-HWY_FLATTEN void run_map(const Step& s, const float* constants, float* registers) {
-    const Vec3<Batch> q = constants_of<M>(constants)(load_point(registers, s.a));
-    float* to = at(registers, s.to);
-    store(q.x, to);
-    store(q.y, to + batch_size);
-    store(q.z, to + 2 * batch_size);
-}
-
-template <class P>
-HWY_FLATTEN void run_placed(const Step& s, const float* constants, float* registers) {
-    const auto& frame = constants_of<PlacedPrimitive>(constants);
-    const Batch d = constants_of<P>(constants + placed_floats).distance(frame.map(load_point(registers, s.a)));
-    store(d * frame.scale + frame.offset, at(registers, s.to));
-}
-template <class P>
-constexpr Handler placed() {
-    if constexpr (LongPrimitive<P>)
-        return nullptr;
-    else
-        return run_placed<P>;
-}
-
-template <class PrimitiveList, class DataPrimitiveList, class MapList>
-struct Table;
-template <class... Ps, class... Ds, class... Ms>
-struct Table<TypeList<Ps...>, TypeList<Ds...>, TypeList<Ms...>> {
-    static constexpr Handler handlers[] = {run_primitive<Ps>..., run_data_primitive<Ds>..., run_map<Ms>...,
-                                           run_map<AffineMap>, placed<Ps>()...};
+struct OfMap {
+    HWY_INLINE static void run(const Step& s, const float* constants, float* registers) {
+        const Vec3<Batch> q = constants_of<M>(constants)(load_point(registers, s.a));
+        float* to = at(registers, s.to);
+        store(q.x, to);
+        store(q.y, to + batch_size);
+        store(q.z, to + 2 * batch_size);
+    }
 };
-using Handlers = Table<Primitives, DataPrimitives, PointMaps>;
 
-/// The first `count` steps.
-HWY_FLATTEN HWY_NOINLINE void run(const Routine& routine, std::size_t count, float* registers) {
-    const std::uint32_t* data = routine.data;
-    for (const Step *s = routine.steps, *end = s + count; s != end; ++s, ++data) {
-        const float* constants = routine.constants + *data;
-        float* to = at(registers, s->to);
-        const float* a = at(registers, s->a);
-        const float* b = at(registers, s->b);
-        switch (static_cast<Op>(s->op)) {
-            case Op::input:
-                break;
-            case Op::negate:
-                store(-load(a), to);
-                break;
-            case Op::add:
-                store(load(a) + load(b), to);
-                break;
-            case Op::subtract:
-                store(load(a) - load(b), to);
-                break;
-            case Op::minimum:
-                store(min(load(a), load(b)), to);
-                break;
-            case Op::maximum:
-            case Op::farther:
-                store(max(load(a), load(b)), to);
-                break;
-            case Op::absolute:
-                store(abs(load(a)), to);
-                break;
-            case Op::add_constant:
-                store(load(a) + *constants, to);
-                break;
-            case Op::constant_minus:
-                store(*constants - load(a), to);
-                break;
-            case Op::multiply_constant:
-                store(load(a) * *constants, to);
-                break;
-            case Op::smooth_minimum:
-                store(smooth_min(load(a), load(b), *constants), to);
-                break;
-            case Op::guarded:
-                store(guarded(load(a), load(b), *constants), to);
-                break;
-            case Op::falloff:
-                store(falloff(load(a), *constants), to);
-                break;
-            case Op::corner:
-                store(corner(load(a), load(b)), to);
-                break;
-            default:
-                Handlers::handlers[s->op - static_cast<std::uint32_t>(Op::first_primitive)](*s, constants, registers);
+template <class P>
+struct Placed {
+    HWY_INLINE static void run(const Step& s, const float* constants, float* registers) {
+        if constexpr (!LongPrimitive<P>) {
+            const auto& frame = constants_of<PlacedPrimitive>(constants);
+            const Batch d = constants_of<P>(constants + placed_floats).distance(frame.map(load_point(registers, s.a)));
+            store(d * frame.scale + frame.offset, at(registers, s.to));
         }
     }
+};
+
+/// Runs a step, and then those behind it up to the end: the last thing that each does is to jump to the next, so that
+/// there is no loop, and that the processor learns which step comes after which.
+using Handler = void (*)(const Step*, const std::uint32_t* data, const float* constants, float* registers,
+                         const Step* end);
+HWY_INLINE Handler handler(std::uint32_t op);
+
+template <class Work>
+HWY_FLATTEN void run_from(const Step* s, const std::uint32_t* data, const float* constants, float* registers,
+                          const Step* end) {
+    Work::run(*s, constants + *data, registers);
+    if (++s == end) return;
+    handler(s->op)(s, data + 1, constants, registers, end);
+}
+
+template <class Ops, class PrimitiveList, class DataPrimitiveList, class MapList>
+struct Table;
+template <std::size_t... ops, class... Ps, class... Ds, class... Ms>
+struct Table<std::index_sequence<ops...>, TypeList<Ps...>, TypeList<Ds...>, TypeList<Ms...>> {
+    static constexpr Handler handlers[] = {run_from<Simple<static_cast<Op>(ops)>>...,
+                                           run_from<OfPrimitive<Ps>>...,
+                                           run_from<OfDataPrimitive<Ds>>...,
+                                           run_from<OfMap<Ms>>...,
+                                           run_from<OfMap<AffineMap>>,
+                                           run_from<Placed<Ps>>...};
+};
+HWY_INLINE Handler handler(std::uint32_t op) {
+    constexpr std::size_t simple = static_cast<std::size_t>(Op::first_primitive);
+    return Table<std::make_index_sequence<simple>, Primitives, DataPrimitives, PointMaps>::handlers[op];
+}
+
+/// The first `count` steps.
+HWY_INLINE void run(const Routine& routine, std::size_t count, float* registers) {
+    const Step* first = routine.steps;
+    if (count > 0) handler(first->op)(first, routine.data, routine.constants, registers, first + count);
 }
 
 HWY_INLINE void place(const Batch& x, const Batch& y, const Batch& z, float* registers) {
