@@ -85,7 +85,7 @@ struct Share {
     Patience patience{};
     float left = 1;                    ///< what is left of the cost since something was won
     float period = Bounds::infinity;   ///< of the finest fold that still jumps
-    float pattern = Bounds::infinity;  ///< how large the features of local primitives are
+    float pattern = Bounds::infinity;  ///< how large the features of patterns are
     Candidate cell{};
 };
 
@@ -114,9 +114,10 @@ std::optional<Candidate> candidate(const Share& share, const Bounds& all, const 
         cell.proof = {};
         cell.local = {};
     }
-    // Through copies without end a ray goes on and on, and from block to block of a pattern.
+    // Through copies without end a ray goes on and on, and, knowing nothing, from block to block of a pattern.
     const float size = share.box.diagonal();
-    const float copies = (1 + 4 * size / share.period) * std::max(1.f, size / share.pattern);
+    const float blocks = cell.bound.spread < 1 ? 1.f : std::max(1.f, size / share.pattern);
+    const float copies = (1 + 4 * size / share.period) * blocks;
     cell.cost = cost(cell.box, cell.bound, cell.curvature, cell.program, d.constants, cell.local, !cell.proof.empty(),
                      d.options.opaque, w.scratch) *
                 copies;
@@ -239,7 +240,10 @@ float divide(const Share& share, const Division& d, Worker& w) {
         const LinearBound& bound = part.cell.bound;
         const bool is_uneven =
             bound.slack < Bounds::infinity && bound.spread > part.patience.uneven * glm::length(bound.normal);
-        const bool is_too_coarse = diagonal > coarse || (is_uneven && diagonal > part.patience.fine * d.size);
+        // Of a pattern nothing may be known until boxes are smaller than its features.
+        const bool is_unknown = !(bound.spread < 1) && diagonal > 0.5f * part.pattern;
+        const bool is_too_coarse =
+            diagonal > coarse || is_unknown || (is_uneven && diagonal > part.patience.fine * d.size);
         part.stale = is_won || is_too_coarse ? 0 : share.stale + 1;
         part.left = is_won ? 1.f : left;
         costs[i] = find_cells(part, d, own);

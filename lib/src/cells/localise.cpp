@@ -24,10 +24,10 @@ WorkingProgram localised(const WorkingProgram& program, std::span<const LocalVal
 float finest_pattern(const WorkingProgram& program, std::span<const float> constants) {
     float finest = Bounds::infinity;
     for (const Instruction& in : program.code) {
-        if (!traits(in.op).is_local) continue;
+        if (!traits(in.op).is_pattern) continue;
         const auto op = static_cast<std::uint32_t>(in.op) - static_cast<std::uint32_t>(Op::first_primitive);
         detail::dispatch(Primitives(), op, [&]<class P>() {
-            if constexpr (LocalPrimitive<P>) {
+            if constexpr (PatternPrimitive<P>) {
                 P primitive;
                 std::memcpy(static_cast<void*>(&primitive), &constants[in.data], sizeof primitive);
                 finest = std::min(finest, primitive.period() / program.lipschitz[in.a]);

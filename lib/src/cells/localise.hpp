@@ -30,7 +30,7 @@ struct LocalValue {
 WorkingProgram localised(const WorkingProgram&, std::span<const LocalValue>, std::vector<float>& floats,
                          Arena& scratch);
 
-/// How large the features of a program's local primitives are, at the least; endless if it has none.
+/// How large the features of a program's patterns are, at the least; endless if it has none.
 float finest_pattern(const WorkingProgram&, std::span<const float> constants);
 
 /// The data of an instruction that localised() has made.

@@ -47,9 +47,10 @@ constexpr auto long_ones(TypeList<Ps...>) {
 }
 
 template <class... Ps>
-constexpr void mark_local(TypeList<Ps...>, auto& all) {
+constexpr void mark_patterns(TypeList<Ps...>, auto& all) {
     constexpr auto first = static_cast<std::size_t>(Op::first_primitive);
     const auto mark = [&]<class P>() {
+        if constexpr (PatternPrimitive<P>) all[first + index_in<P>(Primitives())].is_pattern = true;
         if constexpr (LocalPrimitive<P>) {
             OpTraits& local = all[first + index_in<P>(Primitives())];
             local.is_local = true;
@@ -75,7 +76,7 @@ constexpr auto all_traits() {
     for (std::size_t i = first_map; i < first_placed; ++i) all[i].gives_point = true;
     all[first_map + index_in<FoldMap>(PointMaps())].is_fold = true;
     all[first_primitive + Primitives::size + index_in<Siren::Network>(DataPrimitives())].is_network = true;
-    mark_local(Primitives(), all);
+    mark_patterns(Primitives(), all);
     return all;
 }
 constexpr auto known_traits = all_traits();

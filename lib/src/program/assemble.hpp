@@ -42,6 +42,7 @@ struct OpTraits {
     bool is_long_primitive = false;  ///< a primitive whose equation is long (concepts.hpp)
     bool is_network = false;         ///< a neural field: Siren::Network
     bool is_fold = false;            ///< a fold of space, which jumps
+    bool is_pattern = false;         ///< a PatternPrimitive
     bool is_local = false;           ///< a LocalPrimitive
     bool is_near = false;            ///< and what it becomes in a small box
 };

@@ -37,15 +37,20 @@ concept LongPrimitive = DataPrimitive<N> || requires {
     N::is_long;
 };
 
+/// A primitive whose features are of about this size: in larger boxes little can be known of it.
+template <class N>
+concept PatternPrimitive = requires(const N& n) {
+    { n.period() } -> std::same_as<float>;
+};
+
 /// A long primitive of which little matters in a small box: near() appends what P::Near, a primitive with data, wants
 /// to give the same values there to the last bit; false, and nothing appended, if that would be no gain. `of` is empty,
 /// or what it gave for a box around this one.
 template <class N>
-concept LocalPrimitive = requires(const N& n, const PointRange& range, std::span<const float> of,
-                                  std::vector<float>& floats) {
+concept LocalPrimitive = PatternPrimitive<N> &&
+    requires(const N& n, const PointRange& range, std::span<const float> of, std::vector<float>& floats) {
     requires DataPrimitive<typename N::Near>;
     { n.near(range, of, floats) } -> std::same_as<bool>;
-    { n.period() } -> std::same_as<float>;                             // how large its features are
     { N::Near::floats(floats.data()) } -> std::same_as<std::size_t>;   // how many they are
     { N::Near::half_works(floats.data()) } -> std::same_as<unsigned>;  // how much work, in halves of a simple one
 };

@@ -53,6 +53,9 @@ struct FractalNoise {
         return sum;
     }
 
+    /// Of the first octave.
+    float period() const { return 1 / frequency; }
+
     /// What its second derivative along a line of unit speed is at most, within the cube. Of one octave: along an axis
     /// |F″| ≤ 10/√3 times a difference of two values, mixed (15/8)² times one of four; Gershgorin's rows add up.
     double curvature() const {
