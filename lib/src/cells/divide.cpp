@@ -114,9 +114,12 @@ std::optional<Candidate> candidate(const Share& share, const Bounds& all, const 
         cell.proof = {};
         cell.local = {};
     }
-    // Through copies without end a ray goes on and on, and, knowing nothing, from block to block of a pattern.
+    // Through copies without end a ray goes on and on, and, where nothing is known, from block to block of a pattern.
     const float size = share.box.diagonal();
-    const float blocks = cell.bound.spread < 1 ? 1.f : std::max(1.f, size / share.pattern);
+    const bool has_blocks =
+        std::isfinite(share.pattern) && !(cell.bound.spread < 1) &&
+        std::ranges::any_of(cell.program.code, [](const Instruction& in) { return traits(in.op).is_local; });
+    const float blocks = has_blocks ? std::max(1.f, size / share.pattern) : 1.f;
     const float copies = (1 + 4 * size / share.period) * blocks;
     cell.cost = cost(cell.box, cell.bound, cell.curvature, cell.program, d.constants, cell.local, !cell.proof.empty(),
                      d.options.opaque, w.scratch) *
