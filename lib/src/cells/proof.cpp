@@ -37,6 +37,7 @@ class Prover {
         const bool is_above = sign > 0;
         switch (in.op) {
             case Op::minimum:
+            case Op::farther_inside:
                 return both(in, sign, tau, is_above ? ProofStep::both : ProofStep::either);
             case Op::maximum:
             case Op::farther:

@@ -166,20 +166,13 @@ class Pruner {
         op_[i] = in.op;
         switch (in.op) {
             case Op::minimum:
-                if (low(in.b) > high(in.a)) return replace(i, in.a);
-                if (low(in.a) > high(in.b)) return replace(i, in.b);
-                if (relative) {
-                    if (low(in.a) > d.tau()) return replace(i, in.b);
-                    if (low(in.b) > d.tau()) return replace(i, in.a);
-                    if (high(in.a) < d.tau()) return replace(i, in.a);
-                    if (high(in.b) < d.tau()) return replace(i, in.b);
-                }
-                ask(in.a, d);
-                ask(in.b, d);
-                return;
+                return resolve_minimum(i, d);
             case Op::farther:
                 if (d.is_sign() && is_near_) return replace(i, in.a);
                 return resolve_maximum(i, d);
+            case Op::farther_inside:
+                if (d.is_sign() && is_near_) return replace(i, in.a);
+                return resolve_minimum(i, d);
             case Op::maximum:
                 return resolve_maximum(i, d);
             case Op::smooth_minimum: {
@@ -266,6 +259,20 @@ class Pruner {
             if (high(in.b) < d.tau()) return replace(i, in.a);
             if (low(in.a) > d.tau()) return replace(i, in.a);
             if (low(in.b) > d.tau()) return replace(i, in.b);
+        }
+        ask(in.a, d);
+        ask(in.b, d);
+    }
+
+    void resolve_minimum(std::uint32_t i, const Demand& d) {
+        const Instruction& in = program_.code[i];
+        if (low(in.b) > high(in.a)) return replace(i, in.a);
+        if (low(in.a) > high(in.b)) return replace(i, in.b);
+        if (d.is_threshold()) {
+            if (low(in.a) > d.tau()) return replace(i, in.b);
+            if (low(in.b) > d.tau()) return replace(i, in.a);
+            if (high(in.a) < d.tau()) return replace(i, in.a);
+            if (high(in.b) < d.tau()) return replace(i, in.b);
         }
         ask(in.a, d);
         ask(in.b, d);
@@ -384,8 +391,8 @@ std::optional<WorkingProgram> prune(const WorkingProgram& program, std::span<con
 std::optional<WorkingProgram> without_far_bounds(const WorkingProgram& program, std::span<const float> constants,
                                                  PhaseSet opaque, Arena& keep, Arena& scratch) {
     const ArenaScope scope(scratch);
-    if (std::ranges::none_of(program.code, [](const Instruction& in) { return in.op == Op::farther; }))
-        return std::nullopt;
+    const auto is_far_bound = [](const Instruction& in) { return in.op == Op::farther || in.op == Op::farther_inside; };
+    if (std::ranges::none_of(program.code, is_far_bound)) return std::nullopt;
     const std::span<float> low = scratch.take<float>(program.code.size()), high = scratch.take<float>(low.size());
     std::ranges::fill(low, -Bounds::infinity);
     std::ranges::fill(high, Bounds::infinity);

@@ -41,7 +41,7 @@ struct Simple {
         if constexpr (op == Op::negate) store(-load(a), to);
         if constexpr (op == Op::add) store(load(a) + load(b), to);
         if constexpr (op == Op::subtract) store(load(a) - load(b), to);
-        if constexpr (op == Op::minimum) store(min(load(a), load(b)), to);
+        if constexpr (op == Op::minimum || op == Op::farther_inside) store(min(load(a), load(b)), to);
         if constexpr (op == Op::maximum || op == Op::farther) store(max(load(a), load(b)), to);
         if constexpr (op == Op::absolute) store(abs(load(a)), to);
         if constexpr (op == Op::add_constant) store(load(a) + *constants, to);

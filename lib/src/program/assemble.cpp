@@ -66,8 +66,8 @@ constexpr auto all_traits() {
     constexpr auto first_primitive = static_cast<std::size_t>(Op::first_primitive);
     const auto of = [&](Op op) -> OpTraits& { return all[static_cast<std::size_t>(op)]; };
     of(Op::input) = {.operands = 0, .gives_point = true};
-    for (const Op op :
-         {Op::add, Op::subtract, Op::minimum, Op::maximum, Op::farther, Op::smooth_minimum, Op::guarded, Op::corner})
+    for (const Op op : {Op::add, Op::subtract, Op::minimum, Op::maximum, Op::farther, Op::farther_inside,
+                        Op::smooth_minimum, Op::guarded, Op::corner})
         of(op).operands = 2;
     constexpr auto is_long = long_ones(Primitives());
     for (std::size_t i = 0; i < Primitives::size + DataPrimitives::size; ++i)

@@ -60,6 +60,7 @@ void interpret(const Routine& routine, T* registers, Distance&& distance, Done&&
                 to = a - b;
                 break;
             case Op::minimum:
+            case Op::farther_inside:
                 to = min(a, b);
                 break;
             case Op::maximum:

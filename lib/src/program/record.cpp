@@ -182,6 +182,9 @@ Recorded max(Recorded a, Recorded b) {
 [[maybe_unused]] Recorded farther(Recorded f, Recorded bound) {
     return f.recorder->emit(Op::farther, f.id, bound.id, {}, f.recorder->largest(f, bound));
 }
+[[maybe_unused]] Recorded farther_inside(Recorded f, Recorded bound) {
+    return f.recorder->emit(Op::farther_inside, f.id, bound.id, {}, f.recorder->largest(f, bound));
+}
 Recorded abs(Recorded a) {
     return a.recorder->emit(Op::absolute, a.id, 0, {}, a.recorder->lipschitz(a));
 }

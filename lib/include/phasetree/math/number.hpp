@@ -73,6 +73,11 @@ template <class T>
 T farther(const T& f, const T& bound) {
     return max(f, bound);
 }
+/// The same inside: min(f, b), where {f ≥ 0} ⊂ {b ≥ 0}.
+template <class T>
+T farther_inside(const T& f, const T& bound) {
+    return min(f, bound);
+}
 
 /// The contribution of a skeleton at the distance d to a blob: (1 − (d/R)²)³, zero beyond R (Wyvill et al., "Data
 /// Structure for Soft Objects", 1986, with the square for their cubic).

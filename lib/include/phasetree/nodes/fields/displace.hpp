@@ -7,8 +7,8 @@ namespace phasetree {
 /// g = f + a n, where the noise n is in [−1, 1] and of slope L at most (fractal_noise.hpp), so g/λ is 1-Lipschitz for
 /// λ = 1 + a L. Because f − a ≤ g ≤ f + a, the bounds f ± a, which are 1-Lipschitz themselves, may take over:
 ///     min(max(g/λ, f − a), f + a)
-/// has the sign of g everywhere, and its slope away from the surface is that of f, not 1/λ of it. Where f − a wins, the
-/// noise need not be evaluated.
+/// has the sign of g everywhere, so near the surface g will do; away from it the slope is that of f, not 1/λ of it.
+/// Where f − a wins, the noise need not be evaluated.
 struct Displace {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"displace", "",
@@ -39,7 +39,7 @@ struct Displace {
         const FractalNoise noise(scale, octaves);
         const float slope = amplitude * FractalNoise::slope(scale, octaves);
         const typename D::Scalar g = (f + d.primitive(noise, p) * slope) * (1.f / (1.f + slope));
-        return min(max(g, f - amplitude), f + amplitude);
+        return farther_inside(farther(g, f - amplitude), f + amplitude);
     }
     Bounds bounds(BoundsQuery& q, float level) const { return q(of, level + amplitude); }
 };
