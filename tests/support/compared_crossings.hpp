@@ -21,6 +21,7 @@ inline bool is_sliver(const InterfaceTracer& tracer, const Crossing& a, const Cr
                       Evaluator::Workspace& w) {
     if (a.from != b.from) return false;
     const auto leads_to = [&](const Crossing& seen, const Crossing& passed) {
+        if (tracer.label(seen.p_out, w) != seen.to) return false;
         const auto next = tracer.first_crossing(seen.p_out, d, 0, 2 * tracer.resolution(), seen.to, w);
         return next && next->to == passed.to;
     };

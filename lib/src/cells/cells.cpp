@@ -24,7 +24,7 @@ struct InterfaceCells::Data {
         LinearBound bound;
         std::uint32_t shape, first_data;
         std::uint8_t curvature, other_curvature, first_phase;
-        bool is_by_own;
+        bool is_by_own, is_by_first;
     };
     static_assert(sizeof(Cell) == 64);
 
@@ -45,6 +45,7 @@ struct InterfaceCells::Data {
     Routine routine(const Cell& c) const {
         Routine r = routines.routine(routines.shapes[c.shape], c.first_data, whole->program().constants.data());
         r.is_by_own = c.is_by_own;
+        r.is_by_first = c.is_by_first;
         return r;
     }
     std::uint32_t slots(const Cell& c) const { return routines.shapes[c.shape].slots; }
@@ -114,7 +115,7 @@ struct InterfaceCells::Data {
             const bool is_known = c.outputs == 2 || made.tables.shapes[r.shape].leading > 0;
             cells.push_back({c.box, is_known ? c.bound : LinearBound{}, r.shape, r.first_data,
                              curvature_code.encode(c.curvature.most[0]), curvature_code.encode(c.curvature.most[1]),
-                             found.outputs_of(c)[0].phase.index, c.curvature.is_by_own});
+                             found.outputs_of(c)[0].phase.index, c.curvature.is_by_own, c.curvature.is_by_first});
             first_proof.push_back(Found::narrow(proofs.size()));
             made.add_proof(r, found.proof_of(c), proofs);
         }

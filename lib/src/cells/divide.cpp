@@ -167,8 +167,14 @@ float find_cells(const Share& share, const Division& d, Worker& w) {
     const ArenaScope programs(w.programs), scratch(w.scratch);
     const Candidate& cell = share.cell;
     const WorkingProgram program = localised(cell.program, cell.local, w.found.last().near, w.scratch);
-    const LedProgram led =
-        program.outputs.size() == 2 ? LedProgram{program} : first_component_first(program, w.programs, w.scratch);
+    LedProgram led{program};
+    if (program.outputs.size() > 2) {
+        led = first_component_first(program, w.programs, w.scratch);
+        // Behind a neural field what is left to do is next to nothing: then labels are known at once.
+        const float first = work_of_first(program, d.constants, cell.local, w.scratch);
+        if (work(program, d.constants, cell.local) < 1.03f * first)
+            led.leading = Found::narrow(program.code.size() - 1);
+    }
     const std::span<ProofPart> proof = w.scratch.copy(cell.proof);
     if (!led.renumbered.empty())
         for (ProofPart& part : proof) part.value = led.renumbered[part.value];

@@ -185,7 +185,7 @@ std::optional<Enclosed> Encloser::operator()(const WorkingProgram& program) {
     const Enclosure f = component(0);  // the first, but for its sign
     std::size_t possible = 0, clear = 0;
     // Of s as Routine::is_by_own says, both ways.
-    double by_others[] = {0, 0}, by_own[] = {0, 0};
+    double by_others[] = {0, 0}, by_own[] = {0, 0}, of_first = 0;
     for (std::size_t i = 0; i < program.outputs.size(); ++i) {
         const Enclosure& e = i == 0 || is_shared ? f : component(i);
         const bool is_negated = program.outputs[i].negate;
@@ -193,6 +193,7 @@ std::optional<Enclosed> Encloser::operator()(const WorkingProgram& program) {
         if (value.high < -margin) result.is_free = true;
         possible += value.low <= margin;
         clear += value.low <= margin && !opaque_.contains(program.outputs[i].phase);
+        if (i == 0) of_first = std::max(of_first, curvature.high);
         if (i > 0) by_others[0] = std::max(by_others[0], curvature.high);
         by_others[1] = std::max(by_others[1], curvature.high);
         by_own[i == 0 ? 0 : 1] = std::max(by_own[i == 0 ? 0 : 1], -curvature.low);
@@ -200,16 +201,19 @@ std::optional<Enclosed> Encloser::operator()(const WorkingProgram& program) {
     if (possible < 2 || clear == 0) result.is_free = true;
     if (result.is_free) return result;
     result.local = local_;
+    const auto known = [](double most) {
+        return most < 1e30 ? static_cast<float>(most) * (1 + 1e-3f) : Curvature::unknown;
+    };
     result.curvature.is_by_own = by_own[0] + by_own[1] < by_others[0] + by_others[1];
     for (std::size_t i = 0; i < 2; ++i) {
-        const double most = result.curvature.is_by_own ? by_own[i] : by_others[i];
-        result.curvature.most[i] = most < 1e30 ? static_cast<float>(most) * (1 + 1e-3f) : Curvature::unknown;
+        result.curvature.most[i] = known(result.curvature.is_by_own ? by_own[i] : by_others[i]);
     }
-    if (!is_shared)  // the first component is known by itself
-        result.curvature.most[0] = by_own[0] < 1e30 ? static_cast<float>(by_own[0]) * (1 + 1e-3f) : Curvature::unknown;
+    const auto is_clear = [&](const ProgramOutput& o) { return !opaque_.contains(o.phase); };
+    result.curvature.is_by_first = is_shared || std::ranges::none_of(program.outputs.subspan(1), is_clear);
+    if (!is_shared) result.curvature.most[0] = known(by_own[0]);  // the first component is known by itself
+    if (result.curvature.is_by_first) result.curvature.most[1] = known(of_first);
 
     const auto is_blind = [&](std::size_t side) { return !(result.curvature.most[side] < Curvature::unknown); };
-    const auto is_clear = [&](const ProgramOutput& o) { return !opaque_.contains(o.phase); };
     if ((is_blind(0) && is_clear(program.outputs[0])) || (is_shared && is_blind(1) && is_clear(program.outputs[1])))
         result.proof = prove(program, constants_, registers_, slot_, scratch_);
 
@@ -226,7 +230,9 @@ std::optional<Enclosed> Encloser::operator()(const WorkingProgram& program) {
     result.bound.slack = static_cast<float>(linear.slack) * (1 + 1e-6f) + 3 * rounding_ + 1e-6f * size_of_numbers;
     result.bound.spread =
         static_cast<float>(linear.spread) * (1 + 1e-3f) + 1e-5f;  // directions are that near unit length
-    if (is_shared) tighten(result.box, result.bound.normal, static_cast<float>(linear.at_centre), result.bound.slack);
+    // Where the other phases are opaque, rays meet no interface but the first component's.
+    if (result.curvature.is_by_first)
+        tighten(result.box, result.bound.normal, static_cast<float>(linear.at_centre), result.bound.slack);
     return result;
 }
 

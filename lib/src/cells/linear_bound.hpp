@@ -25,9 +25,10 @@ struct Curvature {
     static constexpr float unknown = Bounds::infinity;
 
     /// In the phase of the first output, where it is by its own component if more than two phases meet; and in the
-    /// others.
+    /// others. Where those are opaque, so that no ray is in them, s is the first component there, too.
     std::array<float, 2> most{unknown, unknown};
-    bool is_by_own = false;  ///< in the others
+    bool is_by_own = false;    ///< in the others
+    bool is_by_first = false;  ///< the first component tells s on both sides
 };
 
 }  // namespace phasetree

@@ -59,6 +59,8 @@ struct Routine {
     /// Which lower bound of the distance to where the label changes is used where each component has a value of its
     /// own: minus the label's component, or the least of the others'.
     bool is_by_own = false;
+    /// One value tells where rays may be and where not: that of two phases, or the first, if no ray is in the others.
+    bool is_by_first = false;
     /// So many steps give the first component alone, 0 if that is not known: enough for a ray that is in its phase.
     std::size_t leading = 0;
     /// Of the first component, where its curvature is not known: that it stays negative.

@@ -72,7 +72,7 @@ class March {
 
     /// By the first component alone, if that is enough, labels are the ray's phase or another_phase.
     HWY_INLINE Classified sample(const Batch& t, bool is_whole = false) {
-        const bool is_alone = is_alone_ && !is_whole;
+        const bool is_alone = is_alone_ && !is_whole && routine_.leading < routine_.count;
         ++batches_;
         place_along(ray_.origin, ray_.direction, t, registers_);
         run(routine_, is_alone ? routine_.leading : routine_.count, registers_);
@@ -131,6 +131,33 @@ class March {
         const float missing = gap * gap * half_curvature_ - a - b;
         return missing <= 0 || 4 * a * b >= missing * missing;
     }
+    /// Whether the distances at a gap's ends, between which the label changes, tell where within a resolution; and then
+    /// that. With g = s at `here` and −s at `next`, the distances a and b, the gap h, and g″ between −2k′ and 2k,
+    ///     a − (a + b)t/h − k t(h − t) ≤ g(t) ≤ a − (a + b)t/h + k′t(h − t),
+    /// and what is convex on the left is above its tangent at the chord's zero r, what is concave on the right below.
+    /// So the label is that of `here` up to r − e, with e the left's k r(h − r) over its tangent's slope, (a + b)/h +
+    /// k(h − 2r); and from r + e′ on it is another: that of `next`, if no third component vanishes on the way there.
+    /// `next` is a lane of what was sampled last.
+    bool is_pinned(const Place& next, int lane, RayCrossing& c) const {
+        if (!is_pinnable_ || next.label == another_phase) return false;
+        const auto value = [&](const OutputSlot& o) {
+            return o.sign * registers_[std::size_t{o.slot} * batch_size + static_cast<std::size_t>(lane)];
+        };
+        const bool is_one = is_shared(routine_);
+        const float a = here_.distance, b = is_one ? next.distance : value(routine_.outputs[0]);
+        const float gap = next.t - here_.t, sum = a + b;
+        if (!(smaller(a, b) >= rounding())) return false;
+        const float root = gap * (a / sum), reach = 0.49f * ray_.resolution;
+        const float bend = root * (gap - root), turn = gap * (gap - 2 * root);
+        const float k = half_curvature_, other = other_half_curvature_;
+        if (!((k * bend + rounding()) * gap <= reach * (sum + k * turn))) return false;
+        if (!((other * bend + rounding()) * gap <= reach * (sum - other * turn))) return false;
+        for (std::size_t i = 1; !is_one && i < routine_.output_count; ++i) {
+            const OutputSlot& third = routine_.outputs[i];
+            if (third.phase != next.label && !(value(third) >= gap - root + rounding())) return false;
+        }
+        return report(c, larger(here_.t + root - reach, here_.t), smaller(here_.t + root + reach, next.t), next.label);
+    }
     /// Of distances.
     float rounding() const { return ray_.resolution * (1.f / 16); }
 
@@ -156,8 +183,10 @@ class March {
     bool is_by_own_;
     std::uint32_t batches_ = 0, phantoms_ = 0;
     float phase_ = 0;
-    float half_curvature_ = 0;  ///< of the distance in the ray's phase
+    float half_curvature_ = 0;        ///< of the distance in the ray's phase
+    float other_half_curvature_ = 0;  ///< and in the other, if it is pinnable
     bool is_curvature_known_ = false;
+    bool is_pinnable_ = false;  ///< one value tells where the label changes, and how it curves both ways
     bool is_provable_ = false;  ///< else by a proof
     Place here_{};              ///< all up to here is in the ray's phase
     Place certain_{};           ///< the last place whose own label is the ray's phase; mostly `here`
@@ -190,6 +219,9 @@ bool March::find(RayCrossing& result) {
         half_curvature_ = 0.5f * ray_.curvature[routine_.outputs[0].phase == phase_ ? 0 : 1];
         is_curvature_known_ = half_curvature_ < 1e30f &&
                               (routine_.outputs[0].phase != phase_ || routine_.output_count == 2 || is_by_own_);
+        other_half_curvature_ = 0.5f * ray_.curvature[routine_.outputs[0].phase == phase_ ? 1 : 0];
+        is_pinnable_ = is_curvature_known_ && other_half_curvature_ < 1e30f &&
+                       (is_shared(routine_) || (is_alone_ && routine_.is_by_first));
         is_provable_ = !is_curvature_known_ && routine_.proof_steps > 0 &&
                        (routine_.outputs[0].phase == phase_ || is_shared(routine_));
         other_.label = none;
@@ -233,6 +265,7 @@ bool March::find(RayCrossing& result) {
             f.next = lane;
         }
         if (next.t - here_.t > resolution) {
+            if (is_pinned(next, lane, result)) return true;
             if (!fill(frames[depth], narrowing(f, lane, next), here_, next.t, resolution, true)) break;
             ++depth;
             continue;

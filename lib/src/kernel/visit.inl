@@ -61,7 +61,7 @@ bool visit(const Visit& v, RayCrossing& result) {
     const bool is_in_first = routine.outputs[0].phase == carried;
     // What starts here and carries a phase has mostly just crossed or left an interface.
     bool on_interface = carried >= 0 && span.low == static_cast<double>(v.t_min);
-    if (is_departure && on_interface && v.rise > least_rise && is_shared(routine)) {
+    if (is_departure && on_interface && v.rise > least_rise && routine.is_by_first) {
         // From an interface s = rise·t − K/2·t² at least, where K is how much s curves downward: as much as upward in
         // the other phase. A tenth is left for what the rise is off. That is positive up to here:
         const double safe =
