@@ -205,9 +205,8 @@ std::optional<Enclosed> Encloser::operator()(const WorkingProgram& program) {
         return most < 1e30 ? static_cast<float>(most) * (1 + 1e-3f) : Curvature::unknown;
     };
     result.curvature.is_by_own = by_own[0] + by_own[1] < by_others[0] + by_others[1];
-    for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t i = 0; i < 2; ++i)
         result.curvature.most[i] = known(result.curvature.is_by_own ? by_own[i] : by_others[i]);
-    }
     const auto is_clear = [&](const ProgramOutput& o) { return !opaque_.contains(o.phase); };
     result.curvature.is_by_first = is_shared || std::ranges::none_of(program.outputs.subspan(1), is_clear);
     if (!is_shared) result.curvature.most[0] = known(by_own[0]);  // the first component is known by itself

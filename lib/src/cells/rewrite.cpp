@@ -6,18 +6,8 @@ namespace phasetree {
 
 namespace {
 
-/// −op(−a, −b).
 Op mirrored(Op op) {
-    switch (op) {
-        case Op::minimum:
-            return Op::maximum;
-        case Op::farther:
-            return Op::farther_inside;
-        case Op::farther_inside:
-            return Op::farther;
-        default:
-            return Op::minimum;
-    }
+    return op == Op::minimum ? Op::maximum : Op::minimum;
 }
 
 /// Whether an instruction's data are one constant, whatever its index is.
@@ -144,10 +134,6 @@ SignedValue Rewriter::write(Op op, const SignedValue& left, const SignedValue& r
         case Op::minimum:
         case Op::maximum:
             return extremum(op, a, b, lipschitz, is_sign_enough);
-        case Op::farther:
-        case Op::farther_inside:
-            if (!(a.is_negative() && b.is_negative())) return emit(op, plain(a), plain(b), 0, lipschitz);
-            return {emit(mirrored(op), a.id(), b.id(), 0, lipschitz).id(), true};
         case Op::add:
         case Op::subtract: {
             // ±(|a| + |b|) or ±(|a| − |b|)
