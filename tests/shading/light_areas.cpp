@@ -58,6 +58,12 @@ double solid_angle_of(const Rectangle& r, const glm::vec3& p) {
            triangle_solid_angle(r.point(0, 0) - o, r.point(1, 1) - o, r.point(0, 1) - o);
 }
 
+template <class Light>
+float pdf(const Light& light, const glm::vec3& p, const glm::vec3& w) {
+    const auto distance = light.intersect(p, w);
+    return distance ? light.pdf_at(p, w, *distance) : 0.0f;
+}
+
 void check_rectangle(const Rectangle& rectangle, const glm::vec3& p) {
     const RectangleLight light = rectangle.light();
     constexpr int cells = 8;
@@ -74,7 +80,7 @@ void check_rectangle(const Rectangle& rectangle, const glm::vec3& p) {
             const glm::vec3 w = to_light / d;
             const double cosine = -glm::dot(w, rectangle.normal());
             probability[static_cast<std::size_t>((j / finer) * cells + i / finer)] +=
-                light.pdf(p, w) * cosine / (d * d) * area;
+                pdf(light, p, w) * cosine / (d * d) * area;
         }
     }
     CHECK(sum_of(probability) == doctest::Approx(1.0).epsilon(1e-4));
@@ -83,7 +89,7 @@ void check_rectangle(const Rectangle& rectangle, const glm::vec3& p) {
     const glm::dvec3 v =
         glm::dvec3(rectangle.edge_v) / glm::dot(glm::dvec3(rectangle.edge_v), glm::dvec3(rectangle.edge_v));
     check_directions(
-        probability, [&](const glm::vec2& s) { return std::optional(light.sample(p, s)); },
+        probability, [&](const glm::vec2& s) { return std::optional(light.sample(p, s).direction); },
         [&](const glm::vec3& w) {
             const auto distance = light.intersect(p, w);
             if (!distance) return -1;
@@ -100,9 +106,8 @@ template <class Light>
 EstimatorResult irradiance_test(const Light& light, const glm::vec3& p, const glm::vec3& normal, double expected,
                                 std::size_t count = 500000) {
     return estimator_test(expected, count, [&](Uniform& random) {
-        const glm::vec3 w = light.sample(p, random.two());
-        const float pdf = light.pdf(p, w);
-        return pdf > 0.0f ? static_cast<double>(std::max(0.0f, glm::dot(normal, w)) / pdf) : 0.0;
+        const auto [w, density] = light.sample(p, random.two());
+        return light.intersect(p, w) ? static_cast<double>(std::max(0.0f, glm::dot(normal, w)) / density) : 0.0;
     });
 }
 
@@ -133,6 +138,23 @@ TEST_CASE("rectangle: solid angle from everywhere in front") {
     }
 }
 
+TEST_CASE("rectangle: solid angle from nearly its own plane, a half-space before it and nothing beside it") {
+    const RectangleLight light({0, 0, 0}, {2, 0, 0}, {0, 1, 0}, glm::vec3(1.0f));
+    for (const float depth : {1e-2f, 1e-5f, 1e-9f, 1e-15f, 1e-30f}) {
+        CAPTURE(depth);
+        // Edges at least 0.1 away hide, or show, no more than 2 depth/0.1 each, of their half-spaces.
+        const double most = 80.0 * static_cast<double>(depth) + 1e-14;
+        for (const float x : {-0.9f, 0.0f, 0.5f, 0.9f})
+            for (const float y : {-0.4f, 0.0f, 0.3f}) {
+                const double solid_angle = light.solid_angle({x, y, depth});
+                CHECK(std::abs(solid_angle - 2.0 * half_turn) < most);
+            }
+        for (const glm::vec2 aside :
+             {glm::vec2(1.1f, 0.0f), {-3.0f, 0.2f}, {0.3f, 0.7f}, {-0.3f, -0.6f}, {5.0f, 5.0f}, {-1.2f, 0.8f}})
+            CHECK(light.solid_angle({aside.x, aside.y, depth}) < most);
+    }
+}
+
 TEST_CASE("rectangle: irradiance by Lambert's polygon formula") {
     const glm::vec3 up = glm::normalize(glm::vec3(0.1f, 0.2f, 1.0f));
     for (const glm::vec3 p : {glm::vec3(0.0f), glm::vec3(-0.8f, 0.2f, 0.5f), glm::vec3(0.3f, 0.5f, 1.0f)}) {
@@ -155,10 +177,11 @@ TEST_CASE("rectangle: too small for the spherical parametrisation, sampled by ar
     Uniform random(9);
     int hits = 0;
     for (int i = 0; i < 10000; ++i) {
-        const glm::vec3 w = light.sample(p, random.two());
+        const auto [w, density] = light.sample(p, random.two());
         if (!light.intersect(p, w)) continue;
         ++hits;
-        CHECK(light.pdf(p, w) * solid_angle == doctest::Approx(1.0).epsilon(1e-3));
+        CHECK(density == doctest::Approx(pdf(light, p, w)).epsilon(1e-3));
+        CHECK(pdf(light, p, w) * solid_angle == doctest::Approx(1.0).epsilon(1e-3));
         CHECK(glm::dot(w, to_light) > 0.99999f);
     }
     CHECK(hits > 9900);
@@ -192,13 +215,14 @@ TEST_CASE("sphere: density and samples from outside, near and far") {
         const double height = 1.0 - std::sqrt(1.0 - 1.0 / (exact_distance * exact_distance));
         const double solid_angle = 2.0 * half_turn * height;
         CHECK(light.solid_angle(p) == doctest::Approx(solid_angle).epsilon(1e-6));
-        CHECK(light.pdf(p, glm::vec3(axis)) * solid_angle == doctest::Approx(1.0).epsilon(1e-6));
+        CHECK(pdf(light, p, glm::vec3(axis)) * solid_angle == doctest::Approx(1.0).epsilon(1e-6));
         const std::vector<double> probability(ConeBins::count, 1.0 / ConeBins::count);
         check_directions(
-            probability, [&](const glm::vec2& u) { return std::optional(light.sample(p, u)); }, ConeBins(axis, height));
+            probability, [&](const glm::vec2& u) { return std::optional(light.sample(p, u).direction); },
+            ConeBins(axis, height));
         Uniform random(6);
         int missed = 0;
-        for (int i = 0; i < 100000; ++i) missed += light.intersect(p, light.sample(p, random.two())) ? 0 : 1;
+        for (int i = 0; i < 100000; ++i) missed += light.intersect(p, light.sample(p, random.two()).direction) ? 0 : 1;
         // Rounding at the rim: 1e-7 of the angle 1/distance, at most 400 times that.
         CHECK(missed < 20);
     }
@@ -219,15 +243,16 @@ TEST_CASE("sphere: from inside it is everywhere") {
     constexpr int columns = 16;
     constexpr int rows = 8;
     const auto probability =
-        lat_long_probabilities(columns, rows, 4, [&](const glm::vec3& w) { return light.pdf(p, w); });
+        lat_long_probabilities(columns, rows, 4, [&](const glm::vec3& w) { return pdf(light, p, w); });
     CHECK(sum_of(probability) == doctest::Approx(1.0).epsilon(1e-6));
     check_directions(
-        probability, [&](const glm::vec2& u) { return std::optional(light.sample(p, u)); },
+        probability, [&](const glm::vec2& u) { return std::optional(light.sample(p, u).direction); },
         [](const glm::vec3& w) { return lat_long_bin(columns, rows, w); });
     check(irradiance_test(light, p, {0.0f, 0.6f, 0.8f}, half_turn, 2500000));
     Uniform random(4);
     for (int i = 0; i < 1000; ++i) {
-        const glm::vec3 w = light.sample(p, random.two());
+        const auto [w, density] = light.sample(p, random.two());
+        CHECK(density == pdf(light, p, w));
         const float distance = light.intersect(p, w).value();
         CHECK(glm::length(p + distance * w - glm::vec3(1, 2, 3)) == doctest::Approx(2.0).epsilon(1e-5));
     }

@@ -38,9 +38,8 @@ Lights everything() {
 }
 
 // What a ray from p sees when there is no geometry.
-Lights::Emission seen(const Lights& lights, const glm::vec3& p, const glm::vec3& w) {
-    if (const auto hit = lights.intersect(p, w, infinity, false)) return *hit;
-    return lights.infinite(p, w, false);
+Lights::Emission seen(const Lights& lights, const glm::vec3& p, const glm::vec3& w, bool camera_ray = false) {
+    return lights.seen(p, w, infinity, camera_ray).value();
 }
 
 // ∫ L max(0, n·ω) dω, by the midpoint rule on a grid of 1,024² directions: edges of lights cross a few in a thousand
@@ -66,7 +65,7 @@ TEST_CASE("lights: samples and rays agree on radiance, distance and density") {
         const auto again = seen(lights, p, s->wi);
         REQUIRE(again.distance == s->distance);
         REQUIRE(again.radiance == s->radiance);
-        REQUIRE(again.pdf == s->pdf);
+        REQUIRE(lights.pdf(p, s->wi) == doctest::Approx(s->pdf).epsilon(1e-5));
         REQUIRE(std::abs(glm::length(s->wi) - 1.0f) < 1e-6f);
         (s->distance == infinity ? infinite : area) += 1;
     }
@@ -102,9 +101,9 @@ TEST_CASE("lights: a direction that several lights can propose counts all of the
     CHECK(pdf({0.2f, 0, 2}) == doctest::Approx(density(false, true, true)).epsilon(1e-5));
     CHECK(pdf(towards_sun) == doctest::Approx(density(true, false, false)).epsilon(1e-5));
     CHECK(pdf({-1.2f, 0, 2}) == doctest::Approx(density(true, true, false)).epsilon(1e-5));
-    CHECK(lights.intersect(p, glm::normalize(glm::vec3(0.2f, 0, 2)), infinity, false)->radiance.x == 2.0f);
-    CHECK(lights.infinite(p, towards_sun, false).radiance.x > 1.5f);
-    CHECK(lights.infinite(p, {0, 0, -1}, false).radiance.x == 0.5f);
+    CHECK(seen(lights, p, glm::normalize(glm::vec3(0.2f, 0, 2))).radiance.x == 2.0f);
+    CHECK(seen(lights, p, towards_sun, false).radiance.x > 1.5f);
+    CHECK(seen(lights, p, {0, 0, -1}).radiance.x == 0.5f);
 }
 
 TEST_CASE("lights: the density integrates to 1 and samples follow it") {
@@ -171,7 +170,7 @@ TEST_CASE("lights: light samples, BSDF samples and both together estimate the sa
             const float density = cosine_density(w);
             if (!(density > 0.0f)) return 0.0;
             const auto emission = seen(lights, p, w);
-            const float weight = weigh ? density / (density + emission.pdf) : 1.0f;
+            const float weight = weigh ? density / (density + lights.pdf(p, w)) : 1.0f;
             return static_cast<double>(weight * luminance(emission.radiance) * glm::dot(normal, w) / density);
         };
         check(estimator_test(expected, 1000000, [&](Uniform& r) { return by_light(r, false); }));
@@ -187,27 +186,27 @@ TEST_CASE("lights: visibility to the camera, background, and occlusion") {
     const glm::vec3 p(0.0f);
     const glm::vec3 to_both = glm::normalize(glm::vec3(0.2f, 0.0f, 2.0f));
     // The sphere in front is invisible to the camera, the rectangle behind it is not.
-    CHECK(lights.intersect(p, to_both, infinity, true)->radiance.x == 3.0f);
-    CHECK(lights.intersect(p, to_both, infinity, false)->radiance.x == 2.0f);
-    CHECK(lights.intersect(p, to_both, 0.5f, false) == std::nullopt);
-    const float to_rectangle = lights.intersect(p, to_both, infinity, true)->distance;
+    CHECK(seen(lights, p, to_both, true).radiance.x == 3.0f);
+    CHECK(seen(lights, p, to_both, false).radiance.x == 2.0f);
+    CHECK(lights.seen(p, to_both, 0.5f, false) == std::nullopt);
+    const float to_rectangle = seen(lights, p, to_both, true).distance;
     CHECK(to_rectangle == doctest::Approx(2.0 / to_both.z));
-    CHECK_FALSE(lights.intersect(p, to_both, to_rectangle, true));
+    CHECK_FALSE(lights.seen(p, to_both, to_rectangle, true));
 
     lights.set_background(glm::vec3(0.1f, 0.2f, 0.3f));
-    CHECK(lights.infinite(p, towards_sun, true).radiance == glm::vec3(0.1f, 0.2f, 0.3f));
-    CHECK(lights.infinite(p, towards_sun, false).radiance.x > 1.5f);
+    CHECK(seen(lights, p, towards_sun, true).radiance == glm::vec3(0.1f, 0.2f, 0.3f));
+    CHECK(seen(lights, p, towards_sun, false).radiance.x > 1.5f);
     lights.set_background(std::nullopt);
-    CHECK(lights.infinite(p, towards_sun, true).radiance.x > 1.5f);
+    CHECK(seen(lights, p, towards_sun, true).radiance.x > 1.5f);
 }
 
 TEST_CASE("lights: none, black ones, and ones that are turned away yield nothing") {
     Lights lights;
     CHECK(lights.empty());
     CHECK_FALSE(lights.sample({}, {0.5f, 0.5f}));
-    CHECK_FALSE(lights.intersect({}, {0, 0, 1}, infinity, true));
-    CHECK(lights.infinite({}, {0, 0, 1}, true).radiance == glm::vec3(0.0f));
-    CHECK(lights.infinite({}, {0, 0, 1}, true).pdf == 0.0f);
+    CHECK(seen(lights, {}, {0, 0, 1}, true).distance == infinity);
+    CHECK(seen(lights, {}, {0, 0, 1}, true).radiance == glm::vec3(0.0f));
+    CHECK(lights.pdf({}, {0, 0, 1}) == 0.0f);
     lights.add(ConstantEnvironment(glm::vec3(0.0f)));
     lights.add(RectangleLight::facing({0, 0, 1}, {0, 0, 2}, 1, 1, glm::vec3(1.0f)));
     CHECK_FALSE(lights.empty());

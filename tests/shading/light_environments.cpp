@@ -53,12 +53,11 @@ EstimatorResult irradiance_test(const Environment& environment, const glm::vec3&
     });
 }
 
-template <class Environment>
-void check_density(const Environment& environment, int finer) {
-    constexpr int columns = 16;
-    constexpr int rows = 8;
-    const auto probability = lat_long_probabilities(
-        columns, rows, finer, [&](const glm::vec3& w) { return static_cast<double>(environment.pdf(w)); });
+constexpr int columns = 16;
+constexpr int rows = 8;
+
+template <class Environment, class Bin>
+void check_density(const Environment& environment, const std::vector<double>& probability, const Bin& bin) {
     // The density is constant on the quadrature's grid; what remains is single precision, 6e-8 times a few roundings.
     CHECK(sum_of(probability) == doctest::Approx(1.0).epsilon(1e-6));
     check_directions(
@@ -68,7 +67,7 @@ void check_density(const Environment& environment, int finer) {
             if (!s) return std::nullopt;
             return s->direction;
         },
-        [](const glm::vec3& w) { return lat_long_bin(columns, rows, w); });
+        bin);
 
     Uniform random(3);
     int differing = 0;
@@ -80,6 +79,30 @@ void check_density(const Environment& environment, int finer) {
     }
     // A direction on a cell's boundary may round into the neighbour: 256 rows of 1e-2 against 1e-7, well below 1e-3.
     CHECK(differing < 10);
+}
+
+template <class Environment>
+void check_density(const Environment& environment, int finer) {
+    const auto probability = lat_long_probabilities(
+        columns, rows, finer, [&](const glm::vec3& w) { return static_cast<double>(environment.pdf(w)); });
+    check_density(environment, probability, [](const glm::vec3& w) { return lat_long_bin(columns, rows, w); });
+}
+
+// Of a density that depends on z alone, in bins of equal height, which have equal solid angles.
+template <class Environment>
+void check_zonal_density(const Environment& environment) {
+    constexpr int finer = 32;
+    std::vector<double> probability(columns * rows, 0.0);
+    for (int zone = 0; zone < rows * finer; ++zone) {
+        const double z = (2.0 * zone + 1.0) / (rows * finer) - 1.0;
+        for (int column = 0; column < columns; ++column)
+            probability[static_cast<std::size_t>(zone / finer * columns + column)] +=
+                4.0 * half_turn / (columns * rows * finer) * environment.pdf(direction_of(0.4 * column, z));
+    }
+    check_density(environment, probability, [](const glm::vec3& w) {
+        const int row = std::clamp(static_cast<int>(0.5f * (w.z + 1.0f) * rows), 0, rows - 1);
+        return row * columns + lat_long_bin(columns, 1, w);
+    });
 }
 
 }  // namespace
@@ -97,7 +120,7 @@ TEST_CASE("gradient environment: density and irradiance") {
     const glm::vec3 horizon(0.5f);
     const glm::vec3 ground(0.1f);
     const GradientEnvironment environment(zenith, horizon, ground);
-    check_density(environment, 32);
+    check_zonal_density(environment);
     // ∫₀¹ S(z) z dz = 3/4 − 2/5.
     const double expected = 2.0 * half_turn * (0.35 * 2.0 + 0.15 * 0.5);
     check(irradiance_test(environment, {0.0f, 0.0f, 1.0f}, expected, 1000000));

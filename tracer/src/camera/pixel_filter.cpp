@@ -1,10 +1,11 @@
 #include "camera/pixel_filter.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+
+#include "sampling/inversion.hpp"
 
 namespace phasetree::tracer {
 
@@ -44,11 +45,8 @@ PixelFilter::PixelFilter(Shape shape, float radius) : shape_(shape), radius_(rad
 float PixelFilter::sample(float u) const {
     float t = u;
     if (shape_ == Shape::blackman_harris) {
-        const float inside = std::clamp(u, 0.0f, 0x1.fffffep-1f);
-        const auto above = std::upper_bound(cumulative_.begin(), cumulative_.end(), inside);
-        const auto index = static_cast<std::size_t>(above - cumulative_.begin()) - 1;
-        const float within = (inside - cumulative_[index]) / (cumulative_[index + 1] - cumulative_[index]);
-        t = (static_cast<float>(index) + within) / static_cast<float>(cumulative_.size() - 1);
+        const Inverse inverse = invert(cumulative_, u);
+        t = (static_cast<float>(inverse.index) + inverse.position) / static_cast<float>(cumulative_.size() - 1);
     }
     return radius_ * (2.0f * t - 1.0f);
 }

@@ -20,25 +20,27 @@ float power_heuristic(float a, float b) {
 // A chain longer than this is not followed; paths know it too, so that its light is left to them alone.
 constexpr int longest_chain = 128;
 
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
 // Whether a surface is a link of a chain: smooth, and clear on both sides.
 bool links(const Bsdf& bsdf, const Surface& surface) {
     return bsdf.is_delta() && surface.near_phase != surface.far_phase;
 }
 
-// E of path.hpp along a ray: the emission at the end of one chain of smooth clear interfaces, times what the media and
-// refraction leave of it.
-glm::vec3 emission_through_chain(const World& world, const Scene& scene, CameraRay ray, Phase phase, Start start,
-                                 Sampler& sampler, PathCounters& counters) {
+// E of path.hpp along a ray that was sampled: the emission at the end of one chain of smooth clear interfaces, times
+// what the media and refraction leave of it.
+glm::vec3 emission_through_chain(const World& world, const Scene& scene, CameraRay ray, const LightSample& sampled,
+                                 Phase phase, Start start, Sampler& sampler, PathCounters& counters) {
     glm::vec3 throughput(1.0f);
-    for (int length = 0;;) {
-        const std::optional<Surface> surface = world.intersect(ray.origin, ray.direction, phase, start, counters);
-        const float distance = surface ? surface->distance : std::numeric_limits<float>::infinity();
+    for (int length = 0, segment = 0;; ++segment) {
+        const float far = segment == 0 ? sampled.distance : infinity;
+        const std::optional<Surface> surface = world.intersect(ray.origin, ray.direction, far, phase, start, counters);
+        const float distance = surface ? surface->distance : infinity;
         const glm::vec3& absorption = std::get<Clear>(scene.materials[phase.index]).absorption;
-        if (const auto lamp = scene.lights.intersect(ray.origin, ray.direction, distance, false))
-            return throughput * transmittance(absorption, lamp->distance) * lamp->radiance;
-        if (!surface)
-            return throughput * transmittance(absorption, distance) *
-                   scene.lights.infinite(ray.origin, ray.direction, false).radiance;
+        const auto light = segment > 0 ? scene.lights.seen(ray.origin, ray.direction, distance, false)
+                           : surface   ? std::nullopt
+                                       : std::optional(Lights::Emission{sampled.distance, sampled.radiance});
+        if (light) return throughput * transmittance(absorption, light->distance) * light->radiance;
         if (!is_clear(scene.materials[surface->far_phase.index])) return glm::vec3(0.0f);
         throughput *= transmittance(absorption, distance);
         start = surface->start;
@@ -87,20 +89,14 @@ glm::vec3 trace_path(const World& world, const Scene& scene, CameraRay ray, Phas
     bool camera_ray = true;
 
     for (int depth = 0; depth < scene.settings.max_depth;) {
-        const std::optional<Surface> surface = world.intersect(ray.origin, ray.direction, phase, start, counters);
-        const float distance = surface ? surface->distance : std::numeric_limits<float>::infinity();
+        const std::optional<Surface> surface =
+            world.intersect(ray.origin, ray.direction, infinity, phase, start, counters);
+        const float distance = surface ? surface->distance : infinity;
         const glm::vec3& absorption = medium(phase)->absorption;
 
-        const auto add = [&](const Lights::Emission& light) {
+        if (const auto light = scene.lights.seen(ray.origin, ray.direction, distance, camera_ray)) {
             radiance +=
-                throughput * chain.weight(scene.lights) * transmittance(absorption, light.distance) * light.radiance;
-        };
-        if (const auto lamp = scene.lights.intersect(ray.origin, ray.direction, distance, camera_ray)) {
-            add(*lamp);
-            break;
-        }
-        if (!surface) {
-            add(scene.lights.infinite(ray.origin, ray.direction, camera_ray));
+                throughput * chain.weight(scene.lights) * transmittance(absorption, light->distance) * light->radiance;
             break;
         }
         throughput *= transmittance(absorption, distance);
@@ -126,9 +122,9 @@ glm::vec3 trace_path(const World& world, const Scene& scene, CameraRay ray, Phas
                 if (f != glm::vec3(0.0f)) {
                     const bool through = wi.z < 0;
                     const CameraRay shadow{through ? surface->far_origin : surface->near_origin, light->wi};
-                    const glm::vec3 arrives =
-                        emission_through_chain(world, scene, shadow, through ? surface->far_phase : surface->near_phase,
-                                               start, sampler, counters);
+                    const glm::vec3 arrives = emission_through_chain(world, scene, shadow, *light,
+                                                                     through ? surface->far_phase : surface->near_phase,
+                                                                     start, sampler, counters);
                     radiance += throughput * f * arrives * (power_heuristic(light->pdf, bsdf.pdf(wo, wi)) / light->pdf);
                 }
             }

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 namespace phasetree::tracer {
 
@@ -65,13 +64,13 @@ void World::add_mesh(const Mesh& mesh) {
     for (const Material& from : scene_.materials) mesh_interfaces_.push_back(Interface::between(from, mesh.material));
 }
 
-std::optional<Surface> World::intersect(const glm::vec3& origin, const glm::vec3& direction, Phase carried,
+std::optional<Surface> World::intersect(const glm::vec3& origin, const glm::vec3& direction, float far, Phase carried,
                                         const Start& start, PathCounters& counters) const {
     embree::Query query;
     query.carried = carried;
     query.start = start;
     RTCRayHit ray{};
-    ray.ray = ray_of(origin, direction, std::numeric_limits<float>::infinity());
+    ray.ray = ray_of(origin, direction, far);
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     embree::intersect(embree_, query.context, ray);

@@ -43,9 +43,9 @@ class World {
     World(const World&) = delete;
     World& operator=(const World&) = delete;
 
-    // The nearest surface on a ray that carries a phase; direction of unit length; `start` is the surface's that it
-    // leaves, if it does.
-    std::optional<Surface> intersect(const glm::vec3& origin, const glm::vec3& direction, Phase carried,
+    // The nearest surface before `far` on a ray that carries a phase; direction of unit length; `start` is the
+    // surface's that it leaves, if it does.
+    std::optional<Surface> intersect(const glm::vec3& origin, const glm::vec3& direction, float far, Phase carried,
                                      const Start& start, PathCounters& counters) const;
 
     Phase label(const glm::vec3& p) const;

@@ -1,4 +1,4 @@
-// What sampling a light that is infinitely far away yields: a direction and how densely it was sampled.
+// What sampling a light yields: a direction towards it and how densely it was sampled.
 #pragma once
 
 #include <glm/glm.hpp>

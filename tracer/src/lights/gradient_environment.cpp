@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "lights/check.hpp"
@@ -18,26 +17,25 @@ glm::vec3 gradient(const glm::vec3& zenith, const glm::vec3& horizon, const glm:
     return glm::mix(horizon, z > 0.0f ? zenith : ground, t * t * (3.0f - 2.0f * t));
 }
 
-// One cell a row, with the mean of the luminance over it by Simpson's rule. The luminance is monotone on either side of
-// the horizon and the horizon is a row boundary, so a row that emits anywhere emits at one of its ends and is sampled.
-LatLongDistribution importance(const glm::vec3& zenith, const glm::vec3& horizon, const glm::vec3& ground,
-                               float softness) {
+// The mean of the luminance over each zone by Simpson's rule. The luminance is monotone on either side of the horizon
+// and the horizon is between two zones, so a zone that emits anywhere emits at one of its ends and is sampled.
+ZonalDistribution importance(const glm::vec3& zenith, const glm::vec3& horizon, const glm::vec3& ground,
+                             float softness) {
     check_colour(zenith, "the zenith's radiance");
     check_colour(horizon, "the horizon's radiance");
     check_colour(ground, "the ground's radiance");
     check_positive(softness, "the gradient's softness");
     check_range(softness, 0.0f, 1.0f, "the gradient's softness");
-    constexpr int rows = 256;
-    std::vector<float> means(rows);
-    for (int row = 0; row < rows; ++row) {
-        const double top = std::cos(std::numbers::pi * row / rows);
-        const double bottom = std::cos(std::numbers::pi * (row + 1) / rows);
-        const auto at = [&](double z) {
-            return luminance(gradient(zenith, horizon, ground, softness, static_cast<float>(z)));
+    constexpr int zones = 256;
+    std::vector<double> means(zones);
+    for (int zone = 0; zone < zones; ++zone) {
+        const auto at = [&](double place) {
+            const auto z = static_cast<float>(2.0 * (zone + place) / zones - 1.0);
+            return static_cast<double>(luminance(gradient(zenith, horizon, ground, softness, z)));
         };
-        means[static_cast<std::size_t>(row)] = (at(top) + 4.0f * at(0.5 * (top + bottom)) + at(bottom)) / 6.0f;
+        means[static_cast<std::size_t>(zone)] = (at(0.0) + 4.0 * at(0.5) + at(1.0)) / 6.0;
     }
-    return {1, rows, means};
+    return ZonalDistribution(means);
 }
 
 }  // namespace

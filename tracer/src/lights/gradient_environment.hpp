@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "lights/direction_sample.hpp"
-#include "lights/lat_long_distribution.hpp"
+#include "lights/zonal_distribution.hpp"
 
 namespace phasetree::tracer {
 
@@ -29,7 +29,7 @@ class GradientEnvironment {
     glm::vec3 horizon_;
     glm::vec3 ground_;
     float softness_;
-    LatLongDistribution distribution_;
+    ZonalDistribution distribution_;
 };
 
 }  // namespace phasetree::tracer

@@ -3,8 +3,7 @@
 // The sphere is cut into width × height lat-long cells (see lat_long.hpp). Within a cell the density per *solid angle*
 // is constant, p = P(cell)/Ω(cell): a cell is sampled uniformly in azimuth and in cos θ, so no sin θ appears that could
 // vanish at the poles. A row is chosen from the marginal, then a column within the row, each by inverting its
-// cumulative distribution (Pharr, Jakob, Humphreys: Physically Based Rendering, 3rd ed., 13.6.7). Inversion, not the
-// alias method: it is monotone and keeps the stratification of the sample points.
+// cumulative distribution (Pharr, Jakob, Humphreys: Physically Based Rendering, 3rd ed., 13.6.7).
 #pragma once
 
 #include <glm/glm.hpp>
@@ -32,8 +31,8 @@ class LatLongDistribution {
     float integral() const { return integral_; }
 
   private:
-    float cell_pdf(int column, int row) const;
-    std::span<const float> columns_of(int row) const;
+    float cell_pdf(std::size_t column, std::size_t row) const;
+    std::span<const float> columns_of(std::size_t row) const;
 
     int width_;
     int height_;

@@ -58,8 +58,11 @@ float Lights::fluences(const glm::vec3& p, std::span<float> fluence) const {
     return total;
 }
 
-float Lights::pdf(const glm::vec3& p, const glm::vec3& direction, std::span<const float> fluence, float total) const {
+float Lights::pdf(const glm::vec3& p, const glm::vec3& direction) const {
+    Scratch scratch(size());
+    const float total = fluences(p, scratch);
     if (!(total > 0.0f)) return 0.0f;
+    const std::span<const float> fluence = scratch.values();
     float sum = 0.0f;
     std::size_t index = 0;
     for (const InfiniteLight& any : infinite_) {
@@ -68,15 +71,15 @@ float Lights::pdf(const glm::vec3& p, const glm::vec3& direction, std::span<cons
     }
     for (const AreaLight& any : area_) {
         const float share = fluence[index++] / total;
-        if (share > 0.0f) sum += share * std::visit([&](const auto& light) { return light.pdf(p, direction); }, any);
+        if (!(share > 0.0f)) continue;
+        std::visit(
+            [&](const auto& light) {
+                if (const auto distance = light.intersect(p, direction))
+                    sum += share * light.pdf_at(p, direction, *distance);
+            },
+            any);
     }
     return sum;
-}
-
-float Lights::pdf(const glm::vec3& p, const glm::vec3& direction) const {
-    Scratch fluence(size());
-    const float total = fluences(p, fluence);
-    return pdf(p, direction, fluence.values(), total);
 }
 
 std::optional<LightSample> Lights::sample(const glm::vec3& p, glm::vec2 u) const {
@@ -96,43 +99,59 @@ std::optional<LightSample> Lights::sample(const glm::vec3& p, glm::vec2 u) const
     }
     u.x = std::clamp((u.x * total - (below - fluence[chosen])) / fluence[chosen], 0.0f, 0x1.fffffep-1f);
 
-    glm::vec3 wi(0.0f);
-    if (chosen < infinite_.size()) {
-        const auto sampled = std::visit([&](const auto& light) { return light.sample(u); }, infinite_[chosen]);
-        if (!sampled) return std::nullopt;
-        wi = sampled->direction;
-    } else {
-        wi = std::visit([&](const auto& light) { return light.sample(p, u); }, area_[chosen - infinite_.size()]);
+    std::optional<DirectionSample> sampled;
+    if (chosen < infinite_.size())
+        sampled = std::visit([&](const auto& light) { return light.sample(u); }, infinite_[chosen]);
+    else
+        sampled = std::visit([&](const auto& light) { return light.sample(p, u); }, area_[chosen - infinite_.size()]);
+    if (!sampled) return std::nullopt;
+    const glm::vec3 wi = sampled->direction;
+
+    // What is seen there, and how densely all lights together propose it.
+    float density = fluence[chosen] / total * sampled->pdf;
+    std::size_t index = 0;
+    for (const InfiniteLight& any : infinite_) {
+        const std::size_t i = index++;
+        if (i != chosen && fluence[i] > 0.0f)
+            density += fluence[i] / total * std::visit([&](const auto& light) { return light.pdf(wi); }, any);
     }
-    const float density = pdf(p, wi, fluence, total);
+    std::optional<Emission> nearest;
+    bool is_met = chosen < infinite_.size();
+    for (const AreaLight& any : area_) {
+        const std::size_t i = index++;
+        std::visit(
+            [&](const auto& light) {
+                const auto distance = light.intersect(p, wi);
+                if (!distance) return;
+                if (!nearest || *distance < nearest->distance) nearest = Emission{*distance, light.radiance()};
+                if (i == chosen)
+                    is_met = true;
+                else if (fluence[i] > 0.0f)
+                    density += fluence[i] / total * light.pdf_at(p, wi, *distance);
+            },
+            any);
+    }
     // At the very rim of a light rounding can put the direction just outside.
-    if (!(density > 0.0f)) return std::nullopt;
-    if (const auto hit = nearest(p, wi, infinity, false)) return LightSample{wi, hit->distance, hit->radiance, density};
+    if (!is_met || !(density > 0.0f)) return std::nullopt;
+    if (nearest) return LightSample{wi, nearest->distance, nearest->radiance, density};
     return LightSample{wi, infinity, infinite_radiance(wi), density};
 }
 
-std::optional<Lights::Hit> Lights::nearest(const glm::vec3& origin, const glm::vec3& direction, float distance_max,
-                                           bool camera_ray) const {
-    std::optional<Hit> hit;
+std::optional<Lights::Emission> Lights::seen(const glm::vec3& origin, const glm::vec3& direction, float geometry,
+                                             bool camera_ray) const {
+    std::optional<Emission> nearest;
     for (const AreaLight& any : area_) {
         std::visit(
             [&](const auto& light) {
                 if (camera_ray && !light.visible_to_camera()) return;
                 const auto distance = light.intersect(origin, direction);
-                if (distance && *distance < (hit ? hit->distance : distance_max)) {
-                    hit = Hit{*distance, light.radiance()};
-                }
+                if (distance && *distance < (nearest ? nearest->distance : geometry))
+                    nearest = Emission{*distance, light.radiance()};
             },
             any);
     }
-    return hit;
-}
-
-std::optional<Lights::Emission> Lights::intersect(const glm::vec3& origin, const glm::vec3& direction,
-                                                  float distance_max, bool camera_ray) const {
-    const auto hit = nearest(origin, direction, distance_max, camera_ray);
-    if (!hit) return std::nullopt;
-    return Emission{hit->distance, hit->radiance, pdf(origin, direction)};
+    if (nearest || geometry < infinity) return nearest;
+    return Emission{infinity, camera_ray && background_ ? *background_ : infinite_radiance(direction)};
 }
 
 glm::vec3 Lights::infinite_radiance(const glm::vec3& direction) const {
@@ -141,11 +160,6 @@ glm::vec3 Lights::infinite_radiance(const glm::vec3& direction) const {
         sum += std::visit([&](const auto& light) { return light.radiance(direction); }, any);
     }
     return sum;
-}
-
-Lights::Emission Lights::infinite(const glm::vec3& origin, const glm::vec3& direction, bool camera_ray) const {
-    const glm::vec3 radiance = camera_ray && background_ ? *background_ : infinite_radiance(direction);
-    return {infinity, radiance, infinite_.empty() ? 0.0f : pdf(origin, direction)};
 }
 
 }  // namespace phasetree::tracer

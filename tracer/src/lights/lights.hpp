@@ -45,9 +45,8 @@ struct LightSample {
 class Lights {
   public:
     struct Emission {
-        float distance;
+        float distance;  // infinity for infinite lights
         glm::vec3 radiance;
-        float pdf;  // the density with which sample() at the ray's origin proposes this direction
     };
 
     void add(InfiniteLight light) { infinite_.push_back(std::move(light)); }
@@ -62,28 +61,17 @@ class Lights {
     // reaches p.
     std::optional<LightSample> sample(const glm::vec3& p, glm::vec2 u) const;
 
-    // The nearest area light a ray meets before `distance_max`. Camera rays pass through lights that are not visible to
-    // the camera.
-    std::optional<Emission> intersect(const glm::vec3& origin, const glm::vec3& direction, float distance_max,
-                                      bool camera_ray) const;
-
-    // What a ray sees that meets neither geometry nor an area light.
-    Emission infinite(const glm::vec3& origin, const glm::vec3& direction, bool camera_ray) const;
+    // What a ray sees that meets geometry at that distance, infinity for none: the nearest area light before it or, if
+    // nothing is in the way, the infinite lights. Camera rays pass through lights that are not visible to the camera.
+    std::optional<Emission> seen(const glm::vec3& origin, const glm::vec3& direction, float geometry,
+                                 bool camera_ray) const;
 
     // The density of sample() at p per steradian.
     float pdf(const glm::vec3& p, const glm::vec3& direction) const;
 
   private:
-    struct Hit {
-        float distance;
-        glm::vec3 radiance;
-    };
-
     std::size_t size() const { return infinite_.size() + area_.size(); }
     float fluences(const glm::vec3& p, std::span<float> fluence) const;
-    float pdf(const glm::vec3& p, const glm::vec3& direction, std::span<const float> fluence, float total) const;
-    std::optional<Hit> nearest(const glm::vec3& origin, const glm::vec3& direction, float distance_max,
-                               bool camera_ray) const;
     glm::vec3 infinite_radiance(const glm::vec3& direction) const;
 
     std::vector<InfiniteLight> infinite_;

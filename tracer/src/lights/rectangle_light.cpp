@@ -25,10 +25,27 @@ struct EdgeNormal {
     }
 };
 
+// A unit complex number, of an angle up to π.
+struct Turn {
+    double cosine, sine;
+    friend Turn operator*(const Turn& a, const Turn& b) {
+        return {a.cosine * b.cosine - a.sine * b.sine, a.cosine * b.sine + a.sine * b.cosine};
+    }
+};
+
 // The inner angle between two neighbouring edge planes: cos = −z₀z₁, sin² = 1 − z₀²z₁².
-double corner_angle(const EdgeNormal& a, const EdgeNormal& b) {
+Turn corner(const EdgeNormal& a, const EdgeNormal& b) {
     const double sin_squared = a.rest + b.rest - a.rest * b.rest;
-    return std::atan2(std::sqrt(std::max(0.0, sin_squared)), -a.z * b.z);
+    return {-a.z * b.z, std::sqrt(std::max(0.0, sin_squared))};
+}
+
+// Of two such angles the sum, less π: from −π to π, which rounding does not take for each other.
+double excess(const Turn& a, const Turn& b) {
+    const Turn sum = a * b;
+    const double angle = std::atan2(-sum.sine, -sum.cosine);
+    if (angle < -1.0 && a.cosine < 0.0 && b.cosine < 0.0) return std::numbers::pi;
+    if (angle > 1.0 && a.cosine > 0.0 && b.cosine > 0.0) return -std::numbers::pi;
+    return angle;
 }
 
 }  // namespace
@@ -62,6 +79,8 @@ RectangleLight::RectangleLight(const glm::vec3& centre, const glm::vec3& edge_u,
     axis_v_ = glm::cross(axis_n_, axis_u_);
     half_u_ = 0.5 * width;
     half_v_ = 0.5 * height;
+    area_ = width * height;
+    disk_radius_ = std::sqrt(area_ / std::numbers::pi);
 }
 
 RectangleLight RectangleLight::facing(const glm::vec3& centre, const glm::vec3& target, float width, float height,
@@ -93,17 +112,14 @@ RectangleLight::View RectangleLight::seen_from(const glm::vec3& p) const {
     const EdgeNormal n1(view.x1, view.depth, 1.0);
     const EdgeNormal n2(view.y1, view.depth, 1.0);
     const EdgeNormal n3(view.x0, view.depth, -1.0);
-    const double g0 = corner_angle(n0, n1);
-    const double g1 = corner_angle(n1, n2);
-    const double g2 = corner_angle(n2, n3);
-    const double g3 = corner_angle(n3, n0);
+    const double below = excess(corner(n0, n1), corner(n1, n2)), above = excess(corner(n2, n3), corner(n3, n0));
     view.b0 = n0.z;
     view.b1 = n2.z;
-    view.k = 2.0 * std::numbers::pi - g2 - g3;
-    view.solid_angle = g0 + g1 - view.k;
+    view.k = std::numbers::pi - above;
+    view.solid_angle = below + above;
     if (!(view.solid_angle >= smallest_spherical)) {
         const double distance = glm::length(offset);
-        view.solid_angle = 4.0 * half_u_ * half_v_ * view.depth / (distance * distance * distance);
+        view.solid_angle = area_ * view.depth / (distance * distance * distance);
         view.solid_angle = std::min(view.solid_angle, 0.999 * smallest_spherical);
     }
     return view;
@@ -118,14 +134,12 @@ double RectangleLight::rough_solid_angle(const glm::vec3& p) const {
     const glm::dvec3 offset = centre_ - glm::dvec3(p);
     const double depth = -glm::dot(offset, axis_n_);
     if (!(depth > 0.0)) return 0.0;
-    const double area = 4.0 * half_u_ * half_v_;
-    const double squared = glm::dot(offset, offset);
-    const double r = std::sqrt(area / std::numbers::pi);
+    const double squared = glm::dot(offset, offset), r = disk_radius_;
     const double cosine = (depth + r) / (std::sqrt(squared) + r);
-    return area * cosine / (squared + area / (2.0 * std::numbers::pi));
+    return area_ * cosine / (squared + 0.5 * r * r);
 }
 
-glm::vec3 RectangleLight::sample(const glm::vec3& p, const glm::vec2& u) const {
+DirectionSample RectangleLight::sample(const glm::vec3& p, const glm::vec2& u) const {
     const View view = seen_from(p);
     double x = 0.0;
     double y = 0.0;
@@ -144,25 +158,27 @@ glm::vec3 RectangleLight::sample(const glm::vec3& p, const glm::vec2& u) const {
         const double h = h0 + static_cast<double>(u.y) * (h1 - h0);
         y = std::clamp(h * d / std::sqrt(std::max(1e-300, 1.0 - h * h)), view.y0, view.y1);
     }
-    return glm::normalize(x * axis_u_ + y * axis_v_ - view.depth * axis_n_);
+    const glm::dvec3 towards = x * axis_u_ + y * axis_v_ - view.depth * axis_n_;
+    const double distance = glm::length(towards);
+    return {towards / distance, static_cast<float>(density(view, distance, view.depth / distance))};
 }
 
-float RectangleLight::pdf(const glm::vec3& p, const glm::vec3& direction) const {
-    const auto distance = intersect(p, direction);
-    if (!distance) return 0.0f;
-    const View view = seen_from(p);
-    if (view.solid_angle >= smallest_spherical) return static_cast<float>(1.0 / view.solid_angle);
+double RectangleLight::density(const View& view, double distance, double cosine) const {
+    return view.solid_angle >= smallest_spherical ? 1.0 / view.solid_angle : distance * distance / (area_ * cosine);
+}
+
+float RectangleLight::pdf_at(const glm::vec3& p, const glm::vec3& direction, float distance) const {
     const double cosine = -glm::dot(glm::dvec3(direction), axis_n_);
-    const double d = *distance;
-    return static_cast<float>(d * d / (4.0 * half_u_ * half_v_ * cosine));
+    return static_cast<float>(density(seen_from(p), static_cast<double>(distance), cosine));
 }
 
 std::optional<float> RectangleLight::intersect(const glm::vec3& origin, const glm::vec3& direction) const {
     const glm::dvec3 d(direction);
+    const double approach = -glm::dot(d, axis_n_);
+    if (!(approach > 0.0)) return std::nullopt;
     const glm::dvec3 offset = centre_ - glm::dvec3(origin);
     const double depth = -glm::dot(offset, axis_n_);
-    const double approach = -glm::dot(d, axis_n_);
-    if (!(depth > 0.0) || !(approach > 0.0)) return std::nullopt;
+    if (!(depth > 0.0)) return std::nullopt;
     const double distance = depth / approach;
     const glm::dvec3 from_centre = distance * d - offset;
     if (!(std::abs(glm::dot(from_centre, axis_u_)) <= half_u_)) return std::nullopt;

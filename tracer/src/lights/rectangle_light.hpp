@@ -10,6 +10,8 @@
 #include <glm/glm.hpp>
 #include <optional>
 
+#include "lights/direction_sample.hpp"
+
 namespace phasetree::tracer {
 
 class RectangleLight {
@@ -31,19 +33,21 @@ class RectangleLight {
     // About as much, without a trigonometric function: what a choice among lights needs. 0 where solid_angle() is 0.
     double rough_solid_angle(const glm::vec3& p) const;
     // A direction from p towards the light; p must see it.
-    glm::vec3 sample(const glm::vec3& p, const glm::vec2& u) const;
-    // The density of sample() per steradian.
-    float pdf(const glm::vec3& p, const glm::vec3& direction) const;
+    DirectionSample sample(const glm::vec3& p, const glm::vec2& u) const;
+    // The density of sample() per steradian, for a direction in which the light is met at that distance.
+    float pdf_at(const glm::vec3& p, const glm::vec3& direction, float distance) const;
     // The distance at which a ray meets the emitting side.
     std::optional<float> intersect(const glm::vec3& origin, const glm::vec3& direction) const;
 
   private:
     struct View;
     View seen_from(const glm::vec3& p) const;
+    double density(const View& view, double distance, double cosine) const;
 
     glm::dvec3 centre_;
     glm::dvec3 axis_u_, axis_v_, axis_n_;  // orthonormal
     double half_u_, half_v_;
+    double area_, disk_radius_;  // of a disk as large
     glm::vec3 radiance_;
     bool visible_to_camera_;
 };

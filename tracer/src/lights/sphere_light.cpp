@@ -31,16 +31,17 @@ double SphereLight::solid_angle(const glm::vec3& p) const {
     return 2.0 * std::numbers::pi * cap_height(centre_ - glm::dvec3(p));
 }
 
-glm::vec3 SphereLight::sample(const glm::vec3& p, const glm::vec2& u) const {
+DirectionSample SphereLight::sample(const glm::vec3& p, const glm::vec2& u) const {
     const glm::dvec3 to_centre = centre_ - glm::dvec3(p);
     const double height = cap_height(to_centre);
-    if (height == 2.0) return square_to_uniform_sphere(u);
+    const auto pdf = static_cast<float>(1.0 / (2.0 * std::numbers::pi * height));
+    if (height == 2.0) return {square_to_uniform_sphere(u), pdf};
     const glm::vec3 axis = glm::normalize(to_centre);
-    return glm::normalize(Frame(axis).to_world(square_to_uniform_cone(u, static_cast<float>(height))));
+    return {glm::normalize(Frame(axis).to_world(square_to_uniform_cone(u, static_cast<float>(height)))), pdf};
 }
 
-float SphereLight::pdf(const glm::vec3& p, const glm::vec3& direction) const {
-    return intersect(p, direction) ? static_cast<float>(1.0 / solid_angle(p)) : 0.0f;
+float SphereLight::pdf_at(const glm::vec3& p, const glm::vec3&, float) const {
+    return static_cast<float>(1.0 / solid_angle(p));
 }
 
 std::optional<float> SphereLight::intersect(const glm::vec3& origin, const glm::vec3& direction) const {

@@ -8,6 +8,8 @@
 #include <glm/glm.hpp>
 #include <optional>
 
+#include "lights/direction_sample.hpp"
+
 namespace phasetree::tracer {
 
 class SphereLight {
@@ -20,9 +22,9 @@ class SphereLight {
     // Steradians seen from p.
     double solid_angle(const glm::vec3& p) const;
     // A direction from p towards the light.
-    glm::vec3 sample(const glm::vec3& p, const glm::vec2& u) const;
-    // The density of sample() per steradian.
-    float pdf(const glm::vec3& p, const glm::vec3& direction) const;
+    DirectionSample sample(const glm::vec3& p, const glm::vec2& u) const;
+    // The density of sample() per steradian, for a direction in which the light is met, at that distance.
+    float pdf_at(const glm::vec3& p, const glm::vec3& direction, float distance) const;
     // The distance at which a ray first meets the surface.
     std::optional<float> intersect(const glm::vec3& origin, const glm::vec3& direction) const;
 

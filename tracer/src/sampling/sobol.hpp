@@ -34,7 +34,7 @@ class Sampler {
     };
     Group next_group();
 
-    std::uint32_t sample_;
+    std::uint32_t reversed_sample_;
     std::uint32_t pixel_;      // hash of pixel and seed
     std::uint32_t group_ = 0;  // groups drawn so far
 };
