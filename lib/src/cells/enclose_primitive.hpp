@@ -7,7 +7,6 @@
 #include "phasetree/math/enclosure.hpp"
 #include "phasetree/math/enclosure/convex_in_box.hpp"
 #include "phasetree/math/enclosure/network_in_box.hpp"
-#include "phasetree/math/enclosure/noise_in_box.hpp"
 #include "program/interpret.hpp"
 
 namespace phasetree {
@@ -33,13 +32,9 @@ Enclosure enclose_long_primitive(const float* constants, const Vec3<Enclosure>& 
     const Region at(q);
     if constexpr (std::is_same_v<P, Siren::Network>) {
         if (at.farthest() < static_cast<double>(constants[1]))
-            return enclose(network_in_box(constants, at.centre, at.reach), at, half);
+            return enclose(network_in_box(constants, at.centre, at.reach), at);
     }
-    if constexpr (std::is_same_v<P, FractalNoise>) {
-        FractalNoise noise;
-        std::memcpy(static_cast<void*>(&noise), constants, sizeof noise);
-        if (noise.is_within_cube(at.farthest())) return enclose(noise_in_box(noise, at), at, half);
-    }
+    if constexpr (std::is_same_v<P, FractalNoise>) return detail::distance_of<P>(constants, q);
     double value = 0;
     if constexpr (LocalPrimitive<P>)
         value = static_cast<double>(local_value<P>(constants, at, of, kept, scratch));

@@ -16,6 +16,7 @@ struct FieldInBox {
     std::array<double, 3> gradient{};  ///< there
     std::array<Range, 3> gradients{};  ///< anywhere in the box
     Range curvature{};                 ///< of d²f/dt² along straight lines of unit speed
+    Range values = Range::all();       ///< what else is known of the value
 };
 
 /// Where a point may be that a field is given.
@@ -36,9 +37,9 @@ struct Region : PointRange {
     }
 };
 
-/// What a field that is known where its point may be is as a function of the box's points, of these half extents. Along
-/// a line (f∘q)″ = q′ᵀf″q′ + f′·q″.
-inline Enclosure enclose(const FieldInBox& f, const Region& at, const Enclosure::Vector& half) {
+/// What a field that is known where its point may be is as a function of the box's points. Along a line
+/// (f∘q)″ = q′ᵀf″q′ + f′·q″.
+inline Enclosure enclose(const FieldInBox& f, const Region& at) {
     Enclosure e;
     e.centre = f.value;
     double change = 0, squared_slope = 0;
@@ -51,10 +52,10 @@ inline Enclosure enclose(const FieldInBox& f, const Region& at, const Enclosure:
             e.centre_gradient[axis] += f.gradient[i] * at.x[i]->centre_gradient[axis];
         }
     }
-    e.value = limited(f.value - change, f.value + change);
+    e.value = limited(std::max(f.value - change, f.values.low), std::min(f.value + change, f.values.high));
     const double bent = std::sqrt(squared_slope) * detail::curvature_of(at.x);
     e.set_curvature(hull(f.curvature, {}) * detail::squared_stretch(at.x) + within(bent));
-    return e.tightened(half);
+    return e;
 }
 
 }  // namespace phasetree

@@ -5,9 +5,9 @@
 namespace phasetree {
 
 /// The ground below z = h(x, y). h sums octaves of value noise n in the plane, whose slope is 15/4 at most as that of
-/// noise in space (fractal_noise.hpp), each bent by (1 − r) n + r (1 − 2|n|), which stays in [−1, 1] and is steeper by
-/// a factor of 1 + r at most. With L ≥ ‖∇h‖ the gradient of (z − h)/√(1 + L²) is no longer than 1. Because |h| ≤ a, the
-/// planes z − a and z + a, which are of slope 1, may take over as in displace.hpp.
+/// noise in space (math/value_noise.hpp), each bent by (1 − r) n + r (1 − 2|n|), which stays in [−1, 1] and is steeper
+/// by a factor of 1 + r at most. With L ≥ ‖∇h‖ the gradient of (z − h)/√(1 + L²) is no longer than 1. Because |h| ≤ a,
+/// the planes z − a and z + a, which are of slope 1, may take over as in displace.hpp.
 struct Heightfield {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{
@@ -51,7 +51,7 @@ struct Heightfield {
         T height(0.f);
         float part = share;
         for (int i = 0; i < static_cast<int>(octaves); ++i) {
-            const T n = FractalNoise::in_plane(x, y, seed + 71.f * static_cast<float>(i));
+            const T n = value_noise(x, y, seed + 71.f * static_cast<float>(i));
             height = height + (n * (1.f - ridged) + (1.f - abs(n) * 2.f) * ridged) * part;
             x = x * 2.f + 19.25f;
             y = y * 2.f + 47.375f;

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "phasetree/math/lattice_hash.hpp"
 #include "phasetree/math/point_range.hpp"
-#include "phasetree/nodes/fields/lattice_hash.hpp"
 #include "phasetree/nodes/fields/profile.hpp"
 
 namespace phasetree {

@@ -1,0 +1,68 @@
+#pragma once
+
+#include "phasetree/math/lattice_hash.hpp"
+#include "phasetree/math/vec3.hpp"
+
+namespace phasetree {
+
+namespace lattice {
+
+/// Where a coordinate is: the lattice's points below and above, modulo 289, and how much the upper one counts.
+template <class T>
+struct Coordinate {
+    T low, high;
+    T blend;
+};
+template <class T>
+Coordinate<T> coordinate(const T& u) {
+    const T whole = floor(u), t = u - whole, low = wrapped(whole);
+    const T next = low + 1.f;
+    return {low, select(less(T(288.5f), next), T(0.f), next), t * t * t * (t * (t * 6.f - 15.f) + 10.f)};
+}
+template <class T>
+T mix(const T& a, const T& b, const T& blend) {
+    return a + (b - a) * blend;
+}
+/// From 0 to 288 to [−1, 1].
+template <class T>
+T centred(const T& hash) {
+    return hash * (1.f / 144.f) - 1.f;
+}
+
+}  // namespace lattice
+
+/// Value noise with a proven slope. Each point of the integer lattice has a value in [−1, 1]; between them the eight
+/// corners of a cell are blended by Perlin's quintic F(t) = t³(6t² − 15t + 10) along each axis (Perlin, "Improving
+/// Noise", 2002).
+///
+/// *Slope.* Within a cell the noise is E[w], the mean of the corners' values under the product measure that gives
+/// the upper corner along axis i the weight Fᵢ = F(tᵢ). Its derivative by Fᵢ is E[w χᵢ]/σᵢ with σᵢ² = Fᵢ(1 − Fᵢ) and
+/// χᵢ = (xᵢ − Fᵢ)/σᵢ, xᵢ ∈ {0, 1}. The χᵢ are orthonormal, so by Bessel's inequality Σ E[w χᵢ]² ≤ E[w²] ≤ 1, and
+///     ‖∇‖² = Σ (F′ᵢ/σᵢ)² E[w χᵢ]² ≤ max F′²/(F(1 − F)).
+/// With y = (t − ½)²: F′² = 900 (¼ − y)⁴, F(1 − F) = (¼ − y)³ (16 − 33y + 36y²), and 900 (¼ − y)/(16 − 33y + 36y²) is
+/// at most 225/16, its value at y = 0, because 64y ≥ 33y − 36y². So the slope is at most 15/4, which is reached in
+/// the middle of a cell between four corners of value 1 and four of −1.
+template <class T>
+T value_noise(const Vec3<T>& p) {
+    using lattice::hashed, lattice::mix, lattice::sum;
+    const auto x = lattice::coordinate(p.x), y = lattice::coordinate(p.y), z = lattice::coordinate(p.z);
+    const auto along_z = [&](const T& row) { return mix(hashed(sum(row, z.low)), hashed(sum(row, z.high)), z.blend); };
+    const auto along_yz = [&](const T& slice) {
+        return mix(along_z(hashed(sum(slice, y.low))), along_z(hashed(sum(slice, y.high))), y.blend);
+    };
+    return lattice::centred(mix(along_yz(hashed(x.low)), along_yz(hashed(x.high)), x.blend));
+}
+
+/// The same over the plane, of the same range and slope: for each whole number another one.
+template <class T>
+T value_noise(const T& x, const T& y, float which) {
+    using lattice::hashed, lattice::mix, lattice::sum;
+    const auto cx = lattice::coordinate(x), cy = lattice::coordinate(y);
+    const T plane(hashed(lattice::wrapped(which)));
+    const auto along_y = [&](const T& row) {
+        return mix(hashed(sum(row, cy.low)), hashed(sum(row, cy.high)), cy.blend);
+    };
+    return lattice::centred(mix(along_y(hashed(sum(plane, cx.low))), along_y(hashed(sum(plane, cx.high))), cx.blend));
+}
+
+}  // namespace phasetree
