@@ -34,14 +34,15 @@ glm::vec3 emission_through_chain(const World& world, const Scene& scene, CameraR
     glm::vec3 throughput(1.0f);
     for (int length = 0, segment = 0;; ++segment) {
         const float far = segment == 0 ? sampled.distance : infinity;
-        const std::optional<Surface> surface = world.intersect(ray.origin, ray.direction, far, phase, start, counters);
+        const std::optional<Surface> surface =
+            world.intersect(ray.origin, ray.direction, far, phase, start, Purpose::light, counters);
         const float distance = surface ? surface->distance : infinity;
         const glm::vec3& absorption = std::get<Clear>(scene.materials[phase.index]).absorption;
         const auto light = segment > 0 ? scene.lights.seen(ray.origin, ray.direction, distance, false)
                            : surface   ? std::nullopt
                                        : std::optional(Lights::Emission{sampled.distance, sampled.radiance});
         if (light) return throughput * transmittance(absorption, light->distance) * light->radiance;
-        if (!is_clear(scene.materials[surface->far_phase.index])) return glm::vec3(0.0f);
+        if (!surface->optics) return glm::vec3(0.0f);  // opaque
         throughput *= transmittance(absorption, distance);
         start = surface->start;
         const Bsdf bsdf = surface->optics->at(surface->near_origin);
@@ -90,7 +91,7 @@ glm::vec3 trace_path(const World& world, const Scene& scene, CameraRay ray, Phas
 
     for (int depth = 0; depth < scene.settings.max_depth;) {
         const std::optional<Surface> surface =
-            world.intersect(ray.origin, ray.direction, infinity, phase, start, counters);
+            world.intersect(ray.origin, ray.direction, infinity, phase, start, Purpose::path, counters);
         const float distance = surface ? surface->distance : infinity;
         const glm::vec3& absorption = medium(phase)->absorption;
 

@@ -65,7 +65,7 @@ void World::add_mesh(const Mesh& mesh) {
 }
 
 std::optional<Surface> World::intersect(const glm::vec3& origin, const glm::vec3& direction, float far, Phase carried,
-                                        const Start& start, PathCounters& counters) const {
+                                        const Start& start, Purpose purpose, PathCounters& counters) const {
     embree::Query query;
     query.carried = carried;
     query.start = start;
@@ -79,11 +79,14 @@ std::optional<Surface> World::intersect(const glm::vec3& origin, const glm::vec3
     counters.trace.batches += query.counters.batches;
     counters.trace.phantoms += query.counters.phantoms;
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    if (ray.hit.geomID != tree_id) return on_mesh(ray, direction, carried);
-
+    const bool is_on_tree = ray.hit.geomID == tree_id;
     const Crossing& c = query.crossing;
     Surface s;
-    s.distance = c.t_in;
+    s.distance = is_on_tree ? c.t_in : ray.ray.tfar;
+    const bool ends_here = !is_on_tree || !is_clear(scene_.materials[c.to.index]);
+    if (purpose == Purpose::light && ends_here) return s;
+    if (!is_on_tree) return on_mesh(ray, direction, carried);
+
     const CrossingNormal normal = object_->normal(ray.hit.primID, c, direction);
     s.normal = -normal.unit;
     s.near_origin = c.p_in;

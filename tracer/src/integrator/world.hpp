@@ -34,6 +34,10 @@ struct Surface {
     Start start;  // for a ray from either origin, in its phase
 };
 
+// What a ray is for: one that looks for a light wants to know of a surface that is not clear how far it is, and no
+// more; that has no optics then.
+enum class Purpose { path, light };
+
 class World {
   public:
     // Refers to the scene, which must outlive it. Throws ModelError for an object that cannot be traced, BuildCancelled
@@ -46,7 +50,7 @@ class World {
     // The nearest surface before `far` on a ray that carries a phase; direction of unit length; `start` is the
     // surface's that it leaves, if it does.
     std::optional<Surface> intersect(const glm::vec3& origin, const glm::vec3& direction, float far, Phase carried,
-                                     const Start& start, PathCounters& counters) const;
+                                     const Start& start, Purpose purpose, PathCounters& counters) const;
 
     Phase label(const glm::vec3& p) const;
     const InterfaceCells& object() const { return *object_; }
