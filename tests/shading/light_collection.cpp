@@ -74,6 +74,28 @@ TEST_CASE("lights: samples and rays agree on radiance, distance and density") {
     CHECK(area > 1000);
 }
 
+TEST_CASE("lights: of a lamp so small that rounding misses it, what missed is no sample") {
+    Lights lights;
+    lights.add(ConstantEnvironment(glm::vec3(1e-6f)));
+    // Seen under an angle of 1e-6, of which the rounding of a direction, 6e-8, is more than a hundredth.
+    const auto lamp = RectangleLight::facing({700000, 600000, 800000}, {0, 0, 0}, 1.3f, 1.1f, glm::vec3(1e7f));
+    lights.add(lamp);
+    const glm::vec3 p(0.0f);
+    Uniform random(12);
+    int samples = 0, misses = 0, proposals = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const glm::vec2 u = random.two();
+        misses += lamp.intersect(p, lamp.sample(p, u).direction) ? 0 : 1;
+        ++proposals;
+        const auto s = lights.sample(p, u);
+        if (!s) continue;
+        ++samples;
+        REQUIRE(lights.pdf(p, s->wi) == doctest::Approx(s->pdf).epsilon(1e-3));
+    }
+    CHECK(misses > proposals / 200);
+    CHECK(samples > proposals / 2);
+}
+
 TEST_CASE("lights: a direction that several lights can propose counts all of them") {
     const Lights lights = everything();
     const glm::vec3 p(0.0f);

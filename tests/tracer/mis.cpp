@@ -70,6 +70,27 @@ TEST_CASE("a diffuse floor under a rectangle and an environment") {
     }
 }
 
+TEST_CASE("what is before a lamp shades the floor, however near to the lamp; what is behind the lamp does not") {
+    for (const float height : {0.3f, 1.0f, 1.9f, 2.1f, 3.0f}) {
+        CAPTURE(height);
+        const std::string plate = R"({"set": {"phase": "black", "of": {"translate": {"by": [0.3, 0.2, )" +
+                                  std::to_string(height) + R"(], "of": {"box": {"size": [12, 12, 0.02]}}}}}})";
+        const Scene scene = scene_of(R"("black": {"diffuse": {"color": [0, 0, 0]}})", plate,
+                                     R"("meshes": [{"floor": {"material": {"diffuse": {"color": [0.6, 0.6, 0.6]}}}}],
+            "lights": [{"rectangle": {"centre": [0.3, 0.2, 2], "target": [0.3, 0.2, 0], "width": 1.2, "height": 0.8,
+                                      "radiance": [40, 40, 40]}}])");
+        const World world(scene);
+        const Moments m = radiance_along(world, scene, {-2, -1.5f, 0.1f}, {2, 1.5f, -0.1f}, 20000)[0];
+        const double e = irradiance(
+            {glm::dvec3(-0.3, -0.2, 2), glm::dvec3(0.9, -0.2, 2), glm::dvec3(0.9, 0.6, 2), glm::dvec3(-0.3, 0.6, 2)});
+        const double lit = 0.6 / half_turn * 40 * e;
+        if (height < 2)
+            CHECK(m.mean() == 0);
+        else
+            CHECK(mean_p_value(m, lit, 5e-5 * lit) > 1e-4);
+    }
+}
+
 TEST_CASE("lights that the camera does not see light the scene all the same; a background does not") {
     const std::string phases = R"("paint": {"diffuse": {"color": [1, 1, 1]}})";
     const std::string ball = R"({"set": {"phase": "paint", "of": {"sphere": {"radius": 1}}}})";

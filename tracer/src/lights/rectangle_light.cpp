@@ -39,13 +39,11 @@ Turn corner(const EdgeNormal& a, const EdgeNormal& b) {
     return {-a.z * b.z, std::sqrt(std::max(0.0, sin_squared))};
 }
 
-// Of two such angles the sum, less π: from −π to π, which rounding does not take for each other.
+// Of two such angles the sum, less π: from −π to π. The two are not taken for each other, for where it is near one of
+// them the cosines have one sign, and so have the products of which the sum's sine is made.
 double excess(const Turn& a, const Turn& b) {
     const Turn sum = a * b;
-    const double angle = std::atan2(-sum.sine, -sum.cosine);
-    if (angle < -1.0 && a.cosine < 0.0 && b.cosine < 0.0) return std::numbers::pi;
-    if (angle > 1.0 && a.cosine > 0.0 && b.cosine > 0.0) return -std::numbers::pi;
-    return angle;
+    return std::atan2(-sum.sine, -sum.cosine);
 }
 
 }  // namespace

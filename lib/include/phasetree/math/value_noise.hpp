@@ -7,6 +7,11 @@ namespace phasetree {
 
 namespace lattice {
 
+/// Perlin's quintic, from 0 to 1 as t does.
+template <class T>
+T fade(const T& t) {
+    return t * t * t * (t * (t * 6.f - 15.f) + 10.f);
+}
 /// Where a coordinate is: the lattice's points below and above, modulo 289, and how much the upper one counts.
 template <class T>
 struct Coordinate {
@@ -17,7 +22,7 @@ template <class T>
 Coordinate<T> coordinate(const T& u) {
     const T whole = floor(u), t = u - whole, low = wrapped(whole);
     const T next = low + 1.f;
-    return {low, select(less(T(288.5f), next), T(0.f), next), t * t * t * (t * (t * 6.f - 15.f) + 10.f)};
+    return {low, select(less(T(288.5f), next), T(0.f), next), fade(t)};
 }
 template <class T>
 T mix(const T& a, const T& b, const T& blend) {

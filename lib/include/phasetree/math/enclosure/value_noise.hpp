@@ -11,7 +11,7 @@ namespace phasetree {
 
 namespace detail {
 
-/// Perlin's quintic and its derivatives over a part of [0, 1].
+/// The derivatives of lattice::fade over a part of [0, 1].
 struct FadeRange {
     Range first, second;
 
@@ -22,7 +22,6 @@ struct FadeRange {
         if (from < most_curved && to > most_curved) second.high = curvature;
         if (from < 1 - most_curved && to > 1 - most_curved) second.low = -curvature;
     }
-    static double value(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
     static double slope(double t) { return 30 * t * t * (1 - t) * (1 - t); }
     static double bend(double t) { return 60 * t * (1 - t) * (1 - 2 * t); }
 
@@ -104,7 +103,7 @@ class NoiseInBox {
         std::array<double, dimensions> t, share;
         for (std::size_t i = 0; i < dimensions; ++i) {
             t[i] = at_.centre[i] - cell[i];
-            share[i] = FadeRange::value(t[i]);
+            share[i] = lattice::fade(t[i]);
         }
         for (std::size_t corner = 0; corner < w.size(); ++corner) {
             double weight = 1;
