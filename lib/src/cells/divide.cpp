@@ -72,6 +72,7 @@ struct Candidate {
     std::span<const ProofPart> proof{};
     std::span<const LocalValue> local{};
     float cost = 0;
+    WorkingProgram of_share{};  ///< what is left of the program in all of the share
 };
 
 /// A box with its program, and for how many divisions nothing was won. A program that loses an instruction now and then
@@ -89,12 +90,16 @@ struct Share {
     Candidate cell{};
 };
 
-/// Encloses a program in a share's box, and takes from it what cannot matter there. Nothing if no interface passes.
+/// Encloses a program in a share's box, and takes from it what cannot matter there; again, while that tells more. The
+/// box is cut to where the interface is, and if that leaves much less of it, the program is enclosed in what is left.
+/// Nothing if no interface passes.
 std::optional<Candidate> candidate(const Share& share, const Bounds& all, const WorkingProgram& program,
                                    Encloser& encloser, const Division& d, Worker& w) {
     Candidate cell{program, all};
-    for (int i = 0; i < 2; ++i) {
-        const std::optional<Enclosed> enclosed = encloser(cell.program);
+    cell.of_share = program;
+    std::optional<Encloser> narrower;
+    for (int rounds = 0; rounds < 3; ++rounds) {
+        const std::optional<Enclosed> enclosed = narrower ? (*narrower)(cell.program) : encloser(cell.program);
         if (!enclosed) break;
         if (enclosed->is_free) return std::nullopt;
         cell.bound = enclosed->bound;
@@ -103,16 +108,30 @@ std::optional<Candidate> candidate(const Share& share, const Bounds& all, const 
         const std::span<LocalValue> local = w.programs.copy(enclosed->local);
         for (LocalValue& v : local) v.data = w.programs.copy(v.data);
         cell.local = local;
-        cell.box = intersect(all, enclosed->box.inflated(d.reach));
+        const Bounds around = cell.box;
+        cell.box = intersect(around, enclosed->box.inflated(d.reach));
         if (cell.box.empty()) return std::nullopt;
-        if (i > 0) break;
+        if (rounds == 2) break;
         const auto pruned = prune(cell.program, d.constants, enclosed->ranges, d.options.opaque, w.programs, w.scratch);
         if (!pruned) return std::nullopt;
-        if (pruned->code.size() == cell.program.code.size() && pruned->outputs.size() == cell.program.outputs.size())
-            break;
-        cell.program = *pruned;  // whose gradient is better known
-        cell.proof = {};
-        cell.local = {};
+        const bool is_all_left =
+            pruned->code.size() == cell.program.code.size() && pruned->outputs.size() == cell.program.outputs.size();
+        // Lists of local primitives are those of the whole share, for its parts.
+        const bool is_narrower = local.empty() && surface(cell.box) < 0.7f * surface(around);
+        if (is_all_left && !is_narrower) break;
+        if (!is_all_left) {
+            cell.program = *pruned;  // whose gradient is better known
+            cell.bound = {};
+            cell.curvature = {};
+            cell.proof = {};
+            cell.local = {};
+            if (!narrower) cell.of_share = *pruned;
+        }
+        if (is_narrower)
+            narrower.emplace(d.constants, d.options.opaque, cell.box, d.rounding, std::span<const LocalValue>(),
+                             w.scratch);
+        else
+            cell.box = around;
     }
     // Through copies without end a ray goes on and on, and, where nothing is known, from block to block of a pattern.
     const float size = share.box.diagonal();
@@ -134,10 +153,12 @@ bool prepare(Share& share, const Division& d, Worker& w) {
     Encloser encloser(d.constants, d.options.opaque, all, d.rounding, share.local, w.scratch);
     const auto whole = candidate(share, all, share.program, encloser, d, w);
     if (!whole) return false;
-    share.program = whole->program;
+    share.program = whole->of_share;
     share.local = whole->local;
     share.patience = Patience(share.program, d.constants, whole->local);
     share.cell = *whole;
+    share.box = intersect(share.box, whole->box);
+    if (share.box.empty()) return false;
     // Its parts may want what tells more far away.
     if (const auto near = without_far_bounds(share.program, d.constants, d.options.opaque, w.programs, w.scratch)) {
         const auto other = candidate(share, all, *near, encloser, d, w);
@@ -147,10 +168,16 @@ bool prepare(Share& share, const Division& d, Worker& w) {
     return true;
 }
 
-float divide(const Share& share, const Division& d, Worker& w);
+/// What cells cost the rays that enter them, and how much interface is in them.
+struct Cost {
+    float all = 0, interface = 0;
+};
 
-/// Finds the cells of a share: itself, or those of its parts where that is cheaper. Returns what they cost.
-float find_cells(const Share& share, const Division& d, Worker& w) {
+Cost divide(const Share& share, const Division& d, Worker& w);
+
+/// Finds the cells of a share: itself, or those of its parts where that is cheaper. Its parts tell how much interface
+/// is in it, from which rays start as well; of one cell it is taken to be one.
+Cost find_cells(const Share& share, const Division& d, Worker& w) {
     // Small cells must promise more, for they are many.
     const float size = share.box.diagonal() / d.size;
     const float promise = d.options.least_gain * (1 + 0.1f / size);
@@ -160,8 +187,11 @@ float find_cells(const Share& share, const Division& d, Worker& w) {
         share.cell.cost < (1 + promise) * least_cost(share.cell.box) + price::parts * surface(share.box);
     if (!is_final) {
         const FoundPieces::Mark before = w.found.mark();
-        const float divided = divide(share, d, w) + price::parts * surface(share.box);
-        if (divided < share.cell.cost) return divided;
+        Cost divided = divide(share, d, w);
+        divided.all += price::parts * surface(share.box);
+        const float more = std::max(0.f, divided.interface - one_interface(share.cell.box));
+        const float starting = price::starts * more / surface(share.cell.box);
+        if (divided.all < share.cell.cost * (1 + starting)) return divided;
         w.found.forget_from(before);
     }
     const ArenaScope programs(w.programs), scratch(w.scratch);
@@ -179,7 +209,7 @@ float find_cells(const Share& share, const Division& d, Worker& w) {
     if (!led.renumbered.empty())
         for (ProofPart& part : proof) part.value = led.renumbered[part.value];
     w.found.last().add(cell.box, cell.bound, cell.curvature, led.program, led.leading, proof);
-    return cell.cost;
+    return {cell.cost, one_interface(cell.box)};
 }
 
 /// The values of a program's instructions at the centres of parts of a box, one a lane: ValuesAt for each.
@@ -202,7 +232,7 @@ ValuesAt values_at_centres(const Share& share, const Parts& parts, const Divisio
     return {registers.data(), steps.slot, 0};
 }
 
-float divide(const Share& share, const Division& d, Worker& w) {
+Cost divide(const Share& share, const Division& d, Worker& w) {
     if (d.options.cancelled && d.options.cancelled()) throw BuildCancelled();
     const ArenaScope programs(w.programs), scratch(w.scratch);
     const Parts parts(share.box);
@@ -239,7 +269,7 @@ float divide(const Share& share, const Division& d, Worker& w) {
     const float left = share.left * sum / share.cell.cost;
     const bool is_won = left < 0.8f;
 
-    std::array<float, 8> costs{};
+    std::array<Cost, 8> costs{};
     each([&](std::size_t i, Worker& own) {
         if (!divided[i]) return;
         Share& part = *divided[i];
@@ -258,8 +288,11 @@ float divide(const Share& share, const Division& d, Worker& w) {
         costs[i] = find_cells(part, d, own);
     });
     for (const Workers::Borrowed& worker : workers) w.found.take(worker->found);
-    float all = 0;
-    for (const float c : costs) all += c;
+    Cost all;
+    for (const Cost& c : costs) {
+        all.all += c.all;
+        all.interface += c.interface;
+    }
     return all;
 }
 

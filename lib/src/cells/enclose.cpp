@@ -2,46 +2,15 @@
 
 #include <cmath>
 
+#include "cells/cut.hpp"
 #include "cells/enclose_primitive.hpp"
+#include "cells/nearly_linear.hpp"
 #include "cells/steps.hpp"
 #include "program/interpret.hpp"
 
 namespace phasetree {
 
 namespace {
-
-using Half = Enclosure::Vector;
-
-/// As LinearBound, but about the box's centre.
-struct NearlyLinear {
-    Enclosure::Vector normal;
-    double at_centre, slack, spread;
-};
-
-/// By the ranges of the gradient about their middles; or by the gradient at the centre and how f bends from there on,
-/// if that says more.
-NearlyLinear nearly_linear(const Enclosure& f, const Half& half) {
-    NearlyLinear middle{{}, f.centre, 0, 0}, centre{f.centre_gradient, f.centre, 0, 0};
-    double aside = 0, squared_aside = 0, squared_half = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Range& g = f.gradient[i];
-        const double width = 0.5 * (g.high - g.low), at = f.centre_gradient[i];
-        const double off = std::max(std::abs(g.high - at), std::abs(g.low - at));
-        middle.normal[i] = g.middle();
-        middle.slack += width * half[i];
-        middle.spread += width * width;
-        aside += off * half[i];
-        squared_aside += off * off;
-        squared_half += half[i] * half[i];
-    }
-    middle.spread = std::sqrt(middle.spread);
-    const double above = std::min(aside, 0.5 * std::max(f.curvature.high, 0.0) * squared_half);
-    const double below = std::min(aside, 0.5 * std::max(-f.curvature.low, 0.0) * squared_half);
-    centre.at_centre += 0.5 * (above - below);
-    centre.slack = 0.5 * (above + below);
-    centre.spread = std::min(std::sqrt(squared_aside), f.curvature.magnitude() * std::sqrt(squared_half));
-    return centre.slack < middle.slack ? centre : middle;
-}
 
 /// Where on one axis normal·x + value = 0 may hold, within the slack, if the other axes take what they can.
 void tighten(Bounds& box, const glm::vec3& normal, float value, float slack) {
@@ -212,26 +181,35 @@ std::optional<Enclosed> Encloser::operator()(const WorkingProgram& program) {
     if (!is_shared) result.curvature.most[0] = known(by_own[0]);  // the first component is known by itself
     if (result.curvature.is_by_first) result.curvature.most[1] = known(of_first);
 
+    const NearlyLinear linear(f, half_);
+    if (linear.slack < 1e30) {
+        const glm::vec3 farthest = glm::max(glm::abs(box_.low), glm::abs(box_.high));
+        const float size_of_numbers = std::max({farthest.x, farthest.y, farthest.z});
+        for (int i = 0; i < 3; ++i)
+            result.bound.normal[i] = static_cast<float>(linear.normal[static_cast<std::size_t>(i)]);
+        result.bound.offset =
+            static_cast<float>(linear.at_centre - glm::dot(glm::dvec3(result.bound.normal), glm::dvec3(box_.centre())));
+        // What the linear part's own floats lose.
+        result.bound.slack = static_cast<float>(linear.slack) * (1 + 1e-6f) + 3 * rounding_ + 1e-6f * size_of_numbers;
+        result.bound.spread =
+            static_cast<float>(linear.spread(f, half_)) * (1 + 1e-3f) + 1e-5f;  // directions are that near unit length
+    }
+    // Where the other phases are opaque, rays meet no interface but the first component's.
+    if (result.curvature.is_by_first) {
+        const LinearBound& bound = result.bound;
+        if (bound.slack < Bounds::infinity)
+            tighten(result.box, bound.normal, static_cast<float>(linear.at_centre), bound.slack);
+        if (!(bound.slack < 0.15f * glm::dot(glm::abs(bound.normal), box_.extent())))
+            result.box = cut_to_zero(program.outputs[0].value, result.box, box_, program, constants_, registers_, slot_,
+                                     rounding_, scratch_);
+        result.is_free = result.box.empty();
+        if (result.is_free) return result;
+    }
+
     const auto is_blind = [&](std::size_t side) { return !(result.curvature.most[side] < Curvature::unknown); };
     if ((is_blind(0) && is_clear(program.outputs[0])) || (is_shared && is_blind(1) && is_clear(program.outputs[1])))
         result.proof = prove(program, constants_, registers_, slot_, scratch_);
 
-    for (const Range& g : f.gradient)
-        if (!(g.low <= g.high)) return result;
-    const NearlyLinear linear = nearly_linear(f, half_);
-    if (!(linear.slack < 1e30)) return result;
-    const glm::vec3 farthest = glm::max(glm::abs(box_.low), glm::abs(box_.high));
-    const float size_of_numbers = std::max({farthest.x, farthest.y, farthest.z});
-    for (int i = 0; i < 3; ++i) result.bound.normal[i] = static_cast<float>(linear.normal[static_cast<std::size_t>(i)]);
-    result.bound.offset =
-        static_cast<float>(linear.at_centre - glm::dot(glm::dvec3(result.bound.normal), glm::dvec3(box_.centre())));
-    // What the linear part's own floats lose.
-    result.bound.slack = static_cast<float>(linear.slack) * (1 + 1e-6f) + 3 * rounding_ + 1e-6f * size_of_numbers;
-    result.bound.spread =
-        static_cast<float>(linear.spread) * (1 + 1e-3f) + 1e-5f;  // directions are that near unit length
-    // Where the other phases are opaque, rays meet no interface but the first component's.
-    if (result.curvature.is_by_first)
-        tighten(result.box, result.bound.normal, static_cast<float>(linear.at_centre), result.bound.slack);
     return result;
 }
 

@@ -12,8 +12,10 @@ namespace phasetree {
 /// What rays spend in a cell, in nanoseconds for each unit of surface (which is how many come, up to a factor). Rough:
 /// only what is dearer than what matters.
 namespace price {
-inline constexpr float parts = 12;            ///< of Embree's going down to the parts of a box
-inline constexpr float visit = 60;            ///< of entering a cell
+inline constexpr float parts = 12;  ///< of Embree's going down to the parts of a box
+inline constexpr float visit = 60;  ///< of entering a cell
+/// Rays that start at an interface, for each unit of its area. (Those that enter come through both sides of a box.)
+inline constexpr float starts = 0.5f;
 inline constexpr float batch = 25, step = 3;  ///< of a batch, and of each of its instructions
 inline constexpr float certain = 1.5f;        ///< batches where the field is linear,
 inline constexpr float unknown = 0.5f;        ///< more of them the less it lets rays pass without one,
@@ -50,6 +52,12 @@ inline float work_of_first(const WorkingProgram& program, std::span<const float>
 inline float surface(const Bounds& box) {
     const glm::vec3 e = box.extent();
     return e.x * e.y + e.y * e.z + e.z * e.x;
+}
+
+/// Of an interface across a box, about.
+inline float one_interface(const Bounds& box) {
+    const glm::vec3 e = box.extent();
+    return std::max({e.x * e.y, e.y * e.z, e.z * e.x});
 }
 
 /// How many batches a visit takes of rays in one phase: of the first component or of the others.

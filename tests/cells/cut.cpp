@@ -1,0 +1,87 @@
+// Cells' boxes are cut to where interfaces can be, by the sides that meet at an edge and by set algebra; what cancels
+// has none. That they hold every interface is for the comparisons of rays (cells.cpp), and for random points here.
+#include <doctest/doctest.h>
+
+#include "phasetree/cells/cells.hpp"
+#include "phasetree/phasetree.hpp"
+#include "phasetree/reading/tree.hpp"
+#include "support/random_tree.hpp"
+
+using namespace phasetree;
+using namespace phasetree::tests;
+
+namespace {
+
+bool is_in_a_cell(const InterfaceCells& cells, const glm::vec3& p) {
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        if (cells.bounds(i).contains(p)) return true;
+    return false;
+}
+
+double surface(const Bounds& box) {
+    const glm::dvec3 e(box.extent());
+    return e.x * e.y + e.y * e.z + e.z * e.x;
+}
+
+/// Between points of different labels, where the label changes.
+struct Changes {
+    std::size_t all = 0, outside = 0;
+};
+Changes changes_of(const Phased& object, PhaseSet opaque, std::size_t pairs, Random& rng) {
+    const InterfaceCells cells(object, {.opaque = opaque});
+    Evaluator::Workspace w;
+    Changes changes;
+    const auto is_met = [&](Phase a, Phase b) { return a != b && !(opaque.contains(a) && opaque.contains(b)); };
+    for (std::size_t i = 0; i < pairs; ++i) {
+        glm::vec3 p = rng.in(cells.bounds()), q = rng.in(cells.bounds());
+        Phase at_p = cells.label(p, w), at_q = cells.label(q, w);
+        if (!is_met(at_p, at_q)) continue;
+        for (int k = 0; k < 60; ++k) {
+            const glm::vec3 m = 0.5f * (p + q);
+            if (m == p || m == q) break;
+            const Phase at_m = cells.label(m, w);
+            if (is_met(at_p, at_m)) {
+                q = m;
+                at_q = at_m;
+            } else {
+                p = m;
+                at_p = at_m;
+            }
+            if (!is_met(at_p, at_q)) break;
+        }
+        if (!is_met(at_p, at_q)) continue;
+        ++changes.all;
+        changes.outside += !is_in_a_cell(cells, p) && !is_in_a_cell(cells, q);
+    }
+    return changes;
+}
+
+}  // namespace
+
+TEST_CASE("wherever the label changes is a cell") {
+    Random rng(31);
+    Changes all;
+    for (int i = 0; i < (long_tests() ? 2000 : 50); ++i) {
+        const Phased object =
+            IntersectShape{.of = random_object(rng, 3), .shape = Box{.size = glm::vec3(3)}, .phases_cut = {}};
+        if (bounds(object).empty()) continue;
+        const std::uint64_t materials = phases(object).bits & ~std::uint64_t{1};
+        const PhaseSet opaque{rng.chance(0.5) ? materials : rng.chance(0.5) ? materials & 0b1010 : 0};
+        const Changes c = changes_of(object, opaque, 300, rng);
+        CAPTURE(i);
+        CHECK(c.outside == 0);
+        all.all += c.all;
+    }
+    MESSAGE(all.all, " changes");
+    CHECK(all.all > 1500);
+}
+
+TEST_CASE("boxes in which bumps meet the skin end with them") {
+    const Phased object = read_tree(Document::from_file(PHASETREE_SOURCE_DIR "/scenes/tentacle.json")).object;
+    const InterfaceCells cells(object, {.opaque = {phases(object).bits & ~std::uint64_t{1}}});
+    double sum = 0;
+    for (std::size_t i = 0; i < cells.size(); ++i) sum += surface(cells.bounds(i));
+    MESSAGE(cells.size(), " cells of surface ", sum);
+    CHECK(cells.size() > 10'000);
+    CHECK(sum < 105);  // 95; 116 if boxes are cut by the whole distance's linear bound alone
+}
