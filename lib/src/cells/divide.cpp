@@ -90,6 +90,10 @@ struct Share {
     Candidate cell{};
 };
 
+bool has_local_primitive(const WorkingProgram& program) {
+    return std::ranges::any_of(program.code, [](const Instruction& in) { return traits(in.op).is_local; });
+}
+
 /// Encloses a program in a share's box, and takes from it what cannot matter there; again, while that tells more. The
 /// box is cut to where the interface is, and if that leaves much less of it, the program is enclosed in what is left.
 /// Nothing if no interface passes.
@@ -116,8 +120,8 @@ std::optional<Candidate> candidate(const Share& share, const Bounds& all, const 
         if (!pruned) return std::nullopt;
         const bool is_all_left =
             pruned->code.size() == cell.program.code.size() && pruned->outputs.size() == cell.program.outputs.size();
-        // Lists of local primitives are those of the whole share, for its parts.
-        const bool is_narrower = local.empty() && surface(cell.box) < 0.7f * surface(around);
+        // Lists of local primitives must be those of the whole share, for its parts.
+        const bool is_narrower = !has_local_primitive(cell.program) && surface(cell.box) < 0.7f * surface(around);
         if (is_all_left && !is_narrower) break;
         if (!is_all_left) {
             cell.program = *pruned;  // whose gradient is better known
@@ -136,8 +140,7 @@ std::optional<Candidate> candidate(const Share& share, const Bounds& all, const 
     // Through copies without end a ray goes on and on, and, where nothing is known, from block to block of a pattern.
     const float size = share.box.diagonal();
     const bool has_blocks =
-        std::isfinite(share.pattern) && !(cell.bound.spread < 1) &&
-        std::ranges::any_of(cell.program.code, [](const Instruction& in) { return traits(in.op).is_local; });
+        std::isfinite(share.pattern) && !(cell.bound.spread < 1) && has_local_primitive(cell.program);
     const float blocks = has_blocks ? std::max(1.f, size / share.pattern) : 1.f;
     const float copies = (1 + 4 * size / share.period) * blocks;
     cell.cost = cost(cell.box, cell.bound, cell.curvature, cell.program, d.constants, cell.local, !cell.proof.empty(),
