@@ -2,11 +2,19 @@
 
 #include <array>
 
-#include "cells/nearly_linear.hpp"
+#include "cells/plane_cut.hpp"
+#include "cells/threshold.hpp"
 
 namespace phasetree {
 
 namespace {
+
+/// Where a value is, of a threshold; the threshold itself is on both sides.
+enum class Side { below, at, above };
+
+Side mirrored(Side side) {
+    return side == Side::below ? Side::above : side == Side::above ? Side::below : Side::at;
+}
 
 class Cutter {
   public:
@@ -17,149 +25,74 @@ class Cutter {
           registers_(registers),
           slot_(slot),
           middle_(box.centre()),
-          linear_(scratch.take<Linear>(program.code.size())) {
+          margin_(cut_margin(box, rounding)),
+          planes_(scratch.take<Plane>(program.code.size())) {
         const glm::dvec3 half = 0.5 * glm::dvec3(box.extent());
         half_ = {half.x, half.y, half.z};
-        const glm::vec3 farthest = glm::max(glm::abs(box.low), glm::abs(box.high));
-        margin_ = 3 * rounding + 2e-6f * std::max({farthest.x, farthest.y, farthest.z});
-        std::ranges::fill(linear_, Linear{});
+        std::ranges::fill(planes_, Plane{});
     }
 
-    /// Where sign · (v − τ) ≤ 0 may hold.
-    Bounds side(std::uint32_t v, float sign, float tau, const Bounds& box) {
-        const auto [low, high] = range(v);
-        const bool is_below = sign > 0;
-        if (box.empty() || (is_below ? low > tau + margin_ : high < tau - margin_)) return {};
-        if (is_below ? high < tau - margin_ : low > tau + margin_) return box;
-        const Instruction& in = program_.code[v];
-        if (steps_ >= most_steps) return box;
+    /// Where v may be on that side of τ.
+    Bounds where(std::uint32_t v, Side side, float tau, const Bounds& box) {
+        const Range& r = registers_[slot_[v]].value;
+        const bool is_above = static_cast<float>(r.low) > tau + margin_;
+        const bool is_below = static_cast<float>(r.high) < tau - margin_;
+        if (box.empty() || (is_above && side != Side::above) || (is_below && side != Side::below)) return {};
+        if (is_above || is_below || steps_ >= most_steps) return box;
         ++steps_;
+        const Instruction& in = program_.code[v];
+        if (const auto now = Threshold::of_operand(in, constants_, static_cast<double>(tau)))
+            return where(in.a, now->is_mirrored ? mirrored(side) : side, static_cast<float>(now->tau), box);
         switch (in.op) {
-            case Op::minimum:
-            case Op::farther_inside:
-                return is_below ? either(in, sign, tau, box) : both(in, sign, tau, box);
-            case Op::maximum:
             case Op::farther:
-                return is_below ? both(in, sign, tau, box) : either(in, sign, tau, box);
+            case Op::farther_inside:
+                if (side == Side::at && tau == 0) return where(in.a, Side::at, 0, box);
+                return of_both(in, in.op == Op::farther ? Side::below : Side::above, side, tau, box);
+            case Op::maximum:
+                return of_both(in, Side::below, side, tau, box);
+            case Op::minimum:
+                return of_both(in, Side::above, side, tau, box);
             case Op::corner:
                 // Up to 0 it is the maximum; above, no less than each.
-                if (is_below) return both(in, sign, tau, box);
-                return tau <= 0 ? either(in, sign, tau, box) : box;
+                if (tau <= 0) return of_both(in, Side::below, side, tau, box);
+                return by_plane(v, side, tau, side == Side::above ? box : both(in, Side::below, tau, box));
             case Op::smooth_minimum:
                 // No more than each.
-                return half_space(v, sign, tau, is_below ? box : both(in, sign, tau, box));
-            case Op::negate:
-                return side(in.a, -sign, -tau, box);
-            case Op::add_constant:
-                return side(in.a, sign, tau - constant(in), box);
-            case Op::constant_minus:
-                return side(in.a, -sign, constant(in) - tau, box);
-            case Op::multiply_constant:
-                if (constant(in) == 0) return box;
-                return side(in.a, constant(in) > 0 ? sign : -sign, tau / constant(in), box);
+                return by_plane(v, side, tau, side == Side::below ? box : both(in, Side::above, tau, box));
             case Op::absolute:
-                if (is_below) return side(in.a, -1, -tau, side(in.a, 1, tau, box));
-                return unite(side(in.a, -1, tau, box), side(in.a, 1, -tau, box));
+                if (side == Side::below) return where(in.a, Side::above, -tau, where(in.a, Side::below, tau, box));
+                return unite(where(in.a, side, tau, box), where(in.a, mirrored(side), -tau, box));
             default:
-                return half_space(v, sign, tau, box);
-        }
-    }
-
-    /// Where v = τ may hold.
-    Bounds level(std::uint32_t v, float tau, const Bounds& box) {
-        const auto [low, high] = range(v);
-        if (box.empty() || low > tau + margin_ || high < tau - margin_) return {};
-        const Instruction& in = program_.code[v];
-        if (steps_ >= most_steps) return box;
-        ++steps_;
-        switch (in.op) {
-            case Op::farther_inside:
-            case Op::farther:
-                if (tau == 0) return level(in.a, 0, box);
-                return level_of_either(in, in.op == Op::farther ? 1 : -1, tau, box);
-            case Op::minimum:
-                return level_of_either(in, -1, tau, box);
-            case Op::maximum:
-                return level_of_either(in, 1, tau, box);
-            case Op::corner:
-                return tau <= 0 ? level_of_either(in, 1, tau, box) : slab(v, tau, both(in, 1, tau, box));
-            case Op::smooth_minimum:
-                return slab(v, tau, both(in, -1, tau, box));
-            case Op::negate:
-                return level(in.a, -tau, box);
-            case Op::add_constant:
-                return level(in.a, tau - constant(in), box);
-            case Op::constant_minus:
-                return level(in.a, constant(in) - tau, box);
-            case Op::multiply_constant:
-                return constant(in) == 0 ? box : level(in.a, tau / constant(in), box);
-            case Op::absolute:
-                return unite(level(in.a, tau, box), level(in.a, -tau, box));
-            default:
-                return slab(v, tau, box);
+                return by_plane(v, side, tau, box);
         }
     }
 
   private:
-    /// A linear bound, about the box's middle. Without one its slack is infinite, or not a number.
-    struct Linear {
+    struct Plane {
         bool is_found = false;
-        glm::vec3 normal{}, per_slope{};  ///< 1 / |normal|, 0 where that is too much
-        float at_middle = 0, slack = 0;
+        PlaneCut cut{};
     };
 
-    std::array<float, 2> range(std::uint32_t v) const {
-        const Range& r = registers_[slot_[v]].value;
-        return {static_cast<float>(r.low), static_cast<float>(r.high)};
+    Bounds both(const Instruction& in, Side side, float tau, const Bounds& box) {
+        return where(in.b, side, tau, where(in.a, side, tau, box));
     }
-    float constant(const Instruction& in) const { return constants_[in.data]; }
-    Bounds both(const Instruction& in, float sign, float tau, const Bounds& box) {
-        return side(in.b, sign, tau, side(in.a, sign, tau, box));
+    /// Of a value that is on one side where both operands are, below if it is their maximum; so it is at τ where one
+    /// operand is and the other on that side.
+    Bounds of_both(const Instruction& in, Side of_all, Side side, float tau, const Bounds& box) {
+        if (side == of_all) return both(in, side, tau, box);
+        const bool is_at = side == Side::at;
+        return unite(where(in.a, side, tau, is_at ? where(in.b, of_all, tau, box) : box),
+                     where(in.b, side, tau, is_at ? where(in.a, of_all, tau, box) : box));
     }
-    Bounds either(const Instruction& in, float sign, float tau, const Bounds& box) {
-        return unite(side(in.a, sign, tau, box), side(in.b, sign, tau, box));
-    }
-    /// Where one operand is τ and the other, times the sign, no larger.
-    Bounds level_of_either(const Instruction& in, float sign, float tau, const Bounds& box) {
-        return unite(level(in.a, tau, side(in.b, sign, tau, box)), level(in.b, tau, side(in.a, sign, tau, box)));
-    }
-    Bounds slab(std::uint32_t v, float tau, const Bounds& box) {
-        return half_space(v, -1, tau, half_space(v, 1, tau, box));
-    }
-
-    /// What the linear bound leaves of a box where sign · (v − τ) ≤ 0, if the other axes take what they can.
-    Bounds half_space(std::uint32_t v, float sign, float tau, Bounds box) {
-        if (box.empty()) return {};
-        Linear& f = linear_[v];
-        if (!f.is_found) f = linear(registers_[slot_[v]]);
-        if (!(f.slack < 1e30f)) return box;
-        const glm::vec3 centre = box.centre(), width = glm::abs(f.normal) * (0.5f * box.extent());
-        const float takes = width.x + width.y + width.z;
-        const float least = sign * (f.at_middle - tau + glm::dot(f.normal, centre - middle_)) - f.slack;
-        if (least > takes) return {};
-        if (least <= -takes) return box;
-        const glm::vec3 reach = ((takes - least) - width) * f.per_slope;
-        for (int i = 0; i < 3; ++i) {
-            if (f.per_slope[i] == 0) continue;
-            if ((f.normal[i] > 0) == (sign > 0))
-                box.high[i] = std::min(box.high[i], centre[i] + reach[i]);
-            else
-                box.low[i] = std::max(box.low[i], centre[i] - reach[i]);
-        }
-        return box.empty() ? Bounds() : box;
-    }
-    Linear linear(const Enclosure& e) const {
-        const NearlyLinear known(e, half_);
-        Linear f{true};
-        for (int i = 0; i < 3; ++i) {
-            f.normal[i] = static_cast<float>(known.normal[static_cast<std::size_t>(i)]);
-            f.per_slope[i] = std::abs(f.normal[i]) < 1e-3f ? 0 : 1 / std::abs(f.normal[i]);
-        }
-        f.at_middle = static_cast<float>(known.at_centre);
-        f.slack = static_cast<float>(known.slack) * (1 + 1e-6f) + margin_;
-        return f;
+    Bounds by_plane(std::uint32_t v, Side side, float tau, const Bounds& box) {
+        Plane& plane = planes_[v];
+        if (!plane.is_found) plane = {true, {NearlyLinear(registers_[slot_[v]], half_), middle_, margin_}};
+        return side == Side::below   ? plane.cut.below(tau, box)
+               : side == Side::above ? plane.cut.above(tau, box)
+                                     : plane.cut.at(tau, box);
     }
 
+    /// Beyond them a box is left as it is: values that many others share are asked again each time.
     static constexpr int most_steps = 200;
 
     const WorkingProgram& program_;
@@ -168,18 +101,23 @@ class Cutter {
     std::span<const std::uint32_t> slot_;
     glm::vec3 middle_;
     Enclosure::Vector half_{};
-    float margin_ = 0;
-    std::span<Linear> linear_;  ///< of a value, once it was wanted
+    float margin_;
+    std::span<Plane> planes_;  ///< of a value, once it was wanted
     int steps_ = 0;
 };
 
 }  // namespace
 
+float cut_margin(const Bounds& box, float rounding) {
+    const glm::vec3 farthest = glm::max(glm::abs(box.low), glm::abs(box.high));
+    return 3 * rounding + 2e-6f * std::max({farthest.x, farthest.y, farthest.z});
+}
+
 Bounds cut_to_zero(std::uint32_t value, const Bounds& box, const Bounds& all, const WorkingProgram& program,
                    std::span<const float> constants, const Enclosure* registers, std::span<const std::uint32_t> slot,
                    float rounding, Arena& scratch) {
     const ArenaScope scope(scratch);
-    return Cutter(all, program, constants, registers, slot, rounding, scratch).level(value, 0, box);
+    return Cutter(all, program, constants, registers, slot, rounding, scratch).where(value, Side::at, 0, box);
 }
 
 }  // namespace phasetree

@@ -90,10 +90,6 @@ struct Share {
     Candidate cell{};
 };
 
-bool has_local_primitive(const WorkingProgram& program) {
-    return std::ranges::any_of(program.code, [](const Instruction& in) { return traits(in.op).is_local; });
-}
-
 /// Encloses a program in a share's box, and takes from it what cannot matter there; again, while that tells more. The
 /// box is cut to where the interface is, and if that leaves much less of it, the program is enclosed in what is left.
 /// Nothing if no interface passes.

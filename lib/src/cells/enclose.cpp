@@ -4,29 +4,11 @@
 
 #include "cells/cut.hpp"
 #include "cells/enclose_primitive.hpp"
-#include "cells/nearly_linear.hpp"
+#include "cells/plane_cut.hpp"
 #include "cells/steps.hpp"
 #include "program/interpret.hpp"
 
 namespace phasetree {
-
-namespace {
-
-/// Where on one axis normal·x + value = 0 may hold, within the slack, if the other axes take what they can.
-void tighten(Bounds& box, const glm::vec3& normal, float value, float slack) {
-    const glm::vec3 centre = box.centre(), half = 0.5f * box.extent();
-    for (int i = 0; i < 3; ++i) {
-        if (std::abs(normal[i]) < 1e-3f) continue;
-        float others = slack;
-        for (int j = 0; j < 3; ++j)
-            if (j != i) others += std::abs(normal[j]) * half[j];
-        const float at = -value / normal[i], reach = others / std::abs(normal[i]);
-        box.low[i] = std::max(box.low[i], centre[i] + at - reach);
-        box.high[i] = std::min(box.high[i], centre[i] + at + reach);
-    }
-}
-
-}  // namespace
 
 Encloser::Encloser(std::span<const float> constants, PhaseSet opaque, const Bounds& box, float rounding,
                    std::span<const LocalValue> around, Arena& scratch)
@@ -73,9 +55,8 @@ void Encloser::compute(const WorkingProgram& program) {
             std::copy_n(registers_ + slot_[known[i]], gives_point(program.code[i].op) ? 3 : 1,
                         registers.data() + steps.slot[i]);
     // What local primitives become: known of the last program, or found now, in their order.
-    const auto is_local = [&](std::size_t i) { return traits(program.code[i].op).is_local; };
     std::span<LocalValue> local{};
-    if (std::ranges::any_of(program.code, [](const Instruction& in) { return traits(in.op).is_local; })) {
+    if (has_local_primitive(program)) {
         local = scratch_.take<LocalValue>(known.size());
         std::ranges::fill(local, LocalValue{});
         for (const LocalValue& v : local_)
@@ -91,7 +72,7 @@ void Encloser::compute(const WorkingProgram& program) {
                 std::span<const float> of;
                 if constexpr (LocalPrimitive<P>) {
                     do ++at;
-                    while (known[at] != 0 || !is_local(at));
+                    while (known[at] != 0 || !traits(program.code[at].op).is_local);
                     const auto source = static_cast<std::uint32_t>(c - constants_.data());
                     for (const LocalValue& v : around_)
                         if (v.source == source) of = v.data;
@@ -121,13 +102,9 @@ void Encloser::compute(const WorkingProgram& program) {
 
 std::optional<Enclosed> Encloser::operator()(const WorkingProgram& program) {
     const std::size_t size = program.code.size();
-    bool has_local = false;
-    for (const Instruction& in : program.code) {
-        // A fold of space may jump, and then it has no gradient.
-        if (is_fold(in.op)) return std::nullopt;
-        has_local = has_local || traits(in.op).is_local;
-    }
-    if (size > (has_local ? 4 : 1) * longest_enclosed) return std::nullopt;
+    // A fold of space may jump, and then it has no gradient.
+    if (std::ranges::any_of(program.code, [](const Instruction& in) { return is_fold(in.op); })) return std::nullopt;
+    if (size > (has_local_primitive(program) ? 4 : 1) * longest_enclosed) return std::nullopt;
     compute(program);
 
     Enclosed result;
@@ -197,8 +174,7 @@ std::optional<Enclosed> Encloser::operator()(const WorkingProgram& program) {
     // Where the other phases are opaque, rays meet no interface but the first component's.
     if (result.curvature.is_by_first) {
         const LinearBound& bound = result.bound;
-        if (bound.slack < Bounds::infinity)
-            tighten(result.box, bound.normal, static_cast<float>(linear.at_centre), bound.slack);
+        result.box = PlaneCut(linear, box_.centre(), cut_margin(box_, rounding_)).at(0, box_);
         if (!(bound.slack < 0.15f * glm::dot(glm::abs(bound.normal), box_.extent())))
             result.box = cut_to_zero(program.outputs[0].value, result.box, box_, program, constants_, registers_, slot_,
                                      rounding_, scratch_);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "cells/prune.hpp"
 #include "phasetree/nodes/list.hpp"
 #include "program/assemble.hpp"
@@ -25,6 +27,10 @@ struct LocalValue {
         return {0, no_source, static_cast<Op>(near), data, now < all ? all - now : 0};
     }
 };
+
+inline bool has_local_primitive(const WorkingProgram& program) {
+    return std::ranges::any_of(program.code, [](const Instruction& in) { return traits(in.op).is_local; });
+}
 
 /// The program with them in their places, and their data appended to `floats`: there such an instruction's data start.
 WorkingProgram localised(const WorkingProgram&, std::span<const LocalValue>, std::vector<float>& floats,

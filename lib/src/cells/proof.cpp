@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 
+#include "cells/threshold.hpp"
 #include "phasetree/math/enclosure.hpp"
 
 namespace phasetree {
@@ -30,10 +31,8 @@ class Prover {
         const Instruction& in = program_.code[v];
         const Range& curvature = registers_[slot_[v]].curvature;
         if (std::abs(curvature.low) < unknown || std::abs(curvature.high) < unknown) return leaf(v, sign, tau);
-        const double c =
-            in.op < Op::first_primitive && operands(in.op) == 1 && in.op != Op::negate && in.op != Op::absolute
-                ? static_cast<double>(constants_[in.data])
-                : 0;
+        if (const auto now = Threshold::of_operand(in, constants_, tau))
+            return add(in.a, now->is_mirrored ? -sign : sign, now->tau);
         const bool is_above = sign > 0;
         switch (in.op) {
             case Op::minimum:
@@ -49,15 +48,6 @@ class Prover {
             case Op::smooth_minimum:
                 // No more than each.
                 return is_above ? leaf(v, sign, tau) : both(in, sign, tau, ProofStep::either_one_way);
-            case Op::negate:
-                return add(in.a, -sign, -tau);
-            case Op::add_constant:
-                return add(in.a, sign, tau - c);
-            case Op::constant_minus:
-                return add(in.a, -sign, c - tau);
-            case Op::multiply_constant:
-                if (c == 0) return leaf(v, sign, tau);
-                return add(in.a, c > 0 ? sign : -sign, tau / c);
             case Op::absolute:
                 if (tau < 0) return leaf(v, sign, tau);
                 return add(in.a, sign, tau) && add(in.a, -sign, -tau) &&
