@@ -72,7 +72,6 @@ struct Candidate {
     std::span<const ProofPart> proof{};
     std::span<const LocalValue> local{};
     float cost = 0;
-    WorkingProgram of_share{};  ///< what is left of the program in all of the share
 };
 
 /// A box with its program, and for how many divisions nothing was won. A program that loses an instruction now and then
@@ -96,7 +95,6 @@ struct Share {
 std::optional<Candidate> candidate(const Share& share, const Bounds& all, const WorkingProgram& program,
                                    Encloser& encloser, const Division& d, Worker& w) {
     Candidate cell{program, all};
-    cell.of_share = program;
     std::optional<Encloser> narrower;
     for (int rounds = 0; rounds < 3; ++rounds) {
         const std::optional<Enclosed> enclosed = narrower ? (*narrower)(cell.program) : encloser(cell.program);
@@ -116,7 +114,8 @@ std::optional<Candidate> candidate(const Share& share, const Bounds& all, const 
         if (!pruned) return std::nullopt;
         const bool is_all_left =
             pruned->code.size() == cell.program.code.size() && pruned->outputs.size() == cell.program.outputs.size();
-        // Lists of local primitives must be those of the whole share, for its parts.
+        // Lists of local primitives must be those of the whole share, for its parts. What is left of the program is
+        // right as far around the box as its parts must be.
         const bool is_narrower = !has_local_primitive(cell.program) && surface(cell.box) < 0.7f * surface(around);
         if (is_all_left && !is_narrower) break;
         if (!is_all_left) {
@@ -125,11 +124,10 @@ std::optional<Candidate> candidate(const Share& share, const Bounds& all, const 
             cell.curvature = {};
             cell.proof = {};
             cell.local = {};
-            if (!narrower) cell.of_share = *pruned;
         }
         if (is_narrower)
-            narrower.emplace(d.constants, d.options.opaque, cell.box, d.rounding, std::span<const LocalValue>(),
-                             w.scratch);
+            narrower.emplace(d.constants, d.options.opaque, intersect(all, cell.box.inflated(d.reach)), d.rounding,
+                             std::span<const LocalValue>(), w.scratch);
         else
             cell.box = around;
     }
@@ -152,7 +150,7 @@ bool prepare(Share& share, const Division& d, Worker& w) {
     Encloser encloser(d.constants, d.options.opaque, all, d.rounding, share.local, w.scratch);
     const auto whole = candidate(share, all, share.program, encloser, d, w);
     if (!whole) return false;
-    share.program = whole->of_share;
+    share.program = whole->program;
     share.local = whole->local;
     share.patience = Patience(share.program, d.constants, whole->local);
     share.cell = *whole;
