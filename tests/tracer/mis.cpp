@@ -91,6 +91,23 @@ TEST_CASE("what is before a lamp shades the floor, however near to the lamp; wha
     }
 }
 
+TEST_CASE("light that comes to the floor by way of a mirror is found once") {
+    // A wall of metal that absorbs next to nothing doubles what is before it: half of what the floor sees.
+    const std::string phases = R"("metal": {"conductor": {"eta": [1e-6, 1e-6, 1e-6], "k": [5, 5, 5]}})";
+    const std::string wall = R"({"set": {"phase": "metal", "of": {"translate": {"by": [-2, 0, 0], "of": {"box": {
+        "size": [2, 12, 12]}}}}}})";
+    const auto p_value = [&](const char* environment) {
+        const Scene scene =
+            scene_of(phases, wall,
+                     std::string(R"("meshes": [{"floor": {"material": {"diffuse": {"color": [0.6, 0.6, 0.6]}}}}], )") +
+                         R"("lights": [{"constant": {"radiance": )" + environment + "}}]");
+        const World world(scene);
+        return mean_p_value(radiance_along(world, scene, {2, -1.5f, 0.1f}, {-2.8f, 1.5f, -0.1f}, 60000)[0], 0.6, 1e-5);
+    };
+    CHECK(p_value("[1, 1, 1]") > 1e-4);
+    CHECK(p_value("[1.01, 1.01, 1.01]") < 1e-4);
+}
+
 TEST_CASE("lights that the camera does not see light the scene all the same; a background does not") {
     const std::string phases = R"("paint": {"diffuse": {"color": [1, 1, 1]}})";
     const std::string ball = R"({"set": {"phase": "paint", "of": {"sphere": {"radius": 1}}}})";

@@ -22,9 +22,10 @@ constexpr int longest_chain = 128;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// Whether a surface is a link of a chain: smooth, and clear on both sides.
-bool links(const Bsdf& bsdf, const Surface& surface) {
-    return bsdf.is_delta() && surface.near_phase != surface.far_phase;
+// Whether a surface is a link of a chain: smooth, and clear on both sides. A mirror is none: shadow rays end there.
+bool links(const Scene& scene, const Bsdf& bsdf, const Surface& surface) {
+    return bsdf.is_delta() && surface.near_phase != surface.far_phase &&
+           is_clear(scene.materials[surface.far_phase.index]);
 }
 
 // E of path.hpp along a ray that was sampled: the emission at the end of one chain of smooth clear interfaces, times
@@ -51,7 +52,7 @@ glm::vec3 emission_through_chain(const World& world, const Scene& scene, CameraR
             phase = surface->far_phase;
             continue;
         }
-        if (!links(bsdf, *surface) || ++length > longest_chain) return glm::vec3(0.0f);
+        if (!links(scene, bsdf, *surface) || ++length > longest_chain) return glm::vec3(0.0f);
         const Frame frame(surface->normal);
         const auto next = bsdf.sample(frame.to_local(-ray.direction), sampler.next(), glm::vec2(0.0f));
         if (!next) return glm::vec3(0.0f);
@@ -141,7 +142,7 @@ glm::vec3 trace_path(const World& world, const Scene& scene, CameraRay ray, Phas
         if (!medium(phase)) break;
         if (!next->delta)
             chain = {next->pdf, surface->near_origin, ray.direction, 0};
-        else if (links(bsdf, *surface))
+        else if (links(scene, bsdf, *surface))
             ++chain.length;
         else
             chain = {};  // a mirror: no light was sampled
