@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "integrator/light_proposal.hpp"
 #include "shading/beer_lambert.hpp"
 #include "shading/frame.hpp"
 
@@ -67,12 +68,13 @@ glm::vec3 emission_through_chain(const World& world, const Scene& scene, CameraR
 // chain depends on.
 struct Chain {
     std::optional<float> pdf;  // of the BSDF, for the direction with which the chain began; none: no light was sampled
-    glm::vec3 origin{0}, direction{0};
+    LightProposal proposal{};
+    glm::vec3 direction{0};
     int length = 0;
 
     float weight(const Lights& lights) const {
         if (!pdf || length > longest_chain) return 1;
-        return power_heuristic(*pdf, lights.pdf(origin, direction));
+        return power_heuristic(*pdf, proposal.pdf(lights, direction));
     }
 };
 
@@ -117,8 +119,11 @@ glm::vec3 trace_path(const World& world, const Scene& scene, CameraRay ray, Phas
 
         const Frame frame(surface->normal);
         const glm::vec3 wo = frame.to_local(-ray.direction);
+        LightProposal proposal(surface->near_origin, surface->normal, 1);
         if (!bsdf.is_delta()) {
-            if (const auto light = scene.lights.sample(surface->near_origin, sampler.next2())) {
+            const bool is_clear_behind = surface->near_phase != surface->far_phase && medium(surface->far_phase);
+            if (!is_clear_behind) proposal = LightProposal::at(*surface, world, scene, counters);
+            if (const auto light = proposal.sample(scene.lights, sampler.next2())) {
                 const glm::vec3 wi = frame.to_local(light->wi);
                 const glm::vec3 f = bsdf.evaluate(wo, wi);
                 if (f != glm::vec3(0.0f)) {
@@ -141,7 +146,7 @@ glm::vec3 trace_path(const World& world, const Scene& scene, CameraRay ray, Phas
         phase = next->transmitted ? surface->far_phase : surface->near_phase;
         if (!medium(phase)) break;
         if (!next->delta)
-            chain = {next->pdf, surface->near_origin, ray.direction, 0};
+            chain = {next->pdf, proposal, ray.direction, 0};
         else if (links(scene, bsdf, *surface))
             ++chain.length;
         else

@@ -137,6 +137,33 @@ std::optional<LightSample> Lights::sample(const glm::vec3& p, glm::vec2 u) const
     return LightSample{wi, infinity, infinite_radiance(wi), density};
 }
 
+glm::vec3 Lights::towards_brightest(const glm::vec3& p, const glm::vec3& normal) const {
+    Scratch scratch(size());
+    fluences(p, scratch);
+    glm::vec3 brightest = normal;
+    float most = 0.0f;
+    std::size_t index = 0;
+    const auto consider = [&](const auto& direction_of) {
+        const float fluence = scratch.values()[index++];
+        if (!(fluence > most)) return;
+        const std::optional<glm::vec3> direction = direction_of();
+        if (!direction || !(glm::dot(*direction, normal) > 0.0f)) return;
+        most = fluence;
+        brightest = *direction;
+    };
+    for (const InfiniteLight& any : infinite_)
+        consider([&] {
+            const Sun* sun = std::get_if<Sun>(&any);
+            return sun ? std::optional(sun->direction()) : std::nullopt;
+        });
+    for (const AreaLight& any : area_)
+        consider([&] {
+            const glm::vec2 middle(0.5f);
+            return std::optional(std::visit([&](const auto& light) { return light.sample(p, middle).direction; }, any));
+        });
+    return brightest;
+}
+
 std::optional<Lights::Emission> Lights::seen(const glm::vec3& origin, const glm::vec3& direction, float geometry,
                                              bool camera_ray) const {
     std::optional<Emission> nearest;

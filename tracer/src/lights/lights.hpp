@@ -69,6 +69,10 @@ class Lights {
     // The density of sample() at p per steradian.
     float pdf(const glm::vec3& p, const glm::vec3& direction) const;
 
+    // Towards the brightest light that has a place, of those on the side of p that the normal points to; the normal if
+    // there is none.
+    glm::vec3 towards_brightest(const glm::vec3& p, const glm::vec3& normal) const;
+
   private:
     std::size_t size() const { return infinite_.size() + area_.size(); }
     float fluences(const glm::vec3& p, std::span<float> fluence) const;

@@ -1,0 +1,160 @@
+// Light that comes in through a boundary is looked for where it comes from: the density of the directions, and the sun
+// over the ground of a lake, which nothing else finds.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "closed_form.hpp"
+#include "integrator/light_proposal.hpp"
+#include "paths.hpp"
+#include "shading/frame.hpp"
+
+using namespace phasetree::tracer;
+using namespace phasetree::tracer::tests;
+using phasetree::tests::chi_squared_test;
+using phasetree::tests::cosine_within;
+using phasetree::tests::fresnel;
+using phasetree::tests::integrate_cosines;
+using phasetree::tests::samples_to_detect;
+
+namespace {
+
+constexpr double half_turn = std::numbers::pi;
+
+class Uniform {
+  public:
+    glm::vec2 two() {
+        const float x = one();
+        return {x, one()};
+    }
+
+  private:
+    float one() { return static_cast<float>(generator_() >> 8U) * 0x1p-24f; }
+    std::mt19937 generator_{5};
+};
+
+}  // namespace
+
+TEST_CASE("directions bent at a plane have the density that is said of them") {
+    // In light of the same radiance from everywhere: half of the directions are uniform; of the other half those from
+    // above the plane are bent, rings of equal height outside into rings of equal height there, and the rest is lost.
+    constexpr int rings = 8, sectors = 6, beyond = rings * sectors, lost = beyond + 1;
+    const glm::vec3 normal = glm::normalize(glm::vec3(0.3f, -0.5f, 0.7f));
+    const Frame frame(normal);
+    Lights lights;
+    lights.add(InfiniteLight(ConstantEnvironment(glm::vec3(1))));
+    const auto p_values = [&](double eta, double eta_of_test) {
+        const LightProposal proposal({0.1f, 0.2f, 0.3f}, normal, static_cast<float>(eta));
+        const auto cosine_of = [&](int ring) {
+            return cosine_within(1 - static_cast<double>(ring) / rings, eta_of_test);
+        };
+        std::vector<double> probability(lost + 1);
+        for (int r = 0; r < rings; ++r)
+            for (int s = 0; s < sectors; ++s)
+                probability[static_cast<std::size_t>(r * sectors + s)] =
+                    (0.5 * (cosine_of(r) - cosine_of(r + 1)) / 2 + 0.25 / rings) / sectors;
+        probability[beyond] = 0.5 * (1 + cosine_of(rings)) / 2;
+        probability[lost] = 0.25;
+        const std::size_t count = samples_to_detect(1e-4, static_cast<double>(probability.size()));
+        std::vector<double> observed(probability.size()), expected;
+        for (const double p : probability) expected.push_back(p * static_cast<double>(count));
+        Uniform random;
+        Moments inverse;
+        int others = 0;  // than what is said of their direction
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto sample = proposal.sample(lights, random.two());
+            inverse.add(sample ? 1 / static_cast<double>(sample->pdf) : 0);
+            if (!sample) {
+                ++observed[lost];
+                continue;
+            }
+            others += sample->pdf != proposal.pdf(lights, sample->wi) || sample->radiance != glm::vec3(1);
+            const glm::dvec3 local(frame.to_local(sample->wi));
+            const double outside_squared = 1 - (1 - local.z * local.z) * eta_of_test * eta_of_test;
+            if (local.z < 0 || outside_squared < 0) {
+                ++observed[beyond];
+                continue;
+            }
+            const int ring = std::min(static_cast<int>((1 - std::sqrt(outside_squared)) * rings), rings - 1);
+            const double turn = std::atan2(local.y, local.x) / (2 * half_turn) + 0.5;
+            ++observed[static_cast<std::size_t>(ring * sectors +
+                                                std::min(static_cast<int>(turn * sectors), sectors - 1))];
+        }
+        CHECK(others == 0);
+        // ∫ p · 1/p over all directions, which straight ones reach alone as well.
+        return std::array{chi_squared_test(observed, expected).p_value, mean_p_value(inverse, 4 * half_turn, 1e-3)};
+    };
+    for (const double eta : {1.33, 1.5, 2.4}) {
+        CAPTURE(eta);
+        for (const double p : p_values(eta, eta)) CHECK(p > 1e-5);
+        CHECK(p_values(1.01 * eta, eta)[0] < 1e-5);
+    }
+}
+
+namespace {
+
+const std::string lake_phases =
+    R"("water": {"clear": {"ior": 1.33}}, "ground": {"diffuse": {"color": [0.2, 0.2, 0.2]}})";
+
+// Water up to z = 0 over ground that is turned about (0, 0, -0.5), so wide that its ends do not matter.
+std::string lake(double tilt) {
+    return R"({"under": [{"set": {"phase": "water", "of": {"translate": {"by": [0, 0, -1], "of": {"box": {
+        "size": [30, 30, 2]}}}}}}, {"set": {"phase": "ground", "of": {"translate": {"by": [0, 0, -0.5], "of": {"rotate": {
+        "axis": [1, 0, 0], "angle": )" +
+           std::to_string(tilt) +
+           R"(, "of": {"translate": {"by": [0, 0, -1.5], "of": {"box": {"size": [30, 30, 3]}}}}}}}}}}]})";
+}
+std::string sun(double irradiance, int depth) {
+    const std::string e = std::to_string(irradiance);
+    return R"("lights": [{"sun": {"direction": [0.6, 0.3, 0.8], "irradiance": [)" + e + ", " + e + ", " + e +
+           R"(]}}], "render": {"max_depth": )" + std::to_string(depth) + "}";
+}
+const double above = 0.8 / std::sqrt(0.36 + 0.09 + 0.64), below = cosine_within(above, 1.33);
+
+Moments seen(const std::string& tree, const std::string& rest, std::uint32_t count) {
+    const Scene scene = scene_of(lake_phases, tree, rest);
+    const World world(scene);
+    const glm::vec3 from(0.2f, -0.3f, -0.1f);
+    return radiance_along(world, scene, from, glm::vec3(0, 0, -0.5f) - from, count)[0];
+}
+
+}  // namespace
+
+TEST_CASE("the sun on the ground of a lake") {
+    // What comes in, and what goes to and fro between the ground and the surface above it, which returns R of diffuse
+    // light: L = ρ/π T E cos θ / (1 − ρ R).
+    const double returned = integrate_cosines([](double c) { return 2 * c * fresnel(c, 1.33, 1); });
+    const double expected = 0.2 / half_turn * 3 * above * (1 - fresnel(above, 1, 1.33)) / (1 - 0.2 * returned);
+    const auto p_value = [&](double irradiance) {
+        const Moments m = seen(lake(0), sun(irradiance, 4096), 400000);
+        CAPTURE(m.mean());
+        CAPTURE(expected);
+        CHECK(m.standard_error() < 0.0022 * expected);  // it is found by more than luck
+        return mean_p_value(m, expected, 2e-4 * expected);
+    };
+    CHECK(p_value(3) > 1e-4);
+    CHECK(p_value(3 * 1.01) < 1e-4);
+}
+
+TEST_CASE("the sun on ground that is not parallel to the water above it") {
+    for (const double tilt : {-25.0, 10.0, 30.0}) {
+        CAPTURE(tilt);
+        // The light within comes from `towards`; E cos θ T falls on the plane above, and so E cos θ T / cos θ' across.
+        const glm::dvec3 sun_at = glm::normalize(glm::dvec3(0.6, 0.3, 0.8));
+        const glm::dvec3 towards(sun_at.x / 1.33, sun_at.y / 1.33, below);
+        const double a = tilt * half_turn / 180;
+        const double facing = glm::dot(towards, glm::dvec3(0, -std::sin(a), std::cos(a)));
+        const double expected = 0.2 / half_turn * 3 * above * (1 - fresnel(above, 1, 1.33)) * facing / below;
+        const auto p_value = [&](double irradiance) {
+            const Moments m = seen(lake(tilt), sun(irradiance, 1), 400000);
+            CAPTURE(m.mean());
+            CAPTURE(expected);
+            CHECK(m.standard_error() < 0.0022 * expected);
+            return mean_p_value(m, expected, 2e-4 * expected);
+        };
+        CHECK(p_value(3) > 1e-4);
+        CHECK(p_value(3 * 1.01) < 1e-4);
+    }
+}
