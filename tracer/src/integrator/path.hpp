@@ -16,8 +16,8 @@ namespace phasetree::tracer {
 // plain sight. Both techniques thus estimate the same integral over ω,
 //     ∫ f(ω) E(ω) dω,   E: emission at the end of a chain of smooth clear interfaces, of any length from 0,
 // and combine by the power heuristic of their densities *of ω*: of the light sampling, and of the BSDF. A path keeps
-// these two through the chain. Nothing is counted twice and nothing is lost, whatever the light is seen through. In which
-// directions shadow rays start is for light_proposal.hpp.
+// these two through the chain. Nothing is counted twice and nothing is lost, whatever the light is seen through. In
+// which directions shadow rays start is for light_proposal.hpp.
 glm::vec3 trace_path(const World& world, const Scene& scene, CameraRay ray, Phase phase, Sampler& sampler,
                      PathCounters& counters);
 
