@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "command/command.hpp"
@@ -68,4 +69,14 @@ TEST_CASE("the gallery's pictures are below six megabytes together") {
     for (const auto& entry : std::filesystem::directory_iterator(root / "scenes" / "gallery"))
         bytes += entry.file_size();
     CHECK(bytes < 6'000'000);
+}
+
+TEST_CASE("the gallery's pictures say nothing of how they were made into small files") {
+    for (const auto& entry : std::filesystem::directory_iterator(root / "scenes" / "gallery")) {
+        CAPTURE(entry.path().string());
+        std::ifstream file(entry.path(), std::ios::binary);
+        const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+        CHECK(bytes.size() > 1000);
+        for (const char* word : {"oiiotool", "Exif", "Photoshop"}) CHECK(bytes.find(word) == std::string::npos);
+    }
 }
