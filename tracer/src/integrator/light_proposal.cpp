@@ -12,26 +12,25 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 // Nearer to grazing next to no light comes in, and densities are endless.
 constexpr float least_cosine = 1e-4f;
 
-struct Bent {
-    glm::vec3 direction;
-    float cosine;  // to the normal, after
-};
-
 // A direction outside, as it goes on inside. The normal is on its side.
-std::optional<Bent> bent_inward(const glm::vec3& outside, const glm::vec3& normal, float eta) {
+std::optional<glm::vec3> bent_inward(const glm::vec3& outside, const glm::vec3& normal, float eta) {
     const float cosine = glm::dot(normal, outside);
     const float squared = 1.0f - (1.0f - cosine * cosine) / (eta * eta);
     if (!(cosine > least_cosine) || !(squared > 0.0f)) return std::nullopt;
-    const float after = std::sqrt(squared);
-    return Bent{glm::normalize((outside - normal * cosine) / eta + normal * after), after};
+    return glm::normalize((outside - normal * cosine) / eta + normal * std::sqrt(squared));
 }
 
-std::optional<Bent> bent_outward(const glm::vec3& inside, const glm::vec3& normal, float eta) {
+// And back, with dω'/dω.
+struct Outside {
+    glm::vec3 direction;
+    float widening;
+};
+std::optional<Outside> bent_outward(const glm::vec3& inside, const glm::vec3& normal, float eta) {
     const float cosine = glm::dot(normal, inside);
     const float squared = 1.0f - (1.0f - cosine * cosine) * (eta * eta);
     if (!(cosine > 0.0f) || !(squared > least_cosine * least_cosine)) return std::nullopt;
     const float after = std::sqrt(squared);
-    return Bent{glm::normalize((inside - normal * cosine) * eta + normal * after), after};
+    return Outside{glm::normalize((inside - normal * cosine) * eta + normal * after), eta * eta * cosine / after};
 }
 
 }  // namespace
@@ -44,14 +43,14 @@ LightProposal LightProposal::at(const Surface& surface, const World& world, cons
     // The first guess is a plane parallel to the surface; the second, where the line that this makes leaves the last
     // medium that bends light.
     const glm::vec3 lamp = scene.lights.towards_brightest(proposal.p_, proposal.outward_);
-    const std::optional<Bent> line = bent_inward(lamp, proposal.outward_, proposal.eta_);
+    const std::optional<glm::vec3> line = bent_inward(lamp, proposal.outward_, proposal.eta_);
     if (!line) return proposal;
     constexpr int most_interfaces = 8;
     glm::vec3 origin = surface.near_origin;
     Phase phase = surface.near_phase;
     Start start = surface.start;
     for (int i = 0; i < most_interfaces; ++i) {
-        const auto met = world.intersect(origin, line->direction, infinity, phase, start, Purpose::light, counters);
+        const auto met = world.intersect(origin, *line, infinity, phase, start, Purpose::light, counters);
         if (!met || !met->optics) break;
         phase = met->far_phase;
         if (ior(phase) == 1.0f) {
@@ -74,13 +73,13 @@ std::optional<LightSample> LightProposal::sample(const Lights& lights, glm::vec2
         sample->pdf = 0.5f * (sample->pdf + bent_pdf(lights, sample->wi));
         return sample;
     }
-    const std::optional<Bent> inside = bent_inward(sample->wi, outward_, eta_);
-    if (!inside) return std::nullopt;
-    const float density = pdf(lights, inside->direction);
-    const auto seen = lights.seen(p_, inside->direction, infinity, false);
-    // At the very rim of a light rounding can put the direction just outside.
-    if (!(density > 0.0f) || !seen) return std::nullopt;
-    return LightSample{inside->direction, seen->distance, seen->radiance, density};
+    const std::optional<glm::vec3> inside = bent_inward(sample->wi, outward_, eta_);
+    const std::optional<Outside> outside = inside ? bent_outward(*inside, outward_, eta_) : std::nullopt;
+    // At the very rim of a light rounding can put the direction just outside, where it is said to be much rarer.
+    if (!outside || !(lights.pdf(p_, outside->direction) > 0.5f * sample->pdf)) return std::nullopt;
+    const auto seen = lights.seen(p_, *inside, infinity, false);
+    if (!seen) return std::nullopt;
+    return LightSample{*inside, seen->distance, seen->radiance, pdf(lights, *inside)};
 }
 
 float LightProposal::pdf(const Lights& lights, const glm::vec3& direction) const {
@@ -89,10 +88,8 @@ float LightProposal::pdf(const Lights& lights, const glm::vec3& direction) const
 }
 
 float LightProposal::bent_pdf(const Lights& lights, const glm::vec3& direction) const {
-    const std::optional<Bent> outside = bent_outward(direction, outward_, eta_);
-    if (!outside) return 0.0f;
-    const float cosine = glm::dot(outward_, direction);
-    return lights.pdf(p_, outside->direction) * eta_ * eta_ * cosine / outside->cosine;
+    const std::optional<Outside> outside = bent_outward(direction, outward_, eta_);
+    return outside ? lights.pdf(p_, outside->direction) * outside->widening : 0.0f;
 }
 
 }  // namespace phasetree::tracer
