@@ -20,27 +20,17 @@
 #include <glm/vec3.hpp>
 #include <numbers>
 #include <optional>
-#include <random>
 #include <vector>
 
 #include "shading/bsdf.hpp"
 #include "support/statistics.hpp"
+#include "support/uniform.hpp"
 
 namespace phasetree::tests {
 
 constexpr int polar_cells = 16;
 constexpr int angle_cells = 8;
 constexpr int direction_cells = polar_cells * angle_cells;
-
-// Uniform in [0, 1), as the sampler's numbers are.
-class Uniform {
-  public:
-    explicit Uniform(std::uint32_t seed) : generator_(seed) {}
-    float operator()() { return static_cast<float>(generator_() >> 8) * 0x1p-24f; }
-
-  private:
-    std::mt19937 generator_;
-};
 
 inline std::size_t direction_cell(const glm::vec3& w) {
     constexpr float pi = std::numbers::pi_v<float>;

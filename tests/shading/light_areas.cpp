@@ -125,8 +125,8 @@ TEST_CASE("rectangle: solid angle from everywhere in front") {
     Uniform random(2);
     const RectangleLight light = tilted.light();
     for (int i = 0; i < 20000; ++i) {
-        const float distance = std::pow(10.0f, 6.0f * random.one() - 3.0f);
-        const glm::vec3 from = direction_of(2.0 * half_turn * random.one(), 2.0 * random.one() - 1.0);
+        const float distance = std::pow(10.0f, 6.0f * random() - 3.0f);
+        const glm::vec3 from = direction_of(2.0 * half_turn * random(), 2.0 * random() - 1.0);
         const glm::vec3 p = tilted.centre + distance * from;
         const double expected = solid_angle_of(tilted, p);
         if (glm::dot(p - tilted.centre, tilted.normal()) < 1e-3f * distance) {

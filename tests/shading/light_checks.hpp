@@ -11,30 +11,17 @@
 #include <glm/glm.hpp>
 #include <numbers>
 #include <optional>
-#include <random>
 #include <vector>
 
 #include "lights/lat_long.hpp"
 #include "support/statistics.hpp"
+#include "support/uniform.hpp"
 
 namespace phasetree::tests {
 
 // Below this a result counts as wrong: with some 40 tests in a file a correct program fails for one in 2,500 choices of
 // the seeds, and the seeds are fixed.
 inline constexpr double significance = 1e-5;
-
-class Uniform {
-  public:
-    explicit Uniform(std::uint32_t seed) : generator_(seed) {}
-    float one() { return static_cast<float>(generator_() >> 8U) * 0x1p-24f; }
-    glm::vec2 two() {
-        const float x = one();
-        return {x, one()};
-    }
-
-  private:
-    std::mt19937 generator_;
-};
 
 // The probability of each of columns × rows lat-long bins under a density per steradian, by the midpoint rule on a grid
 // that is `finer` times finer (exact when the density is constant on that grid).
@@ -95,7 +82,7 @@ PValues direction_test(const std::vector<double>& probability, const Sample& sam
         const glm::vec2 u = random.two();
         const std::size_t cell = cell_of(u);
         observed[cell] += 1.0;
-        defective[random.one() < 0.01f ? cell_of({u.x, 0.5f * u.y}) : cell] += 1.0;
+        defective[random() < 0.01f ? cell_of({u.x, 0.5f * u.y}) : cell] += 1.0;
     }
     return {chi_squared_test(observed, expected).p_value, chi_squared_test(defective, expected).p_value};
 }

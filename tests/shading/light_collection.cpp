@@ -59,7 +59,7 @@ TEST_CASE("lights: samples and rays agree on radiance, distance and density") {
     int infinite = 0;
     int area = 0;
     for (int i = 0; i < 100000; ++i) {
-        const glm::vec3 p(random.one() - 0.5f, random.one() - 0.5f, 0.3f * random.one());
+        const glm::vec3 p(random() - 0.5f, random() - 0.5f, 0.3f * random());
         const auto s = lights.sample(p, random.two());
         if (!s) continue;
         const auto again = seen(lights, p, s->wi);

@@ -28,8 +28,8 @@ ImageEnvironment test_image(float rotation_degrees = 0.0f, float intensity = 1.0
     Uniform random(7);
     std::vector<glm::vec3> pixels(16 * 8);
     for (glm::vec3& pixel : pixels) {
-        const float level = std::pow(10.0f, 4.0f * random.one() - 3.0f);
-        pixel = random.one() < 0.2f ? glm::vec3(0.0f) : level * glm::vec3(1.0f, random.one(), random.one());
+        const float level = std::pow(10.0f, 4.0f * random() - 3.0f);
+        pixel = random() < 0.2f ? glm::vec3(0.0f) : level * glm::vec3(1.0f, random(), random());
     }
     return {16, 8, pixels, rotation_degrees, intensity};
 }
@@ -135,7 +135,7 @@ TEST_CASE("gradient environment: what emits is sampled, however steep the gradie
         const glm::vec3 normal = glm::normalize(glm::vec3(0.0f, 1.0f, 0.2f));
         Uniform random(11);
         for (int i = 0; i < 100000; ++i) {
-            const glm::vec3 w = direction_of(6.0 * random.one(), 0.002 * random.one() - 0.001);
+            const glm::vec3 w = direction_of(6.0 * random(), 0.002 * random() - 0.001);
             if (environment.radiance(w).x > 0.0f) CHECK(environment.pdf(w) > 0.0f);
         }
         if (softness < 0.01f) continue;
@@ -164,7 +164,7 @@ TEST_CASE("image environment: a black texel beside a bright one is sampled, beca
         Uniform random(5);
         int bright = 0;
         for (int i = 0; i < 200000; ++i) {
-            const glm::vec3 w = direction_of(2.0 * half_turn * random.one(), 2.0 * random.one() - 1.0);
+            const glm::vec3 w = direction_of(2.0 * half_turn * random(), 2.0 * random() - 1.0);
             // Rounding decides on which side of a cell a direction lies; 1e-3 of the bright texel is clear of that.
             if (environment.radiance(w).x <= 0.1f) continue;
             ++bright;

@@ -4,12 +4,12 @@
 
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "closed_form.hpp"
 #include "integrator/light_proposal.hpp"
 #include "paths.hpp"
 #include "shading/frame.hpp"
+#include "support/uniform.hpp"
 
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::tests;
@@ -18,22 +18,11 @@ using phasetree::tests::cosine_within;
 using phasetree::tests::fresnel;
 using phasetree::tests::integrate_cosines;
 using phasetree::tests::samples_to_detect;
+using phasetree::tests::Uniform;
 
 namespace {
 
 constexpr double half_turn = std::numbers::pi;
-
-class Uniform {
-  public:
-    glm::vec2 two() {
-        const float x = one();
-        return {x, one()};
-    }
-
-  private:
-    float one() { return static_cast<float>(generator_() >> 8U) * 0x1p-24f; }
-    std::mt19937 generator_{5};
-};
 
 }  // namespace
 
@@ -60,7 +49,7 @@ TEST_CASE("directions bent at a plane have the density that is said of them") {
         const std::size_t count = samples_to_detect(1e-4, static_cast<double>(probability.size()));
         std::vector<double> observed(probability.size()), expected;
         for (const double p : probability) expected.push_back(p * static_cast<double>(count));
-        Uniform random;
+        Uniform random(5);
         Moments inverse;
         int others = 0;  // than what is said of their direction
         for (std::size_t i = 0; i < count; ++i) {
@@ -101,7 +90,7 @@ TEST_CASE("no direction to a lamp's rim is said to be a direction to the sky") {
     const float diameter = 0.01f;
     lights.add(InfiniteLight(Sun(towards, glm::vec3(3), diameter)));
     lights.add(InfiniteLight(ConstantEnvironment(glm::vec3(0.1f))));
-    Uniform random;
+    Uniform random(5);
     for (const glm::vec3& normal : {glm::vec3(0, 0, 1), glm::normalize(glm::vec3(0.1f, -0.2f, 1))}) {
         const float eta = 1.33f, cosine = glm::dot(normal, towards);
         const float within = static_cast<float>(cosine_within(static_cast<double>(cosine), 1.33));
