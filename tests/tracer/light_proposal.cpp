@@ -182,3 +182,45 @@ TEST_CASE("the sun on ground that is not parallel to the water above it") {
         CHECK(p_value(3 * 1.01) < 1e-4);
     }
 }
+
+TEST_CASE("under curved glass and water, and lamps as bright as the sky, white paint is as bright") {
+    // A furnace whose walls are lamps in part: planes are bad guesses here, which must not matter.
+    struct Case {
+        std::string name, tree;
+    };
+    const std::string ball =
+        R"({"set": {"phase": "paint", "of": {"translate": {"by": [0.3, -0.1, 0.1], "of": {"sphere": {
+        "radius": 0.6}}}}}})";
+    const std::string corner =
+        R"({"set": {"phase": "paint", "of": {"rotate": {"axis": [1, 2, 3], "angle": 40, "of": {"box": {
+        "size": [1.1, 0.9, 0.8]}}}}}})";
+    const Case cases[] = {
+        {"ball near the glass",
+         R"({"under": [{"set": {"phase": "glass", "of": {"sphere": {"radius": 1}}}}, )" + ball + "]}"},
+        {"corners in water",
+         R"({"under": [{"thin_shell": {"shell": "glass", "inside": "water", "half_thickness": 0.04, "of":
+            {"sphere": {"radius": 1}}}}, )" +
+             corner + "]}"}};
+    const double significance = sidak(1e-4, std::size(cases));
+    for (const Case& c : cases) {
+        CAPTURE(c.name);
+        const auto p_value = [&](const char* white) {
+            const std::string lamps = R"("lights": [{"constant": {}},
+                {"rectangle": {"centre": [2, -3, 1], "target": [0, 0, 0], "width": 2, "height": 1.5}},
+                {"rectangle": {"centre": [-3, -1, 2], "target": [0, 0, 0], "width": 1, "height": 3}},
+                {"sphere": {"centre": [0.5, 0.5, 3], "radius": 0.4}}])";
+            const Scene scene = scene_of(R"("water": {"clear": {"ior": 1.33}}, "glass": {"clear": {"ior": 1.5}},
+                    "paint": {"diffuse": {"color": [)" +
+                                             std::string(white) + ", " + white + ", " + white + "]}}",
+                                         c.tree, lamps);
+            const World world(scene);
+            const Moments m = radiance_along(world, scene, {0.8f, -5, 0.4f}, {-0.7f, 5, -0.3f}, 200000)[0];
+            CAPTURE(m.mean());
+            CAPTURE(m.standard_error());
+            CHECK(m.standard_error() < 0.003);
+            return mean_p_value(m, 1, 1e-5);
+        };
+        CHECK(p_value("1.0") > significance);
+        CHECK(p_value("0.99") < significance);
+    }
+}
