@@ -33,7 +33,7 @@ class Cutter {
     }
 
     /// Where v may be on that side of τ.
-    Bounds where(std::uint32_t v, Side side, float tau, const Bounds& box) {
+    LaneBox where(std::uint32_t v, Side side, float tau, const LaneBox& box) {
         const Range& r = registers_[slot_[v]].value;
         const bool is_above = static_cast<float>(r.low) > tau + margin_;
         const bool is_below = static_cast<float>(r.high) < tau - margin_;
@@ -73,18 +73,18 @@ class Cutter {
         PlaneCut cut{};
     };
 
-    Bounds both(const Instruction& in, Side side, float tau, const Bounds& box) {
+    LaneBox both(const Instruction& in, Side side, float tau, const LaneBox& box) {
         return where(in.b, side, tau, where(in.a, side, tau, box));
     }
     /// Of a value that is on one side where both operands are, below if it is their maximum; so it is at τ where one
     /// operand is and the other on that side.
-    Bounds of_both(const Instruction& in, Side of_all, Side side, float tau, const Bounds& box) {
+    LaneBox of_both(const Instruction& in, Side of_all, Side side, float tau, const LaneBox& box) {
         if (side == of_all) return both(in, side, tau, box);
         const bool is_at = side == Side::at;
         return unite(where(in.a, side, tau, is_at ? where(in.b, of_all, tau, box) : box),
                      where(in.b, side, tau, is_at ? where(in.a, of_all, tau, box) : box));
     }
-    Bounds by_plane(std::uint32_t v, Side side, float tau, const Bounds& box) {
+    LaneBox by_plane(std::uint32_t v, Side side, float tau, const LaneBox& box) {
         Plane& plane = planes_[v];
         if (!plane.is_found) plane = {true, {NearlyLinear(registers_[slot_[v]], half_), middle_, margin_}};
         return side == Side::below   ? plane.cut.below(tau, box)
@@ -117,7 +117,9 @@ Bounds cut_to_zero(std::uint32_t value, const Bounds& box, const Bounds& all, co
                    std::span<const float> constants, const Enclosure* registers, std::span<const std::uint32_t> slot,
                    float rounding, Arena& scratch) {
     const ArenaScope scope(scratch);
-    return Cutter(all, program, constants, registers, slot, rounding, scratch).where(value, Side::at, 0, box);
+    return Cutter(all, program, constants, registers, slot, rounding, scratch)
+        .where(value, Side::at, 0, LaneBox(box))
+        .bounds();
 }
 
 }  // namespace phasetree

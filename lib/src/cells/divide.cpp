@@ -89,47 +89,42 @@ struct Share {
     Candidate cell{};
 };
 
-/// Encloses a program in a share's box, and takes from it what cannot matter there; again, while that tells more. The
-/// box is cut to where the interface is, and if that leaves much less of it, the program is enclosed in what is left.
-/// Nothing if no interface passes.
+/// Encloses a program in a share's box, and takes from it what cannot matter there; again, while that tells more. Then
+/// the box is cut to where the interface is, and if that leaves much less of it, the program is enclosed in what is
+/// left. Nothing if no interface passes.
 std::optional<Candidate> candidate(const Share& share, const Bounds& all, const WorkingProgram& program,
                                    Encloser& encloser, const Division& d, Worker& w) {
+    constexpr int most_rounds = 3;
     Candidate cell{program, all};
     std::optional<Encloser> narrower;
-    for (int rounds = 0; rounds < 3; ++rounds) {
-        const std::optional<Enclosed> enclosed = narrower ? (*narrower)(cell.program) : encloser(cell.program);
-        if (!enclosed) break;
-        if (enclosed->is_free) return std::nullopt;
-        cell.bound = enclosed->bound;
-        cell.curvature = enclosed->curvature;
-        cell.proof = w.programs.copy(enclosed->proof);
-        const std::span<LocalValue> local = w.programs.copy(enclosed->local);
-        for (LocalValue& v : local) v.data = w.programs.copy(v.data);
-        cell.local = local;
-        const Bounds around = cell.box;
-        cell.box = intersect(around, enclosed->box.inflated(d.reach));
-        if (cell.box.empty()) return std::nullopt;
-        if (rounds == 2) break;
-        const auto pruned = prune(cell.program, d.constants, enclosed->ranges, d.options.opaque, w.programs, w.scratch);
+    for (int rounds = 0;; ++rounds) {
+        Encloser& enclose = narrower ? *narrower : encloser;
+        const std::optional<ValueRanges> ranges = enclose.ranges(cell.program);
+        if (!ranges) break;
+        const auto pruned = prune(cell.program, d.constants, *ranges, d.options.opaque, w.programs, w.scratch);
         if (!pruned) return std::nullopt;
         const bool is_all_left =
             pruned->code.size() == cell.program.code.size() && pruned->outputs.size() == cell.program.outputs.size();
+        if (!is_all_left && rounds < most_rounds) {
+            cell = {*pruned, cell.box};  // whose gradient is better known
+            continue;
+        }
+        const Enclosed enclosed = enclose.rest(cell.program);
+        cell.bound = enclosed.bound;
+        cell.curvature = enclosed.curvature;
+        cell.proof = w.programs.copy(enclosed.proof);
+        const std::span<LocalValue> local = w.programs.copy(enclosed.local);
+        for (LocalValue& v : local) v.data = w.programs.copy(v.data);
+        cell.local = local;
+        const Bounds around = cell.box;
+        cell.box = intersect(around, enclosed.box.inflated(d.reach));
+        if (enclosed.box.empty() || cell.box.empty()) return std::nullopt;
         // Lists of local primitives must be those of the whole share, for its parts. What is left of the program is
         // right as far around the box as its parts must be.
         const bool is_narrower = !has_local_primitive(cell.program) && surface(cell.box) < 0.7f * surface(around);
-        if (is_all_left && !is_narrower) break;
-        if (!is_all_left) {
-            cell.program = *pruned;  // whose gradient is better known
-            cell.bound = {};
-            cell.curvature = {};
-            cell.proof = {};
-            cell.local = {};
-        }
-        if (is_narrower)
-            narrower.emplace(d.constants, d.options.opaque, intersect(all, cell.box.inflated(d.reach)), d.rounding,
-                             std::span<const LocalValue>(), w.scratch);
-        else
-            cell.box = around;
+        if (rounds >= most_rounds || !is_narrower) break;
+        narrower.emplace(d.constants, d.options.opaque, intersect(all, cell.box.inflated(d.reach)), d.rounding,
+                         std::span<const LocalValue>(), w.scratch);
     }
     // Through copies without end a ray goes on and on, and, where nothing is known, from block to block of a pattern.
     const float size = share.box.diagonal();
@@ -251,8 +246,11 @@ Cost divide(const Share& share, const Division& d, Worker& w) {
     each([&](std::size_t i, Worker& own) {
         const ArenaScope scope(own.scratch);
         const float radius = 0.5f * parts.box[i].inflated(d.reach).diagonal() * (1 + 1e-5f);
-        const ValueRanges ranges = ranges_in_ball(share.program, d.constants, {values.registers, values.slot, i},
-                                                  has_jumps, radius, d.rounding, own.scratch);
+        const ValuesAt centre{values.registers, values.slot, i};
+        const std::span<const float> slope =
+            has_jumps ? slopes_in_ball(share.program, d.constants, centre, radius, d.rounding, own.scratch)
+                      : share.program.lipschitz;
+        const RangesInBall ranges{centre, slope, radius, d.rounding};
         const auto program = prune(share.program, d.constants, ranges, d.options.opaque, own.programs, own.scratch);
         if (!program) return;
         Share part{parts.box[i], *program, share.local, share.depth + 1};

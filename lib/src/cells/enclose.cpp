@@ -100,52 +100,52 @@ void Encloser::compute(const WorkingProgram& program) {
     registers_ = registers.data();
 }
 
-std::optional<Enclosed> Encloser::operator()(const WorkingProgram& program) {
+/// Components are 1-Lipschitz, whatever their instructions are.
+Enclosure Encloser::component(const ProgramOutput& o) const {
+    Enclosure e = registers_[slot_[o.value]];
+    for (Range& g : e.gradient) g = {std::max(g.low, -1.0), std::min(g.high, 1.0)};
+    e.tighten(half_);
+    return e;
+}
+
+std::optional<ValueRanges> Encloser::ranges(const WorkingProgram& program) {
     const std::size_t size = program.code.size();
     // A fold of space may jump, and then it has no gradient.
     if (std::ranges::any_of(program.code, [](const Instruction& in) { return is_fold(in.op); })) return std::nullopt;
     if (size > (has_local_primitive(program) ? 4 : 1) * longest_enclosed) return std::nullopt;
     compute(program);
 
-    Enclosed result;
-    result.box = box_;
     // Of a value, and of what is known at the centre.
     const double margin = 2 * static_cast<double>(rounding_);
     const std::span<float> low = scratch_.take<float>(size), high = scratch_.take<float>(size);
+    const auto set = [&](std::size_t i, const Range& v) {
+        low[i] = static_cast<float>(std::max(v.low - margin, -1e30));
+        high[i] = static_cast<float>(std::min(v.high + margin, 1e30));
+    };
     for (std::size_t i = 0; i < size; ++i) {
         const Range& v = registers_[slot_[i]].value;
         if (!(v.low <= v.high)) return std::nullopt;  // not a number somewhere
-        low[i] = static_cast<float>(std::max(v.low - margin, -1e30));
-        high[i] = static_cast<float>(std::min(v.high + margin, 1e30));
+        set(i, v);
     }
-    result.ranges = {low, high, program.lipschitz};
+    for (const ProgramOutput& o : program.outputs) set(o.value, component(o).value);
+    return ValueRanges{low, high, program.lipschitz};
+}
 
-    // Components are 1-Lipschitz, whatever their instructions are.
-    const auto component = [&](std::size_t i) {
-        Enclosure e = registers_[slot_[program.outputs[i].value]];
-        for (Range& g : e.gradient) g = {std::max(g.low, -1.0), std::min(g.high, 1.0)};
-        e.tighten(half_);
-        return e;
-    };
+Enclosed Encloser::rest(const WorkingProgram& program) const {
+    Enclosed result;
+    result.box = box_;
     const bool is_shared = program.outputs.size() == 2 && program.outputs[0].value == program.outputs[1].value;
-    const Enclosure f = component(0);  // the first, but for its sign
-    std::size_t possible = 0, clear = 0;
+    const Enclosure f = component(program.outputs[0]);  // the first, but for its sign
     // Of s as Routine::is_by_own says, both ways.
     double by_others[] = {0, 0}, by_own[] = {0, 0}, of_first = 0;
     for (std::size_t i = 0; i < program.outputs.size(); ++i) {
-        const Enclosure& e = i == 0 || is_shared ? f : component(i);
-        const bool is_negated = program.outputs[i].negate;
-        const Range value = is_negated ? -e.value : e.value, curvature = is_negated ? -e.curvature : e.curvature;
-        if (value.high < -margin) result.is_free = true;
-        possible += value.low <= margin;
-        clear += value.low <= margin && !opaque_.contains(program.outputs[i].phase);
+        const Range& c = registers_[slot_[program.outputs[i].value]].curvature;
+        const Range curvature = program.outputs[i].negate ? -c : c;
         if (i == 0) of_first = std::max(of_first, curvature.high);
         if (i > 0) by_others[0] = std::max(by_others[0], curvature.high);
         by_others[1] = std::max(by_others[1], curvature.high);
         by_own[i == 0 ? 0 : 1] = std::max(by_own[i == 0 ? 0 : 1], -curvature.low);
     }
-    if (possible < 2 || clear == 0) result.is_free = true;
-    if (result.is_free) return result;
     result.local = local_;
     const auto known = [](double most) {
         return most < 1e30 ? static_cast<float>(most) * (1 + 1e-3f) : Curvature::unknown;
@@ -174,12 +174,11 @@ std::optional<Enclosed> Encloser::operator()(const WorkingProgram& program) {
     // Where the other phases are opaque, rays meet no interface but the first component's.
     if (result.curvature.is_by_first) {
         const LinearBound& bound = result.bound;
-        result.box = PlaneCut(linear, box_.centre(), cut_margin(box_, rounding_)).at(0, box_);
+        result.box = PlaneCut(linear, box_.centre(), cut_margin(box_, rounding_)).at(0, LaneBox(box_)).bounds();
         if (!(bound.slack < 0.15f * glm::dot(glm::abs(bound.normal), box_.extent())))
             result.box = cut_to_zero(program.outputs[0].value, result.box, box_, program, constants_, registers_, slot_,
                                      rounding_, scratch_);
-        result.is_free = result.box.empty();
-        if (result.is_free) return result;
+        if (result.box.empty()) return result;
     }
 
     const auto is_blind = [&](std::size_t side) { return !(result.curvature.most[side] < Curvature::unknown); };

@@ -11,12 +11,11 @@ namespace phasetree {
 
 struct Enclosure;
 
+/// What is known of a program in a box, besides its values' ranges.
 struct Enclosed {
-    bool is_free = false;  ///< no interface passes through the box that a ray can meet
     LinearBound bound;
     Curvature curvature;
-    Bounds box;                        ///< around the interface in the box
-    ValueRanges ranges;                ///< of every value in the box
+    Bounds box;                        ///< around the interface in the box; empty if no ray can meet one
     std::span<const ProofPart> proof;  ///< where a ray may be in a phase whose curvature is unknown
     std::span<const LocalValue> local;
 };
@@ -35,12 +34,15 @@ class Encloser {
     Encloser(std::span<const float> constants, PhaseSet opaque, const Bounds& box, float rounding,
              std::span<const LocalValue> around, Arena& scratch);
 
-    /// Nothing for a program that is too long, or that folds space.
-    std::optional<Enclosed> operator()(const WorkingProgram&);
+    /// Ranges of its values; nothing for a program that is too long, or that folds space.
+    std::optional<ValueRanges> ranges(const WorkingProgram&);
+    /// The rest, of a program whose ranges were asked last and of which an interface is left.
+    Enclosed rest(const WorkingProgram&) const;
 
   private:
     void compute(const WorkingProgram&);
     std::span<const std::uint32_t> known_of(const WorkingProgram&) const;
+    Enclosure component(const ProgramOutput&) const;
 
     std::span<const float> constants_;
     PhaseSet opaque_;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cells/lane_box.hpp"
 #include "cells/nearly_linear.hpp"
-#include "phasetree/math/bounds.hpp"
 
 namespace phasetree {
 
@@ -16,42 +16,44 @@ class PlaneCut {
     PlaneCut() = default;
     /// `margin` is what floats lose.
     PlaneCut(const NearlyLinear& f, const glm::vec3& middle, float margin)
-        : middle_(middle),
+        : middle_(LaneBox::lanes(middle)),
           at_middle_(static_cast<float>(f.at_centre)),
           slack_(static_cast<float>(f.slack) * (1 + 1e-6f) + margin) {
-        for (int i = 0; i < 3; ++i) {
-            normal_[i] = static_cast<float>(f.normal[static_cast<std::size_t>(i)]);
-            per_slope_[i] = std::abs(normal_[i]) < 1e-3f ? 0 : 1 / std::abs(normal_[i]);
-        }
+        const auto slope = [&](std::size_t i) { return static_cast<float>(f.normal[i]); };
+        normal_ = Lanes{slope(0), slope(1), slope(2), 0};
+        steep_ = normal_ < 0 ? -normal_ : normal_;
+        per_slope_ = steep_ < LaneBox::each(1e-3f) ? Lanes{} : LaneBox::each(1) / normal_;
     }
 
     /// Where f ≤ τ may hold: of each axis what it may, if the others take what they can.
-    Bounds below(float tau, const Bounds& box) const { return half_space(1, tau, box); }
-    Bounds above(float tau, const Bounds& box) const { return half_space(-1, tau, box); }
-    Bounds at(float tau, const Bounds& box) const { return above(tau, below(tau, box)); }
+    LaneBox below(float tau, const LaneBox& box) const { return half_space(1, tau, box); }
+    LaneBox above(float tau, const LaneBox& box) const { return half_space(-1, tau, box); }
+    LaneBox at(float tau, const LaneBox& box) const { return above(tau, below(tau, box)); }
 
   private:
+    using Lanes = LaneBox::Lanes;
+
+    static float sum(const Lanes& v) { return (v[0] + v[1]) + v[2]; }
+
     /// Where sign · (f − τ) ≤ 0.
-    Bounds half_space(float sign, float tau, Bounds box) const {
+    LaneBox half_space(float sign, float tau, const LaneBox& box) const {
         if (box.empty() || !(slack_ < 1e30f)) return box;
-        const glm::vec3 centre = box.centre(), width = glm::abs(normal_) * (0.5f * box.extent());
-        const float takes = width.x + width.y + width.z;
-        const float least = sign * (at_middle_ - tau + glm::dot(normal_, centre - middle_)) - slack_;
+        const Lanes half = LaneBox::each(0.5f), centre = (box.low + box.high) * half;
+        const Lanes width = steep_ * ((box.high - box.low) * half);
+        const float takes = sum(width);
+        const float least = sign * (at_middle_ - tau + sum(normal_ * (centre - middle_))) - slack_;
         if (least > takes) return {};
         if (least <= -takes) return box;
-        const glm::vec3 reach = ((takes - least) - width) * per_slope_;
-        for (int i = 0; i < 3; ++i) {
-            if (per_slope_[i] == 0) continue;
-            if ((normal_[i] > 0) == (sign > 0))
-                box.high[i] = std::min(box.high[i], centre[i] + reach[i]);
-            else
-                box.low[i] = std::max(box.low[i], centre[i] - reach[i]);
-        }
-        return box.empty() ? Bounds() : box;
+        const Lanes per_slope = LaneBox::each(sign) * per_slope_;
+        const Lanes farthest = centre + (LaneBox::each(takes - least) - width) * per_slope;
+        const LaneBox left{(per_slope < 0 && farthest > box.low) ? farthest : box.low,
+                           (per_slope > 0 && farthest < box.high) ? farthest : box.high};
+        return left.empty() ? LaneBox() : left;
     }
 
-    glm::vec3 normal_{}, per_slope_{};  ///< 1 / |normal|, 0 where that is too much
-    glm::vec3 middle_{};
+    Lanes normal_{}, steep_{};  ///< and its absolute values
+    Lanes per_slope_{};         ///< its reciprocals, 0 where they are too large
+    Lanes middle_{};
     float at_middle_ = 0, slack_ = Bounds::infinity;
 };
 

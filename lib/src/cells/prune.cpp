@@ -65,9 +65,18 @@ WorkingProgram one_of_two(const WorkingProgram& both, Arena& keep, Arena& scratc
     return (second.size() < first.size() ? second : first).program(keep, scratch);
 }
 
+/// Of which nothing is known.
+struct RangesAnywhere {
+    std::span<const float> slope;
+
+    float low(std::uint32_t) const { return -Bounds::infinity; }
+    float high(std::uint32_t) const { return Bounds::infinity; }
+};
+
+template <class Ranges>
 class Pruner {
   public:
-    Pruner(const WorkingProgram& program, std::span<const float> constants, const ValueRanges& ranges, PhaseSet opaque,
+    Pruner(const WorkingProgram& program, std::span<const float> constants, const Ranges& ranges, PhaseSet opaque,
            bool is_near, Arena& scratch)
         : program_(program),
           constants_(constants),
@@ -148,8 +157,8 @@ class Pruner {
         }
         return {rewriter.code(), rewriter.lipschitz(), ends.first(count)};
     }
-    float low(std::uint32_t i) const { return ranges_.low[i]; }
-    float high(std::uint32_t i) const { return ranges_.high[i]; }
+    float low(std::uint32_t i) const { return ranges_.low(i); }
+    float high(std::uint32_t i) const { return ranges_.high(i); }
 
     void replace(std::uint32_t i, std::uint32_t by) {
         instead_[i] = by;
@@ -287,7 +296,7 @@ class Pruner {
 
     const WorkingProgram& program_;
     std::span<const float> constants_;
-    ValueRanges ranges_;
+    const Ranges& ranges_;
     PhaseSet opaque_;
     bool is_near_;  ///< bounds for far away go
     Arena& scratch_;
@@ -299,36 +308,11 @@ class Pruner {
     bool is_changed_ = false;
 };
 
-/// Slopes within the ball. A fold of space jumps, which is recorded as a slope of FoldMap::jump; in a ball that
-/// touches none of its jumps that factor goes from all that follows. The guard above the fold tells: its bound is
-/// more than half of `far` wherever the fold jumps.
-std::span<const float> local_slopes(const WorkingProgram& program, std::span<const float> constants,
-                                    const ValuesAt& value, float radius, float rounding, Arena& scratch) {
-    const std::span<float> slope = scratch.copy(program.lipschitz);
-    const auto size = static_cast<std::uint32_t>(program.code.size());
-    const std::span<char> is_still = scratch.take<char>(size);  // 1: folds without a jump in the ball
-    const std::span<char> jumps = scratch.take<char>(size);
-    std::ranges::fill(is_still, 0);
-    std::ranges::fill(jumps, 0);
-    for (std::uint32_t i = 1; i < size; ++i) {
-        const Instruction& guard = program.code[i];
-        if (guard.op != Op::guarded) continue;
-        // The bound's own slope is that of its point.
-        const float high = value[guard.a] + slope[guard.a] * radius + rounding;
-        // Several folds may have one point: none is still unless all of their guards say so.
-        const char says = high < 0.5f * constants[guard.data] ? 1 : 2;
-        for (std::uint32_t k = 1; k < i; ++k)
-            if (is_fold(program.code[k].op) && program.code[k].a == program.code[guard.a].a)
-                is_still[k] = static_cast<char>(is_still[k] | says);
-    }
-    for (std::uint32_t i = 1; i < size; ++i) {
-        const Instruction& in = program.code[i];
-        if (slope[i] <= half_a_jump) continue;
-        const int n = operands(in.op);
-        jumps[i] = (n > 0 && jumps[in.a]) || (n > 1 && jumps[in.b]) || (is_fold(in.op) && is_still[i] != 1);
-        while (!jumps[i] && slope[i] > half_a_jump) slope[i] /= FoldMap::jump;
-    }
-    return slope;
+template <class Ranges>
+std::optional<WorkingProgram> pruned(const WorkingProgram& program, std::span<const float> constants,
+                                     const Ranges& ranges, PhaseSet opaque, bool is_near, Arena& keep, Arena& scratch) {
+    const ArenaScope scope(scratch);
+    return Pruner<Ranges>(program, constants, ranges, opaque, is_near, scratch).run(keep);
 }
 
 }  // namespace
@@ -369,23 +353,45 @@ bool may_jump(const WorkingProgram& program) {
     return std::ranges::any_of(program.lipschitz, [](float l) { return l > half_a_jump; });
 }
 
-ValueRanges ranges_in_ball(const WorkingProgram& program, std::span<const float> constants, const ValuesAt& centre,
-                           bool may_jump, float radius, float rounding, Arena& scratch) {
-    const std::span<const float> slope =
-        may_jump ? local_slopes(program, constants, centre, radius, rounding, scratch) : program.lipschitz;
-    const std::span<float> low = scratch.take<float>(slope.size()), high = scratch.take<float>(slope.size());
-    for (std::size_t i = 0; i < slope.size(); ++i) {
-        const float value = centre[i], slack = slope[i] * radius + rounding;
-        low[i] = value - slack;
-        high[i] = value + slack;
+/// Slopes within the ball. A fold of space jumps, which is recorded as a slope of FoldMap::jump; in a ball that
+/// touches none of its jumps that factor goes from all that follows. The guard above the fold tells: its bound is
+/// more than half of `far` wherever the fold jumps.
+std::span<const float> slopes_in_ball(const WorkingProgram& program, std::span<const float> constants,
+                                      const ValuesAt& value, float radius, float rounding, Arena& scratch) {
+    const std::span<float> slope = scratch.copy(program.lipschitz);
+    const auto size = static_cast<std::uint32_t>(program.code.size());
+    const std::span<char> is_still = scratch.take<char>(size);  // 1: folds without a jump in the ball
+    const std::span<char> jumps = scratch.take<char>(size);
+    std::ranges::fill(is_still, 0);
+    std::ranges::fill(jumps, 0);
+    for (std::uint32_t i = 1; i < size; ++i) {
+        const Instruction& guard = program.code[i];
+        if (guard.op != Op::guarded) continue;
+        // The bound's own slope is that of its point.
+        const float high = value[guard.a] + slope[guard.a] * radius + rounding;
+        // Several folds may have one point: none is still unless all of their guards say so.
+        const char says = high < 0.5f * constants[guard.data] ? 1 : 2;
+        for (std::uint32_t k = 1; k < i; ++k)
+            if (is_fold(program.code[k].op) && program.code[k].a == program.code[guard.a].a)
+                is_still[k] = static_cast<char>(is_still[k] | says);
     }
-    return {low, high, slope};
+    for (std::uint32_t i = 1; i < size; ++i) {
+        const Instruction& in = program.code[i];
+        if (slope[i] <= half_a_jump) continue;
+        const int n = operands(in.op);
+        jumps[i] = (n > 0 && jumps[in.a]) || (n > 1 && jumps[in.b]) || (is_fold(in.op) && is_still[i] != 1);
+        while (!jumps[i] && slope[i] > half_a_jump) slope[i] /= FoldMap::jump;
+    }
+    return slope;
 }
 
 std::optional<WorkingProgram> prune(const WorkingProgram& program, std::span<const float> constants,
                                     const ValueRanges& ranges, PhaseSet opaque, Arena& keep, Arena& scratch) {
-    const ArenaScope scope(scratch);
-    return Pruner(program, constants, ranges, opaque, false, scratch).run(keep);
+    return pruned(program, constants, ranges, opaque, false, keep, scratch);
+}
+std::optional<WorkingProgram> prune(const WorkingProgram& program, std::span<const float> constants,
+                                    const RangesInBall& ranges, PhaseSet opaque, Arena& keep, Arena& scratch) {
+    return pruned(program, constants, ranges, opaque, false, keep, scratch);
 }
 
 std::optional<WorkingProgram> without_far_bounds(const WorkingProgram& program, std::span<const float> constants,
@@ -393,10 +399,7 @@ std::optional<WorkingProgram> without_far_bounds(const WorkingProgram& program, 
     const ArenaScope scope(scratch);
     const auto is_far_bound = [](const Instruction& in) { return in.op == Op::farther || in.op == Op::farther_inside; };
     if (std::ranges::none_of(program.code, is_far_bound)) return std::nullopt;
-    const std::span<float> low = scratch.take<float>(program.code.size()), high = scratch.take<float>(low.size());
-    std::ranges::fill(low, -Bounds::infinity);
-    std::ranges::fill(high, Bounds::infinity);
-    return Pruner(program, constants, {low, high, program.lipschitz}, opaque, true, scratch).run(keep);
+    return pruned(program, constants, RangesAnywhere{program.lipschitz}, opaque, true, keep, scratch);
 }
 
 }  // namespace phasetree

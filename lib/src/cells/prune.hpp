@@ -27,15 +27,31 @@ struct ValuesAt {
 
 /// Bounds of every instruction's value in a region, and of its slope there.
 struct ValueRanges {
-    std::span<const float> low, high, slope;
+    std::span<const float> lows, highs, slope;
+
+    float low(std::uint32_t i) const { return lows[i]; }
+    float high(std::uint32_t i) const { return highs[i]; }
+};
+
+/// The same in a ball, by values at its centre and Lipschitz bounds; worked out for those that are asked.
+struct RangesInBall {
+    ValuesAt centre;
+    std::span<const float> slope;
+    float radius, rounding;  ///< which bounds the error of any value
+
+    float low(std::uint32_t i) const { return centre[i] - slack(i); }
+    float high(std::uint32_t i) const { return centre[i] + slack(i); }
+
+  private:
+    float slack(std::uint32_t i) const { return slope[i] * radius + rounding; }
 };
 
 /// Whether anything in it has a slope that only a jump can have.
 bool may_jump(const WorkingProgram&);
 
-/// In a ball about a point with these values, by Lipschitz bounds. `rounding` bounds the error of any value.
-ValueRanges ranges_in_ball(const WorkingProgram&, std::span<const float> constants, const ValuesAt& centre,
-                           bool may_jump, float radius, float rounding, Arena& scratch);
+/// Slopes within a ball about a point with these values: of the program, but for folds that do not jump there.
+std::span<const float> slopes_in_ball(const WorkingProgram&, std::span<const float> constants, const ValuesAt& centre,
+                                      float radius, float rounding, Arena& scratch);
 
 /// What is left of a program in a region where its values are within these ranges, if an interface may pass through it
 /// that a ray can meet, which is in a phase that is not opaque; nothing otherwise. The result is in `keep`, or it is
@@ -44,6 +60,8 @@ ValueRanges ranges_in_ball(const WorkingProgram&, std::span<const float> constan
 /// What remains gives the same labels in the region, and its components' absolute values are still lower bounds of the
 /// distance to where the label changes there. See prune.cpp.
 std::optional<WorkingProgram> prune(const WorkingProgram&, std::span<const float> constants, const ValueRanges&,
+                                    PhaseSet opaque, Arena& keep, Arena& scratch);
+std::optional<WorkingProgram> prune(const WorkingProgram&, std::span<const float> constants, const RangesInBall&,
                                     PhaseSet opaque, Arena& keep, Arena& scratch);
 
 /// Without what makes distances larger far from the surface, if there is any (Op::farther): the signs are the same.
