@@ -82,6 +82,69 @@ TEST_CASE("directions bent at a plane have the density that is said of them") {
     }
 }
 
+TEST_CASE("directions bent at two planes have the density that is said of them") {
+    // ∫ over an eighth of all directions, from samples whose density is said by a proposal with other indices, or not.
+    const glm::vec3 normal = glm::normalize(glm::vec3(0.3f, -0.5f, 0.7f));
+    const glm::vec3 other = glm::normalize(glm::vec3(-0.8f, -0.4f, 0.1f));
+    Lights lights;
+    lights.add(InfiniteLight(ConstantEnvironment(glm::vec3(1))));
+    const auto proposal_of = [&](float eta) {
+        LightProposal proposal({0.1f, 0.2f, 0.3f}, normal, eta);
+        proposal.also(normal);  // which changes nothing
+        proposal.also(other);
+        return proposal;
+    };
+    const auto least_p_value = [&](float eta, float said_eta) {
+        const LightProposal proposal = proposal_of(eta), said = proposal_of(said_eta);
+        std::array<Moments, 8> octants;
+        double lost = 0;
+        constexpr int count = 1'000'000;
+        Uniform random(11);
+        for (int i = 0; i < count; ++i) {
+            const auto sample = proposal.sample(lights, random.two());
+            lost += !sample;
+            for (int k = 0; k < 8; ++k) {
+                const glm::vec3 d = sample ? sample->wi : glm::vec3(0);
+                const bool is_in = sample && k == (d.x < 0) + 2 * (d.y < 0) + 4 * (d.z < 0);
+                octants[static_cast<std::size_t>(k)].add(is_in ? 1 / static_cast<double>(said.pdf(lights, sample->wi))
+                                                               : 0);
+            }
+        }
+        // Of each plane's third the half from below is.
+        CHECK(std::abs(lost / count - 1.0 / 3) < 5 * std::sqrt(2.0 / 9 / count));
+        double least = 1;
+        for (const Moments& m : octants) least = std::min(least, mean_p_value(m, half_turn / 2, 2e-4));
+        return least;
+    };
+    const double significance = sidak(1e-5, 8);
+    CHECK(least_p_value(1.33f, 1.33f) > significance);
+    CHECK(least_p_value(1.33f, 1.33f * 1.01f) < significance);
+}
+
+TEST_CASE("the flat sides of an object that its lamps shine on") {
+    const auto found = [](const std::string& tree) {
+        const Scene scene =
+            scene_of(R"("water": {"clear": {"ior": 1.33}}, "ground": {"diffuse": {"color": [0.2, 0.2, 0.2]}})", tree,
+                     R"("lights": [{"sun": {"direction": [0.6, -0.3, 0.8]}}, {"constant": {}}])");
+        const World world(scene);
+        return world.flat_boundaries();
+    };
+    const auto set = [](const char* of) { return R"({"set": {"phase": "water", "of": )" + std::string(of) + "}}"; };
+    const auto contains = [](const std::vector<glm::vec3>& normals, const glm::vec3& n) {
+        return std::ranges::any_of(normals, [&](const glm::vec3& m) { return glm::distance(m, n) < 1e-4f; });
+    };
+    const auto of_cube = found(set(R"({"box": {"size": [1, 1, 1]}})"));
+    CHECK(of_cube.size() == 3);
+    for (const glm::vec3& n : {glm::vec3(1, 0, 0), glm::vec3(0, -1, 0), glm::vec3(0, 0, 1)})
+        CHECK(contains(of_cube, n));
+    CHECK(found(set(R"({"sphere": {"radius": 1}})")).empty());
+    const auto of_cylinder = found(set(R"({"cylinder": {"height": 3, "radius": 0.8}})"));
+    CHECK(of_cylinder.size() == 1);
+    CHECK(contains(of_cylinder, {0, 0, 1}));
+    // Not by what is opaque.
+    CHECK(found(R"({"set": {"phase": "ground", "of": {"box": {"size": [1, 1, 1]}}}})").empty());
+}
+
 TEST_CASE("no direction to a lamp's rim is said to be a direction to the sky") {
     // Rounding puts one in some thousands beyond it; taken as found by the sky's density, it would be a hundred
     // thousand times too bright.
@@ -181,6 +244,31 @@ TEST_CASE("the sun on ground that is not parallel to the water above it") {
         CHECK(p_value(3) > 1e-4);
         CHECK(p_value(3 * 1.01) < 1e-4);
     }
+}
+
+TEST_CASE("the sun on the ground of a lake that ends at a wall of air") {
+    // It comes in by the surface above and by the wall: the sum of both, each as in the case before.
+    const std::string half_a_lake =
+        R"({"under": [{"set": {"phase": "water", "of": {"translate": {"by": [-2.5, 0, -1], "of": {"box": {
+            "size": [6, 6, 2]}}}}}}, {"set": {"phase": "ground", "of": {"translate": {"by": [-2.5, 0, -2], "of": {
+            "box": {"size": [6, 6, 3]}}}}}}]})";
+    const glm::dvec3 sun_at = glm::normalize(glm::dvec3(0.6, 0.3, 0.8));
+    double expected = 0;
+    for (const int axis : {0, 2}) {
+        glm::dvec3 towards = sun_at / 1.33;
+        towards[axis] = cosine_within(sun_at[axis], 1.33);
+        const double enters = 3 * sun_at[axis] * (1 - fresnel(sun_at[axis], 1, 1.33));
+        expected += 0.2 / half_turn * enters / towards[axis] * towards.z;
+    }
+    const auto p_value = [&](double irradiance) {
+        const Moments m = seen(half_a_lake, light(irradiance, 0, 1), 400000);
+        CAPTURE(m.mean());
+        CAPTURE(expected);
+        CHECK(m.standard_error() < 0.0022 * expected);
+        return mean_p_value(m, expected, 2e-4 * expected);
+    };
+    CHECK(p_value(3) > 1e-4);
+    CHECK(p_value(3 * 1.01) < 1e-4);
 }
 
 TEST_CASE("under curved glass and water, and lamps as bright as the sky, white paint is as bright") {

@@ -33,48 +33,67 @@ std::optional<Outside> bent_outward(const glm::vec3& inside, const glm::vec3& no
     return Outside{glm::normalize((inside - normal * cosine) * eta + normal * after), eta * eta * cosine / after};
 }
 
-}  // namespace
+// The density of directions inside that are directions to lights outside.
+float bent_pdf(const Lights& lights, const glm::vec3& p, const glm::vec3& inside, const glm::vec3& normal, float eta) {
+    const std::optional<Outside> outside = bent_outward(inside, normal, eta);
+    return outside ? lights.pdf(p, outside->direction) * outside->widening : 0.0f;
+}
 
-LightProposal LightProposal::at(const Surface& surface, const World& world, const Scene& scene,
-                                PathCounters& counters) {
-    const auto ior = [&](Phase phase) { return std::get<Clear>(scene.materials[phase.index]).ior; };
-    LightProposal proposal(surface.near_origin, surface.normal, ior(surface.near_phase));
-    if (proposal.eta_ == 1.0f) return proposal;
-    // The first guess is a plane parallel to the surface; the second, where the line that this makes leaves the last
-    // medium that bends light.
-    const glm::vec3 lamp = scene.lights.towards_brightest(proposal.p_, proposal.outward_);
-    const std::optional<glm::vec3> line = bent_inward(lamp, proposal.outward_, proposal.eta_);
-    if (!line) return proposal;
+// The normal, on the outer side, of where a line leaves the last medium that bends light.
+std::optional<glm::vec3> boundary_along(const glm::vec3& line, const Surface& surface, const World& world,
+                                        const Scene& scene, PathCounters& counters) {
     constexpr int most_interfaces = 8;
     glm::vec3 origin = surface.near_origin;
     Phase phase = surface.near_phase;
     Start start = surface.start;
     for (int i = 0; i < most_interfaces; ++i) {
-        const auto met = world.intersect(origin, *line, infinity, phase, start, Purpose::light, counters);
+        const auto met = world.intersect(origin, line, infinity, phase, start, Purpose::light, counters);
         if (!met || !met->optics) break;
         phase = met->far_phase;
-        if (ior(phase) == 1.0f) {
-            proposal.outward_ = -met->normal;
-            break;
-        }
+        if (std::get<Clear>(scene.materials[phase.index]).ior == 1.0f) return -met->normal;
         origin = met->far_origin;
         start = met->start;
     }
+    return std::nullopt;
+}
+
+}  // namespace
+
+LightProposal LightProposal::at(const Surface& surface, const World& world, const Scene& scene,
+                                PathCounters& counters) {
+    const glm::vec3& p = surface.near_origin;
+    const float eta = std::get<Clear>(scene.materials[surface.near_phase.index]).ior;
+    if (eta == 1.0f) return {p, surface.normal, eta};
+    // The line to look along is bent as by a plane parallel to the surface.
+    const glm::vec3 lamp = scene.lights.towards_brightest(p, surface.normal);
+    const std::optional<glm::vec3> line = bent_inward(lamp, surface.normal, eta);
+    const std::optional<glm::vec3> met = line ? boundary_along(*line, surface, world, scene, counters) : std::nullopt;
+    LightProposal proposal(p, met.value_or(surface.normal), eta);
+    for (const glm::vec3& flat : world.flat_boundaries()) proposal.also(flat);
     return proposal;
 }
 
+void LightProposal::also(const glm::vec3& outward) {
+    constexpr float as_good_as_parallel = 0.9999f;
+    const auto at = static_cast<std::size_t>(planes_);
+    if (at == outward_.size() || (at > 0 && glm::dot(outward, outward_[0]) > as_good_as_parallel)) return;
+    outward_[at] = outward;
+    ++planes_;
+}
+
 std::optional<LightSample> LightProposal::sample(const Lights& lights, glm::vec2 u) const {
-    if (eta_ == 1.0f) return lights.sample(p_, u);
-    const bool is_bent = u.x >= 0.5f;
-    u.x = 2.0f * u.x - (is_bent ? 1.0f : 0.0f);
+    const float scaled = u.x * static_cast<float>(1 + planes_);
+    const int by = std::min(static_cast<int>(scaled), planes_);  // straight, or by a plane
+    u.x = std::min(scaled - static_cast<float>(by), 1 - 0x1p-24f);
     std::optional<LightSample> sample = lights.sample(p_, u);
     if (!sample) return std::nullopt;
-    if (!is_bent) {
-        sample->pdf = 0.5f * (sample->pdf + bent_pdf(lights, sample->wi));
+    if (by == 0) {
+        sample->pdf = pdf(lights, sample->wi, sample->pdf);
         return sample;
     }
-    const std::optional<glm::vec3> inside = bent_inward(sample->wi, outward_, eta_);
-    const std::optional<Outside> outside = inside ? bent_outward(*inside, outward_, eta_) : std::nullopt;
+    const glm::vec3& normal = outward_[static_cast<std::size_t>(by - 1)];
+    const std::optional<glm::vec3> inside = bent_inward(sample->wi, normal, eta_);
+    const std::optional<Outside> outside = inside ? bent_outward(*inside, normal, eta_) : std::nullopt;
     // At the very rim of a light rounding can put the direction just outside, where it is said to be much rarer.
     if (!outside || !(lights.pdf(p_, outside->direction) > 0.5f * sample->pdf)) return std::nullopt;
     const auto seen = lights.seen(p_, *inside, infinity, false);
@@ -83,13 +102,14 @@ std::optional<LightSample> LightProposal::sample(const Lights& lights, glm::vec2
 }
 
 float LightProposal::pdf(const Lights& lights, const glm::vec3& direction) const {
-    const float straight = lights.pdf(p_, direction);
-    return eta_ == 1.0f ? straight : 0.5f * (straight + bent_pdf(lights, direction));
+    return pdf(lights, direction, lights.pdf(p_, direction));
 }
 
-float LightProposal::bent_pdf(const Lights& lights, const glm::vec3& direction) const {
-    const std::optional<Outside> outside = bent_outward(direction, outward_, eta_);
-    return outside ? lights.pdf(p_, outside->direction) * outside->widening : 0.0f;
+float LightProposal::pdf(const Lights& lights, const glm::vec3& direction, float straight) const {
+    float sum = straight;
+    for (int i = 0; i < planes_; ++i)
+        sum += bent_pdf(lights, p_, direction, outward_[static_cast<std::size_t>(i)], eta_);
+    return sum / static_cast<float>(1 + planes_);
 }
 
 }  // namespace phasetree::tracer

@@ -4,14 +4,17 @@
 // wrong direction. Where the medium ends in a plane of normal n (water over the ground of a lake, and whatever lies
 // between in parallel layers), light that comes from ω' outside arrives from
 //     ω = (ω' − n cos θ')/η + n cos θ,   sin θ' = η sin θ,   dω'/dω = η² cos θ / cos θ'.
-// So half of the directions are bent by that, with the normal of the place where light from the brightest lamp would
+// So a part of the directions is bent by that, with the normal of the place where light from the brightest lamp would
 // come in, as near as two straight lines find it; a curved boundary is near enough to that plane for lamps that are not
-// small. Where it is a bad guess the density knows, and nothing is biased:
-//     p(ω) = ½ p(ω | lights) + ½ p(ω'(ω) | lights) η² cos θ / cos θ'.
+// small. And light can come in by several sides: more parts are bent by the flat ones that lamps shine on
+// (flat_boundaries.hpp). Where they are bad guesses the density knows, and nothing is biased: with n planes
+//     p(ω) = (p(ω | lights) + Σ p(ω'(ω) | lights) η² cos θ / cos θ') / (1 + n).
 //
 // Manifold walks (Hanika, Droske & Fascione: Manifold Next Event Estimation, EGSR 2015) find the way to one point of a
 // lamp exactly, but have no density that other techniques could be weighted against.
 #pragma once
+
+#include <array>
 
 #include "integrator/world.hpp"
 #include "lights/lights.hpp"
@@ -23,7 +26,10 @@ class LightProposal {
     LightProposal() = default;
     // At p, where light comes in through a plane of this unit normal, pointing outward, from a medium whose index is
     // 1/eta of that around p. If that is 1, straight towards the lights.
-    LightProposal(const glm::vec3& p, const glm::vec3& outward, float eta) : p_(p), outward_(outward), eta_(eta) {}
+    LightProposal(const glm::vec3& p, const glm::vec3& outward, float eta)
+        : p_(p), outward_{outward}, planes_(eta == 1.0f ? 0 : 1), eta_(eta) {}
+    // Through another one, too.
+    void also(const glm::vec3& outward);
     // For a surface that is not clear. Lamps are taken to be in vacuum.
     static LightProposal at(const Surface& surface, const World& world, const Scene& scene, PathCounters& counters);
 
@@ -32,9 +38,12 @@ class LightProposal {
     float pdf(const Lights& lights, const glm::vec3& direction) const;
 
   private:
-    float bent_pdf(const Lights& lights, const glm::vec3& direction) const;
+    // Of a direction whose density straight to the lights is known.
+    float pdf(const Lights& lights, const glm::vec3& direction, float straight) const;
 
-    glm::vec3 p_{0}, outward_{0};
+    glm::vec3 p_{0};
+    std::array<glm::vec3, 1 + most_flat_boundaries> outward_{};
+    int planes_ = 0;
     float eta_ = 1;
 };
 

@@ -41,6 +41,7 @@ World::World(const Scene& scene, std::function<bool()> cancelled) : scene_(scene
     hair_ = 1e-5f * object_->bounds().diagonal();
     for (const Mesh& mesh : scene.meshes) add_mesh(mesh);
     rtcCommitScene(embree_);
+    flat_boundaries_ = tracer::flat_boundaries(*this, scene);
 }
 
 World::~World() {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "integrator/flat_boundaries.hpp"
 #include "phasetree/embree.hpp"
 #include "scene/scene.hpp"
 #include "shading/interface.hpp"
@@ -54,6 +55,8 @@ class World {
 
     Phase label(const glm::vec3& p) const;
     const InterfaceCells& object() const { return *object_; }
+    // The normals of the flat sides by which lamps shine into the object.
+    const std::vector<glm::vec3>& flat_boundaries() const { return flat_boundaries_; }
     // A length below which two points are the same place: what rays that leave a mesh are moved by.
     float hair() const { return hair_; }
 
@@ -69,6 +72,7 @@ class World {
     InterfaceTable interfaces_;
     std::vector<Interface> mesh_interfaces_;  // [mesh · phases + phase the ray is in]
     float hair_ = 0;
+    std::vector<glm::vec3> flat_boundaries_;
 };
 
 }  // namespace phasetree::tracer

@@ -1,0 +1,95 @@
+#include "integrator/flat_boundaries.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "integrator/world.hpp"
+#include "shading/frame.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+constexpr int rays_of_a_lamp = 1024;
+
+// So many at least meet a flat side; a cylinder sends nine in directions that are this near (half a degree).
+constexpr int fewest_rays = 16;
+constexpr float one_direction = 0.99996f;
+constexpr std::size_t most_directions = 256;
+
+struct Side {
+    glm::vec3 normal;
+    int rays = 0;
+};
+
+class Sides {
+  public:
+    explicit Sides(const Scene& scene) : scene_(scene) {}
+
+    bool is_bending(Phase phase) const {
+        const Clear* medium = std::get_if<Clear>(&scene_.materials[phase.index]);
+        return medium && medium->ior != 1.0f;
+    }
+    // Of a ray from outside.
+    void met(const Surface& surface) {
+        if (surface.near_phase == surface.far_phase || is_bending(surface.near_phase) || !is_bending(surface.far_phase))
+            return;
+        const auto same = std::ranges::find_if(
+            sides_, [&](const Side& s) { return glm::dot(s.normal, surface.normal) > one_direction; });
+        if (same != sides_.end())
+            ++same->rays;
+        else if (sides_.size() < most_directions)
+            sides_.push_back({surface.normal, 1});
+    }
+    std::vector<glm::vec3> flat() {
+        std::erase_if(sides_, [](const Side& s) { return s.rays < fewest_rays; });
+        std::ranges::stable_sort(sides_, std::greater<>(), &Side::rays);
+        std::vector<glm::vec3> normals;
+        for (const Side& s : sides_)
+            if (normals.size() < most_flat_boundaries) normals.push_back(s.normal);
+        return normals;
+    }
+
+  private:
+    const Scene& scene_;
+    std::vector<Side> sides_;
+};
+
+}  // namespace
+
+std::vector<glm::vec3> flat_boundaries(const World& world, const Scene& scene) {
+    Sides sides(scene);
+    const Bounds& bounds = world.object().bounds();
+    bool is_bending = false;
+    for (std::uint8_t i = 0; i < scene.materials.size(); ++i) is_bending |= sides.is_bending(Phase{i});
+    if (!is_bending || bounds.empty() || !bounds.finite()) return {};
+    std::vector<glm::vec3> lamps;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float sign : {-1.0f, 1.0f}) {
+            glm::vec3 up(0.0f);
+            up[axis] = sign;
+            const glm::vec3 lamp = scene.lights.towards_brightest(bounds.centre(), up);
+            if (lamp != up && std::ranges::find(lamps, lamp) == lamps.end()) lamps.push_back(lamp);
+        }
+    PathCounters uncounted;
+    const float radius = 0.5f * bounds.diagonal();
+    for (const glm::vec3& lamp : lamps) {
+        const Frame frame(lamp);
+        for (int i = 0; i < rays_of_a_lamp; ++i) {
+            // Points of the R₂ sequence (Roberts 2018).
+            const auto spread = [&](double step) {
+                const double x = 0.5 + step * i;
+                return static_cast<float>(2 * (x - std::floor(x)) - 1);
+            };
+            const glm::vec3 from = bounds.centre() + radius * frame.to_world({spread(0.7548776662466927),
+                                                                              spread(0.5698402909980532), 1.001f});
+            const auto surface = world.intersect(from, -lamp, std::numeric_limits<float>::infinity(), phasetree::vacuum,
+                                                 {}, Purpose::path, uncounted);
+            if (surface && surface->optics) sides.met(*surface);
+        }
+    }
+    return sides.flat();
+}
+
+}  // namespace phasetree::tracer
