@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "integrator/world.hpp"
@@ -13,9 +14,10 @@ namespace {
 
 constexpr int rays_of_a_lamp = 1024;
 
-// So many at least meet a flat side; a cylinder sends nine in directions that are this near (half a degree).
-constexpr int fewest_rays = 16;
-constexpr float one_direction = 0.99996f;
+// Of those that enter a flat side takes so many at least, and this share; a cylinder sends a hundredth of them in
+// directions that are this near (half a degree).
+constexpr int fewest_rays = 4;
+constexpr float least_share = 1.0f / 40, one_direction = 0.99996f;
 constexpr std::size_t most_directions = 256;
 
 struct Side {
@@ -35,6 +37,7 @@ class Sides {
     void met(const Surface& surface) {
         if (surface.near_phase == surface.far_phase || is_bending(surface.near_phase) || !is_bending(surface.far_phase))
             return;
+        ++entered_;
         const auto same = std::ranges::find_if(
             sides_, [&](const Side& s) { return glm::dot(s.normal, surface.normal) > one_direction; });
         if (same != sides_.end())
@@ -43,7 +46,8 @@ class Sides {
             sides_.push_back({surface.normal, 1});
     }
     std::vector<glm::vec3> flat() {
-        std::erase_if(sides_, [](const Side& s) { return s.rays < fewest_rays; });
+        const float fewest = std::max(static_cast<float>(fewest_rays), least_share * static_cast<float>(entered_));
+        std::erase_if(sides_, [&](const Side& s) { return static_cast<float>(s.rays) < fewest; });
         std::ranges::stable_sort(sides_, std::greater<>(), &Side::rays);
         std::vector<glm::vec3> normals;
         for (const Side& s : sides_)
@@ -54,6 +58,7 @@ class Sides {
   private:
     const Scene& scene_;
     std::vector<Side> sides_;
+    int entered_ = 0;
 };
 
 }  // namespace
