@@ -130,13 +130,19 @@ TEST_CASE("the flat sides of an object that its lamps shine on") {
         return world.flat_boundaries();
     };
     const auto set = [](const char* of) { return R"({"set": {"phase": "water", "of": )" + std::string(of) + "}}"; };
-    const auto contains = [](const std::vector<glm::vec3>& normals, const glm::vec3& n) {
-        return std::ranges::any_of(normals, [&](const glm::vec3& m) { return glm::distance(m, n) < 1e-4f; });
+    const auto contains = [](const auto& sides, const glm::vec3& n) {
+        return std::ranges::any_of(sides, [&](const auto& side) { return glm::distance(side.normal, n) < 1e-4f; });
     };
     const auto of_cube = found(set(R"({"box": {"size": [1, 1, 1]}})"));
     CHECK(of_cube.size() == 3);
     for (const glm::vec3& n : {glm::vec3(1, 0, 0), glm::vec3(0, -1, 0), glm::vec3(0, 0, 1)})
         CHECK(contains(of_cube, n));
+    for (const auto& side : of_cube) {
+        const glm::vec3 extent = side.lit.extent(), across = extent * (glm::vec3(1) - glm::abs(side.normal));
+        CHECK(glm::distance(side.lit.centre(), 0.5f * side.normal) < 0.06f);
+        CHECK(glm::dot(across, across) > 2);
+        CHECK(std::max({extent.x, extent.y, extent.z}) < 1.25f);
+    }
     CHECK(found(set(R"({"sphere": {"radius": 1}})")).empty());
     const auto of_cylinder = found(set(R"({"cylinder": {"height": 3, "radius": 0.8}})"));
     CHECK(of_cylinder.size() == 1);

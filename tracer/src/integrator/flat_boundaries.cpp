@@ -12,7 +12,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-constexpr int rays_of_a_lamp = 1024;
+constexpr int rows = 32, rays_of_a_lamp = rows * rows;
 
 // Of those that enter a flat side takes so many at least, and this share; a cylinder sends a hundredth of them in
 // directions that are this near (half a degree).
@@ -21,7 +21,7 @@ constexpr float least_share = 1.0f / 40, one_direction = 0.99996f;
 constexpr std::size_t most_directions = 256;
 
 struct Side {
-    glm::vec3 normal;
+    FlatBoundary as;
     int rays = 0;
 };
 
@@ -39,20 +39,23 @@ class Sides {
             return;
         ++entered_;
         const auto same = std::ranges::find_if(
-            sides_, [&](const Side& s) { return glm::dot(s.normal, surface.normal) > one_direction; });
-        if (same != sides_.end())
+            sides_, [&](const Side& s) { return glm::dot(s.as.normal, surface.normal) > one_direction; });
+        const Bounds here{surface.near_origin, surface.near_origin};
+        if (same != sides_.end()) {
             ++same->rays;
-        else if (sides_.size() < most_directions)
-            sides_.push_back({surface.normal, 1});
+            same->as.lit = unite(same->as.lit, here);
+        } else if (sides_.size() < most_directions) {
+            sides_.push_back({{surface.normal, here}, 1});
+        }
     }
-    std::vector<glm::vec3> flat() {
+    std::vector<FlatBoundary> flat(float rays_apart) {
         const float fewest = std::max(static_cast<float>(fewest_rays), least_share * static_cast<float>(entered_));
         std::erase_if(sides_, [&](const Side& s) { return static_cast<float>(s.rays) < fewest; });
         std::ranges::stable_sort(sides_, std::greater<>(), &Side::rays);
-        std::vector<glm::vec3> normals;
+        std::vector<FlatBoundary> flat;
         for (const Side& s : sides_)
-            if (normals.size() < most_flat_boundaries) normals.push_back(s.normal);
-        return normals;
+            if (flat.size() < most_flat_boundaries) flat.push_back({s.as.normal, s.as.lit.inflated(rays_apart)});
+        return flat;
     }
 
   private:
@@ -63,7 +66,7 @@ class Sides {
 
 }  // namespace
 
-std::vector<glm::vec3> flat_boundaries(const World& world, const Scene& scene) {
+std::vector<FlatBoundary> flat_boundaries(const World& world, const Scene& scene) {
     Sides sides(scene);
     const Bounds& bounds = world.object().bounds();
     bool is_bending = false;
@@ -94,7 +97,7 @@ std::vector<glm::vec3> flat_boundaries(const World& world, const Scene& scene) {
             if (surface && surface->optics) sides.met(*surface);
         }
     }
-    return sides.flat();
+    return sides.flat(2 * radius / rows);
 }
 
 }  // namespace phasetree::tracer

@@ -6,8 +6,9 @@
 // many of them with the same normal, a curved one by few.
 #pragma once
 
-#include <glm/vec3.hpp>
 #include <vector>
+
+#include "phasetree/math/bounds.hpp"
 
 namespace phasetree::tracer {
 
@@ -16,7 +17,12 @@ struct Scene;
 
 inline constexpr std::size_t most_flat_boundaries = 3;
 
-// Their outward unit normals, those first that most rays met.
-std::vector<glm::vec3> flat_boundaries(const World& world, const Scene& scene);
+struct FlatBoundary {
+    glm::vec3 normal;  // outward, of unit length
+    Bounds lit;        // about where rays met it, and as far around as they are apart
+};
+
+// Those first that most rays met.
+std::vector<FlatBoundary> flat_boundaries(const World& world, const Scene& scene);
 
 }  // namespace phasetree::tracer

@@ -69,7 +69,11 @@ LightProposal LightProposal::at(const Surface& surface, const World& world, cons
     const std::optional<glm::vec3> line = bent_inward(lamp, surface.normal, eta);
     const std::optional<glm::vec3> met = line ? boundary_along(*line, surface, world, scene, counters) : std::nullopt;
     LightProposal proposal(p, met.value_or(surface.normal), eta);
-    for (const glm::vec3& flat : world.flat_boundaries()) proposal.also(flat);
+    for (const FlatBoundary& flat : world.flat_boundaries()) {
+        const std::optional<glm::vec3> by = bent_inward(lamp, flat.normal, eta);
+        const float away = by ? glm::dot(flat.lit.centre() - p, flat.normal) / glm::dot(*by, flat.normal) : 0.0f;
+        if (away > 0.0f && flat.lit.contains(p + away * *by)) proposal.also(flat.normal);
+    }
     return proposal;
 }
 

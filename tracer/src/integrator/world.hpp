@@ -55,8 +55,8 @@ class World {
 
     Phase label(const glm::vec3& p) const;
     const InterfaceCells& object() const { return *object_; }
-    // The normals of the flat sides by which lamps shine into the object.
-    const std::vector<glm::vec3>& flat_boundaries() const { return flat_boundaries_; }
+    // The flat sides by which lamps shine into the object.
+    const std::vector<FlatBoundary>& flat_boundaries() const { return flat_boundaries_; }
     // A length below which two points are the same place: what rays that leave a mesh are moved by.
     float hair() const { return hair_; }
 
@@ -72,7 +72,7 @@ class World {
     InterfaceTable interfaces_;
     std::vector<Interface> mesh_interfaces_;  // [mesh · phases + phase the ray is in]
     float hair_ = 0;
-    std::vector<glm::vec3> flat_boundaries_;
+    std::vector<FlatBoundary> flat_boundaries_;
 };
 
 }  // namespace phasetree::tracer
