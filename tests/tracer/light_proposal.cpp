@@ -208,6 +208,23 @@ Moments seen(const std::string& tree, const std::string& rest, std::uint32_t cou
     return radiance_along(world, scene, from, glm::vec3(0, 0, -0.5f) - from, count)[0];
 }
 
+// That so much light comes from the ground, by more than luck; and that one per cent more would be noticed.
+void check_light(const std::string& tree, double expected, double irradiance, double sky, int depth) {
+    const auto p_value = [&](double scale) {
+        const Moments m = seen(tree, light(irradiance * scale, sky * scale, depth), 400000);
+        CAPTURE(m.mean());
+        CAPTURE(expected);
+        CHECK(m.standard_error() < 0.0022 * expected);
+        return mean_p_value(m, expected, 2e-4 * expected);
+    };
+    CHECK(p_value(1) > 1e-4);
+    CHECK(p_value(1.01) < 1e-4);
+}
+// Of the sun alone, without what the ground reflects to itself.
+void check_sun(const std::string& tree, double expected) {
+    check_light(tree, expected, 3, 0, 1);
+}
+
 }  // namespace
 
 TEST_CASE("the sun and the sky on the ground of a lake") {
@@ -219,15 +236,7 @@ TEST_CASE("the sun and the sky on the ground of a lake") {
         CAPTURE(sky);
         const double falls = 3 * above * (1 - fresnel(above, 1, 1.33)) + half_turn * sky * (1 - returned_up);
         const double expected = 0.2 / half_turn * falls / (1 - 0.2 * returned);
-        const auto p_value = [&](double scale) {
-            const Moments m = seen(lake(0), light(3 * scale, sky * scale, 4096), 400000);
-            CAPTURE(m.mean());
-            CAPTURE(expected);
-            CHECK(m.standard_error() < 0.0022 * expected);  // it is found by more than luck
-            return mean_p_value(m, expected, 2e-4 * expected);
-        };
-        CHECK(p_value(1) > 1e-4);
-        CHECK(p_value(1.01) < 1e-4);
+        check_light(lake(0), expected, 3, sky, 4096);
     }
 }
 
@@ -240,15 +249,7 @@ TEST_CASE("the sun on ground that is not parallel to the water above it") {
         const double a = tilt * half_turn / 180;
         const double facing = glm::dot(towards, glm::dvec3(0, -std::sin(a), std::cos(a)));
         const double expected = 0.2 / half_turn * 3 * above * (1 - fresnel(above, 1, 1.33)) * facing / below;
-        const auto p_value = [&](double irradiance) {
-            const Moments m = seen(lake(tilt), light(irradiance, 0, 1), 400000);
-            CAPTURE(m.mean());
-            CAPTURE(expected);
-            CHECK(m.standard_error() < 0.0022 * expected);
-            return mean_p_value(m, expected, 2e-4 * expected);
-        };
-        CHECK(p_value(3) > 1e-4);
-        CHECK(p_value(3 * 1.01) < 1e-4);
+        check_sun(lake(tilt), expected);
     }
 }
 
@@ -266,15 +267,7 @@ TEST_CASE("the sun on the ground of a lake that ends at a wall of air") {
         const double enters = 3 * sun_at[axis] * (1 - fresnel(sun_at[axis], 1, 1.33));
         expected += 0.2 / half_turn * enters / towards[axis] * towards.z;
     }
-    const auto p_value = [&](double irradiance) {
-        const Moments m = seen(half_a_lake, light(irradiance, 0, 1), 400000);
-        CAPTURE(m.mean());
-        CAPTURE(expected);
-        CHECK(m.standard_error() < 0.0022 * expected);
-        return mean_p_value(m, expected, 2e-4 * expected);
-    };
-    CHECK(p_value(3) > 1e-4);
-    CHECK(p_value(3 * 1.01) < 1e-4);
+    check_sun(half_a_lake, expected);
 }
 
 TEST_CASE("under curved glass and water, and lamps as bright as the sky, white paint is as bright") {

@@ -15,9 +15,9 @@ namespace {
 constexpr int rows = 32, rays_of_a_lamp = rows * rows;
 
 // Of those that enter a flat side takes so many at least, and this share; a cylinder sends a hundredth of them in
-// directions that are this near (half a degree).
+// one direction.
 constexpr int fewest_rays = 4;
-constexpr float least_share = 1.0f / 40, one_direction = 0.99996f;
+constexpr float least_share = 1.0f / 40;
 constexpr std::size_t most_directions = 256;
 
 struct Side {

@@ -17,6 +17,9 @@ struct Scene;
 
 inline constexpr std::size_t most_flat_boundaries = 3;
 
+// The cosine between normals that count as one: within half a degree.
+inline constexpr float one_direction = 0.99996f;
+
 struct FlatBoundary {
     glm::vec3 normal;  // outward, of unit length
     Bounds lit;        // about where rays met it, and as far around as they are apart

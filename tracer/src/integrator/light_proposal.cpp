@@ -1,7 +1,9 @@
 #include "integrator/light_proposal.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace phasetree::tracer {
 
@@ -78,9 +80,9 @@ LightProposal LightProposal::at(const Surface& surface, const World& world, cons
 }
 
 void LightProposal::also(const glm::vec3& outward) {
-    constexpr float as_good_as_parallel = 0.9999f;
     const auto at = static_cast<std::size_t>(planes_);
-    if (at == outward_.size() || (at > 0 && glm::dot(outward, outward_[0]) > as_good_as_parallel)) return;
+    const auto is_like = [&](const glm::vec3& plane) { return glm::dot(plane, outward) > one_direction; };
+    if (at == outward_.size() || std::ranges::any_of(std::span(outward_).first(at), is_like)) return;
     outward_[at] = outward;
     ++planes_;
 }

@@ -1,4 +1,4 @@
-// The scene in Embree: the object as user geometry, and the meshes beside it.
+// The scene in Embree: the object as user geometry, and the meshes beside it; and what is found by rays beforehand.
 #pragma once
 
 #include <functional>
