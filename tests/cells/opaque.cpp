@@ -64,7 +64,7 @@ TEST_CASE("an opaque object's inner interfaces cost the rays outside nothing") {
     CHECK(of_two.counters.batches < of_one.counters.batches);
 }
 
-// There labels are known with the first sixteen samples, and how the surface bends tells where it is crossed; but on
+// There labels are known with the first samples, and how the surface bends tells where it is crossed; but on
 // the way from there to the next sample the label may have changed again.
 TEST_CASE("a neural field cut by a fine checker has the phase at its surface") {
     std::ifstream file(PHASETREE_SOURCE_DIR "/scenes/bunny.json");

@@ -102,7 +102,7 @@ TEST_CASE("the program under every instruction set equals the walk over the tree
     for_many_objects(31, long_tests() ? 1000 : 50, [&](const Phased& object, Random& rng) {
         const Evaluator evaluator(record(object));
         const Bounds region = region_of_interest(bounds(object));
-        for (int n = 0; n < 4; ++n) {
+        for (std::size_t n = 0; n < 64; n += batch_size) {
             const Points points = random_points(rng, region);
             for (const std::string& target : targets) {
                 CAPTURE(target);
@@ -115,7 +115,7 @@ TEST_CASE("the program under every instruction set equals the walk over the tree
 
 TEST_CASE("samples along a ray are the samples at origin + t · direction") {
     const RestoreTarget restore;
-    for_many_objects(32, 5, [&](const Phased& object, Random& rng) {
+    for_many_objects(32, 10, [&](const Phased& object, Random& rng) {
         const Evaluator evaluator(record(object));
         Evaluator::Workspace w;
         const glm::vec3 o = rng.in(Bounds::centred(glm::vec3(2))), d = rng.direction();

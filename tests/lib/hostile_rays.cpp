@@ -17,8 +17,8 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 const Phased object =
     Under{.of = {Set{.phase = Phase{1}, .of = Sphere{}}, Set{.phase = Phase{2}, .of = Box{.size = {1, 1, 3}}}}};
 
-/// Batches that a ray may take at most: the resolution doubles for every 32 beyond 128.
-constexpr std::uint64_t most_batches = 2500;
+/// Batches that a ray may take at most: the resolution doubles for every 64 beyond 256.
+constexpr std::uint64_t most_batches = 5000;
 
 }  // namespace
 

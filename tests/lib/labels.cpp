@@ -45,11 +45,11 @@ struct Comparison {
     std::string first;  ///< where it went wrong first
 };
 
-void compare(const Phased& object, Random& rng, int batches, Comparison& c) {
+void compare(const Phased& object, Random& rng, std::size_t points, Comparison& c) {
     const Evaluator evaluator(record(object));
     Evaluator::Workspace workspace;
     const Bounds region = region_of_interest(bounds(object));
-    for (int n = 0; n < batches; ++n) {
+    for (std::size_t n = 0; n < points; n += batch_size) {
         BatchOfFloats x, y, z;
         for (std::size_t i = 0; i < batch_size; ++i) {
             const glm::vec3 p = rng.in(region);
@@ -96,7 +96,7 @@ TEST_CASE("labels of random trees equal set algebra at a million points") {
     const int trees = long_tests() ? 40000 : 4000;
     for (int tree = 0; tree < trees && c.wrong + c.imprecise == 0; ++tree) {
         const Phased object = random_object(rng, 3 + tree % 4);
-        compare(object, rng, 16, c);
+        compare(object, rng, 256, c);
         CAPTURE(tree);
         REQUIRE_MESSAGE(c.wrong + c.imprecise == 0, c.first);
     }
@@ -114,7 +114,7 @@ TEST_CASE("labels equal set algebra with each kind of node at the root") {
         Comparison c;
         CAPTURE(kind.name);
         for (int tree = 0; tree < 60; ++tree) {
-            compare(kind.object(rng, 2 + tree % 3), rng, 16, c);
+            compare(kind.object(rng, 2 + tree % 3), rng, 256, c);
             CAPTURE(tree);
             REQUIRE_MESSAGE(c.wrong + c.imprecise == 0, c.first);
         }

@@ -98,6 +98,7 @@ void check_ray(const Scene& scene, const Tracer& tracer, const Probe& probe, int
         double t_in, t_out;
         Hit crossing;
         double aside;  ///< how far beside the exact ray it was looked for
+        bool is_rounded;
     };
     const double resolution = tracer.resolution();
     const dvec3 o(probe.o), d(probe.d);
@@ -113,20 +114,20 @@ void check_ray(const Scene& scene, const Tracer& tracer, const Probe& probe, int
     glm::vec3 origin = probe.o;
     double aside = 0;
     ++totals.rays;
-    // Tracing keeps the work of a creeping ray bounded: from 128 batches on the resolution doubles every 32.
+    // Tracing keeps the work of a creeping ray bounded: from 256 batches on the resolution doubles every 64.
     bool coarse = false;
     double effective = resolution;
     for (int n = 0; n < 20'000; ++n) {
         TraceCounters counters;
         const std::optional<Hit> hit = tracer.first_crossing(
             origin, probe.d, length, carried, steps.empty() ? nullptr : &steps.back().crossing, counters);
-        if (counters.batches > 128) {
+        if (counters.batches > 256) {
             coarse = true;
             effective =
-                std::max(effective, std::ldexp(resolution, static_cast<int>((counters.batches - 128) / 32 + 1)));
+                std::max(effective, std::ldexp(resolution, static_cast<int>((counters.batches - 256) / 64 + 1)));
         }
         if (!hit) break;
-        steps.push_back({glm::dot(dvec3(hit->p_in) - o, d), glm::dot(dvec3(hit->p_out) - o, d), *hit, aside});
+        steps.push_back({glm::dot(dvec3(hit->p_in) - o, d), glm::dot(dvec3(hit->p_out) - o, d), *hit, aside, false});
         ++totals.crossings;
         const bool certified = hit->from == carried && hit->from != hit->to && tracer.label(hit->p_out) == hit->to &&
                                (tracer.label(hit->p_in) == hit->from || (hit->t_in == 0 && hit->t_out == 0));
@@ -135,6 +136,7 @@ void check_ray(const Scene& scene, const Tracer& tracer, const Probe& probe, int
                                 is_within_rounding(tracer, hit->p_in, hit->from) &&
                                 is_within_rounding(tracer, hit->p_out, hit->to);
         totals.rounded += is_rounded;
+        steps.back().is_rounded = is_rounded;
         if (!certified && !is_rounded && totals.uncertified++ < 3) complain("not certified");
         const double width = glm::length(dvec3(hit->p_out) - dvec3(hit->p_in));
         // The bracket is cut down to a resolution, and its ends are rounded to float coordinates. One that passes a
@@ -237,7 +239,9 @@ void check_ray(const Scene& scene, const Tracer& tracer, const Probe& probe, int
         if (again && again->t_out < tracer.resolution()) {
             if (totals.self_hits++ < 3) complain("a reflected ray hits where it starts");
         }
-        // What is known of a ray's start changes nothing of what it meets, on whichever side it leaves.
+        // What is known of a ray's start changes nothing of what it meets, on whichever side it leaves; unless the
+        // label there is another by rounding, and who knows nothing else takes it for a change.
+        if (nearest->is_rounded) continue;
         Random rng(static_cast<std::uint64_t>(number) + 1);
         for (const bool is_near : {true, false}) {
             glm::vec3 away = rng.direction();
@@ -311,7 +315,8 @@ inline void check_totals(const Totals& totals, const std::vector<std::string>& c
     CHECK(totals.flickering < totals.rays / 2000);
     CHECK(totals.passed_coarsely < totals.rays / 50);
     CHECK(totals.uncertified == 0);
-    CHECK(totals.rounded <= totals.crossings / 100'000);
+    // Some 4 in a million are; the one more is for few crossings, of which one is likely all the same.
+    CHECK(totals.rounded <= 1 + totals.crossings / 100'000);
     CHECK(totals.wide == 0);
     CHECK(totals.over_sliver < totals.crossings / 2000);
     CHECK(totals.misplaced == 0);

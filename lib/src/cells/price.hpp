@@ -16,12 +16,12 @@ inline constexpr float parts = 12;  ///< of Embree's going down to the parts of 
 inline constexpr float visit = 60;  ///< of entering a cell
 /// Rays that start at an interface, for each unit of its area. (Those that enter come through both sides of a box.)
 inline constexpr float starts = 0.5f;
-inline constexpr float batch = 25, step = 3;  ///< of a batch, and of each of its instructions
-inline constexpr float certain = 1.5f;        ///< batches where the field is linear,
-inline constexpr float unknown = 0.5f;        ///< more of them the less it lets rays pass without one,
-inline constexpr float uneven = 3;            ///< the more its gradient varies,
-inline constexpr float proven = 0.5f;         ///< and where only a proof tells how it bends,
-inline constexpr float blind = 1.5f;          ///< or nothing
+inline constexpr float batch = 25, step = 2.4f;  ///< of a batch, and of each of its instructions
+inline constexpr float certain = 1.8f;           ///< batches where the field is linear,
+inline constexpr float unknown = 0.7f;           ///< more of them the less it lets rays pass without one,
+inline constexpr float uneven = 3;               ///< the more its gradient varies,
+inline constexpr float proven = 0.5f;            ///< and where only a proof tells how it bends,
+inline constexpr float blind = 2;                ///< or nothing
 }  // namespace price
 
 /// How much work an instruction is, in halves of a simple one.

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The number type of a kernel: sixteen floats in as many SIMD registers as the instruction set needs. Everything is
+/// The number type of a kernel: eight floats in as many SIMD registers as the instruction set needs. Everything is
 /// in a namespace of the instruction set, so that the linker cannot mix two of them.
 
 #include <hwy/highway.h>
@@ -8,18 +8,19 @@
 #include <cstring>
 
 #include "phasetree/math/number.hpp"
+#include "phasetree/program/evaluator.hpp"
 
 namespace phasetree::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Tag = hn::CappedTag<float, 16>;
+using Tag = hn::CappedTag<float, batch_size>;
 using Register = hn::Vec<Tag>;
 using RegisterMask = hn::Mask<Tag>;
 inline constexpr std::size_t width = hn::MaxLanes(Tag());
-inline constexpr std::size_t parts = 16 / width;
+inline constexpr std::size_t parts = batch_size / width;
 
-#define PHASETREE_EACH _Pragma("GCC unroll 4") for (std::size_t i = 0; i < parts; ++i)
+#define PHASETREE_EACH _Pragma("GCC unroll 2") for (std::size_t i = 0; i < parts; ++i)
 
 /// Of a register's lanes: from so many on, and around.
 template <std::size_t first>
@@ -133,9 +134,9 @@ HWY_INLINE Batch lookup(const float* table, const Batch& index) {
     });
 }
 
-/// The lanes' numbers: 0 … 15.
+/// The lanes' numbers: 0 … 7.
 HWY_INLINE Batch lanes() {
-    alignas(64) static constexpr float numbers[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    alignas(Batch) static constexpr float numbers[batch_size] = {0, 1, 2, 3, 4, 5, 6, 7};
     return load(numbers);
 }
 /// Lane i becomes that of lane i − 1; the first one `before`.

@@ -1,8 +1,8 @@
 /// Multiphase sphere tracing with a batch of points *along the one ray*. Included by kernel.inl.
 ///
-/// We hold a place `here` that is certainly in the ray's phase, and frames of sixteen samples ahead of it, the last
+/// We hold a place `here` that is certainly in the ray's phase, and frames of eight samples ahead of it, the last
 /// frame lying in a gap of the one before. Two neighbours of the ray's phase whose radii together cover the gap between
-/// them prove the gap free; that is one comparison for a whole frame. The first gap in doubt is sampled again, sixteen
+/// them prove the gap free; that is one comparison for a whole frame. The first gap in doubt is sampled again, eight
 /// points inside it: evenly; or, where the label differs at its end, gathered around the place where the distances
 /// predict the interface; or, where the ray starts on an interface, spread out geometrically from there. A gap no
 /// longer than the resolution is either the crossing or, with equal labels, passed.
@@ -15,11 +15,11 @@
 namespace phasetree::HWY_NAMESPACE {
 namespace {
 
-/// Sixteen samples in rising order, and the place that the frame starts from.
+/// Eight samples in rising order, and the place that the frame starts from.
 struct alignas(64) Frame {
-    float t[16];
-    float distance[16];  ///< s(p): the label is the same within this radius
-    float label[16];
+    float t[batch_size];
+    float distance[batch_size];  ///< s(p): the label is the same within this radius
+    float label[batch_size];
     Place from;
     std::uint32_t doubt;    ///< bit i: the gap that ends at lane i is not proven free
     std::uint32_t phantom;  ///< bit i: it is free only because it is no longer than the resolution
@@ -30,10 +30,10 @@ struct alignas(64) Frame {
 };
 
 /// Makes the resolution coarser for a ray that creeps along an interface, so that the work stays bounded: it doubles
-/// for every 32 batches past the first 128.
+/// for every 64 batches past the first 256.
 HWY_INLINE float effective_resolution(float resolution, std::uint32_t batches) {
-    if (batches < 128) return resolution;
-    const std::uint32_t doublings = (batches - 128) / 32 + 1;
+    if (batches < 256) return resolution;
+    const std::uint32_t doublings = (batches - 256) / 64 + 1;
     return resolution * float_of((127 + (doublings < 60 ? doublings : 60)) << 23);
 }
 
@@ -95,7 +95,7 @@ class March {
         f.from = {from.t, from.distance, phase_};
         f.next = 0;
         const std::uint32_t other = bits(less(c.label, Batch(phase_))) | bits(less(Batch(phase_), c.label));
-        const std::uint32_t differs = (other | (other << 1)) & 0xffffu;  // at one of the gap's ends
+        const std::uint32_t differs = (other | (other << 1)) & all_lanes;  // at one of the gap's ends
         f.doubt = differs;
         f.phantom = 0;
         if (ray_.is_monotone) return;  // between two places of one label it stays
@@ -235,10 +235,10 @@ bool March::find(RayCrossing& result) {
 
     if (here_.label != phase_) {
         // Rounding may have put the start just across the interface it was found on: look a little ahead.
-        const Batch t = (lanes() + 1.f) * (resolution * 0.25f);
+        const Batch t = (lanes() + 1.f) * (resolution * (4.f / batch_size));
         const Classified c = sample(t);
         const std::uint32_t other = bits(less(c.label, Batch(phase_))) | bits(less(Batch(phase_), c.label));
-        const std::uint32_t back = ~other & ~bits(less(Batch(length), t)) & 0xffffu;
+        const std::uint32_t back = ~other & ~bits(less(Batch(length), t)) & all_lanes;
         if (!back) return is_entered_late(result) || report(result, 0, 0, here_.label);
         alignas(64) float near[batch_size], distance[batch_size];
         store(t, near);
@@ -379,7 +379,7 @@ bool March::is_crossing(const Place& next, RayCrossing& result) {
     if (is_known && is_decided(next)) return report(result, certain_.t, other_.t, other_.label);
     alignas(64) float beyond[batch_size], label[batch_size], distance[batch_size];
     const Batch t =
-        min(Batch(next.t) + (lanes() + (is_known ? 1.f : 0.f)) * (resolution * (1.f / 8)), Batch(ray_.length));
+        min(Batch(next.t) + (lanes() + (is_known ? 1.f : 0.f)) * (resolution * (2.f / batch_size)), Batch(ray_.length));
     const Classified c = sample_whole(t);
     store(t, beyond);
     store(c.label, label);

@@ -1,4 +1,4 @@
-/// Where along a ray to sample, sixteen places at a time. Included by kernel.inl.
+/// Where along a ray to sample, eight places at a time. Included by kernel.inl.
 
 namespace phasetree::HWY_NAMESPACE {
 namespace {
@@ -26,6 +26,7 @@ HWY_INLINE float float_of(std::uint32_t u) {
 }
 
 constexpr float last_lane = batch_size - 1;
+constexpr std::uint32_t all_lanes = (1u << batch_size) - 1;  // in a mask
 
 HWY_INLINE Batch ending_at(const Batch& t, float high) {
     return select(less(lanes(), Batch(last_lane)), min(t, Batch(high)), Batch(high));

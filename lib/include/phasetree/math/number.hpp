@@ -5,7 +5,7 @@
 /// The functions that every number type of the project provides, here for `float`.
 ///
 /// An equation is written once, as a template over its number type T. T is `float` (the reference evaluator), `Batch`
-/// (SIMD, sixteen points at once), `Dual` (value and gradient) or `Recorded` (emits instructions). Where a
+/// (SIMD, eight points at once), `Dual` (value and gradient) or `Recorded` (emits instructions). Where a
 /// branch would stand, `select` chooses. All four give the same value bit for bit, because they do the same IEEE
 /// operations in the same order; hence also our own min and max, whose result for equal or unordered arguments is
 /// fixed. `Enclosure` gives what the value can be in a box.

@@ -11,11 +11,11 @@
 
 namespace phasetree {
 
-/// How many points an evaluation takes at once, whatever the machine's SIMD width: 16 lanes of AVX-512, two times 8
-/// of AVX2, four times 4 of SSE. Fixed, so that results do not depend on the machine.
-inline constexpr std::size_t batch_size = 16;
+/// How many points an evaluation takes at once, whatever the machine's SIMD width: 8 lanes of AVX, two times 4 of SSE.
+/// Fixed, so that results do not depend on the machine.
+inline constexpr std::size_t batch_size = 8;
 
-struct alignas(64) BatchOfFloats {
+struct alignas(batch_size * sizeof(float)) BatchOfFloats {
     std::array<float, batch_size> lane;
     float& operator[](std::size_t i) { return lane[i]; }
     float operator[](std::size_t i) const { return lane[i]; }
@@ -45,10 +45,10 @@ class Evaluator {
         std::vector<BatchOfFloats> values_;
     };
 
-    /// Φ at sixteen points; out has a batch for each of program().outputs, in their order.
+    /// Φ at the points of a batch; out has a batch for each of program().outputs, in their order.
     void evaluate(const BatchOfFloats& x, const BatchOfFloats& y, const BatchOfFloats& z, std::span<BatchOfFloats> out,
                   Workspace&) const;
-    /// Phase and interface distance at sixteen points.
+    /// Phase and interface distance at the points of a batch.
     void sample(const BatchOfFloats& x, const BatchOfFloats& y, const BatchOfFloats& z, Samples& out, Workspace&) const;
     /// The same along a ray, at origin + t·direction (a multiplication, then an addition, each rounded).
     void sample_ray(const glm::vec3& origin, const glm::vec3& direction, const BatchOfFloats& t, Samples& out,

@@ -32,7 +32,7 @@ struct CrossingNormal {
 /// What tracing cost, for --stats.
 struct TraceCounters {
     std::uint64_t visits = 0;    ///< searches: one for each cell that a ray meets
-    std::uint64_t batches = 0;   ///< evaluations of sixteen points
+    std::uint64_t batches = 0;   ///< evaluations of eight points
     std::uint64_t phantoms = 0;  ///< steps by the resolution that met no change of label
 };
 

@@ -62,7 +62,7 @@ std::optional<Crossing> bracket(const Object& object, const LaneRay& ray, Phase 
 void move_on(Crossing& c, const Object& object, const glm::vec3& direction, float blur) {
     const InterfaceCells& cells = object.cells();
     BatchOfFloats t;
-    for (std::size_t i = 0; i < batch_size; ++i) t[i] = cells.resolution() * 0.125f * static_cast<float>(i);
+    for (std::size_t i = 0; i < batch_size; ++i) t[i] = cells.resolution() * (2.f / batch_size) * static_cast<float>(i);
     Samples s;
     cells.whole().sample_ray(c.p_out, direction, t, s, Evaluator::thread_workspace());
     std::size_t best = 0;

@@ -13,7 +13,7 @@ namespace phasetree::embree {
 
 namespace {
 
-constexpr int most_batches = 1 << 13;
+constexpr int most_batches = 1 << 14;
 
 /// Distances as the world measures them.
 class Metric {

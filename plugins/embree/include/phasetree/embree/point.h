@@ -38,7 +38,7 @@ typedef struct PhasetreeClosest {
  * point, time   as above.
  * radius        a distance: how far to look; +∞: everywhere.
  * tolerance     how near emptyRadius and distance come to each other before the search ends, as a share of distance:
- *               0.001 … 1; it also ends when they are within four resolutions, and after 2^16 evaluations of sixteen
+ *               0.001 … 1; it also ends when they are within four resolutions, and after 2^14 evaluations of eight
  *               points at the latest. The larger, the quicker.
  *
  * Searches by branch and bound over the object's cells, in which 1-Lipschitz distances exclude boxes. */
