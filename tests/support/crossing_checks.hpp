@@ -117,7 +117,7 @@ void check_ray(const Scene& scene, const Tracer& tracer, const Probe& probe, int
     // Tracing keeps the work of a creeping ray bounded: from 256 batches on the resolution doubles every 64.
     bool coarse = false;
     double effective = resolution;
-    for (int n = 0; n < 20'000; ++n) {
+    for (int n = 0; n < 200'000; ++n) {  // along all of a face at five resolutions a step
         TraceCounters counters;
         const std::optional<Hit> hit = tracer.first_crossing(
             origin, probe.d, length, carried, steps.empty() ? nullptr : &steps.back().crossing, counters);
