@@ -28,13 +28,23 @@ inline bool is_sliver(const InterfaceTracer& tracer, const Crossing& a, const Cr
     return leads_to(a, b) || leads_to(b, a);
 }
 
+/// Whether a place is within a share of the resolution of where a phase ends.
+inline bool is_near_end(const Phased& object, const glm::vec3& p, Phase phase, float distance) {
+    const Phases<float> all = distances(object, p);
+    return all.present >> phase.index & 1 && std::abs(all[phase.index]) <= distance;
+}
+
 /// The crossing, or the next one that is followed by more than a hair of another phase: what is thinner than the
-/// resolution may be passed.
+/// resolution may be passed; and what is no longer than four, if that is twice as deep as rounding at most, as where a
+/// ray leaves at half a degree.
 template <class Next>
-std::optional<Crossing> beyond_hairs(std::optional<Crossing> c, float resolution, const Next& next) {
+std::optional<Crossing> beyond_hairs(const Phased& object, std::optional<Crossing> c, float resolution,
+                                     const Next& next) {
     while (c) {
         const std::optional<Crossing> after = next(c->p_out, c->to);
-        if (!after || after->t_in > resolution || after->to != c->from) return c;
+        if (!after || after->t_in > 4 * resolution || after->to != c->from) return c;
+        if (after->t_in > resolution && !is_near_end(object, 0.5f * (c->p_out + after->p_in), c->from, resolution / 8))
+            return c;
         const float passed = c->t_out + after->t_out;
         c = next(after->p_out, after->to);
         if (c) {
@@ -47,8 +57,7 @@ std::optional<Crossing> beyond_hairs(std::optional<Crossing> c, float resolution
 
 /// Whether a place is on an interface but for rounding: a ray that grazes it may cross anywhere there.
 inline bool is_on_interface(const Phased& object, const glm::vec3& p, Phase from, float resolution) {
-    const Phases<float> all = distances(object, p);
-    return all.present >> from.index & 1 && std::abs(all[from.index]) <= resolution / 16;
+    return is_near_end(object, p, from, resolution / 16);
 }
 
 /// Over all cells, in the order in which the ray enters them.
@@ -101,8 +110,8 @@ inline void compare_crossings(const Phased& object, PhaseSet opaque, int rays, R
             std::optional<Crossing> expected = by_whole(p, phase), nearest = by_cells(p, phase);
             if (expected.has_value() != nearest.has_value() ||
                 (expected && std::abs(nearest->t_in - expected->t_in) > tolerance)) {
-                expected = beyond_hairs(expected, tracer.resolution(), by_whole);
-                nearest = beyond_hairs(nearest, tracer.resolution(), by_cells);
+                expected = beyond_hairs(object, expected, tracer.resolution(), by_whole);
+                nearest = beyond_hairs(object, nearest, tracer.resolution(), by_cells);
             }
             if (expected.has_value() != nearest.has_value()) {
                 ++result.different;
