@@ -1,4 +1,4 @@
-// Sixteen points through one node: what an instruction costs, family by family. A sphere is the least that there is;
+// A batch of points through one node: what an instruction costs, family by family. A sphere is the least that there is;
 // what it takes is the price of a call.
 #include <benchmark/benchmark.h>
 

@@ -44,7 +44,8 @@ struct Patience {
 
 /// The parts of a box: halves along every axis that is not much shorter than the longest.
 struct Parts {
-    std::array<Bounds, 8> box;
+    static constexpr std::size_t most = 8;
+    std::array<Bounds, most> box;
     std::size_t count = 1;
 
     explicit Parts(const Bounds& whole) {
@@ -210,6 +211,7 @@ ValuesAt values_at_centres(const Share& share, const Parts& parts, const Divisio
     if (w.constants.empty()) w.constants.assign(d.constants.begin(), d.constants.end());
     const WorkingProgram program = localised(share.program, share.local, w.constants, scratch);
     const Steps steps = keep_all(program, scratch);
+    static_assert(batch_size >= Parts::most, "each part has a lane of its own");
     BatchOfFloats x, y, z;
     for (std::size_t i = 0; i < batch_size; ++i) {
         const glm::vec3 c = parts.box[std::min(i, parts.count - 1)].centre();
@@ -242,7 +244,7 @@ Cost divide(const Share& share, const Division& d, Worker& w) {
         else
             for (std::size_t i = 0; i < parts.count; ++i) f(i, w);
     };
-    std::array<std::optional<Share>, 8> divided;
+    std::array<std::optional<Share>, Parts::most> divided;
     each([&](std::size_t i, Worker& own) {
         const ArenaScope scope(own.scratch);
         const float radius = 0.5f * parts.box[i].inflated(d.reach).diagonal() * (1 + 1e-5f);
@@ -264,7 +266,7 @@ Cost divide(const Share& share, const Division& d, Worker& w) {
     const float left = share.left * sum / share.cell.cost;
     const bool is_won = left < 0.8f;
 
-    std::array<Cost, 8> costs{};
+    std::array<Cost, Parts::most> costs{};
     each([&](std::size_t i, Worker& own) {
         if (!divided[i]) return;
         Share& part = *divided[i];

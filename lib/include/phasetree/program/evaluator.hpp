@@ -21,7 +21,7 @@ struct alignas(batch_size * sizeof(float)) BatchOfFloats {
     float operator[](std::size_t i) const { return lane[i]; }
 };
 
-/// Sixteen points' phases and interface distances.
+/// A batch of points' phases and interface distances.
 struct Samples {
     BatchOfFloats label;     ///< index of the phase, as a float
     BatchOfFloats distance;  ///< s(p), the second smallest component: within that radius the label cannot change

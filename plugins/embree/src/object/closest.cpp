@@ -124,6 +124,7 @@ Closest find_closest(const Object& object, const glm::vec3& point, const glm::dm
         return best.found && (next >= nearest * (1 - static_cast<double>(tolerance)) || nearest - next <= near_enough);
     };
     for (int batches = 0; !is_done() && batches < most_batches; ++batches) {
+        static_assert(batch_size >= 8, "one box's parts must fit");
         std::array<Bounds, batch_size> part;
         std::size_t count = 0;
         while (count + 8 <= batch_size && !left.empty() && left.top().below < nearest) {
