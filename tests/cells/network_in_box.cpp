@@ -190,7 +190,10 @@ TEST_CASE("rays through a neural field's cells find what marching through the wh
     Random rng(212);
     Compared all;
     for (int n = 0; n < (long_tests() ? 20 : 2); ++n) {
-        SirenNetwork network = random_network(rng, 48, 3);
+        SirenNetwork network = random_network(rng, 48, 6);
+        // Its surface passes near the ball's middle: else it may have none, and what is traced is the ball.
+        network.layers.back().bias[0] -=
+            static_cast<float>(along(network, rng.in(Bounds::centred(glm::vec3(0.3f))), {1, 0, 0}).value);
         const Siren field{.file = {.content = std::make_shared<const SirenNetwork>(std::move(network))},
                           .samples = 2000};
         compare_crossings(Set{.phase = Phase{1}, .of = field}, {}, long_tests() ? 5000 : 300, rng, all);
@@ -199,5 +202,5 @@ TEST_CASE("rays through a neural field's cells find what marching through the wh
     MESSAGE(all.rays, " rays, ", all.crossings, " crossings, ", each, " batches for each");
     CHECK(all.crossings > all.rays / 2);
     CHECK(all.different == 0);
-    CHECK(each < 1.9);
+    CHECK(each < 2.2);  // 13 if nothing were known of networks in boxes
 }

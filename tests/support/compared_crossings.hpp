@@ -3,6 +3,7 @@
 /// The nearest crossing over all cells of an object against that of the whole object, along rays.
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
 #include <utility>
@@ -12,39 +13,55 @@
 #include "phasetree/model/walk.hpp"
 #include "phasetree/trace/tracer.hpp"
 #include "support/random_tree.hpp"
+#include "support/set_algebra.hpp"
 
 namespace phasetree::tests {
 
-/// Whether two crossings at one place differ only by a phase thinner along the ray than the resolution, which one of
-/// them saw and the other passed: the crossing that follows the shorter one at once leads to where the other is.
+/// Whether two crossings at one place differ only by a phase thinner along the ray than a bracket may be, one and a
+/// half resolutions more than one, which one of them saw and the other passed: the crossing that follows the shorter
+/// one at once leads to where the other is.
 inline bool is_sliver(const InterfaceTracer& tracer, const Crossing& a, const Crossing& b, const glm::vec3& d,
                       Evaluator::Workspace& w) {
     if (a.from != b.from) return false;
     const auto leads_to = [&](const Crossing& seen, const Crossing& passed) {
         if (tracer.label(seen.p_out, w) != seen.to) return false;
-        const auto next = tracer.first_crossing(seen.p_out, d, 0, 2 * tracer.resolution(), seen.to, w);
-        return next && next->to == passed.to;
+        const auto next = tracer.first_crossing(seen.p_out, d, 0, 8 * tracer.resolution(), seen.to, w);
+        return next && next->t_in < 2.5f * tracer.resolution() && next->to == passed.to;
     };
     return leads_to(a, b) || leads_to(b, a);
 }
 
-/// Whether a place is within a share of the resolution of where a phase ends.
-inline bool is_near_end(const Phased& object, const glm::vec3& p, Phase phase, float distance) {
-    const Phases<float> all = distances(object, p);
-    return all.present >> phase.index & 1 && std::abs(all[phase.index]) <= distance;
+/// Whether all along a ray from `a` to `b` a phase's distance is no more than rounding: than a sixteenth of a
+/// resolution, which tracing takes for that, and by how much floats round it there. Labels mean little then.
+inline bool is_rounding(const Phased& object, const glm::vec3& a, const glm::vec3& b, const glm::vec3& d, Phase phase,
+                        float resolution) {
+    const auto places = [&](int count, float beyond, auto&& f) {
+        const glm::vec3 from = a - beyond * d, to = b + beyond * d;
+        for (int i = 0; i < count; ++i) f(glm::mix(from, to, static_cast<float>(i) / static_cast<float>(count - 1)));
+    };
+    const auto distance = [&](const glm::vec3& p) {
+        const Phases<float> all = distances(object, p);
+        return all.present >> phase.index & 1 ? static_cast<double>(all[phase.index]) : absent;
+    };
+    double deepest = 0, rounding = 0;
+    places(8, 0, [&](const glm::vec3& p) { deepest = std::max(deepest, std::abs(distance(p))); });
+    const double known = static_cast<double>(resolution) / 16;
+    if (deepest <= known) return true;
+    places(32, 16 * resolution, [&](const glm::vec3& p) {
+        rounding = std::max(rounding, std::abs(distance(p) - values(object, p)[phase.index]));
+    });
+    return deepest <= known + rounding;
 }
 
 /// The crossing, or the next one that is followed by more than a hair of another phase: what is thinner than the
-/// resolution may be passed; and what is no longer than four, if that is twice as deep as rounding at most, as where a
-/// ray leaves at half a degree.
+/// resolution may be passed, and what is nowhere deeper than rounding.
 template <class Next>
-std::optional<Crossing> beyond_hairs(const Phased& object, std::optional<Crossing> c, float resolution,
-                                     const Next& next) {
+std::optional<Crossing> beyond_hairs(const Phased& object, const glm::vec3& d, std::optional<Crossing> c,
+                                     float resolution, const Next& next) {
     while (c) {
         const std::optional<Crossing> after = next(c->p_out, c->to);
-        if (!after || after->t_in > 4 * resolution || after->to != c->from) return c;
-        if (after->t_in > resolution && !is_near_end(object, 0.5f * (c->p_out + after->p_in), c->from, resolution / 8))
-            return c;
+        if (!after || after->to != c->from) return c;
+        if (after->t_in > resolution && !is_rounding(object, c->p_out, after->p_in, d, c->from, resolution)) return c;
         const float passed = c->t_out + after->t_out;
         c = next(after->p_out, after->to);
         if (c) {
@@ -53,11 +70,6 @@ std::optional<Crossing> beyond_hairs(const Phased& object, std::optional<Crossin
         }
     }
     return c;
-}
-
-/// Whether a place is on an interface but for rounding: a ray that grazes it may cross anywhere there.
-inline bool is_on_interface(const Phased& object, const glm::vec3& p, Phase from, float resolution) {
-    return is_near_end(object, p, from, resolution / 16);
 }
 
 /// Over all cells, in the order in which the ray enters them.
@@ -89,6 +101,27 @@ struct Compared {
     TraceCounters counters{};
 };
 
+struct ComparedRay {
+    glm::vec3 origin, direction;
+};
+
+/// Through the object's box; or along its surface, where a ray first meets that: less than a sixteenth of the box above
+/// it or below. What bends is then met or missed by little, and a bound that is too small for how it bends tells.
+inline ComparedRay compared_ray(const InterfaceTracer& tracer, bool grazes, Random& rng, Evaluator::Workspace& w) {
+    const Bounds box = tracer.bounds();
+    const glm::vec3 p = rng.in(box.inflated(0.5f));
+    const ComparedRay through{p, glm::normalize(rng.in(box)-p)};
+    if (!grazes) return through;
+    const auto met = tracer.first_crossing(through.origin, through.direction, 0, 1e6f, {}, w);
+    if (!met) return through;
+    const glm::vec3 n = tracer.normal(*met, through.direction);
+    const glm::vec3 along = through.direction - n * glm::dot(n, through.direction);
+    if (!(glm::length(along) > 1e-3f)) return through;
+    const float size = box.diagonal(), side = rng.uniform(0, 1) < 0.5f ? -1.f : 1.f;
+    const glm::vec3 d = glm::normalize(along);
+    return {met->p_out + n * (side * size * std::exp2(-rng.uniform(4, 18))) - d * (0.5f * size), d};
+}
+
 /// Along so many rays, until they enter an opaque phase.
 inline void compare_crossings(const Phased& object, PhaseSet opaque, int rays, Random& rng, Compared& result) {
     Evaluator::Workspace w;
@@ -96,8 +129,9 @@ inline void compare_crossings(const Phased& object, PhaseSet opaque, int rays, R
     const InterfaceTracer tracer(object);
     const float tolerance = 4 * tracer.resolution();
     for (int i = 0; i < rays; ++i) {
-        glm::vec3 p = rng.in(cells.bounds().inflated(0.5f));
-        const glm::vec3 d = glm::normalize(rng.in(cells.bounds()) - p);
+        const ComparedRay ray = compared_ray(tracer, i % 3 == 2, rng, w);
+        glm::vec3 p = ray.origin;
+        const glm::vec3 d = ray.direction;
         Phase phase = tracer.label(p, w);
         ++result.rays;
         for (int n = 0; n < 100 && !opaque.contains(phase); ++n) {
@@ -110,8 +144,8 @@ inline void compare_crossings(const Phased& object, PhaseSet opaque, int rays, R
             std::optional<Crossing> expected = by_whole(p, phase), nearest = by_cells(p, phase);
             if (expected.has_value() != nearest.has_value() ||
                 (expected && std::abs(nearest->t_in - expected->t_in) > tolerance)) {
-                expected = beyond_hairs(object, expected, tracer.resolution(), by_whole);
-                nearest = beyond_hairs(object, nearest, tracer.resolution(), by_cells);
+                expected = beyond_hairs(object, d, expected, tracer.resolution(), by_whole);
+                nearest = beyond_hairs(object, d, nearest, tracer.resolution(), by_cells);
             }
             if (expected.has_value() != nearest.has_value()) {
                 ++result.different;
@@ -120,9 +154,11 @@ inline void compare_crossings(const Phased& object, PhaseSet opaque, int rays, R
             if (!expected) break;
             ++result.crossings;
             const bool same = nearest->from == expected->from && nearest->to == expected->to;
-            const bool grazes = is_on_interface(object, nearest->p_out, nearest->from, tracer.resolution()) &&
-                                is_on_interface(object, expected->p_out, expected->from, tracer.resolution());
-            if ((std::abs(nearest->t_in - expected->t_in) > tolerance && !grazes) ||
+            // A ray that grazes an interface may cross it anywhere there.
+            const auto grazes = [&](const Crossing& c) {
+                return is_rounding(object, c.p_out, c.p_out, d, c.from, tracer.resolution());
+            };
+            if ((std::abs(nearest->t_in - expected->t_in) > tolerance && !(grazes(*nearest) && grazes(*expected))) ||
                 (!same && !is_sliver(tracer, *expected, *nearest, d, w)))
                 ++result.different;
             p = nearest->p_out;
