@@ -32,7 +32,8 @@ inline bool is_sliver(const InterfaceTracer& tracer, const Crossing& a, const Cr
 }
 
 /// Whether all along a ray from `a` to `b` a phase's distance is no more than rounding: than a sixteenth of a
-/// resolution, which tracing takes for that, and by how much floats round it there. Labels mean little then.
+/// resolution, which tracing takes for that, and by how much floats round it there, up to half a resolution. Labels
+/// mean little then.
 inline bool is_rounding(const Phased& object, const glm::vec3& a, const glm::vec3& b, const glm::vec3& d, Phase phase,
                         float resolution) {
     const auto places = [&](int count, float beyond, auto&& f) {
@@ -43,14 +44,14 @@ inline bool is_rounding(const Phased& object, const glm::vec3& a, const glm::vec
         const Phases<float> all = distances(object, p);
         return all.present >> phase.index & 1 ? static_cast<double>(all[phase.index]) : absent;
     };
+    const double known = static_cast<double>(resolution) / 16, most = 8 * known;
     double deepest = 0, rounding = 0;
     places(8, 0, [&](const glm::vec3& p) { deepest = std::max(deepest, std::abs(distance(p))); });
-    const double known = static_cast<double>(resolution) / 16;
     if (deepest <= known) return true;
     places(32, 16 * resolution, [&](const glm::vec3& p) {
         rounding = std::max(rounding, std::abs(distance(p) - values(object, p)[phase.index]));
     });
-    return deepest <= known + rounding;
+    return deepest <= std::min(known + rounding, most);
 }
 
 /// The crossing, or the next one that is followed by more than a hair of another phase: what is thinner than the
@@ -109,8 +110,8 @@ struct ComparedRay {
 /// it or below. What bends is then met or missed by little, and a bound that is too small for how it bends tells.
 inline ComparedRay compared_ray(const InterfaceTracer& tracer, bool grazes, Random& rng, Evaluator::Workspace& w) {
     const Bounds box = tracer.bounds();
-    const glm::vec3 p = rng.in(box.inflated(0.5f));
-    const ComparedRay through{p, glm::normalize(rng.in(box)-p)};
+    const glm::vec3 from = rng.in(box.inflated(0.5f)), to = rng.in(box);
+    const ComparedRay through{from, glm::normalize(to - from)};
     if (!grazes) return through;
     const auto met = tracer.first_crossing(through.origin, through.direction, 0, 1e6f, {}, w);
     if (!met) return through;
