@@ -11,6 +11,7 @@ Report scaling(const Settings&);
 Report mesh(const Settings&);
 Report naive(const Settings&);
 Report phases(const Settings&);
+Report quality(const Settings&);
 Report simd(const Settings&);
 
 }  // namespace phasetree::bench

@@ -1,5 +1,6 @@
 #include "rays/random_rays.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "rays/random.hpp"
@@ -37,6 +38,27 @@ Rays rays_from_inside(const FieldScene& scene, std::size_t count, std::uint64_t 
         const glm::vec3 direction = random.direction();
         const Phase phase = phase_at(scene, p);
         if (phase != vacuum) rays.push_back({p, direction, phase});
+    }
+    return rays;
+}
+
+Rays rays_from_hits(const FieldScene& scene, std::span<const Ray> camera, std::uint64_t seed) {
+    const FlushSubnormals flush;
+    Random random(seed);
+    Rays starts, rays;
+    for (const Ray& ray : camera)
+        if (const auto f = scene.intersect_with_normal(ray))
+            starts.push_back(
+                {f->crossing.p_in, -f->normal.unit, f->crossing.from, f->cell, f->crossing.from, f->normal.gradient});
+    if (starts.empty()) throw std::runtime_error("the camera sees nothing of the object");
+    rays.reserve(camera.size());
+    while (rays.size() < camera.size()) {
+        const float at = random.next() * static_cast<float>(starts.size());
+        Ray ray = starts[std::min(static_cast<std::size_t>(at), starts.size() - 1)];
+        const glm::vec3 direction = random.direction();
+        if (!(glm::dot(direction, ray.direction) > 0)) continue;
+        ray.direction = direction;
+        rays.push_back(ray);
     }
     return rays;
 }

@@ -2,8 +2,9 @@
 
 namespace phasetree::bench {
 
-FieldScene::FieldScene(const Phased& object, PhaseSet opaque)
-    : FieldScene(std::make_shared<const InterfaceCells>(object, CellOptions{.opaque = opaque}), std::nullopt) {}
+FieldScene::FieldScene(const Phased& object, PhaseSet opaque, BuildQuality quality)
+    : FieldScene(std::make_shared<const InterfaceCells>(object, CellOptions{.quality = quality, .opaque = opaque}),
+                 std::nullopt) {}
 
 FieldScene::FieldScene(const FieldScene& object, float ground)
     : FieldScene(object.cells_, std::optional<float>(ground)) {}

@@ -8,8 +8,8 @@ namespace phasetree::bench {
 
 class FieldScene {
   public:
-    // `opaque`: see CellOptions.
-    explicit FieldScene(const Phased& object, PhaseSet opaque = {});
+    // `opaque` and `quality`: see CellOptions.
+    explicit FieldScene(const Phased& object, PhaseSet opaque = {}, BuildQuality quality = BuildQuality::medium);
     // The same cells, beside two large triangles at a height.
     FieldScene(const FieldScene& object, float ground);
 

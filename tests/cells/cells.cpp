@@ -49,7 +49,7 @@ struct Disagreements {
 /// Labels in every cell at random points of it, a third of them on its faces; and outside the cells, that no label
 /// changes: the whole program's interface distance must not vanish there.
 Disagreements compare_labels(const Phased& object, Random& rng, std::size_t points_a_cell) {
-    const InterfaceCells cells(object);
+    const InterfaceCells cells(object, {.quality = any_quality(rng)});
     Evaluator::Workspace w;
     Disagreements result;
     const float rounding = cells.resolution();

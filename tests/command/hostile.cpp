@@ -340,6 +340,7 @@ TEST_CASE("wrong arguments: one error, exit code 2, nothing left behind") {
                                        {{"--threads", "-3"}, "--threads"},
                                        {{"--threads", "many"}, "--threads"},
                                        {{"--threads", "1000000000"}, "--threads"},
+                                       {{"--build-quality", "best"}, "--build-quality"},
                                        {{"--spp", "0"}, "--spp"},
                                        {{"--spp", "1e3x"}, "--spp"},
                                        {{"--seed", "-1"}, "--seed"},

@@ -22,8 +22,8 @@ class CellTracer {
         CrossingNormal normal{};
     };
 
-    CellTracer(RTCDevice device, const Phased& object)
-        : cells_(std::make_shared<const InterfaceCells>(object)),
+    CellTracer(RTCDevice device, const Phased& object, BuildQuality quality)
+        : cells_(std::make_shared<const InterfaceCells>(object, CellOptions{.quality = quality})),
           geometry_(device, cells_, {.rays_carry_phases = true}),
           scene_(rtcNewScene(device)) {
         rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
@@ -89,9 +89,13 @@ TEST_CASE("through Embree and cells, every interface along a ray is found, once,
     REQUIRE(device);
     Totals totals;
     std::vector<std::string> complaints;
+    constexpr std::array qualities{BuildQuality::low, BuildQuality::medium, BuildQuality::high};
+    std::size_t scenes = 0;
     trace_scenes(
         17, long_tests() ? 4000 : 200, 250,
-        [&](const Phased& object, const InterfaceTracer&) { return CellTracer(device.get(), object); },
+        [&](const Phased& object, const InterfaceTracer&) {
+            return CellTracer(device.get(), object, qualities[scenes++ % qualities.size()]);
+        },
         [](Random& rng, const Scene& scene, const InterfaceTracer& whole, const CellTracer& tracer) {
             if (tracer.cells().size() > 0 && rng.chance(1.0 / 9)) return along_a_face(rng, tracer.cells());
             return random_probe(rng, scene, whole);

@@ -3,6 +3,7 @@
 /// The nearest crossing over all cells of an object against that of the whole object, along rays.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
@@ -123,10 +124,16 @@ inline ComparedRay compared_ray(const InterfaceTracer& tracer, bool grazes, Rand
     return {met->p_out + n * (side * size * std::exp2(-rng.uniform(4, 18))) - d * (0.5f * size), d};
 }
 
+/// Cells of every quality of build must find the same.
+inline BuildQuality any_quality(Random& rng) {
+    constexpr std::array all{BuildQuality::low, BuildQuality::medium, BuildQuality::high};
+    return all[static_cast<std::size_t>(rng.below(3))];
+}
+
 /// Along so many rays, until they enter an opaque phase.
 inline void compare_crossings(const Phased& object, PhaseSet opaque, int rays, Random& rng, Compared& result) {
     Evaluator::Workspace w;
-    const InterfaceCells cells(object, {.opaque = opaque});
+    const InterfaceCells cells(object, {.quality = any_quality(rng), .opaque = opaque});
     const InterfaceTracer tracer(object);
     const float tolerance = 4 * tracer.resolution();
     for (int i = 0; i < rays; ++i) {

@@ -7,6 +7,7 @@
 
 #include "cells/enclose.hpp"
 #include "cells/price.hpp"
+#include "cells/quality.hpp"
 #include "cells/steps.hpp"
 #include "cells/workers.hpp"
 #include "program/target.hpp"
@@ -171,9 +172,7 @@ Cost divide(const Share& share, const Division& d, Worker& w);
 /// Finds the cells of a share: itself, or those of its parts where that is cheaper. Its parts tell how much interface
 /// is in it, from which rays start as well; of one cell it is taken to be one.
 Cost find_cells(const Share& share, const Division& d, Worker& w) {
-    // Small cells must promise more, for they are many.
-    const float size = share.box.diagonal() / d.size;
-    const float promise = d.options.least_gain * (1 + 0.1f / size);
+    const float promise = least_gain(d.options.quality, share.box.diagonal() / d.size);
     const bool is_hopeless = share.stale >= share.patience.divisions;
     const bool is_final =
         is_hopeless || share.depth >= d.options.deepest || share.box.diagonal() < 64 * d.reach ||

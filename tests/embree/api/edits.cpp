@@ -90,6 +90,14 @@ TEST_CASE("options of cells and resolution") {
     const Placed fine(tree), few(tree, coarse);
     CHECK(few.geometry.statistics().cells < fine.geometry.statistics().cells);
     CHECK(few.geometry.statistics().mostInstructions >= fine.geometry.statistics().mostInstructions);
+    const auto of_quality = [](RTCBuildQuality quality) {
+        PhasetreeGeometryOptions options = embree::default_options();
+        options.buildQuality = quality;
+        return options;
+    };
+    const Placed low(tree, of_quality(RTC_BUILD_QUALITY_LOW)), high(tree, of_quality(RTC_BUILD_QUALITY_HIGH));
+    CHECK(low.geometry.statistics().cells * 5 < 4 * fine.geometry.statistics().cells);
+    CHECK(high.geometry.statistics().cells * 20 > 21 * fine.geometry.statistics().cells);
     PhasetreeGeometryOptions rough = embree::default_options();
     rough.resolution = 1e-3f;
     const Placed blurred(tree, rough);
@@ -99,6 +107,11 @@ TEST_CASE("options of cells and resolution") {
                         c = trace_one(blurred.scene, rayhit(ray));
         REQUIRE(hits(a) == hits(b));
         if (hits(a)) REQUIRE(same_place(a.ray.tfar, b.ray.tfar, fine.geometry.statistics().resolution));
+        for (const Placed* const other : {&low, &high}) {
+            const RTCRayHit found = trace_one(other->scene, rayhit(ray));
+            REQUIRE(hits(a) == hits(found));
+            if (hits(a)) REQUIRE(same_place(a.ray.tfar, found.ray.tfar, fine.geometry.statistics().resolution));
+        }
         if (hits(a) && hits(c) && a.hit.v == c.hit.v && a.hit.u == c.hit.u &&
             std::abs(a.hit.Ng_x * ray.direction.x + a.hit.Ng_y * ray.direction.y + a.hit.Ng_z * ray.direction.z) > 0.2f)
             REQUIRE(std::abs(a.ray.tfar - c.ray.tfar) < 0.02f);

@@ -150,6 +150,11 @@ TEST_CASE("arguments that are missing or impossible") {
     options.flags = 1u << 20;
     expect(phasetreeNewGeometry(v, device, object.get(), &options, &geometry), invalid, "flags");
     options = embree::default_options();
+    for (const unsigned bad : {unsigned{RTC_BUILD_QUALITY_REFIT}, 77u}) {
+        options.buildQuality = bad;
+        expect(phasetreeNewGeometry(v, device, object.get(), &options, &geometry), invalid, "buildQuality");
+    }
+    options = embree::default_options();
     options.cellDivisions = 1000;
     expect(phasetreeNewGeometry(v, device, object.get(), &options, &geometry), invalid, "cellDivisions");
     options = embree::default_options();

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "command/build_quality.hpp"
 #include "command/cells_report.hpp"
 #include "command/commands.hpp"
 #include "command/load.hpp"
@@ -15,7 +16,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-int info(const std::string& file, bool as_json, bool with_cells) {
+int info(const std::string& file, bool as_json, bool with_cells, BuildQuality quality) {
     const Document document = Document::from_file(file);
     const SceneTree tree = read_tree(document);
     const TreeStatistics s = statistics(tree.object);
@@ -24,7 +25,8 @@ int info(const std::string& file, bool as_json, bool with_cells) {
     const Program& program = evaluator.program();
     const PhaseSet there = phases(tree.object);
     std::optional<CellStatistics> cells;
-    if (with_cells) cells = InterfaceCells(tree.object, {.opaque = opaque_phases(document)}).statistics();
+    if (with_cells)
+        cells = InterfaceCells(tree.object, {.quality = quality, .opaque = opaque_phases(document)}).statistics();
 
     if (as_json) {
         nlohmann::ordered_json json;
@@ -74,8 +76,11 @@ void add_info(CLI::App& app, Run& run) {
     auto json = std::make_shared<bool>(false), cells = std::make_shared<bool>(false);
     command->add_option("scene", *file, "The scene file")->required();
     command->add_flag("--json", *json, "As JSON");
-    command->add_flag("--cells", *cells, "Also build the cells in which a render traces rays, and say what they are");
-    command->callback([=, &run] { run = [=] { return info(*file, *json, *cells); }; });
+    auto quality = std::make_shared<BuildQuality>(BuildQuality::medium);
+    auto* const with_cells = command->add_flag(
+        "--cells", *cells, "Also build the cells in which a render traces rays, and say what they are");
+    add_build_quality(*command, *quality)->needs(with_cells);
+    command->callback([=, &run] { run = [=] { return info(*file, *json, *cells, *quality); }; });
 }
 
 }  // namespace phasetree::tracer

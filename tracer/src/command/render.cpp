@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "command/build_quality.hpp"
 #include "command/cells_report.hpp"
 #include "command/commands.hpp"
 #include "command/load.hpp"
@@ -27,6 +28,7 @@ struct Options {
     std::optional<std::string> size;
     std::optional<std::string> crop;
     int threads = 0;
+    BuildQuality quality = BuildQuality::medium;
     std::optional<std::uint32_t> seed;
     std::optional<float> exposure;
     std::optional<std::string> display, view, stats;
@@ -116,7 +118,7 @@ int render_scene(const Options& options) {
     const InterruptGuard guard;
     std::optional<World> prepared;
     try {
-        prepared.emplace(scene, job.cancelled);
+        prepared.emplace(scene, options.quality, job.cancelled);
     } catch (const BuildCancelled&) {
         fmt::print(stderr, "phasetree: interrupted while the object was being prepared; nothing is written\n");
         return 1;
@@ -168,6 +170,7 @@ void add_render(CLI::App& app, Run& run) {
     command->add_option("--crop", o->crop, "X0,Y0,X1,Y1: only these pixels, from the top left, the last excluded");
     command->add_option("--threads", o->threads, "Threads (default: one a core); the image does not depend on it")
         ->check(CLI::Range(1, 1024));
+    add_build_quality(*command, o->quality);
     command->add_option("--seed", o->seed, "Seed of the sampling");
     command->add_option("--exposure", o->exposure, "Stops by which display images are brighter; EXR stays as it is")
         ->check(CLI::Range(-50.0, 50.0));

@@ -25,8 +25,10 @@ RTCRay ray_of(const glm::vec3& origin, const glm::vec3& direction, float far) {
 
 }  // namespace
 
-World::World(const Scene& scene, std::function<bool()> cancelled) : scene_(scene), interfaces_(scene.materials) {
+World::World(const Scene& scene, BuildQuality quality, std::function<bool()> cancelled)
+    : scene_(scene), interfaces_(scene.materials) {
     CellOptions options;
+    options.quality = quality;
     options.cancelled = std::move(cancelled);
     options.opaque = opaque_phases(scene.materials);
     object_ = std::make_shared<const InterfaceCells>(scene.object, options);

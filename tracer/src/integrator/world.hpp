@@ -43,7 +43,8 @@ class World {
   public:
     // Refers to the scene, which must outlive it. Throws ModelError for an object that cannot be traced, BuildCancelled
     // once `cancelled` says so.
-    explicit World(const Scene& scene, std::function<bool()> cancelled = {});
+    explicit World(const Scene& scene, BuildQuality quality = BuildQuality::medium,
+                   std::function<bool()> cancelled = {});
     ~World();
     World(const World&) = delete;
     World& operator=(const World&) = delete;

@@ -17,12 +17,17 @@ class BuildCancelled : public std::runtime_error {
     BuildCancelled() : std::runtime_error("the building of cells was cancelled") {}
 };
 
+/// More and smaller cells take longer to build, and rays fewer steps. What is found is the same.
+enum class BuildQuality {
+    low,     ///< for objects that are built anew all the time: a fifth to two thirds of the time, slower rays
+    medium,  ///< for most
+    high     ///< for many rays: up to twice the time and the memory, and rays a few per cent faster
+};
+
 struct CellOptions {
     float resolution = 0;  ///< see InterfaceTracer
     int deepest = 14;      ///< divisions from the bounds to the smallest cell
-    /// A box is divided if that may save its rays this share of what they need at least; small boxes, which are many,
-    /// are divided for more only. Less of it makes more cells.
-    float least_gain = 0.3f;
+    BuildQuality quality = BuildQuality::medium;
     /// Phases that no ray is ever in, because they are opaque to it. Where two of them meet nothing is looked for, and
     /// no cells are made for it; what is found for a ray that is in one all the same means nothing.
     PhaseSet opaque{};

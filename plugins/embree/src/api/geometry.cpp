@@ -24,6 +24,19 @@ void require_shown(PhasetreePhaseSet opaque, PhasetreePhaseSet shown) {
         throw invalid("phase {} is opaque and not shown; no ray may be in it", std::countr_zero(hidden));
 }
 
+std::optional<BuildQuality> quality_of(unsigned quality) {
+    switch (quality) {
+        case RTC_BUILD_QUALITY_LOW:
+            return BuildQuality::low;
+        case RTC_BUILD_QUALITY_MEDIUM:
+            return BuildQuality::medium;
+        case RTC_BUILD_QUALITY_HIGH:
+            return BuildQuality::high;
+        default:
+            return std::nullopt;
+    }
+}
+
 PhasetreeGeometryOptions checked(const PhasetreeGeometryOptions* given) {
     PhasetreeGeometryOptions options;
     phasetreeInitGeometryOptions(&options);
@@ -33,8 +46,9 @@ PhasetreeGeometryOptions checked(const PhasetreeGeometryOptions* given) {
                       options.resolution);
     if (options.cellDivisions > 20)
         throw invalid("options->cellDivisions is {}; at most 20 are possible", options.cellDivisions);
-    if (!std::isfinite(options.cellGain) || options.cellGain < 0)
-        throw invalid("options->cellGain is {}; it must be a share, or 0 for the library's choice", options.cellGain);
+    if (!quality_of(options.buildQuality))
+        throw invalid("options->buildQuality is {}; it must be RTC_BUILD_QUALITY_LOW, MEDIUM or HIGH",
+                      options.buildQuality);
     if (PhaseSet{options.opaquePhases}.contains(vacuum))
         throw invalid("options->opaquePhases has the vacuum, phase 0, which cannot be opaque");
     require_shown(options.opaquePhases, options.shownPhases);
@@ -48,7 +62,7 @@ PhasetreeGeometryOptions checked(const PhasetreeGeometryOptions* given) {
 std::unique_ptr<const Object> build(RTCDevice device, const Phased& tree, const PhasetreeGeometryOptions& options) {
     CellOptions cells;
     cells.resolution = options.resolution;
-    if (options.cellGain > 0) cells.least_gain = options.cellGain;
+    cells.quality = *quality_of(options.buildQuality);
     cells.opaque = {options.opaquePhases};
     if (options.cellDivisions > 0) cells.deepest = static_cast<int>(options.cellDivisions);
     if (options.cancelled) cells.cancelled = [&] { return options.cancelled(options.cancelledUserPtr); };
