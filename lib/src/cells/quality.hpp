@@ -14,7 +14,7 @@ inline float least_gain(BuildQuality quality, float size) {
         float large, small;  // of large boxes; the size at which it is twice that
     };
     const Gain gain = quality == BuildQuality::low      ? Gain{0.5f, 0.04f}
-                      : quality == BuildQuality::medium ? Gain{0.15f, 0.025f}
+                      : quality == BuildQuality::medium ? Gain{0.1f, 0.025f}
                                                         : Gain{0.05f, 0.02f};
     const float ratio = gain.small / size, square = ratio * ratio;
     return gain.large * (1 + square * square);
