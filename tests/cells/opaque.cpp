@@ -89,3 +89,17 @@ TEST_CASE("a neural field cut by a fine checker has the phase at its surface") {
     CHECK(all.into_opaque > all.rays / 4);
     CHECK(all.different == 0);
 }
+
+// Where three phases and more meet a ray in the vacuum asks for its component alone; the label behind a crossing is
+// found with what that has sampled, or anew.
+TEST_CASE("opaque layers of a blob have the phase at its surface") {
+    const Phased object = read_tree(Document::from_file(PHASETREE_SOURCE_DIR "/scenes/blob.json")).object;
+    Random rng(5);
+    Compared all;
+    for (int i = 0; i < 3; ++i)
+        compare_crossings(object, {phases(object).bits & ~std::uint64_t{1}}, long_tests() ? 20'000 : 2000, rng, all);
+    MESSAGE(all.rays, " rays, ", all.crossings, " crossings, ", all.into_opaque, " into opaque phases, ", all.different,
+            " different");
+    CHECK(all.into_opaque > all.rays / 4);
+    CHECK(all.different == 0);
+}
