@@ -27,7 +27,7 @@ const std::vector<Command>& commands() {
     static const std::vector<Command> all{
         {"table1", "seven objects with phases and without (Table 1)", table1},
         {"scaling", "the tentacle with 30 to 30,000 bumps", scaling},
-        {"quality", "objects built for a preview, as usual and for many rays", quality},
+        {"quality", "objects built for a quick look and as usual", quality},
         {"mesh", "fields against the triangles that would replace them", mesh},
         {"naive", "interface cells against the paper's way", naive},
         {"phases", "the same geometry with 1 to 32 phases (Figure 20)", phases},

@@ -1,4 +1,4 @@
-// What the three qualities of building are worth: cells, time to build and to trace.
+// What the qualities of building are worth: cells, time to build and to trace.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
@@ -14,7 +14,7 @@
 namespace phasetree::bench {
 
 Report quality(const Settings& settings) {
-    Report report("quality", "four objects, built for a preview, as usual and for many rays");
+    Report report("quality", "four objects, built for a quick look and as usual");
     struct Object {
         std::string name;
         Phased object;
@@ -29,8 +29,8 @@ Report quality(const Settings& settings) {
     const Phased bumps = tentacle(3000);
     objects.push_back({"3,000 bumps", bumps, std::nullopt, {}});
     objects.push_back({"3,000 bumps, opaque", bumps, std::nullopt, {phases(bumps).bits & ~std::uint64_t{1}}});
-    constexpr std::array qualities{BuildQuality::low, BuildQuality::medium, BuildQuality::high};
-    constexpr std::array names{"low", "medium", "high"};
+    constexpr std::array qualities{BuildQuality::low, BuildQuality::medium};
+    constexpr std::array names{"low", "medium"};
     constexpr std::size_t usual = 1;
     const int build_rounds = settings.quick ? 1 : 5;
 

@@ -3,7 +3,6 @@
 /// The nearest crossing over all cells of an object against that of the whole object, along rays.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
@@ -126,8 +125,7 @@ inline ComparedRay compared_ray(const InterfaceTracer& tracer, bool grazes, Rand
 
 /// Cells of every quality of build must find the same.
 inline BuildQuality any_quality(Random& rng) {
-    constexpr std::array all{BuildQuality::low, BuildQuality::medium, BuildQuality::high};
-    return all[static_cast<std::size_t>(rng.below(3))];
+    return rng.below(2) == 0 ? BuildQuality::low : BuildQuality::medium;
 }
 
 /// Along so many rays, until they enter an opaque phase.

@@ -8,11 +8,10 @@
 namespace phasetree::tracer {
 
 inline CLI::Option* add_build_quality(CLI::App& command, BuildQuality& quality) {
-    const std::map<std::string, BuildQuality> names{
-        {"low", BuildQuality::low}, {"medium", BuildQuality::medium}, {"high", BuildQuality::high}};
+    const std::map<std::string, BuildQuality> names{{"low", BuildQuality::low}, {"medium", BuildQuality::medium}};
     return command
         .add_option("--build-quality", quality,
-                    "low, medium (default) or high: how much is built before rays are traced; more makes them faster")
+                    "low, for a quick look, or medium (default): how much is built before rays are traced")
         ->transform(CLI::CheckedTransformer(names).description(""))
         ->option_text("NAME");
 }

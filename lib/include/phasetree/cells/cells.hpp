@@ -17,11 +17,10 @@ class BuildCancelled : public std::runtime_error {
     BuildCancelled() : std::runtime_error("the building of cells was cancelled") {}
 };
 
-/// More and smaller cells take longer to build, and rays fewer steps. What is found is the same.
+/// How much is built before rays are traced. What they find is the same.
 enum class BuildQuality {
-    low,     ///< for objects that are built anew all the time: a fifth to two thirds of the time, slower rays
-    medium,  ///< for most
-    high     ///< for many rays: up to twice the time and the memory, and rays a few per cent faster
+    low,    ///< for objects that are built anew all the time: a quarter to two thirds of the time, slower rays
+    medium  ///< for most
 };
 
 struct CellOptions {

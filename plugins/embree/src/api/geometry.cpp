@@ -31,7 +31,7 @@ std::optional<BuildQuality> quality_of(unsigned quality) {
         case RTC_BUILD_QUALITY_MEDIUM:
             return BuildQuality::medium;
         case RTC_BUILD_QUALITY_HIGH:
-            return BuildQuality::high;
+            return BuildQuality::medium;
         default:
             return std::nullopt;
     }

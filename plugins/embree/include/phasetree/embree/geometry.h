@@ -31,9 +31,9 @@ typedef struct PhasetreeGeometryOptions {
     /* A distance: brackets are no longer, and what is thinner along a ray may be passed. 0: 2·10⁻⁶ of the diagonal of
      * the tree's bounds, or what 32-bit coordinates allow where the tree is far from the origin. */
     float resolution;
-    /* RTCBuildQuality: how finely the object is cut into cells, the boxes in which rays look for interfaces. MEDIUM;
-     * LOW builds in a fifth to two thirds of the time, for objects that are edited, and rays are slower; HIGH takes up
-     * to twice the time and memory, for rays a few per cent faster. What they find is the same. */
+    /* RTCBuildQuality: how finely the object is cut into cells, the boxes in which rays look for interfaces. LOW builds
+     * in a quarter to two thirds of the time, for objects that are edited, and rays are slower; MEDIUM and HIGH are the
+     * same. What rays find is, too. */
     unsigned int buildQuality;
     unsigned int cellDivisions; /* at most so many times from the bounds on, 20 or fewer; 0: the library's choice */
     /* Phases to show: a crossing between two phases of which none is in the set is passed as if it were not there. The
