@@ -12,6 +12,7 @@
 #include "objects/tentacle.hpp"
 #include "rays/camera_rays.hpp"
 #include "rays/random.hpp"
+#include "rays/random_rays.hpp"
 #include "trace/field_scene.hpp"
 #include "trace/mesh_scene.hpp"
 
@@ -61,14 +62,12 @@ SurfaceRays leaving(const FieldScene& field, const MeshScene& mesh, const Rays& 
         if (!f || !m || std::abs(f->crossing.t_in - m->distance) > 300 * hair) continue;
         glm::vec3 flat = glm::normalize(m->normal);
         if (glm::dot(flat, ray.direction) > 0) flat = -flat;
-        starts.of_field.push_back(
-            {f->crossing.p_in, -f->normal.unit, f->crossing.from, f->cell, f->crossing.from, f->normal.gradient});
+        starts.of_field.push_back(back_from(*f));
         starts.of_mesh.push_back({ray.origin + m->distance * ray.direction + hair * flat, flat, f->crossing.from});
     }
     if (starts.of_field.empty()) return rays;
     while (rays.of_field.size() < camera.size()) {
-        const auto i = std::min(static_cast<std::size_t>(random.next() * static_cast<float>(starts.of_field.size())),
-                                starts.of_field.size() - 1);
+        const std::size_t i = random.below(starts.of_field.size());
         Ray f = starts.of_field[i], m = starts.of_mesh[i];
         const glm::vec3 direction = random.direction();
         if (!(glm::dot(direction, f.direction) > 0 && glm::dot(direction, m.direction) > 0)) continue;

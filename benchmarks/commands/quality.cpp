@@ -53,7 +53,7 @@ Report quality(const Settings& settings) {
                  {"random_rays_per_second", "random M/s", "{:.2f}", 1e-6},
                  {"primary_ratio", "primary ×", "{:.2f}"},
                  {"random_ratio", "random ×", "{:.2f}"}});
-    double tentacle_seconds = 0;
+    std::vector<double> low_seconds;
     for (const Object& o : objects) {
         std::array<std::unique_ptr<FieldScene>, qualities.size()> built;
         std::array<std::vector<double>, qualities.size()> times, ratios;
@@ -89,11 +89,13 @@ Report quality(const Settings& settings) {
                        spread_of(times[i]), spread_of(ratios[i]), rate(first), rate(second), first.ratio(usual, i),
                        second.ratio(usual, i)});
         }
-        tentacle_seconds = spread_of(times[0]).median;
+        low_seconds.push_back(spread_of(times[0]).median);
     }
     report.table("objects", table);
-    report.at_most("seconds to build 3,000 opaque bumps on one thread, of low quality", tentacle_seconds, 0.25,
-                   "{:.3f}");
+    for (std::size_t i = 0; i < objects.size(); ++i)
+        if (objects[i].name.starts_with("3,000 bumps"))
+            report.at_most("seconds to build " + objects[i].name + " on one thread, of low quality", low_seconds[i],
+                           0.25, "{:.3f}");
     return report;
 }
 

@@ -1,7 +1,9 @@
 // Random numbers that are the same on every machine (std:: distributions are not).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <numbers>
@@ -19,6 +21,10 @@ class Random {
         z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
         z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
         return static_cast<float>((z ^ (z >> 31)) >> 40) * 0x1p-24f;
+    }
+    // One of so many.
+    std::size_t below(std::size_t count) {
+        return std::min(static_cast<std::size_t>(next() * static_cast<float>(count)), count - 1);
     }
     glm::vec3 in_cube() {
         const float x = next(), y = next(), z = next();

@@ -1,6 +1,5 @@
 #include "rays/random_rays.hpp"
 
-#include <algorithm>
 #include <stdexcept>
 
 #include "rays/random.hpp"
@@ -42,19 +41,21 @@ Rays rays_from_inside(const FieldScene& scene, std::size_t count, std::uint64_t 
     return rays;
 }
 
+Ray back_from(const FieldScene::HitWithNormal& hit) {
+    const Crossing& c = hit.crossing;
+    return {c.p_in, -hit.normal.unit, c.from, hit.cell, c.from, hit.normal.gradient};
+}
+
 Rays rays_from_hits(const FieldScene& scene, std::span<const Ray> camera, std::uint64_t seed) {
     const FlushSubnormals flush;
     Random random(seed);
     Rays starts, rays;
     for (const Ray& ray : camera)
-        if (const auto f = scene.intersect_with_normal(ray))
-            starts.push_back(
-                {f->crossing.p_in, -f->normal.unit, f->crossing.from, f->cell, f->crossing.from, f->normal.gradient});
+        if (const auto f = scene.intersect_with_normal(ray)) starts.push_back(back_from(*f));
     if (starts.empty()) throw std::runtime_error("the camera sees nothing of the object");
     rays.reserve(camera.size());
     while (rays.size() < camera.size()) {
-        const float at = random.next() * static_cast<float>(starts.size());
-        Ray ray = starts[std::min(static_cast<std::size_t>(at), starts.size() - 1)];
+        Ray ray = starts[random.below(starts.size())];
         const glm::vec3 direction = random.direction();
         if (!(glm::dot(direction, ray.direction) > 0)) continue;
         ray.direction = direction;

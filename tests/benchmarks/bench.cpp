@@ -42,7 +42,7 @@ TEST_CASE("phasetree-bench all: every subcommand's numbers are finite and positi
     for (const Expected& e : std::vector<Expected>{{"table1", "objects", 7, 2, 7},
                                                    {"phases", "counts", 11, 2, 1},
                                                    {"scaling", "counts", 4, 4, 0},
-                                                   {"quality", "objects", 10, 1, 0},
+                                                   {"quality", "objects", 10, 2, 0},
                                                    {"naive", "scenes", 2, 2, 2},
                                                    {"mesh", "scenes", 16, 3, 4},
                                                    {"simd", "instruction_sets", 0, 2, 1}}) {

@@ -48,8 +48,9 @@ struct Disagreements {
 
 /// Labels in every cell at random points of it, a third of them on its faces; and outside the cells, that no label
 /// changes: the whole program's interface distance must not vanish there.
-Disagreements compare_labels(const Phased& object, Random& rng, std::size_t points_a_cell) {
-    const InterfaceCells cells(object, {.quality = any_quality(rng)});
+Disagreements compare_labels(const Phased& object, Random& rng, std::size_t points_a_cell,
+                             BuildQuality quality = BuildQuality::medium) {
+    const InterfaceCells cells(object, {.quality = quality});
     Evaluator::Workspace w;
     Disagreements result;
     const float rounding = cells.resolution();
@@ -102,7 +103,7 @@ TEST_CASE("a cell's program gives the whole object's labels in the cell and on i
     const std::size_t enough = long_tests() ? 10'000'000 : 0;
     std::size_t points = 0, wrong = 0;
     for (int i = 0; i < 60 || points < enough; ++i) {
-        d = compare_labels(traceable_object(rng, 4), rng, 20);
+        d = compare_labels(traceable_object(rng, 4), rng, 20, any_quality(rng));
         points += d.points;
         wrong += d.wrong;
     }
@@ -203,7 +204,7 @@ TEST_CASE("the nearest crossing over all cells is the whole object's") {
     std::vector<Phased> objects{hourglass()};
     for (int i = 0; i < (long_tests() ? 300 : 12); ++i) objects.push_back(traceable_object(rng, 3));
     Compared all;
-    for (const Phased& object : objects) compare_crossings(object, {}, 300, rng, all);
+    for (const Phased& object : objects) compare_crossings(object, {}, 300, rng, all, any_quality(rng));
     MESSAGE(all.rays, " rays, ", all.crossings, " crossings, ", all.different, " different");
     CHECK(all.crossings > all.rays);
     CHECK(all.different == 0);
@@ -240,7 +241,7 @@ TEST_CASE("with opaque phases rays in the others meet what they met, and where o
         for_each_phase(phases(object).bits & ~std::uint64_t{1}, [&](int i) {
             if (rng.chance(0.7)) opaque = opaque | PhaseSet::of(Phase{static_cast<std::uint8_t>(i)});
         });
-        compare_crossings(object, opaque, 300, rng, all);
+        compare_crossings(object, opaque, 300, rng, all, any_quality(rng));
         cells_without += InterfaceCells(object).size();
         cells_with += InterfaceCells(object, {.opaque = opaque}).size();
     }

@@ -123,6 +123,17 @@ TEST_CASE("--stats is JSON and tells what was done") {
     CHECK(stats.at("instructions_per_cell").at("most").get<int>() >=
           stats.at("instructions_per_cell").at("median").get<int>());
     CHECK(shell.directory.size() == 3);
+
+    std::vector<int> cells;
+    for (const char* const quality : {"low", "medium"}) {
+        REQUIRE(shell
+                    .run({"render", "scene.json", "-o", "a.exr", "--quiet", "--stats", "stats.json", "--spp", "1",
+                          "--size", "4x4", "--build-quality", quality})
+                    .code == 0);
+        cells.push_back(nlohmann::json::parse(bytes_of(shell.directory / "stats.json")).at("cells").get<int>());
+    }
+    CHECK(cells[0] < cells[1]);
+    CHECK(cells[1] == stats.at("cells"));
 }
 
 TEST_CASE("Ctrl-C writes what there is and exits with 1") {

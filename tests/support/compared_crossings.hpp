@@ -123,15 +123,16 @@ inline ComparedRay compared_ray(const InterfaceTracer& tracer, bool grazes, Rand
     return {met->p_out + n * (side * size * std::exp2(-rng.uniform(4, 18))) - d * (0.5f * size), d};
 }
 
-/// Cells of every quality of build must find the same.
+/// Cells of every quality of build must find the same; most are of medium quality.
 inline BuildQuality any_quality(Random& rng) {
-    return rng.below(2) == 0 ? BuildQuality::low : BuildQuality::medium;
+    return rng.below(4) == 0 ? BuildQuality::low : BuildQuality::medium;
 }
 
 /// Along so many rays, until they enter an opaque phase.
-inline void compare_crossings(const Phased& object, PhaseSet opaque, int rays, Random& rng, Compared& result) {
+inline void compare_crossings(const Phased& object, PhaseSet opaque, int rays, Random& rng, Compared& result,
+                              BuildQuality quality = BuildQuality::medium) {
     Evaluator::Workspace w;
-    const InterfaceCells cells(object, {.quality = any_quality(rng), .opaque = opaque});
+    const InterfaceCells cells(object, {.quality = quality, .opaque = opaque});
     const InterfaceTracer tracer(object);
     const float tolerance = 4 * tracer.resolution();
     for (int i = 0; i < rays; ++i) {

@@ -120,10 +120,10 @@ HWY_INLINE Handler handler(std::uint32_t op) {
     return Table<std::make_index_sequence<simple>, Primitives, DataPrimitives, PointMaps>::handlers[op];
 }
 
-/// The steps from `first` up to `end`.
-HWY_INLINE void run(const Routine& routine, std::size_t first, std::size_t end, float* registers) {
-    const Step* step = routine.steps + first;
-    if (first < end) handler(step->op)(step, routine.data + first, routine.constants, registers, routine.steps + end);
+/// The first `count` steps.
+HWY_INLINE void run(const Routine& routine, std::size_t count, float* registers) {
+    const Step* first = routine.steps;
+    if (count > 0) handler(first->op)(first, routine.data, routine.constants, registers, first + count);
 }
 
 HWY_INLINE void place(const Batch& x, const Batch& y, const Batch& z, float* registers) {
@@ -181,7 +181,7 @@ HWY_INLINE void place_along(const float* o, const float* d, const Batch& t, floa
 
 void evaluate(const Routine& routine, const float* x, const float* y, const float* z, float* registers, float* out) {
     place(load(x), load(y), load(z), registers);
-    run(routine, 0, routine.count, registers);
+    run(routine, routine.count, registers);
     for (std::size_t i = 0; i < routine.output_count; ++i)
         store(load(at(registers, routine.outputs[i].slot)) * routine.outputs[i].sign, out + i * batch_size);
 }
@@ -189,7 +189,7 @@ void evaluate(const Routine& routine, const float* x, const float* y, const floa
 void sample(const Routine& routine, const float* x, const float* y, const float* z, float* registers, float* label,
             float* distance) {
     place(load(x), load(y), load(z), registers);
-    run(routine, 0, routine.count, registers);
+    run(routine, routine.count, registers);
     const Classified c = classify(routine, routine.is_by_own, registers);
     store(c.label, label);
     store(c.distance, distance);
@@ -198,7 +198,7 @@ void sample(const Routine& routine, const float* x, const float* y, const float*
 void sample_ray(const Routine& routine, const float* o, const float* d, const float* t, float* registers, float* label,
                 float* distance) {
     place_along(o, d, load(t), registers);
-    run(routine, 0, routine.count, registers);
+    run(routine, routine.count, registers);
     const Classified c = classify(routine, routine.is_by_own, registers);
     store(c.label, label);
     store(c.distance, distance);

@@ -75,7 +75,7 @@ class March {
         const bool is_alone = is_alone_ && !is_whole && routine_.leading < routine_.count;
         ++batches_;
         place_along(ray_.origin, ray_.direction, t, registers_);
-        run(routine_, 0, is_alone ? routine_.leading : routine_.count, registers_);
+        run(routine_, is_alone ? routine_.leading : routine_.count, registers_);
         return is_alone ? classify_first(routine_, registers_) : classify(routine_, is_by_own_, registers_);
     }
     HWY_INLINE Classified sample_whole(const Batch& t) { return sample(t, true); }
@@ -137,9 +137,9 @@ class March {
     /// and what is convex on the left is above its tangent at the chord's zero r, what is concave on the right below.
     /// So the label is that of `here` up to r − e, with e the left's k r(h − r) over its tangent's slope, (a + b)/h +
     /// k(h − 2r); and from r + e′ on it is another: that of `next`, if no third component vanishes on the way there.
-    /// `next` is a lane of what was sampled last; if that was by the first component alone, the rest is added.
-    bool is_pinned(const Place& next, int lane, RayCrossing& c) {
-        if (!is_pinnable_) return false;
+    /// `next` is a lane of what was sampled last.
+    bool is_pinned(const Place& next, int lane, RayCrossing& c) const {
+        if (!is_pinnable_ || next.label == another_phase) return false;
         const auto value = [&](const OutputSlot& o) {
             return o.sign * registers_[std::size_t{o.slot} * batch_size + static_cast<std::size_t>(lane)];
         };
@@ -152,19 +152,11 @@ class March {
         const float k = half_curvature_, other = other_half_curvature_;
         if (!((k * bend + rounding()) * gap <= reach * (sum + k * turn))) return false;
         if (!((other * bend + rounding()) * gap <= reach * (sum - other * turn))) return false;
-        const float to = next.label == another_phase ? whole_label(lane) : next.label;
         for (std::size_t i = 1; !is_one && i < routine_.output_count; ++i) {
             const OutputSlot& third = routine_.outputs[i];
-            if (third.phase != to && !(value(third) >= gap - root + rounding())) return false;
+            if (third.phase != next.label && !(value(third) >= gap - root + rounding())) return false;
         }
-        return report(c, larger(here_.t + root - reach, here_.t), smaller(here_.t + root + reach, next.t), to);
-    }
-    /// By the whole program, of a lane of what was sampled last by its first component alone.
-    HWY_INLINE float whole_label(int lane) {
-        run(routine_, routine_.leading, routine_.count, registers_);
-        alignas(64) float label[batch_size];
-        store(classify(routine_, is_by_own_, registers_).label, label);
-        return label[lane];
+        return report(c, larger(here_.t + root - reach, here_.t), smaller(here_.t + root + reach, next.t), next.label);
     }
     /// Of distances.
     float rounding() const { return ray_.resolution * (1.f / 16); }

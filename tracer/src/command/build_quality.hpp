@@ -1,18 +1,22 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <map>
+#include <string>
 
 #include "phasetree/cells/cells.hpp"
 
 namespace phasetree::tracer {
 
 inline CLI::Option* add_build_quality(CLI::App& command, BuildQuality& quality) {
-    const std::map<std::string, BuildQuality> names{{"low", BuildQuality::low}, {"medium", BuildQuality::medium}};
+    const auto choose = [&quality](const std::string& name) {
+        if (name != "low" && name != "medium")
+            throw CLI::ValidationError("--build-quality", "must be low or medium, but is \"" + name + "\"");
+        quality = name == "low" ? BuildQuality::low : BuildQuality::medium;
+    };
     return command
-        .add_option("--build-quality", quality,
-                    "low, for a quick look, or medium (default): how much is built before rays are traced")
-        ->transform(CLI::CheckedTransformer(names).description(""))
+        .add_option_function<std::string>(
+            "--build-quality", choose,
+            "low, for a quick look, or medium (default): how much is built before rays are traced")
         ->option_text("NAME");
 }
 
