@@ -52,7 +52,7 @@ bool append(std::span<const VoronoiSites::Site> sites, std::array<float, Voronoi
 }  // namespace
 
 void VoronoiSites::find(const Search& search, std::span<const float> list, std::vector<Site>& found) const {
-    using lattice::hashed, lattice::sum, lattice::wrapped;
+    using lattice::hashed, lattice::hashed_on, lattice::wrapped;
     const std::array<double, 3>& centre = search.centre;
     const double corner = static_cast<double>(from_corner(0.f)), reach = static_cast<double>(jitter) + corner;
     double farthest = search.most;
@@ -86,15 +86,15 @@ void VoronoiSites::find(const Search& search, std::span<const float> list, std::
         for (int k = -steps; k <= steps; ++k) {
             const double z2 = away(2, k);
             if (z2 > farthest * farthest) continue;
-            const float z = own[2] + static_cast<float>(k), slice = hashed(wrapped(z + seed));
+            const float z = own[2] + static_cast<float>(k), slice = hashed_on(wrapped(z + seed));
             for (int j = -steps; j <= steps; ++j) {
                 const double yz2 = z2 + away(1, j);
                 if (yz2 > farthest * farthest) continue;
-                const float y = own[1] + static_cast<float>(j), row = hashed(sum(slice, wrapped(y)));
+                const float y = own[1] + static_cast<float>(j), row = hashed_on(slice + wrapped(y));
                 for (int i = -steps; i <= steps; ++i) {
                     if (yz2 + away(0, i) > farthest * farthest) continue;
                     const float x = own[0] + static_cast<float>(i);
-                    const float a = hashed(sum(row, wrapped(x))), b = hashed(a + 1.f), c = hashed(b + 2.f);
+                    const float a = hashed(row + wrapped(x)), b = hashed(a + 1.f), c = hashed(b + 2.f);
                     add({{x, y, z}, {moved(a), moved(b), moved(c)}, hashed(c + 3.f), {}, 0});
                 }
             }

@@ -12,7 +12,8 @@ template <class T>
 T fade(const T& t) {
     return t * t * t * (t * (t * 6.f - 15.f) + 10.f);
 }
-/// Where a coordinate is: the lattice's points below and above, modulo 289, and how much the upper one counts.
+/// Where a coordinate is: the lattice's points below and above, modulo 289 (lattice_hash.hpp), and how much the upper one
+/// counts.
 template <class T>
 struct Coordinate {
     T low, high;
@@ -20,9 +21,8 @@ struct Coordinate {
 };
 template <class T>
 Coordinate<T> coordinate(const T& u) {
-    const T whole = floor(u), t = u - whole, low = wrapped(whole);
-    const T next = low + 1.f;
-    return {low, select(less(T(288.5f), next), T(0.f), next), fade(t)};
+    const T whole = floor(u), low = wrapped(whole);
+    return {low, low + 1.f, fade(u - whole)};
 }
 template <class T>
 T mix(const T& a, const T& b, const T& blend) {
@@ -49,25 +49,25 @@ T centred(const T& hash) {
 /// the middle of a cell between four corners of value 1 and four of −1.
 template <class T>
 T value_noise(const Vec3<T>& p) {
-    using lattice::hashed, lattice::mix, lattice::sum;
+    using lattice::hashed, lattice::hashed_on, lattice::mix;
     const auto x = lattice::coordinate(p.x), y = lattice::coordinate(p.y), z = lattice::coordinate(p.z);
-    const auto along_z = [&](const T& row) { return mix(hashed(sum(row, z.low)), hashed(sum(row, z.high)), z.blend); };
+    const auto along_z = [&](const T& row) { return mix(hashed(row + z.low), hashed(row + z.high), z.blend); };
     const auto along_yz = [&](const T& slice) {
-        return mix(along_z(hashed(sum(slice, y.low))), along_z(hashed(sum(slice, y.high))), y.blend);
+        return mix(along_z(hashed_on(slice + y.low)), along_z(hashed_on(slice + y.high)), y.blend);
     };
-    return lattice::centred(mix(along_yz(hashed(x.low)), along_yz(hashed(x.high)), x.blend));
+    return lattice::centred(mix(along_yz(hashed_on(x.low)), along_yz(hashed_on(x.high)), x.blend));
 }
 
 /// The same over the plane, of the same range and slope: for each whole number another one.
 template <class T>
 T value_noise(const T& x, const T& y, float which) {
-    using lattice::hashed, lattice::mix, lattice::sum;
+    using lattice::hashed, lattice::hashed_on, lattice::mix;
     const auto cx = lattice::coordinate(x), cy = lattice::coordinate(y);
-    const T plane(hashed(lattice::wrapped(which)));
+    const T plane(hashed_on(lattice::wrapped(which)));
     const auto along_y = [&](const T& row) {
-        return mix(hashed(sum(row, cy.low)), hashed(sum(row, cy.high)), cy.blend);
+        return mix(hashed(row + cy.low), hashed(row + cy.high), cy.blend);
     };
-    return lattice::centred(mix(along_y(hashed(sum(plane, cx.low))), along_y(hashed(sum(plane, cx.high))), cx.blend));
+    return lattice::centred(mix(along_y(hashed_on(plane + cx.low)), along_y(hashed_on(plane + cx.high)), cx.blend));
 }
 
 }  // namespace phasetree

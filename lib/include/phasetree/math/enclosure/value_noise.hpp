@@ -170,17 +170,17 @@ inline std::array<float, 2> ends(double cell) {
 }  // namespace detail
 
 inline Enclosure value_noise(const Vec3<Enclosure>& p) {
-    using lattice::hashed, lattice::sum;
+    using lattice::hashed, lattice::hashed_on;
     const Region at(p);
     const FieldInBox f = detail::NoiseInBox<3>(at)([](const std::array<double, 3>& cell) {
         const auto x = detail::ends(cell[0]), y = detail::ends(cell[1]), z = detail::ends(cell[2]);
         detail::Corners<3> w;
         for (std::size_t i = 0; i < 2; ++i) {
-            const float slice = hashed(x[i]);
+            const float slice = hashed_on(x[i]);
             for (std::size_t j = 0; j < 2; ++j) {
-                const float row = hashed(sum(slice, y[j]));
+                const float row = hashed_on(slice + y[j]);
                 for (std::size_t k = 0; k < 2; ++k)
-                    w[i + 2 * j + 4 * k] = static_cast<double>(lattice::centred(hashed(sum(row, z[k]))));
+                    w[i + 2 * j + 4 * k] = static_cast<double>(lattice::centred(hashed(row + z[k])));
             }
         }
         return w;
@@ -189,17 +189,17 @@ inline Enclosure value_noise(const Vec3<Enclosure>& p) {
 }
 
 inline Enclosure value_noise(const Enclosure& x, const Enclosure& y, float which) {
-    using lattice::hashed, lattice::sum;
+    using lattice::hashed, lattice::hashed_on;
     const Vec3<Enclosure> p{x, y, Enclosure(0.f)};
     const Region at(p);
-    const float plane = hashed(lattice::wrapped(which));
+    const float plane = hashed_on(lattice::wrapped(which));
     const FieldInBox f = detail::NoiseInBox<2>(at)([&](const std::array<double, 2>& cell) {
         const auto cx = detail::ends(cell[0]), cy = detail::ends(cell[1]);
         detail::Corners<2> w;
         for (std::size_t i = 0; i < 2; ++i) {
-            const float row = hashed(sum(plane, cx[i]));
+            const float row = hashed_on(plane + cx[i]);
             for (std::size_t j = 0; j < 2; ++j)
-                w[i + 2 * j] = static_cast<double>(lattice::centred(hashed(sum(row, cy[j]))));
+                w[i + 2 * j] = static_cast<double>(lattice::centred(hashed(row + cy[j])));
         }
         return w;
     });

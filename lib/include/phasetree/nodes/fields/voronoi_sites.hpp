@@ -55,15 +55,15 @@ struct VoronoiSites {
     /// Calls visit(offset from p to the site, hash) for the sites about p; the hash is whole, 0 … 288.
     template <class T, class Visit>
     void for_each(const Vec3<T>& p, Visit&& visit) const {
-        using lattice::hashed, lattice::sum, lattice::wrapped;
+        using lattice::hashed, lattice::hashed_on, lattice::wrapped;
         const Place<T> at(p);
         const Vec3<T>&cube = at.cube, &within = at.within;
         for (int k = -2; k <= 2; ++k) {
-            const T slice = hashed(wrapped(cube.z + (static_cast<float>(k) + seed)));
+            const T slice = hashed_on(wrapped(cube.z + (static_cast<float>(k) + seed)));
             for (int j = -2; j <= 2; ++j) {
-                const T row = hashed(sum(slice, wrapped(cube.y + static_cast<float>(j))));
+                const T row = hashed_on(slice + wrapped(cube.y + static_cast<float>(j)));
                 for (int i = -2; i <= 2; ++i) {
-                    const T x = hashed(sum(row, wrapped(cube.x + static_cast<float>(i))));
+                    const T x = hashed(row + wrapped(cube.x + static_cast<float>(i)));
                     const T y = hashed(x + 1.f), z = hashed(y + 2.f), hash = hashed(z + 3.f);
                     const auto offset = [&](const T& h, int step, const T& in) {
                         return moved(h) + from_corner(static_cast<float>(step)) - in;
