@@ -128,6 +128,10 @@ HWY_INLINE Batch sqrt(const Batch& a) {
 HWY_INLINE Batch floor(const Batch& a) {
     return each([&](std::size_t i) { return hn::Floor(a.v[i]); });
 }
+HWY_INLINE Batch multiply_add(const Batch& a, float b, const Batch& c) {
+    const Register factor = hn::Set(Tag(), b);
+    return each([&](std::size_t i) { return hn::MulAdd(a.v[i], factor, c.v[i]); });
+}
 HWY_INLINE Batch lookup(const float* table, const Batch& index) {
     return each([&](std::size_t i) {
         return hn::GatherIndex(Tag(), table, hn::ConvertTo(hn::RebindToSigned<Tag>(), index.v[i]));

@@ -35,6 +35,13 @@ namespace phasetree {
     return std::floor(a);
 }
 
+/// a·b + c, rounded once or twice, as the processor does it faster. Only for what is the same either way, such as whole
+/// numbers below 2²⁴.
+template <class T>
+T multiply_add(const T& a, float b, const T& c) {
+    return a * b + c;
+}
+
 /// table[index] for a whole index within the table; see clamp() for one that may be NaN.
 [[gnu::always_inline]] inline float lookup(const float* table, float index) {
     return table[static_cast<int>(index)];

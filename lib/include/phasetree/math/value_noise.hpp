@@ -12,8 +12,8 @@ template <class T>
 T fade(const T& t) {
     return t * t * t * (t * (t * 6.f - 15.f) + 10.f);
 }
-/// Where a coordinate is: the lattice's points below and above, modulo 289 (lattice_hash.hpp), and how much the upper one
-/// counts.
+/// Where a coordinate is: the lattice's points below and above, modulo 289 (lattice_hash.hpp), and how much the upper
+/// one counts.
 template <class T>
 struct Coordinate {
     T low, high;
@@ -64,9 +64,7 @@ T value_noise(const T& x, const T& y, float which) {
     using lattice::hashed, lattice::hashed_on, lattice::mix;
     const auto cx = lattice::coordinate(x), cy = lattice::coordinate(y);
     const T plane(hashed_on(lattice::wrapped(which)));
-    const auto along_y = [&](const T& row) {
-        return mix(hashed(row + cy.low), hashed(row + cy.high), cy.blend);
-    };
+    const auto along_y = [&](const T& row) { return mix(hashed(row + cy.low), hashed(row + cy.high), cy.blend); };
     return lattice::centred(mix(along_y(hashed_on(plane + cx.low)), along_y(hashed_on(plane + cx.high)), cx.blend));
 }
 

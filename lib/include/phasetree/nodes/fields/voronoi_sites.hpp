@@ -58,12 +58,13 @@ struct VoronoiSites {
         using lattice::hashed, lattice::hashed_on, lattice::wrapped;
         const Place<T> at(p);
         const Vec3<T>&cube = at.cube, &within = at.within;
+        const T x_mod = wrapped(cube.x), y_mod = wrapped(cube.y), z_mod = wrapped(cube.z + seed);
         for (int k = -2; k <= 2; ++k) {
-            const T slice = hashed_on(wrapped(cube.z + (static_cast<float>(k) + seed)));
+            const T slice = hashed_on(z_mod + static_cast<float>(k));
             for (int j = -2; j <= 2; ++j) {
-                const T row = hashed_on(slice + wrapped(cube.y + static_cast<float>(j)));
+                const T row = hashed_on(slice + (y_mod + static_cast<float>(j)));
                 for (int i = -2; i <= 2; ++i) {
-                    const T x = hashed(row + wrapped(cube.x + static_cast<float>(i)));
+                    const T x = hashed(row + (x_mod + static_cast<float>(i)));
                     const T y = hashed(x + 1.f), z = hashed(y + 2.f), hash = hashed(z + 3.f);
                     const auto offset = [&](const T& h, int step, const T& in) {
                         return moved(h) + from_corner(static_cast<float>(step)) - in;
