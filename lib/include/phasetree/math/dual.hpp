@@ -88,6 +88,9 @@ class Dual {
 [[gnu::always_inline]] inline Dual floor(const Dual& a) {
     return Dual(std::floor(a.value()));
 }
+[[gnu::always_inline]] inline float whole_part(const Dual& a) {
+    return std::floor(a.value());
+}
 [[gnu::always_inline]] inline Dual sqrt(const Dual& a) {
     const float v = std::sqrt(a.value());
     const float k = v > 0 ? 0.5f / v : 0.f;  // at a cone's apex every direction is as good: none

@@ -35,6 +35,12 @@ namespace phasetree {
     return std::floor(a);
 }
 
+/// Rounded down, as a number without derivatives: of dual numbers a float.
+template <class T>
+T whole_part(const T& a) {
+    return floor(a);
+}
+
 /// a·b + c, rounded once or twice, as the processor does it faster. Only for what is the same either way, such as whole
 /// numbers below 2²⁴.
 template <class T>

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include "phasetree/math/lattice_hash.hpp"
 #include "phasetree/math/vec3.hpp"
 
@@ -13,19 +15,21 @@ T fade(const T& t) {
     return t * t * t * (t * (t * 6.f - 15.f) + 10.f);
 }
 /// Where a coordinate is: the lattice's points below and above, modulo 289 (lattice_hash.hpp), and how much the upper
-/// one counts.
+/// one counts. What has no derivatives is hashed without them.
+template <class T>
+using Whole = decltype(whole_part(std::declval<T>()));
 template <class T>
 struct Coordinate {
-    T low, high;
+    Whole<T> low, high;
     T blend;
 };
 template <class T>
 Coordinate<T> coordinate(const T& u) {
-    const T whole = floor(u), low = wrapped(whole);
+    const Whole<T> whole = whole_part(u), low = wrapped(whole);
     return {low, low + 1.f, fade(u - whole)};
 }
-template <class T>
-T mix(const T& a, const T& b, const T& blend) {
+template <class Value, class T>
+T mix(const Value& a, const Value& b, const T& blend) {
     return a + (b - a) * blend;
 }
 /// From 0 to 288 to [−1, 1].
@@ -51,8 +55,10 @@ template <class T>
 T value_noise(const Vec3<T>& p) {
     using lattice::hashed, lattice::hashed_on, lattice::mix;
     const auto x = lattice::coordinate(p.x), y = lattice::coordinate(p.y), z = lattice::coordinate(p.z);
-    const auto along_z = [&](const T& row) { return mix(hashed(row + z.low), hashed(row + z.high), z.blend); };
-    const auto along_yz = [&](const T& slice) {
+    const auto along_z = [&](const lattice::Whole<T>& row) {
+        return mix(hashed(row + z.low), hashed(row + z.high), z.blend);
+    };
+    const auto along_yz = [&](const lattice::Whole<T>& slice) {
         return mix(along_z(hashed_on(slice + y.low)), along_z(hashed_on(slice + y.high)), y.blend);
     };
     return lattice::centred(mix(along_yz(hashed_on(x.low)), along_yz(hashed_on(x.high)), x.blend));
@@ -63,8 +69,10 @@ template <class T>
 T value_noise(const T& x, const T& y, float which) {
     using lattice::hashed, lattice::hashed_on, lattice::mix;
     const auto cx = lattice::coordinate(x), cy = lattice::coordinate(y);
-    const T plane(hashed_on(lattice::wrapped(which)));
-    const auto along_y = [&](const T& row) { return mix(hashed(row + cy.low), hashed(row + cy.high), cy.blend); };
+    const lattice::Whole<T> plane(hashed_on(lattice::wrapped(which)));
+    const auto along_y = [&](const lattice::Whole<T>& row) {
+        return mix(hashed(row + cy.low), hashed(row + cy.high), cy.blend);
+    };
     return lattice::centred(mix(along_y(hashed_on(plane + cx.low)), along_y(hashed_on(plane + cx.high)), cx.blend));
 }
 
