@@ -18,16 +18,21 @@ template <class T>
 T wrapped(const T& n) {
     return multiply_add(floor(multiply_add(n, 1.f / 289.f, T(0.5f))), -289.f, n);
 }
-/// The same of n's hash, to be added to another one and hashed again, for whole |n| ≤ 291.
+/// What permutes them, not reduced.
 template <class T>
-T hashed_on(const T& n) {
-    return wrapped(multiply_add(n, 34.f, T(5.f)) * n);
+T permuted(const T& n) {
+    return multiply_add(n, 34.f, T(5.f)) * n;
 }
 /// n's hash, from 0 to 288, for whole |n| ≤ 291.
 template <class T>
 T hashed(const T& n) {
-    const T square = multiply_add(n, 34.f, T(5.f)) * n;
-    return multiply_add(floor(multiply_add(square, 1.f / 289.f, T(0.5f / 289.f))), -289.f, square);
+    const T hash = permuted(n);
+    return multiply_add(floor(multiply_add(hash, 1.f / 289.f, T(0.5f / 289.f))), -289.f, hash);
+}
+/// The same from −144 to 144, to be added to another number and hashed again.
+template <class T>
+T hashed_on(const T& n) {
+    return wrapped(permuted(n));
 }
 
 }  // namespace lattice
