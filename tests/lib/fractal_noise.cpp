@@ -33,6 +33,44 @@ TEST_CASE("the hash in floats is that in whole numbers, over all of the lattice'
     }
 }
 
+TEST_CASE("between the lattice's points noise is what whole numbers say, and so is its gradient") {
+    Random rng(155);
+    for (const float octaves : {1.f, 3.f}) {
+        const FractalNoise noise(1, octaves);
+        const auto expected = [&](const glm::dvec3& p) {
+            return oracle::fractal_noise(p, static_cast<int>(octaves)) / FractalNoise::slope(1, octaves);
+        };
+        double value = 0, slope = 0;
+        for (int n = 0; n < 20'000; ++n) {
+            const glm::vec3 p = rng.in(Bounds::centred(glm::vec3(40)));
+            const Dual d = noise.distance(dual(p));
+            REQUIRE(d.value() == noise.distance(Vec3<float>{p.x, p.y, p.z}));
+            value = std::max(value, std::abs(d.value() - expected(p)));
+            for (int i = 0; i < 3; ++i) {
+                glm::dvec3 step(0);
+                step[i] = 1e-5;
+                const double rise = (expected(glm::dvec3(p) + step) - expected(glm::dvec3(p) - step)) / 2e-5;
+                slope = std::max(slope, std::abs(d.gradient()[i] - rise));
+            }
+        }
+        CAPTURE(octaves);
+        CHECK(value < 1e-5);
+        CHECK(slope < 3e-4);
+    }
+}
+
+TEST_CASE("noise over the plane is that in space on a plane of the lattice") {
+    Random rng(156);
+    double value = 0;
+    for (int n = 0; n < 20'000; ++n) {
+        const float x = rng.uniform(-300, 300), y = rng.uniform(-300, 300);
+        const auto which = static_cast<float>(static_cast<int>(rng.below(2001)) - 1000);
+        value = std::max(value, std::abs(static_cast<double>(value_noise(x, y, which)) -
+                                         oracle::value_noise(glm::dvec3(which, x, y))));
+    }
+    CHECK(value < 1e-5);
+}
+
 TEST_CASE("noise is in [-1, 1], of slope 15/4 at most, and comes near to both") {
     Random rng(152);
     for (const float octaves : {1.f, 3.f, 6.f}) {
