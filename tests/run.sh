@@ -11,8 +11,8 @@
 # The exit status is CTest's: 0 when all tests pass. Without --asan and --tsan it is a release build, in build/release.
 set -uo pipefail
 
-# shellcheck source=SCRIPTDIR/../cmake/packages.sh
-. "$(dirname "${BASH_SOURCE[0]}")/../cmake/packages.sh"
+# shellcheck source=SCRIPTDIR/../tracer/packages.sh
+. "$(dirname "${BASH_SOURCE[0]}")/../tracer/packages.sh"
 
 presets=()
 long=

@@ -7,8 +7,8 @@
 # The arguments go to "phasetree render": --spp 16 is a quick look, --size 1920x1080 a large picture.
 set -uo pipefail
 
-# shellcheck source=SCRIPTDIR/../cmake/packages.sh
-. "$(dirname "${BASH_SOURCE[0]}")/../cmake/packages.sh"
+# shellcheck source=SCRIPTDIR/packages.sh
+. "$(dirname "${BASH_SOURCE[0]}")/packages.sh"
 
 install_packages "$root/build/packages.log" "${packages_to_build[@]}"
 configure quickstart || exit 1
