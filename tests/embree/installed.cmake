@@ -1,6 +1,6 @@
 # Installs to a fresh prefix and builds and runs the examples from there, as somebody else's project would; and looks at
 # what the installed libraries export. Run by CTest:
-#   cmake -DBUILD=… -DWORK=… -DMAJOR=3 -DCONFIG=Release -P installed.cmake
+#   cmake -DBUILD=… -DWORK=… -DMAJOR=3 -DCONFIG=Release -DGENERATOR=Ninja -P installed.cmake
 cmake_minimum_required(VERSION 3.25)
 
 function(run)
@@ -52,7 +52,7 @@ endforeach()
 
 # By CMake. The sanitizers of this build, if any, must be in those programs, too.
 set(examples "${prefix}/share/doc/phasetree/examples")
-run(${CMAKE_COMMAND} -S "${examples}" -B "${WORK}/examples" -DCMAKE_PREFIX_PATH=${prefix} -DEMBREE=${MAJOR}
+run(${CMAKE_COMMAND} -G "${GENERATOR}" -S "${examples}" -B "${WORK}/examples" -DCMAKE_PREFIX_PATH=${prefix} -DEMBREE=${MAJOR}
     -DCMAKE_BUILD_TYPE=Release "-DCMAKE_C_FLAGS=-Wall -Wextra -Werror ${FLAGS}" "-DCMAKE_CXX_FLAGS=${FLAGS}")
 run(${CMAKE_COMMAND} --build "${WORK}/examples" --parallel 2)
 run("${WORK}/examples/phases" "${prefix}/share/phasetree/scenes/hourglass.json" 0 0.01 10 0 0 -1)
