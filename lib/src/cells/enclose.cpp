@@ -25,6 +25,9 @@ Encloser::Encloser(std::span<const float> constants, PhaseSet opaque, const Boun
         half_[k] = 0.5 * static_cast<double>(extent[i]) * (1 + 1e-6);
         point_[k] = Enclosure::coordinate(i, static_cast<double>(middle[i]), half_[k]);
     }
+    const std::span<AffinePoint> input = scratch.take<AffinePoint>(1);
+    input[0] = AffinePoint::of_box(middle, half_);
+    input_ = input.data();
 }
 
 /// For each instruction its number in the last program, if it is a primitive, or a map of space, that was in it; or 0.
@@ -66,8 +69,18 @@ void Encloser::compute(const WorkingProgram& program) {
     std::size_t at = 0;
     interpret(
         steps.routine(constants_.data()), registers.data(),
-        [&]<class P>(const float* c, const Vec3<Enclosure>& q) {
-            if constexpr (LongPrimitive<P>) {
+        [&]<class P, class Point>(const float* c, const Point& q) {
+            if constexpr (RoundedPrimitive<P>) {
+                std::optional<AffinePoint> other;
+                const AffinePoint* affine = nullptr;
+                if constexpr (std::is_same_v<Point, PointInRegisters<Enclosure>>)
+                    affine = q.slot == 0 ? input_ : nullptr;
+                if (!affine && (other = AffinePoint::of(q, half_))) affine = &*other;
+                if (affine) {
+                    if (const auto near = convex_in_box(detail::read<P>(c), *affine)) return *near;
+                }
+                return enclose_primitive<P>(c, q);
+            } else if constexpr (LongPrimitive<P>) {
                 LocalValue found;
                 std::span<const float> of;
                 if constexpr (LocalPrimitive<P>) {
@@ -81,7 +94,7 @@ void Encloser::compute(const WorkingProgram& program) {
                 if constexpr (LocalPrimitive<P>) local[at] = found;
                 return e;
             } else {
-                return enclose_primitive<P>(c, q, half_);
+                return enclose_primitive<P>(c, q);
             }
         },
         [&](Enclosure& e) { e.tighten(half_); });

@@ -10,6 +10,7 @@
 namespace phasetree {
 
 struct Enclosure;
+struct AffinePoint;
 
 /// What is known of a program in a box, besides its values' ranges.
 struct Enclosed {
@@ -51,6 +52,7 @@ class Encloser {
     float rounding_;
     Arena& scratch_;
     std::span<Enclosure> point_;  ///< of the box, in each coordinate
+    const AffinePoint* input_;    ///< the same
     // Of the last program.
     std::span<const Instruction> code_;
     std::span<const std::uint32_t> slot_;

@@ -47,12 +47,9 @@ Enclosure enclose_long_primitive(const float* constants, const Vec3<Enclosure>& 
     return Enclosure(value, Range::all(), slope, detail::no_gradient, Range::all()).tightened(half);
 }
 
-/// One that is not.
+/// One that is not, by its equation.
 template <class P>
-Enclosure enclose_primitive(const float* constants, const Vec3<Enclosure>& q, const Enclosure::Vector& half) {
-    if constexpr (RoundedPrimitive<P>) {
-        if (const auto near = convex_in_box(detail::read<P>(constants), q, half)) return *near;
-    }
+Enclosure enclose_primitive(const float* constants, const Vec3<Enclosure>& q) {
     const Enclosure e = detail::distance_of<P>(constants, q);
     if constexpr (ConvexPrimitive<P>)
         return known_to_be_convex(e, q);

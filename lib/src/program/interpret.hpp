@@ -36,8 +36,17 @@ T distance_of(const float* constants, const Vec3<T>& q) {
 
 }  // namespace detail
 
-/// Registers 0 … 2 hold the point. `distance.template operator()<P>(constants, point)` is that of a primitive;
-/// `done(number)` is called with each number that a step has made.
+/// A point in three registers.
+template <class T>
+struct PointInRegisters {
+    const T* registers;
+    std::uint32_t slot;
+
+    operator Vec3<T>() const { return {registers[slot], registers[slot + 1], registers[slot + 2]}; }
+};
+
+/// Registers 0 … 2 hold the point. `distance.template operator()<P>(constants, point)` is that of a primitive, whose
+/// point is a Vec3<T> or in registers; `done(number)` is called with each number that a step has made.
 template <class T, class Distance, class Done>
 void interpret(const Routine& routine, T* registers, Distance&& distance, Done&& done) {
     constexpr auto first_primitive = static_cast<std::uint32_t>(Op::first_primitive);
@@ -92,7 +101,7 @@ void interpret(const Routine& routine, T* registers, Distance&& distance, Done&&
                 to = corner(a, b);
                 break;
             default: {
-                const Vec3<T> input{registers[s.a], registers[s.a + 1], registers[s.a + 2]};
+                const PointInRegisters<T> input{registers, s.a};
                 const std::uint32_t index = s.op - first_primitive;
                 const auto set_point = [&](const Vec3<T>& q) {
                     registers[s.to] = q.x;
@@ -101,17 +110,17 @@ void interpret(const Routine& routine, T* registers, Distance&& distance, Done&&
                     done(registers[s.to + 1]);
                     done(registers[s.to + 2]);
                 };
-                const auto primitive = [&]<class P>(const float* floats, const Vec3<T>& point) {
+                const auto primitive = [&]<class P>(const float* floats, const auto& point) {
                     to = distance.template operator()<P>(floats, point);
                 };
                 if (s.op >= first_placed) {
                     const auto placed = detail::read<PlacedPrimitive>(c);
                     detail::dispatch(Primitives(), s.op - first_placed, [&]<class P>() {
-                        primitive.template operator()<P>(c + placed_floats, placed.map(input));
+                        primitive.template operator()<P>(c + placed_floats, placed.map(Vec3<T>(input)));
                     });
                     to = to * placed.scale + placed.offset;
                 } else if (s.op == affine_map) {
-                    set_point(detail::read<AffineMap>(c)(input));
+                    set_point(detail::read<AffineMap>(c)(Vec3<T>(input)));
                 } else if (index < Primitives::size) {
                     detail::dispatch(Primitives(), index,
                                      [&]<class P>() { primitive.template operator()<P>(c, input); });
@@ -120,7 +129,7 @@ void interpret(const Routine& routine, T* registers, Distance&& distance, Done&&
                                      [&]<class P>() { primitive.template operator()<P>(c, input); });
                 } else {
                     detail::dispatch(PointMaps(), s.op - first_map,
-                                     [&]<class M>() { set_point(detail::read<M>(c)(input)); });
+                                     [&]<class M>() { set_point(detail::read<M>(c)(Vec3<T>(input))); });
                 }
             }
         }
