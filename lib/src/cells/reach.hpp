@@ -23,6 +23,8 @@ class Reach {
 
     /// It, renumbered.
     WorkingProgram program(Arena& keep, Arena& scratch) const {
+        if (size_ + 1 == program_.code.size())
+            return {keep.copy(program_.code), keep.copy(program_.lipschitz), keep.copy(outputs_)};
         const std::span<std::uint32_t> renumbered = scratch.take<std::uint32_t>(program_.code.size());
         const std::span<Instruction> code = keep.take<Instruction>(size_ + 1);
         const std::span<float> lipschitz = keep.take<float>(size_ + 1);
