@@ -123,7 +123,7 @@ std::optional<Candidate> candidate(const Share& share, const Bounds& all, const 
         if (enclosed.box.empty() || cell.box.empty()) return std::nullopt;
         // Lists of local primitives must be those of the whole share, for its parts. What is left of the program is
         // right as far around the box as its parts must be.
-        const bool is_narrower = !has_local_primitive(cell.program) && surface(cell.box) < 0.7f * surface(around);
+        const bool is_narrower = surface(cell.box) < 0.7f * surface(around) && !has_local_primitive(cell.program);
         if (rounds >= most_rounds || !is_narrower) break;
         narrower.emplace(d.constants, d.options.opaque, intersect(all, cell.box.inflated(d.reach)), d.rounding,
                          std::span<const LocalValue>(), w.scratch);

@@ -124,8 +124,8 @@ Enclosure Encloser::component(const ProgramOutput& o) const {
 std::optional<ValueRanges> Encloser::ranges(const WorkingProgram& program) {
     const std::size_t size = program.code.size();
     // A fold of space may jump, and then it has no gradient.
-    if (std::ranges::any_of(program.code, [](const Instruction& in) { return is_fold(in.op); })) return std::nullopt;
-    if (size > (has_local_primitive(program) ? 4 : 1) * longest_enclosed) return std::nullopt;
+    if (std::ranges::any_of(program.code, [](const Instruction& in) { return in.op == fold_map; })) return std::nullopt;
+    if (size > longest_enclosed && (size > 4 * longest_enclosed || !has_local_primitive(program))) return std::nullopt;
     compute(program);
 
     // Of a value, and of what is known at the centre.
