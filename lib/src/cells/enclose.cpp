@@ -79,7 +79,7 @@ void Encloser::compute(const WorkingProgram& program) {
                 if (affine) {
                     if (const auto near = convex_in_box(detail::read<P>(c), *affine)) return *near;
                 }
-                return enclose_primitive<P>(c, q);
+                return enclose_primitive<P>(c, q).tightened(half_);
             } else if constexpr (LongPrimitive<P>) {
                 LocalValue found;
                 std::span<const float> of;
@@ -92,9 +92,9 @@ void Encloser::compute(const WorkingProgram& program) {
                 }
                 const Enclosure e = enclose_long_primitive<P>(c, q, half_, of, found, scratch_);
                 if constexpr (LocalPrimitive<P>) local[at] = found;
-                return e;
+                return e.tightened(half_);
             } else {
-                return enclose_primitive<P>(c, q);
+                return enclose_primitive<P>(c, q).tightened(half_);
             }
         },
         [&](Enclosure& e) { e.tighten(half_); });

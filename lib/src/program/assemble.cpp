@@ -99,6 +99,9 @@ Assembly assemble(std::span<const Instruction> code, std::span<const ProgramOutp
     for (const KeptValue& k : kept) last_use[k.value] = forever;
 
     Slots slots;
+    result.steps.reserve(code.size());
+    result.data.reserve(code.size());
+    result.outputs.reserve(outputs.size());
     for (std::uint32_t i = 0; i < code.size(); ++i) {
         const Instruction& in = code[i];
         const int n = operands(in.op);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstring>
+#include <type_traits>
 
 #include "program/assemble.hpp"
 #include "program/fused.hpp"
@@ -13,8 +15,10 @@ namespace detail {
 /// Calls run.template operator()<T>() for the index-th type of a list.
 template <class... Ts, class Run>
 void dispatch(TypeList<Ts...>, std::uint32_t index, Run&& run) {
-    std::uint32_t k = 0;
-    (void)((k++ == index ? (run.template operator()<Ts>(), true) : false) || ...);
+    using Called = std::remove_reference_t<Run>;
+    static constexpr std::array<void (*)(Called&), sizeof...(Ts)> of{
+        +[](Called& r) { r.template operator()<Ts>(); }...};
+    if (index < of.size()) of[index](run);
 }
 
 template <class Struct>
@@ -46,7 +50,7 @@ struct PointInRegisters {
 };
 
 /// Registers 0 … 2 hold the point. `distance.template operator()<P>(constants, point)` is that of a primitive, whose
-/// point is a Vec3<T> or in registers; `done(number)` is called with each number that a step has made.
+/// point is a Vec3<T> or in registers; `done(number)` is called with each number that a step of any other kind has made.
 template <class T, class Distance, class Done>
 void interpret(const Routine& routine, T* registers, Distance&& distance, Done&& done) {
     constexpr auto first_primitive = static_cast<std::uint32_t>(Op::first_primitive);
@@ -113,6 +117,15 @@ void interpret(const Routine& routine, T* registers, Distance&& distance, Done&&
                 const auto primitive = [&]<class P>(const float* floats, const auto& point) {
                     to = distance.template operator()<P>(floats, point);
                 };
+                if (s.op < first_map) {
+                    if (index < Primitives::size)
+                        detail::dispatch(Primitives(), index,
+                                         [&]<class P>() { primitive.template operator()<P>(c, input); });
+                    else
+                        detail::dispatch(DataPrimitives(), index - static_cast<std::uint32_t>(Primitives::size),
+                                         [&]<class P>() { primitive.template operator()<P>(c, input); });
+                    continue;
+                }
                 if (s.op >= first_placed) {
                     const auto placed = detail::read<PlacedPrimitive>(c);
                     detail::dispatch(Primitives(), s.op - first_placed, [&]<class P>() {
@@ -121,12 +134,6 @@ void interpret(const Routine& routine, T* registers, Distance&& distance, Done&&
                     to = to * placed.scale + placed.offset;
                 } else if (s.op == affine_map) {
                     set_point(detail::read<AffineMap>(c)(Vec3<T>(input)));
-                } else if (index < Primitives::size) {
-                    detail::dispatch(Primitives(), index,
-                                     [&]<class P>() { primitive.template operator()<P>(c, input); });
-                } else if (index < Primitives::size + DataPrimitives::size) {
-                    detail::dispatch(DataPrimitives(), index - static_cast<std::uint32_t>(Primitives::size),
-                                     [&]<class P>() { primitive.template operator()<P>(c, input); });
                 } else {
                     detail::dispatch(PointMaps(), s.op - first_map,
                                      [&]<class M>() { set_point(detail::read<M>(c)(Vec3<T>(input))); });
