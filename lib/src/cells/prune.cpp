@@ -36,6 +36,7 @@ class Demand {
 
     bool is_none() const { return word_ == as_none; }
     bool is_threshold() const { return word_ < as_none || word_ > as_value; }
+    /// Not a number, if it is none: no comparison with that holds.
     float tau() const { return std::bit_cast<float>(word_); }
     bool is_sign() const { return word_ == 0; }
     /// Both this and another one.
@@ -106,6 +107,8 @@ class Pruner {
         for (auto i = static_cast<std::uint32_t>(program_.code.size()); i-- > 1;)
             if (!demand_[i].is_none()) {
                 demanded_[demanded_count_++] = i;
+                instead_[i] = i;
+                op_[i] = program_.code[i].op;
                 resolve(i);
             }
         if (is_all_left(outputs)) return program_;
@@ -171,8 +174,10 @@ class Pruner {
         const Demand d = demand_[i];
         const bool relative = d.is_threshold();
         const auto constant = [&] { return constants_[in.data]; };
-        instead_[i] = i;
-        op_[i] = in.op;
+        if (in.op >= Op::first_primitive) {
+            demand_[in.a] = Demand::value();
+            return;
+        }
         switch (in.op) {
             case Op::minimum:
                 return resolve_minimum(i, d);
@@ -259,32 +264,31 @@ class Pruner {
         }
     }
 
-    void resolve_maximum(std::uint32_t i, const Demand& d) {
-        const Instruction& in = program_.code[i];
-        if (low(in.a) > high(in.b)) return replace(i, in.a);
-        if (low(in.b) > high(in.a)) return replace(i, in.b);
-        if (d.is_threshold()) {
-            if (high(in.a) < d.tau()) return replace(i, in.b);
-            if (high(in.b) < d.tau()) return replace(i, in.a);
-            if (low(in.a) > d.tau()) return replace(i, in.a);
-            if (low(in.b) > d.tau()) return replace(i, in.b);
-        }
-        ask(in.a, d);
-        ask(in.b, d);
-    }
-
     void resolve_minimum(std::uint32_t i, const Demand& d) {
         const Instruction& in = program_.code[i];
-        if (low(in.b) > high(in.a)) return replace(i, in.a);
-        if (low(in.a) > high(in.b)) return replace(i, in.b);
-        if (d.is_threshold()) {
-            if (low(in.a) > d.tau()) return replace(i, in.b);
-            if (low(in.b) > d.tau()) return replace(i, in.a);
-            if (high(in.a) < d.tau()) return replace(i, in.a);
-            if (high(in.b) < d.tau()) return replace(i, in.b);
-        }
-        ask(in.a, d);
-        ask(in.b, d);
+        const float low_a = low(in.a), high_a = high(in.a), low_b = low(in.b), high_b = high(in.b), tau = d.tau();
+        const bool is_b_first = bool(low_a > high_b) | bool(low_a > tau);
+        const bool is_a = bool(low_b > high_a) | ((!is_b_first) & (bool(low_b > tau) | bool(high_a < tau)));
+        take(i, is_a, is_b_first | bool(high_b < tau), d);
+    }
+
+    void resolve_maximum(std::uint32_t i, const Demand& d) {
+        const Instruction& in = program_.code[i];
+        const float low_a = low(in.a), high_a = high(in.a), low_b = low(in.b), high_b = high(in.b), tau = d.tau();
+        const bool is_b_first = bool(low_b > high_a) | bool(high_a < tau);
+        const bool is_a = bool(low_a > high_b) | ((!is_b_first) & (bool(high_b < tau) | bool(low_a > tau)));
+        take(i, is_a, is_b_first | bool(low_b > tau), d);
+    }
+
+    /// One of its operands in its place, a if both may be, or nothing. Here, where every other comparison surprises the
+    /// processor, without a branch: what is demanded twice in the same way is demanded once.
+    void take(std::uint32_t i, bool is_a, bool is_b, const Demand& d) {
+        const Instruction& in = program_.code[i];
+        const std::uint32_t first = (is_b & (!is_a)) ? in.b : in.a, second = is_a ? in.a : in.b;
+        instead_[i] = (is_a | is_b) ? first : i;
+        is_changed_ |= is_a | is_b;
+        ask(first, d);
+        ask(second, d);
     }
 
     /// Whether a value is exactly zero throughout the ball.
