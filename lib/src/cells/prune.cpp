@@ -147,8 +147,7 @@ class Pruner {
                 continue;
             }
             const Instruction& in = code[i];
-            written[i] = rewriter.write(op_[i], written[in.a], operands(op_[i]) > 1 ? written[in.b] : SignedValue{},
-                                        in.data, slope[i], demand_[i].is_sign());
+            written[i] = rewriter.write(op_[i], written[in.a], written[in.b], in.data, slope[i], demand_[i].is_sign());
         }
         const std::span<ProgramOutput> ends = scratch_.take<ProgramOutput>(outputs.size());
         std::size_t count = 0;

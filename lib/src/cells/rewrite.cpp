@@ -50,7 +50,16 @@ Rewriter::Rewriter(std::span<const float> constants, std::size_t instructions, A
     size_ = 1;
 }
 
+SignedValue Rewriter::append(Op op, std::uint32_t a, std::uint32_t b, std::uint32_t data, float lipschitz) {
+    code_[size_] = {op, a, b, data};
+    lipschitz_[size_] = lipschitz;
+    twin_[size_] = 0;
+    return {static_cast<std::uint32_t>(size_++), false};
+}
+
 SignedValue Rewriter::emit(Op op, std::uint32_t a, std::uint32_t b, std::uint32_t data, float lipschitz) {
+    // Of a primitive of the input there is but one, unless nobody has looked yet.
+    if (op >= Op::first_primitive && a == 0 && !more_) return append(op, a, b, data, lipschitz);
     const bool is_constant = has_one_constant(op), is_index = has_data(op);
     const auto content = [&](std::uint32_t index) {
         return is_constant ? std::bit_cast<std::uint32_t>(constants_[index]) : is_index ? index : 0u;
@@ -72,10 +81,7 @@ SignedValue Rewriter::emit(Op op, std::uint32_t a, std::uint32_t b, std::uint32_
         const bool is_same = (in.a == a && in.b == b) || (is_commutative(op) && in.a == b && in.b == a);
         if (in.op == op && is_same && content(in.data) == known_content) return {found, false};
     }
-    code_[size_] = {op, a, b, data};
-    lipschitz_[size_] = lipschitz;
-    twin_[size_] = 0;
-    return {static_cast<std::uint32_t>(size_++), false};
+    return append(op, a, b, data, lipschitz);
 }
 
 /// −v as a value: of a sum with a constant by the other kind of sum, if constants may be added.
@@ -127,6 +133,7 @@ SignedValue Rewriter::extremum(Op op, SignedValue a, SignedValue b, float lipsch
 
 SignedValue Rewriter::write(Op op, const SignedValue& left, const SignedValue& right, std::uint32_t data,
                             float lipschitz, bool is_sign_enough) {
+    if (op >= Op::first_primitive) return emit(op, left.id(), 0, data, lipschitz);  // points have no sign
     const SignedValue a = canonical(left), b = canonical(right);
     switch (op) {
         case Op::negate:

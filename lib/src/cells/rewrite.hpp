@@ -46,6 +46,8 @@ class Rewriter {
         SignedValue a, b;
     };
 
+    SignedValue append(Op, std::uint32_t a, std::uint32_t b, std::uint32_t data, float lipschitz);
+    /// The same, if it is not there yet.
     SignedValue emit(Op, std::uint32_t a, std::uint32_t b, std::uint32_t data, float lipschitz);
     SignedValue extremum(Op, SignedValue a, SignedValue b, float lipschitz, bool is_sign_enough);
     std::uint32_t negated(std::uint32_t);
