@@ -171,7 +171,9 @@ TEST_CASE("what is known at a box's centre encloses rounded solids, behind affin
                         is_rounded = true;
                         const Mapped<N> mapped{n, map};
                         look(mapped, rng, 40, found, [&](const Vec3<Enclosure>& p, const Enclosure::Vector& half) {
-                            return convex_in_box(n, map(p), half);
+                            const auto at = AffinePoint::of(map(p), half);
+                            Enclosure e;
+                            return at && enclose_convex(n, *at, e) ? std::optional(e) : std::nullopt;
                         });
                     }
                 },

@@ -1,6 +1,7 @@
 #include "cells/enclose.hpp"
 
 #include <cmath>
+#include <memory>
 
 #include "cells/cut.hpp"
 #include "cells/enclose_primitive.hpp"
@@ -23,11 +24,9 @@ Encloser::Encloser(std::span<const float> constants, PhaseSet opaque, const Boun
     for (int i = 0; i < 3; ++i) {
         const auto k = static_cast<std::size_t>(i);
         half_[k] = 0.5 * static_cast<double>(extent[i]) * (1 + 1e-6);
-        point_[k] = Enclosure::coordinate(i, static_cast<double>(middle[i]), half_[k]);
+        std::construct_at(&point_[k], Enclosure::coordinate(i, static_cast<double>(middle[i]), half_[k]));
     }
-    const std::span<AffinePoint> input = scratch.take<AffinePoint>(1);
-    input[0] = AffinePoint::of_box(middle, half_);
-    input_ = input.data();
+    input_ = std::construct_at(scratch.take<AffinePoint>(1).data(), AffinePoint::of_box(middle, half_));
 }
 
 /// For each instruction its number in the last program, if it is a primitive, or a map of space, that was in it; or 0.
@@ -69,17 +68,15 @@ void Encloser::compute(const WorkingProgram& program) {
     std::size_t at = 0;
     interpret(
         steps.routine(constants_.data()), registers.data(),
-        [&]<class P, class Point>(const float* c, const Point& q) {
+        [&]<class P, class Point>(const float* c, const Point& q, Enclosure& to) {
             if constexpr (RoundedPrimitive<P>) {
                 std::optional<AffinePoint> other;
                 const AffinePoint* affine = nullptr;
                 if constexpr (std::is_same_v<Point, PointInRegisters<Enclosure>>)
                     affine = q.slot == 0 ? input_ : nullptr;
                 if (!affine && (other = AffinePoint::of(q, half_))) affine = &*other;
-                if (affine) {
-                    if (const auto near = convex_in_box(detail::read<P>(c), *affine)) return *near;
-                }
-                return enclose_primitive<P>(c, q).tightened(half_);
+                if (affine && enclose_convex(detail::read<P>(c), *affine, to)) return;
+                to = enclose_primitive<P>(c, q);
             } else if constexpr (LongPrimitive<P>) {
                 LocalValue found;
                 std::span<const float> of;
@@ -90,12 +87,12 @@ void Encloser::compute(const WorkingProgram& program) {
                     for (const LocalValue& v : around_)
                         if (v.source == source) of = v.data;
                 }
-                const Enclosure e = enclose_long_primitive<P>(c, q, half_, of, found, scratch_);
+                to = enclose_long_primitive<P>(c, q, half_, of, found, scratch_);
                 if constexpr (LocalPrimitive<P>) local[at] = found;
-                return e.tightened(half_);
             } else {
-                return enclose_primitive<P>(c, q).tightened(half_);
+                to = enclose_primitive<P>(c, q);
             }
+            to.tighten(half_);
         },
         [&](Enclosure& e) { e.tighten(half_); });
     std::size_t count = 0;

@@ -49,7 +49,7 @@ struct PointInRegisters {
     operator Vec3<T>() const { return {registers[slot], registers[slot + 1], registers[slot + 2]}; }
 };
 
-/// Registers 0 … 2 hold the point. `distance.template operator()<P>(constants, point)` is that of a primitive, whose
+/// Registers 0 … 2 hold the point. `distance.template operator()<P>(constants, point, to)` sets that of a primitive, whose
 /// point is a Vec3<T> or in registers; `done(number)` is called with each number that a step of any other kind has made.
 template <class T, class Distance, class Done>
 void interpret(const Routine& routine, T* registers, Distance&& distance, Done&& done) {
@@ -115,7 +115,7 @@ void interpret(const Routine& routine, T* registers, Distance&& distance, Done&&
                     done(registers[s.to + 2]);
                 };
                 const auto primitive = [&]<class P>(const float* floats, const auto& point) {
-                    to = distance.template operator()<P>(floats, point);
+                    distance.template operator()<P>(floats, point, to);
                 };
                 if (s.op < first_map) {
                     if (index < Primitives::size)

@@ -49,13 +49,14 @@ struct AffinePoint {
           reach(std::sqrt(squared_reach)) {}
 };
 
-/// The distance to a convex solid by its value and gradient at the box's centre; nothing if its skeleton is too near.
-/// With a ball of radius ρ inside, where it touches the surface, f bends no more than the distance to that ball: along
-/// straight lines of unit speed 0 ≤ f″ ≤ 1/(f + ρ).
+/// The distance to a convex solid by its value and gradient at the box's centre, into e; false if its skeleton is too
+/// near. With a ball of radius ρ inside, where it touches the surface, f bends no more than the distance to that ball:
+/// along straight lines of unit speed 0 ≤ f″ ≤ 1/(f + ρ).
 ///
-/// Value and gradient are computed in floats, because that is where boxes' time goes.
+/// Value and gradient are computed in floats, because that is where boxes' time goes; so is waiting for a copy of what
+/// was just written number by number, hence e.
 template <RoundedPrimitive P>
-std::optional<Enclosure> convex_in_box(const P& solid, const AffinePoint& at) {
+bool enclose_convex(const P& solid, const AffinePoint& at, Enclosure& e) {
     const Dual f = solid.distance(at.number);
     const glm::dvec3 slope(f.gradient());
     const auto value = static_cast<double>(f.value());
@@ -64,12 +65,11 @@ std::optional<Enclosure> convex_in_box(const P& solid, const AffinePoint& at) {
     double below = 0;
     for (std::size_t i = 0; i < 3; ++i) below += std::abs(slope[static_cast<int>(i)]) * at.half[i];
     const double nearest = value - below + solid.rolling_radius(at.centre, at.stretch * at.reach);
-    if (!(nearest > 0)) return std::nullopt;
+    if (!(nearest > 0)) return false;
     const double bend = at.squared_stretch / nearest;
     // What floats lose, of the centre and of the gradient itself.
     const double lost = at.stretch * (4e-7 * at.size / nearest + 1e-6);
 
-    Enclosure e;
     e.centre = value;
     e.value = limited(value - below, value + below + 0.5 * bend * at.squared_reach);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -80,7 +80,7 @@ std::optional<Enclosure> convex_in_box(const P& solid, const AffinePoint& at) {
         e.centre_gradient[i] = g;
     }
     e.set_curvature(limited(0, bend));
-    return e;
+    return true;
 }
 
 }  // namespace phasetree
