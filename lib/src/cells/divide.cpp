@@ -254,10 +254,10 @@ Cost divide(const Share& share, const Division& d, Worker& w) {
         const RangesInBall ranges{centre, slope, radius, d.rounding};
         const auto program = prune(share.program, d.constants, ranges, d.options.opaque, own.programs, own.scratch);
         if (!program) return;
-        Share part{parts.box[i], *program, share.local, share.depth + 1};
+        Share& part = divided[i].emplace(Share{parts.box[i], *program, share.local, share.depth + 1});
         if (std::isfinite(share.period)) part.period = finest_jump(part.program, d.constants);
         if (std::isfinite(share.pattern)) part.pattern = finest_pattern(part.program, d.constants);
-        if (prepare(part, d, own)) divided[i] = part;
+        if (!prepare(part, d, own)) divided[i].reset();
     });
     float sum = price::parts * surface(share.box);
     for (const std::optional<Share>& part : divided)

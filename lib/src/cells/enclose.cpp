@@ -18,15 +18,11 @@ Encloser::Encloser(std::span<const float> constants, PhaseSet opaque, const Boun
       box_(box),
       rounding_(rounding),
       scratch_(scratch),
-      point_(scratch.take<Enclosure>(3)),
+      middle_(box.centre()),
       around_(around) {
-    const glm::vec3 extent = box.extent(), middle = box.centre();
-    for (int i = 0; i < 3; ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        half_[k] = 0.5 * static_cast<double>(extent[i]) * (1 + 1e-6);
-        std::construct_at(&point_[k], Enclosure::coordinate(i, static_cast<double>(middle[i]), half_[k]));
-    }
-    input_ = std::construct_at(scratch.take<AffinePoint>(1).data(), AffinePoint::of_box(middle, half_));
+    const glm::vec3 extent = box.extent();
+    half_ = detail::each_number([&](std::size_t i) { return 0.5 * double{extent[static_cast<int>(i)]} * (1 + 1e-6); });
+    input_ = std::construct_at(scratch.take<AffinePoint>(1).data(), AffinePoint::of_box(middle_, half_));
 }
 
 /// For each instruction its number in the last program, if it is a primitive, or a map of space, that was in it; or 0.
@@ -51,7 +47,10 @@ void Encloser::compute(const WorkingProgram& program) {
     const std::span<const std::uint32_t> known = known_of(program);
     const Steps steps = keep_all(program, scratch_, [&](std::size_t i) { return known[i] != 0; });
     const std::span<Enclosure> registers = scratch_.take<Enclosure>(steps.slots);
-    std::ranges::copy(point_, registers.begin());
+    for (int i = 0; i < 3; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        std::construct_at(&registers[k], Enclosure::coordinate(i, middle_[i], half_[k]));
+    }
     for (std::size_t i = 1; i < known.size(); ++i)
         if (known[i] != 0)
             std::copy_n(registers_ + slot_[known[i]], gives_point(program.code[i].op) ? 3 : 1,

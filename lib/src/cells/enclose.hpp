@@ -51,8 +51,8 @@ class Encloser {
     std::array<double, 3> half_;
     float rounding_;
     Arena& scratch_;
-    std::span<Enclosure> point_;  ///< of the box, in each coordinate
-    const AffinePoint* input_;    ///< the same
+    glm::dvec3 middle_;
+    const AffinePoint* input_;  ///< any point of the box
     // Of the last program.
     std::span<const Instruction> code_;
     std::span<const std::uint32_t> slot_;
