@@ -40,12 +40,15 @@ struct Enclosure {
         : centre(c), value(v), gradient(g), centre_gradient(cg), curvature(b), value_curvature(v * b) {}
 
     /// A coordinate of a point of the box.
-    static Enclosure coordinate(int axis, double middle, double half) {
+    [[gnu::always_inline]] static Enclosure coordinate(int axis, double middle, double half) {
         Enclosure e;
         e.centre = middle;
         e.value = {middle - half, middle + half};
-        e.gradient[static_cast<std::size_t>(axis)] = {1, 1};
-        e.centre_gradient[static_cast<std::size_t>(axis)] = 1;
+        for (int i = 0; i < 3; ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            e.centre_gradient[k] = i == axis ? 1 : 0;
+            e.gradient[k] = {e.centre_gradient[k], e.centre_gradient[k]};
+        }
         return e;
     }
     /// Cuts the value's range to what the gradient allows in a box of these half extents.
