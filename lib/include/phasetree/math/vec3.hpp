@@ -41,7 +41,7 @@ T dot(const Vec3<T>& a, const glm::vec3& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 template <class T>
-T length(const Vec3<T>& a) {
+[[gnu::always_inline]] inline T length(const Vec3<T>& a) {
     return sqrt(dot(a, a));
 }
 /// To the segment from the origin to `along`; `inverse` is 1/along², or 0.
