@@ -43,10 +43,28 @@ std::span<const std::uint32_t> Encloser::known_of(const WorkingProgram& program)
     return known;
 }
 
+namespace {
+/// A program's steps but for those whose result is known, for interpret().
+struct StepsToTake {
+    std::span<const Instruction> code;
+    std::span<const std::uint32_t> known;
+    const float* first_constant;
+    std::span<std::uint32_t> slot;
+
+    std::size_t size() const { return code.size(); }
+    bool is_left_out(std::size_t i) const { return i == 0 || known[i] != 0; }
+    Step step(std::size_t i) const {
+        const Instruction& in = code[i];
+        return {static_cast<std::uint32_t>(in.op), slot[i], slot[in.a], slot[in.b]};
+    }
+    const float* constants(std::size_t i) const { return first_constant + code[i].data; }
+};
+}  // namespace
+
 void Encloser::compute(const WorkingProgram& program) {
     const std::span<const std::uint32_t> known = known_of(program);
-    const Steps steps = keep_all(program, scratch_, [&](std::size_t i) { return known[i] != 0; });
-    const std::span<Enclosure> registers = scratch_.take<Enclosure>(steps.slots);
+    const StepsToTake steps{program.code, known, constants_.data(), scratch_.take<std::uint32_t>(known.size())};
+    const std::span<Enclosure> registers = scratch_.take<Enclosure>(give_slots(program, steps.slot));
     for (int i = 0; i < 3; ++i) {
         const auto k = static_cast<std::size_t>(i);
         std::construct_at(&registers[k], Enclosure::coordinate(i, middle_[i], half_[k]));
@@ -66,7 +84,7 @@ void Encloser::compute(const WorkingProgram& program) {
     }
     std::size_t at = 0;
     interpret(
-        steps.routine(constants_.data()), registers.data(),
+        steps, registers.data(),
         [&]<class P, class Point>(const float* c, const Point& q, Enclosure& to) {
             if constexpr (RoundedPrimitive<P>) {
                 std::optional<AffinePoint> other;

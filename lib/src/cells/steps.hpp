@@ -4,12 +4,21 @@
 
 namespace phasetree {
 
-/// A working program's steps but for those to leave out, with a register of its own for every value so that all can be
-/// read afterwards.
+/// A register of its own for every value, so that all can be read afterwards; a point takes three. Returns how many.
+inline std::uint32_t give_slots(const WorkingProgram& program, std::span<std::uint32_t> slot) {
+    std::uint32_t slots = 0;
+    for (std::size_t i = 0; i < program.code.size(); ++i) {
+        slot[i] = slots;
+        slots += gives_point(program.code[i].op) ? 3 : 1;
+    }
+    return slots;
+}
+
+/// A working program's steps, whose values can all be read afterwards.
 struct Steps {
     std::span<const Step> steps;
     std::span<const std::uint32_t> data;  ///< for each step where its constants are
-    std::span<const std::uint32_t> slot;  ///< of each instruction's value; a point takes three
+    std::span<const std::uint32_t> slot;  ///< of each instruction's value
     std::uint32_t slots = 0;
 
     Routine routine(const float* constants) const {
@@ -17,26 +26,20 @@ struct Steps {
     }
 };
 
-template <class LeftOut>
-Steps keep_all(const WorkingProgram& program, Arena& scratch, LeftOut&& is_left_out) {
-    const std::span<std::uint32_t> slot = scratch.take<std::uint32_t>(program.code.size());
-    const std::span<Step> steps = scratch.take<Step>(program.code.size());
-    const std::span<std::uint32_t> data = scratch.take<std::uint32_t>(program.code.size());
-    std::uint32_t slots = 0;
+inline Steps keep_all(const WorkingProgram& program, Arena& scratch) {
+    const std::size_t size = program.code.size();
+    const std::span<std::uint32_t> slot = scratch.take<std::uint32_t>(size);
+    const std::span<Step> steps = scratch.take<Step>(size);
+    const std::span<std::uint32_t> data = scratch.take<std::uint32_t>(size);
+    const std::uint32_t slots = give_slots(program, slot);
     std::size_t count = 0;
-    for (std::size_t i = 0; i < program.code.size(); ++i) {
+    for (std::size_t i = 0; i < size; ++i) {
         const Instruction& in = program.code[i];
-        slot[i] = slots;
-        slots += gives_point(in.op) ? 3 : 1;
-        const int n = operands(in.op);
-        if (n == 0 || is_left_out(i)) continue;
-        steps[count] = {static_cast<std::uint32_t>(in.op), slot[i], slot[in.a], n > 1 ? slot[in.b] : 0};
+        if (operands(in.op) == 0) continue;
+        steps[count] = {static_cast<std::uint32_t>(in.op), slot[i], slot[in.a], slot[in.b]};
         data[count++] = in.data;
     }
     return {steps.first(count), data.first(count), slot, slots};
-}
-inline Steps keep_all(const WorkingProgram& program, Arena& scratch) {
-    return keep_all(program, scratch, [](std::size_t) { return false; });
 }
 
 }  // namespace phasetree

@@ -49,17 +49,31 @@ struct PointInRegisters {
     operator Vec3<T>() const { return {registers[slot], registers[slot + 1], registers[slot + 2]}; }
 };
 
+/// A routine's steps, for interpret().
+class RoutineSteps {
+  public:
+    explicit RoutineSteps(const Routine& routine) : routine_(routine) {}
+    std::size_t size() const { return routine_.count; }
+    static bool is_left_out(std::size_t) { return false; }
+    const Step& step(std::size_t i) const { return routine_.steps[i]; }
+    const float* constants(std::size_t i) const { return routine_.constants + routine_.data[i]; }
+
+  private:
+    const Routine& routine_;
+};
+
 /// Registers 0 … 2 hold the point. `distance.template operator()<P>(constants, point, to)` sets that of a primitive, whose
 /// point is a Vec3<T> or in registers; `done(number)` is called with each number that a step of any other kind has made.
-template <class T, class Distance, class Done>
-void interpret(const Routine& routine, T* registers, Distance&& distance, Done&& done) {
+template <class Steps, class T, class Distance, class Done>
+void interpret(const Steps& steps, T* registers, Distance&& distance, Done&& done) {
     constexpr auto first_primitive = static_cast<std::uint32_t>(Op::first_primitive);
-    for (std::size_t i = 0; i < routine.count; ++i) {
-        const Step& s = routine.steps[i];
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        if (steps.is_left_out(i)) continue;
+        const Step& s = steps.step(i);
         const T& a = registers[s.a];
         const T& b = registers[s.b];
         T& to = registers[s.to];
-        const float* c = routine.constants + routine.data[i];
+        const float* c = steps.constants(i);
         switch (static_cast<Op>(s.op)) {
             case Op::input:
                 break;
