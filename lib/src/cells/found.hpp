@@ -74,8 +74,11 @@ class FoundPieces {
         pieces_.resize(m.pieces);
         pieces_.back().forget_from(m.last);
     }
-    /// The piece to which more can be added.
-    Found& last() { return pieces_.back(); }
+    /// The piece to which more can be added: a new one after so many cells, because to move them takes time.
+    Found& last() {
+        if (pieces_.back().cells.size() >= most_cells) pieces_.emplace_back();
+        return pieces_.back();
+    }
     /// All of another's, which has nothing then.
     void take(FoundPieces& more) {
         for (Found& piece : more.pieces_)
@@ -91,6 +94,8 @@ class FoundPieces {
     auto end() { return pieces_.end(); }
 
   private:
+    static constexpr std::size_t most_cells = 4096;
+
     std::vector<Found> pieces_ = std::vector<Found>(1);
 };
 
