@@ -66,9 +66,9 @@ bool enclose_convex(const P& solid, const AffinePoint& at, Enclosure& e) {
     for (std::size_t i = 0; i < 3; ++i) below += std::abs(slope[static_cast<int>(i)]) * at.half[i];
     const double nearest = value - below + solid.rolling_radius(at.centre, at.stretch * at.reach);
     if (!(nearest > 0)) return false;
-    const double bend = at.squared_stretch / nearest;
+    const double inverse = 1 / nearest, bend = at.squared_stretch * inverse;
     // What floats lose, of the centre and of the gradient itself.
-    const double lost = at.stretch * (4e-7 * at.size / nearest + 1e-6);
+    const double lost = at.stretch * (4e-7 * at.size * inverse + 1e-6);
 
     e.centre = value;
     e.value = limited(value - below, value + below + 0.5 * bend * at.squared_reach);

@@ -55,12 +55,12 @@ struct RoundCone {
     }
     /// That of the ball whose normal leads to the point; its centre moves along the axis 1/c times as far as the point.
     double rolling_radius(const glm::dvec3& p, double reach) const {
-        const double s = sine, c = cosine, a = radius_from;
+        const double s = sine, steepness = s / cosine, a = radius_from;
         const glm::dvec3 q = p - glm::dvec3(from);
         const double x = glm::dot(q, glm::dvec3(axis)), y = glm::length(q - x * glm::dvec3(axis));
-        const double at = std::clamp(x - y * s / c, 0.0, static_cast<double>(separation));
+        const double at = std::clamp(x - y * steepness, 0.0, static_cast<double>(separation));
         const double least = std::min(radius_from, radius_to);
-        return std::max(least, a - s * at - std::abs(s) / c * reach);
+        return std::max(least, a - s * at - std::abs(steepness) * reach);
     }
     Bounds bounds(BoundsQuery&, float level) const {
         return unite(Bounds{from, from}.inflated(radius_from + std::max(level, -radius_from)),
