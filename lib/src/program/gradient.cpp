@@ -16,7 +16,9 @@ glm::vec3 gradient(const Routine& routine, std::uint32_t slots, const glm::vec3&
     registers[2] = Dual(p.z, 0, 0, 1);
     interpret(
         RoutineSteps(routine), registers.data(),
-        []<class P>(const float* constants, const Vec3<Dual>& q, Dual& to) { to = detail::distance_of<P>(constants, q); },
+        []<class P>(const float* constants, const Vec3<Dual>& q, Dual& to) {
+            to = detail::distance_of<P>(constants, q);
+        },
         [](const Dual&) {});
     return registers[output->slot].gradient() * output->sign;
 }

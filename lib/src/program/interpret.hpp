@@ -62,8 +62,9 @@ class RoutineSteps {
     const Routine& routine_;
 };
 
-/// Registers 0 … 2 hold the point. `distance.template operator()<P>(constants, point, to)` sets that of a primitive, whose
-/// point is a Vec3<T> or in registers; `done(number)` is called with each number that a step of any other kind has made.
+/// Registers 0 … 2 hold the point. `distance.template operator()<P>(constants, point, to)` sets that of a primitive,
+/// whose point is a Vec3<T> or in registers; `done(number)` is called with each number that a step of any other kind
+/// has made.
 template <class Steps, class T, class Distance, class Done>
 void interpret(const Steps& steps, T* registers, Distance&& distance, Done&& done) {
     constexpr auto first_primitive = static_cast<std::uint32_t>(Op::first_primitive);

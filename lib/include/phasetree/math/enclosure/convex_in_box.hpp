@@ -9,7 +9,8 @@
 
 namespace phasetree {
 
-/// A point that is an affine function of a box's points: what convex solids need of it, worked out once for all of them.
+/// A point that is an affine function of a box's points: what convex solids need of it, worked out once for all of
+/// them.
 struct AffinePoint {
     Vec3<Dual> number;  ///< at the box's centre
     glm::dvec3 centre;
