@@ -1,8 +1,7 @@
 #pragma once
 
-#include <array>
 #include <cstring>
-#include <type_traits>
+#include <tuple>
 
 #include "program/assemble.hpp"
 #include "program/fused.hpp"
@@ -12,13 +11,22 @@ namespace phasetree {
 
 namespace detail {
 
-/// Calls run.template operator()<T>() for the index-th type of a list.
+/// Calls run.template operator()<T>() for the index-th type of a list: by halves, so that what is called is inline.
+template <std::size_t first, std::size_t count, class... Ts, class Run>
+[[gnu::always_inline]] inline void dispatch_among(TypeList<Ts...> list, std::uint32_t index, Run& run) {
+    if constexpr (count == 1) {
+        run.template operator()<std::tuple_element_t<first, std::tuple<Ts...>>>();
+    } else {
+        constexpr std::size_t half = count / 2;
+        if (index < first + half)
+            dispatch_among<first, half>(list, index, run);
+        else
+            dispatch_among<first + half, count - half>(list, index, run);
+    }
+}
 template <class... Ts, class Run>
-void dispatch(TypeList<Ts...>, std::uint32_t index, Run&& run) {
-    using Called = std::remove_reference_t<Run>;
-    static constexpr std::array<void (*)(Called&), sizeof...(Ts)> of{
-        +[](Called& r) { r.template operator()<Ts>(); }...};
-    if (index < of.size()) of[index](run);
+void dispatch(TypeList<Ts...> list, std::uint32_t index, Run&& run) {
+    if (index < sizeof...(Ts)) dispatch_among<0, sizeof...(Ts)>(list, index, run);
 }
 
 template <class Struct>
