@@ -34,6 +34,13 @@ struct Found {
         proofs.resize(m.proofs);
         near.resize(m.near);
     }
+    void reserve(const Mark& m) {
+        cells.reserve(m.cells);
+        code.reserve(m.code);
+        outputs.reserve(m.outputs);
+        proofs.reserve(m.proofs);
+        near.reserve(m.near);
+    }
     void add(const Bounds& box, const LinearBound& bound, const Curvature& curvature, const WorkingProgram& program,
              std::uint32_t leading, std::span<const ProofPart> proof) {
         const Mark m = mark();
@@ -76,7 +83,10 @@ class FoundPieces {
     }
     /// The piece to which more can be added: a new one after so many cells, because to move them takes time.
     Found& last() {
-        if (pieces_.back().cells.size() >= most_cells) pieces_.emplace_back();
+        if (pieces_.back().cells.size() >= most_cells) {
+            const Found::Mark full = pieces_.back().mark();
+            pieces_.emplace_back().reserve(full);
+        }
         return pieces_.back();
     }
     /// All of another's, which has nothing then.
