@@ -11,6 +11,26 @@
 
 namespace phasetree {
 
+namespace {
+
+/// A program's steps but for those whose result is known, for interpret().
+struct StepsToTake {
+    std::span<const Instruction> code;
+    std::span<const std::uint32_t> known;
+    const float* first_constant;
+    std::span<std::uint32_t> slot;
+
+    std::size_t size() const { return code.size(); }
+    bool is_left_out(std::size_t i) const { return i == 0 || known[i] != 0; }
+    Step step(std::size_t i) const {
+        const Instruction& in = code[i];
+        return {static_cast<std::uint32_t>(in.op), slot[i], slot[in.a], slot[in.b]};
+    }
+    const float* constants(std::size_t i) const { return first_constant + code[i].data; }
+};
+
+}  // namespace
+
 Encloser::Encloser(std::span<const float> constants, PhaseSet opaque, const Bounds& box, float rounding,
                    std::span<const LocalValue> around, Arena& scratch)
     : constants_(constants),
@@ -42,24 +62,6 @@ std::span<const std::uint32_t> Encloser::known_of(const WorkingProgram& program)
     }
     return known;
 }
-
-namespace {
-/// A program's steps but for those whose result is known, for interpret().
-struct StepsToTake {
-    std::span<const Instruction> code;
-    std::span<const std::uint32_t> known;
-    const float* first_constant;
-    std::span<std::uint32_t> slot;
-
-    std::size_t size() const { return code.size(); }
-    bool is_left_out(std::size_t i) const { return i == 0 || known[i] != 0; }
-    Step step(std::size_t i) const {
-        const Instruction& in = code[i];
-        return {static_cast<std::uint32_t>(in.op), slot[i], slot[in.a], slot[in.b]};
-    }
-    const float* constants(std::size_t i) const { return first_constant + code[i].data; }
-};
-}  // namespace
 
 void Encloser::compute(const WorkingProgram& program) {
     const std::span<const std::uint32_t> known = known_of(program);

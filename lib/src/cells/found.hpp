@@ -28,18 +28,10 @@ struct Found {
     };
     Mark mark() const { return {cells.size(), code.size(), outputs.size(), proofs.size(), near.size()}; }
     void forget_from(const Mark& m) {
-        cells.resize(m.cells);
-        code.resize(m.code);
-        outputs.resize(m.outputs);
-        proofs.resize(m.proofs);
-        near.resize(m.near);
+        each(m, [](auto& of, std::size_t count) { of.resize(count); });
     }
     void reserve(const Mark& m) {
-        cells.reserve(m.cells);
-        code.reserve(m.code);
-        outputs.reserve(m.outputs);
-        proofs.reserve(m.proofs);
-        near.reserve(m.near);
+        each(m, [](auto& of, std::size_t count) { of.reserve(count); });
     }
     void add(const Bounds& box, const LinearBound& bound, const Curvature& curvature, const WorkingProgram& program,
              std::uint32_t leading, std::span<const ProofPart> proof) {
@@ -63,6 +55,14 @@ struct Found {
     }
 
   private:
+    template <class F>
+    void each(const Mark& m, F&& f) {
+        f(cells, m.cells);
+        f(code, m.code);
+        f(outputs, m.outputs);
+        f(proofs, m.proofs);
+        f(near, m.near);
+    }
     template <class T, class From>
     static void append(std::vector<T>& to, const From& from) {
         to.insert(to.end(), from.begin(), from.end());

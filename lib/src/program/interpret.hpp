@@ -11,7 +11,6 @@ namespace phasetree {
 
 namespace detail {
 
-/// Calls run.template operator()<T>() for the index-th type of a list: by halves, so that what is called is inline.
 template <std::size_t first, std::size_t count, class... Ts, class Run>
 [[gnu::always_inline]] inline void dispatch_among(TypeList<Ts...> list, std::uint32_t index, Run& run) {
     if constexpr (count == 1) {
@@ -24,6 +23,8 @@ template <std::size_t first, std::size_t count, class... Ts, class Run>
             dispatch_among<first + half, count - half>(list, index, run);
     }
 }
+/// Calls run.template operator()<T>() for the index-th type of a list. It is found by halves, and what is called is
+/// inline.
 template <class... Ts, class Run>
 void dispatch(TypeList<Ts...> list, std::uint32_t index, Run&& run) {
     if (index < sizeof...(Ts)) dispatch_among<0, sizeof...(Ts)>(list, index, run);
