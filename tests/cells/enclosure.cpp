@@ -147,6 +147,27 @@ struct Mapped {
 
 }  // namespace
 
+TEST_CASE("a box's own point is made ready as any affine point is") {
+    Random rng(7);
+    for (int i = 0; i < 100; ++i) {
+        const glm::dvec3 centre(rng.uniform(-2, 2), rng.uniform(-2, 2), rng.uniform(-2, 2));
+        const Enclosure::Vector half{rng.uniform(0.01f, 1), rng.uniform(0.01f, 1), rng.uniform(0.01f, 1)};
+        const auto axis = [&](int k) { return Enclosure::coordinate(k, centre[k], half[static_cast<std::size_t>(k)]); };
+        const AffinePoint own = AffinePoint::of_box(centre, half);
+        const std::optional<AffinePoint> any = AffinePoint::of({axis(0), axis(1), axis(2)}, half);
+        REQUIRE(any);
+        const auto is_same = [](const Dual& a, const Dual& b) {
+            return a.value() == b.value() && a.gradient() == b.gradient();
+        };
+        CHECK(is_same(own.number.x, any->number.x));
+        CHECK(is_same(own.number.y, any->number.y));
+        CHECK(is_same(own.number.z, any->number.z));
+        CHECK(own.squared_stretch == any->squared_stretch);
+        CHECK(own.size == any->size);
+        CHECK(own.reach == any->reach);
+    }
+}
+
 TEST_CASE("what is known at a box's centre encloses rounded solids, behind affine maps, too") {
     Random rng(29);
     std::size_t kinds = 0;
