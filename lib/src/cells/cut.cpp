@@ -32,8 +32,9 @@ class Cutter {
         std::ranges::fill(planes_, Plane{});
     }
 
-    /// Where v may be on that side of τ.
-    LaneBox where(std::uint32_t v, Side side, float tau, const LaneBox& box) {
+    /// Where v may be on that side of τ. `is_cut` tells that v is an extremum and the box cut to where it may be below
+    /// τ, or above, if it is a minimum.
+    LaneBox where(std::uint32_t v, Side side, float tau, const LaneBox& box, bool is_cut = false) {
         const Range& r = registers_[slot_[v]].value;
         const bool is_above = static_cast<float>(r.low) > tau + margin_;
         const bool is_below = static_cast<float>(r.high) < tau - margin_;
@@ -47,14 +48,14 @@ class Cutter {
             case Op::farther:
             case Op::farther_inside:
                 if (side == Side::at && tau == 0) return where(in.a, Side::at, 0, box);
-                return of_both(in, in.op == Op::farther ? Side::below : Side::above, side, tau, box);
+                return of_both(in, in.op == Op::farther ? Side::below : Side::above, side, tau, box, is_cut);
             case Op::maximum:
-                return of_both(in, Side::below, side, tau, box);
+                return of_both(in, Side::below, side, tau, box, is_cut);
             case Op::minimum:
-                return of_both(in, Side::above, side, tau, box);
+                return of_both(in, Side::above, side, tau, box, is_cut);
             case Op::corner:
                 // Up to 0 it is the maximum; above, no less than each.
-                if (tau <= 0) return of_both(in, Side::below, side, tau, box);
+                if (tau <= 0) return of_both(in, Side::below, side, tau, box, is_cut);
                 return by_plane(v, side, tau, side == Side::above ? box : both(in, Side::below, tau, box));
             case Op::smooth_minimum:
                 // No more than each.
@@ -77,12 +78,14 @@ class Cutter {
         return where(in.b, side, tau, where(in.a, side, tau, box));
     }
     /// Of a value that is on one side where both operands are, below if it is their maximum; so it is at τ where one
-    /// operand is and the other on that side.
-    LaneBox of_both(const Instruction& in, Side of_all, Side side, float tau, const LaneBox& box) {
+    /// operand is, of what is left of the box on that side.
+    LaneBox of_both(const Instruction& in, Side of_all, Side side, float tau, const LaneBox& box, bool is_cut) {
         if (side == of_all) return both(in, side, tau, box);
-        const bool is_at = side == Side::at;
-        return unite(where(in.a, side, tau, is_at ? where(in.b, of_all, tau, box) : box),
-                     where(in.b, side, tau, is_at ? where(in.a, of_all, tau, box) : box));
+        if (side != Side::at) return unite(where(in.a, side, tau, box), where(in.b, side, tau, box));
+        const LaneBox left = is_cut ? box : both(in, of_all, tau, box);
+        if (left.empty()) return {};
+        const auto at = [&](std::uint32_t v) { return where(v, side, tau, left, program_.code[v].op == in.op); };
+        return unite(at(in.a), at(in.b));
     }
     LaneBox by_plane(std::uint32_t v, Side side, float tau, const LaneBox& box) {
         Plane& plane = planes_[v];

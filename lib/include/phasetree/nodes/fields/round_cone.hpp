@@ -53,14 +53,12 @@ struct RoundCone {
         const auto behind = [&] { return choose_smoothly(less(T(cosine * separation), k), at_second, at_side); };
         return choose_smoothly(less(k, T(0.f)), at_first, behind);
     }
-    /// That of the ball whose normal leads to the point; its centre moves along the axis 1/c times as far as the point.
+    /// That of the ball whose normal leads to the point, at x − y s/c along the axis: the radius a − s·at is no less
+    /// at x, whichever ball is larger, and needs no square root there.
     double rolling_radius(const glm::dvec3& p, double reach) const {
-        const double s = sine, steepness = s / cosine, a = radius_from;
-        const glm::dvec3 q = p - glm::dvec3(from);
-        const double x = glm::dot(q, glm::dvec3(axis)), y = glm::length(q - x * glm::dvec3(axis));
-        const double at = std::clamp(x - y * steepness, 0.0, static_cast<double>(separation));
+        const double x = glm::dot(p - glm::dvec3(from), glm::dvec3(axis)), s = sine;
         const double least = std::min(radius_from, radius_to);
-        return std::max(least, a - s * at - std::abs(steepness) * reach);
+        return std::max(least, radius_from - s * std::clamp(x, 0.0, double{separation}) - std::abs(s) * reach);
     }
     Bounds bounds(BoundsQuery&, float level) const {
         return unite(Bounds{from, from}.inflated(radius_from + std::max(level, -radius_from)),
