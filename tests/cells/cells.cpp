@@ -48,9 +48,8 @@ struct Disagreements {
 
 /// Labels in every cell at random points of it, a third of them on its faces; and outside the cells, that no label
 /// changes: the whole program's interface distance must not vanish there.
-Disagreements compare_labels(const Phased& object, Random& rng, std::size_t points_a_cell,
-                             BuildQuality quality = BuildQuality::medium) {
-    const InterfaceCells cells(object, {.quality = quality});
+Disagreements compare_labels(const InterfaceCells& cells, std::size_t points_a_cell) {
+    Random rng(6);  // its own: which objects come next is not for the number of cells to say
     Evaluator::Workspace w;
     Disagreements result;
     const float rounding = cells.resolution();
@@ -97,13 +96,14 @@ Disagreements compare_labels(const Phased& object, Random& rng, std::size_t poin
 
 TEST_CASE("a cell's program gives the whole object's labels in the cell and on its faces") {
     Random rng(7);
-    Disagreements d = compare_labels(hourglass(), rng, 200);
+    Disagreements d = compare_labels(InterfaceCells(hourglass()), 200);
     CHECK(d.points > 100'000);
     CHECK(d.wrong == 0);
     const std::size_t enough = long_tests() ? 10'000'000 : 0;
     std::size_t points = 0, wrong = 0;
     for (int i = 0; i < 60 || points < enough; ++i) {
-        d = compare_labels(traceable_object(rng, 4), rng, 20, any_quality(rng));
+        const Phased object = traceable_object(rng, 4);
+        d = compare_labels(InterfaceCells(object, {.quality = any_quality(rng)}), 20);
         points += d.points;
         wrong += d.wrong;
     }
@@ -122,9 +122,11 @@ TEST_CASE("a cell's program gives the whole object's labels with each kind of no
             CAPTURE(i);
             const Phased object = cut_to_size(kind.object(rng, 2 + i % 3));
             // Some draws are empty.
-            if (bounds(object).empty() || InterfaceCells(object).size() == 0) continue;
+            if (bounds(object).empty()) continue;
+            const InterfaceCells cells(object);
+            if (cells.size() == 0) continue;
             ++i;
-            const Disagreements d = compare_labels(object, rng, 8);
+            const Disagreements d = compare_labels(cells, 8);
             REQUIRE(d.wrong == 0);
             points += d.points;
         }
@@ -147,8 +149,7 @@ TEST_CASE("endless copies are pruned as single ones are, away from the faces whe
     CHECK(a.median_instructions <= b.median_instructions + 3);
     CHECK(a.cells < 3 * b.cells);
     CHECK(a.routines < b.routines / 10);
-    Random rng(9);
-    const Disagreements d = compare_labels(endless, rng, 20);
+    const Disagreements d = compare_labels(InterfaceCells(endless), 20);
     CHECK(d.points > 10'000);
     CHECK(d.wrong == 0);
 }
@@ -170,8 +171,7 @@ TEST_CASE("two endless grids of one point do not vouch for each other's folds") 
             ]}}}}}}}}
     })"))
                               .object;
-    Random rng(16);
-    const Disagreements d = compare_labels(object, rng, 30);
+    const Disagreements d = compare_labels(InterfaceCells(object), 30);
     CHECK(d.points > 100'000);
     CHECK(d.wrong == 0);
 }

@@ -14,7 +14,8 @@ namespace phasetree {
 class Arena {
   public:
     struct Mark {
-        std::size_t block = 0, used = 0;
+        std::size_t block = 0;
+        std::byte *next = nullptr, *end = nullptr;  ///< of that block, or null before the first
     };
 
     /// Unset; valid until a mark set before is released.
@@ -22,14 +23,9 @@ class Arena {
     std::span<T> take(std::size_t count) {
         static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
         const std::size_t bytes = (count * sizeof(T) + alignment - 1) / alignment * alignment;
-        while (here_.block < blocks_.size() && here_.used + bytes > blocks_[here_.block].size)
-            here_ = {here_.block + 1, 0};
-        if (here_.block == blocks_.size()) {
-            const std::size_t size = std::max(bytes, blocks_.empty() ? first_block : 2 * blocks_.back().size);
-            blocks_.push_back({std::make_unique_for_overwrite<Line[]>((size + alignment - 1) / alignment), size});
-        }
-        auto* const start = reinterpret_cast<std::byte*>(blocks_[here_.block].memory.get()) + here_.used;
-        here_.used += bytes;
+        if (bytes > left()) go_on(bytes);
+        std::byte* const start = here_.next;
+        here_.next += bytes;
         return {reinterpret_cast<T*>(start), count};
     }
     template <class T>
@@ -51,6 +47,18 @@ class Arena {
         std::unique_ptr<Line[]> memory;
         std::size_t size;
     };
+    std::size_t left() const { return static_cast<std::size_t>(here_.end - here_.next); }
+    /// To the next block that has so much room, or a new one.
+    void go_on(std::size_t bytes) {
+        std::size_t block = here_.next == nullptr ? 0 : here_.block + 1;
+        while (block < blocks_.size() && blocks_[block].size < bytes) ++block;
+        if (block == blocks_.size()) {
+            const std::size_t size = std::max(bytes, blocks_.empty() ? first_block : 2 * blocks_.back().size);
+            blocks_.push_back({std::make_unique_for_overwrite<Line[]>((size + alignment - 1) / alignment), size});
+        }
+        auto* const start = reinterpret_cast<std::byte*>(blocks_[block].memory.get());
+        here_ = {block, start, start + blocks_[block].size};
+    }
     std::vector<Block> blocks_;
     Mark here_;
 };

@@ -135,8 +135,8 @@ InterfaceCells::InterfaceCells(const Phased& object, const CellOptions& options)
     data->opaque = options.opaque;
     data->curvature_code = CurvatureCode(data->bounds.diagonal());
 
-    const Division division{options, recorded.constants, data->reach, 0.5f * traceable.resolution,
-                            data->bounds.diagonal()};
+    const Division division(options, rewritten, recorded.constants, data->reach, 0.5f * traceable.resolution,
+                            data->bounds.diagonal());
     FoundPieces found = divide_into_cells(data->bounds, rewritten, division);
     data->add(std::move(found), Routines(recorded.constants));
     data->whole.emplace(std::move(recorded));

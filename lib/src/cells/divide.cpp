@@ -27,9 +27,9 @@ struct Patience {
     float fine = 0.004f;              ///< down to this part of the object
 
     Patience() = default;
-    Patience(const WorkingProgram& program, std::span<const float> constants, std::span<const LocalValue> local) {
+    /// Of a program that is so much work.
+    Patience(const WorkingProgram& program, float all) {
         const auto size = static_cast<float>(program.code.size());
-        const float all = work(program, constants, local);
         const auto is_field = [](const Instruction& in) { return traits(in.op).is_network; };
         if (all > 200 + 10 * size && std::ranges::any_of(program.code, is_field)) {
             large = 0.25f;
@@ -73,6 +73,7 @@ struct Candidate {
     Curvature curvature{};
     std::span<const ProofPart> proof{};
     std::span<const LocalValue> local{};
+    Work work{};
     float cost = 0;
 };
 
@@ -98,10 +99,9 @@ std::optional<Candidate> candidate(const Share& share, const Bounds& all, const 
                                    Encloser& encloser, const Division& d, Worker& w) {
     constexpr int most_rounds = 3;
     Candidate cell{program, all};
-    std::optional<Encloser> narrower;
+    Encloser* enclose = &encloser;
     for (int rounds = 0;; ++rounds) {
-        Encloser& enclose = narrower ? *narrower : encloser;
-        const std::optional<ValueRanges> ranges = enclose.ranges(cell.program);
+        const std::optional<ValueRanges> ranges = enclose->ranges(cell.program);
         if (!ranges) break;
         const auto pruned = prune(cell.program, d.constants, *ranges, d.options.opaque, w.programs, w.scratch);
         if (!pruned) return std::nullopt;
@@ -111,7 +111,7 @@ std::optional<Candidate> candidate(const Share& share, const Bounds& all, const 
             cell = {*pruned, cell.box};  // whose gradient is better known
             continue;
         }
-        const Enclosed enclosed = enclose.rest(cell.program);
+        const Enclosed enclosed = enclose->rest(cell.program);
         cell.bound = enclosed.bound;
         cell.curvature = enclosed.curvature;
         cell.proof = w.programs.copy(enclosed.proof);
@@ -123,10 +123,11 @@ std::optional<Candidate> candidate(const Share& share, const Bounds& all, const 
         if (enclosed.box.empty() || cell.box.empty()) return std::nullopt;
         // Lists of local primitives must be those of the whole share, for its parts. What is left of the program is
         // right as far around the box as its parts must be.
-        const bool is_narrower = surface(cell.box) < 0.7f * surface(around) && !has_local_primitive(cell.program);
+        const bool is_narrower = surface(cell.box) < 0.7f * surface(around) &&
+                                 !(d.has_local_primitives && has_local_primitive(cell.program));
         if (rounds >= most_rounds || !is_narrower) break;
-        narrower.emplace(d.constants, d.options.opaque, intersect(all, cell.box.inflated(d.reach)), d.rounding,
-                         std::span<const LocalValue>(), w.scratch);
+        enclose = std::construct_at(w.scratch.take<Encloser>(1).data(), d, intersect(all, cell.box.inflated(d.reach)),
+                                    std::span<const LocalValue>(), w.scratch);
     }
     // Through copies without end a ray goes on and on, and, where nothing is known, from block to block of a pattern.
     const float size = share.box.diagonal();
@@ -134,9 +135,9 @@ std::optional<Candidate> candidate(const Share& share, const Bounds& all, const 
         std::isfinite(share.pattern) && !(cell.bound.spread < 1) && has_local_primitive(cell.program);
     const float blocks = has_blocks ? std::max(1.f, size / share.pattern) : 1.f;
     const float copies = (1 + 4 * size / share.period) * blocks;
-    cell.cost = cost(cell.box, cell.bound, cell.curvature, cell.program, d.constants, cell.local, !cell.proof.empty(),
-                     d.options.opaque, w.scratch) *
-                copies;
+    cell.work = work(cell.program, d.constants, cell.local, w.scratch);
+    cell.cost = copies * cost(cell.box, cell.bound, cell.curvature, cell.program, cell.work, !cell.proof.empty(),
+                              d.options.opaque);
     return cell;
 }
 
@@ -144,15 +145,16 @@ std::optional<Candidate> candidate(const Share& share, const Bounds& all, const 
 bool prepare(Share& share, const Division& d, Worker& w) {
     const ArenaScope scratch(w.scratch);
     const Bounds all = share.box.inflated(d.reach);
-    Encloser encloser(d.constants, d.options.opaque, all, d.rounding, share.local, w.scratch);
+    Encloser encloser(d, all, share.local, w.scratch);
     const auto whole = candidate(share, all, share.program, encloser, d, w);
     if (!whole) return false;
     share.program = whole->program;
     share.local = whole->local;
-    share.patience = Patience(share.program, d.constants, whole->local);
+    share.patience = Patience(share.program, whole->work.all);
     share.cell = *whole;
     share.box = intersect(share.box, whole->box);
     if (share.box.empty()) return false;
+    if (!d.has_far_bounds) return true;
     // Its parts may want what tells more far away.
     if (const auto near = without_far_bounds(share.program, d.constants, d.options.opaque, w.programs, w.scratch)) {
         const auto other = candidate(share, all, *near, encloser, d, w);
@@ -194,9 +196,7 @@ Cost find_cells(const Share& share, const Division& d, Worker& w) {
     if (program.outputs.size() > 2) {
         led = first_component_first(program, w.programs, w.scratch);
         // Behind a neural field what is left to do is next to nothing: then labels are known at once.
-        const float first = work_of_first(program, d.constants, cell.local, w.scratch);
-        if (work(program, d.constants, cell.local) < 1.03f * first)
-            led.leading = Found::narrow(program.code.size() - 1);
+        if (cell.work.all < 1.03f * cell.work.first) led.leading = Found::narrow(program.code.size() - 1);
     }
     const std::span<ProofPart> proof = w.scratch.copy(cell.proof);
     if (!led.renumbered.empty())
@@ -231,7 +231,7 @@ Cost divide(const Share& share, const Division& d, Worker& w) {
     const ArenaScope programs(w.programs), scratch(w.scratch);
     const Parts parts(share.box);
     const ValuesAt values = values_at_centres(share, parts, d, w);
-    const bool has_jumps = may_jump(share.program);
+    const bool has_jumps = d.has_folds && may_jump(share.program);
 
     // High up the parts are divided by as many threads, each with memory of its own; the order of the cells is that of
     // the parts, whichever thread finds them.
@@ -244,7 +244,8 @@ Cost divide(const Share& share, const Division& d, Worker& w) {
         else
             for (std::size_t i = 0; i < parts.count; ++i) f(i, w);
     };
-    std::array<std::optional<Share>, Parts::most> divided;
+    const std::span<Share> divided = w.scratch.take<Share>(parts.count);
+    std::array<bool, Parts::most> is_left{};
     each([&](std::size_t i, Worker& own) {
         const ArenaScope scope(own.scratch);
         const float radius = 0.5f * parts.box[i].inflated(d.reach).diagonal() * (1 + 1e-5f);
@@ -255,21 +256,21 @@ Cost divide(const Share& share, const Division& d, Worker& w) {
         const RangesInBall ranges{centre, slope, radius, d.rounding};
         const auto program = prune(share.program, d.constants, ranges, d.options.opaque, own.programs, own.scratch);
         if (!program) return;
-        Share& part = divided[i].emplace(Share{parts.box[i], *program, share.local, share.depth + 1});
+        Share& part = *std::construct_at(&divided[i], parts.box[i], *program, share.local, share.depth + 1);
         if (std::isfinite(share.period)) part.period = finest_jump(part.program, d.constants);
         if (std::isfinite(share.pattern)) part.pattern = finest_pattern(part.program, d.constants);
-        if (!prepare(part, d, own)) divided[i].reset();
+        is_left[i] = prepare(part, d, own);
     });
     float sum = price::parts * surface(share.box);
-    for (const std::optional<Share>& part : divided)
-        if (part) sum += part->cell.cost;
+    for (std::size_t i = 0; i < parts.count; ++i)
+        if (is_left[i]) sum += divided[i].cell.cost;
     const float left = share.left * sum / share.cell.cost;
     const bool is_won = left < 0.8f;
 
     std::array<Cost, Parts::most> costs{};
     each([&](std::size_t i, Worker& own) {
-        if (!divided[i]) return;
-        Share& part = *divided[i];
+        if (!is_left[i]) return;
+        Share& part = divided[i];
         // An object's features are smaller than a period of a fold, too.
         const float coarse = std::isfinite(part.period) ? 0.25f * part.period : part.patience.large * d.size;
         const float diagonal = part.box.diagonal();

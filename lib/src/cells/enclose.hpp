@@ -2,8 +2,8 @@
 
 #include <array>
 
+#include "cells/division.hpp"
 #include "cells/linear_bound.hpp"
-#include "cells/localise.hpp"
 #include "cells/proof.hpp"
 #include "phasetree/math/bounds.hpp"
 
@@ -29,11 +29,9 @@ inline constexpr std::size_t longest_enclosed = 64;
 /// cannot. A program that pruning has left of the last one keeps what was found of its primitives.
 class Encloser {
   public:
-    /// `rounding` bounds the error of a value; for `opaque` see prune(). What is taken of `scratch` stays until the
-    /// last enclosing. `around` is what local primitives are in a box around this one, in a program of which pruning
-    /// has left those to come.
-    Encloser(std::span<const float> constants, PhaseSet opaque, const Bounds& box, float rounding,
-             std::span<const LocalValue> around, Arena& scratch);
+    /// What is taken of `scratch` stays until the last enclosing. `around` is what local primitives are in a box around
+    /// this one, in a program of which pruning has left those to come.
+    Encloser(const Division&, const Bounds& box, std::span<const LocalValue> around, Arena& scratch);
 
     /// Ranges of its values; nothing for a program that is too long, or that folds space.
     std::optional<ValueRanges> ranges(const WorkingProgram&);
@@ -45,11 +43,9 @@ class Encloser {
     std::span<const std::uint32_t> known_of(const WorkingProgram&) const;
     Enclosure component(const ProgramOutput&) const;
 
-    std::span<const float> constants_;
-    PhaseSet opaque_;
+    const Division& division_;
     Bounds box_;
     std::array<double, 3> half_;
-    float rounding_;
     Arena& scratch_;
     glm::dvec3 middle_;
     const AffinePoint* input_;  ///< any point of the box

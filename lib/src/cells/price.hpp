@@ -30,23 +30,24 @@ inline unsigned half_works(const Instruction& in, std::span<const float> constan
     return t.is_network ? static_cast<unsigned>(Siren::Network::multiplications(&constants[in.data])) / 3
                         : t.half_works;
 }
-/// How much work a program is, in simple instructions.
-inline float work(const WorkingProgram& program, std::span<const float> constants, std::span<const LocalValue> local) {
+/// How much work a program is, in simple instructions; and its first component alone, if more than two phases meet.
+struct Work {
+    float all = 0, first = 0;
+};
+inline Work work(const WorkingProgram& program, std::span<const float> constants, std::span<const LocalValue> local,
+                 Arena& scratch) {
     unsigned halves = 0;
     for (const Instruction& in : program.code.subspan(1)) halves += half_works(in, constants);
     for (const LocalValue& v : local) halves -= v.half_works_saved;
-    return 0.5f * static_cast<float>(halves);
-}
-/// Of its first component alone.
-inline float work_of_first(const WorkingProgram& program, std::span<const float> constants,
-                           std::span<const LocalValue> local, Arena& scratch) {
+    const float all = 0.5f * static_cast<float>(halves);
+    if (program.outputs.size() == 2) return {all, all};
     const ArenaScope scope(scratch);
     const Reach first(program, program.outputs.first(1), scratch);
-    unsigned halves = 0;
+    unsigned rest = 0;
     for (std::size_t i = 1; i < program.code.size(); ++i)
-        halves += first.has(i) ? half_works(program.code[i], constants) : 0u;
-    for (const LocalValue& v : local) halves -= first.has(v.value) ? v.half_works_saved : 0u;
-    return 0.5f * static_cast<float>(halves);
+        rest += first.has(i) ? 0u : half_works(program.code[i], constants);
+    for (const LocalValue& v : local) rest -= first.has(v.value) ? 0u : v.half_works_saved;
+    return {all, all - 0.5f * static_cast<float>(rest)};
 }
 
 inline float surface(const Bounds& box) {
@@ -77,9 +78,8 @@ inline float batches(const Bounds& box, const LinearBound& bound, float most_cur
 /// Half of the rays are taken to be in the first phase, if that is the vacuum; all, if the others are opaque. Where
 /// more than two phases meet they need its component alone, and the rest where they leave it.
 inline float cost(const Bounds& box, const LinearBound& bound, const Curvature& curvature,
-                  const WorkingProgram& program, std::span<const float> constants, std::span<const LocalValue> local,
-                  bool has_proof, PhaseSet opaque, Arena& scratch) {
-    const float all = price::batch + price::step * work(program, constants, local);
+                  const WorkingProgram& program, const Work& work, bool has_proof, PhaseSet opaque) {
+    const float all = price::batch + price::step * work.all;
     const auto is_opaque = [&](const ProgramOutput& o) { return opaque.contains(o.phase); };
     const bool is_one_clear = std::ranges::all_of(program.outputs.subspan(1), is_opaque);
     const bool has_two = program.outputs.size() == 2;
@@ -88,9 +88,7 @@ inline float cost(const Bounds& box, const LinearBound& bound, const Curvature& 
     if (!has_two) {
         first = others;
         if (program.outputs[0].phase == vacuum || is_one_clear)
-            first = batches(box, bound, curvature.most[0], has_proof) *
-                        (price::batch + price::step * work_of_first(program, constants, local, scratch)) +
-                    all;
+            first = batches(box, bound, curvature.most[0], has_proof) * (price::batch + price::step * work.first) + all;
     }
     const float in_first = is_one_clear ? 1.f : is_opaque(program.outputs[0]) ? 0.f : 0.5f;
     return surface(box) * (price::visit + in_first * first + (1 - in_first) * others);

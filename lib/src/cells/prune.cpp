@@ -400,8 +400,8 @@ std::optional<WorkingProgram> prune(const WorkingProgram& program, std::span<con
 std::optional<WorkingProgram> without_far_bounds(const WorkingProgram& program, std::span<const float> constants,
                                                  PhaseSet opaque, Arena& keep, Arena& scratch) {
     const ArenaScope scope(scratch);
-    const auto is_far_bound = [](const Instruction& in) { return in.op == Op::farther || in.op == Op::farther_inside; };
-    if (std::ranges::none_of(program.code, is_far_bound)) return std::nullopt;
+    if (std::ranges::none_of(program.code, [](const Instruction& in) { return is_far_bound(in.op); }))
+        return std::nullopt;
     return pruned(program, constants, RangesAnywhere{program.lipschitz}, opaque, true, keep, scratch);
 }
 

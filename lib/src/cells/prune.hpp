@@ -64,6 +64,10 @@ std::optional<WorkingProgram> prune(const WorkingProgram&, std::span<const float
 std::optional<WorkingProgram> prune(const WorkingProgram&, std::span<const float> constants, const RangesInBall&,
                                     PhaseSet opaque, Arena& keep, Arena& scratch);
 
+/// Whether an operation makes distances larger far from the surface.
+inline bool is_far_bound(Op op) {
+    return op == Op::farther || op == Op::farther_inside;
+}
 /// Without what makes distances larger far from the surface, if there is any (Op::farther): the signs are the same.
 std::optional<WorkingProgram> without_far_bounds(const WorkingProgram&, std::span<const float> constants,
                                                  PhaseSet opaque, Arena& keep, Arena& scratch);

@@ -39,7 +39,7 @@ std::uint32_t size_of(Op op) {
 
 namespace {
 
-constexpr std::size_t operation_count = first_placed + Primitives::size;
+static_assert(first_placed + Primitives::size <= most_operations);
 
 template <class... Ps>
 constexpr auto long_ones(TypeList<Ps...>) {
@@ -62,7 +62,7 @@ constexpr void mark_patterns(TypeList<Ps...>, auto& all) {
 }
 
 constexpr auto all_traits() {
-    std::array<OpTraits, operation_count> all{};
+    std::array<OpTraits, most_operations> all{};
     constexpr auto first_primitive = static_cast<std::size_t>(Op::first_primitive);
     const auto of = [&](Op op) -> OpTraits& { return all[static_cast<std::size_t>(op)]; };
     of(Op::input) = {.operands = 0, .gives_point = true};
@@ -72,18 +72,17 @@ constexpr auto all_traits() {
     constexpr auto is_long = long_ones(Primitives());
     for (std::size_t i = 0; i < Primitives::size + DataPrimitives::size; ++i)
         all[first_primitive + i].is_long_primitive = i >= is_long.size() || is_long[i];  // then come those with data
-    for (std::size_t i = first_primitive; i < all.size(); ++i) all[i].half_works = all[i].is_long_primitive ? 120 : 3;
+    for (std::size_t i = first_primitive; i < first_placed + Primitives::size; ++i)
+        all[i].half_works = all[i].is_long_primitive ? 120 : 3;
     for (std::size_t i = first_map; i < first_placed; ++i) all[i].gives_point = true;
     all[first_map + index_in<FoldMap>(PointMaps())].is_fold = true;
     all[first_primitive + Primitives::size + index_in<Siren::Network>(DataPrimitives())].is_network = true;
     mark_patterns(Primitives(), all);
     return all;
 }
-constexpr auto known_traits = all_traits();
-
 }  // namespace
 
-const OpTraits* const op_traits = known_traits.data();
+constexpr std::array<OpTraits, most_operations> op_traits = all_traits();
 
 Assembly assemble(std::span<const Instruction> code, std::span<const ProgramOutput> outputs,
                   std::span<KeptValue> kept) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "kernel/kernel.hpp"
 
 namespace phasetree {
@@ -46,7 +48,9 @@ struct OpTraits {
     bool is_local = false;           ///< a LocalPrimitive
     bool is_near = false;            ///< and what it becomes in a small box
 };
-extern const OpTraits* const op_traits;  ///< of every operation, those of fused.hpp too
+/// Of every operation, those of fused.hpp too.
+inline constexpr std::size_t most_operations = 256;
+extern const std::array<OpTraits, most_operations> op_traits;
 
 inline const OpTraits& traits(Op op) {
     return op_traits[static_cast<std::size_t>(op)];
