@@ -32,9 +32,9 @@ class Cutter {
         std::ranges::fill(planes_, Plane{});
     }
 
-    /// Where v may be on that side of τ. `is_cut` tells that v is an extremum and the box cut to where it may be below
-    /// τ, or above, if it is a minimum.
-    LaneBox where(std::uint32_t v, Side side, float tau, const LaneBox& box, bool is_cut = false) {
+    /// Where v may be on that side of τ. For `at` the box may be cut already to where v may be below τ, or above:
+    /// `cut`.
+    LaneBox where(std::uint32_t v, Side side, float tau, const LaneBox& box, Side cut = Side::at) {
         const Range& r = registers_[slot_[v]].value;
         const bool is_above = static_cast<float>(r.low) > tau + margin_;
         const bool is_below = static_cast<float>(r.high) < tau - margin_;
@@ -42,20 +42,22 @@ class Cutter {
         if (is_above || is_below || steps_ >= most_steps) return box;
         ++steps_;
         const Instruction& in = program_.code[v];
-        if (const auto now = Threshold::of_operand(in, constants_, static_cast<double>(tau)))
-            return where(in.a, now->is_mirrored ? mirrored(side) : side, static_cast<float>(now->tau), box);
+        if (const auto now = Threshold::of_operand(in, constants_, static_cast<double>(tau))) {
+            const auto of = [&](Side s) { return now->is_mirrored ? mirrored(s) : s; };
+            return where(in.a, of(side), static_cast<float>(now->tau), box, of(cut));
+        }
         switch (in.op) {
             case Op::farther:
             case Op::farther_inside:
                 if (side == Side::at && tau == 0) return where(in.a, Side::at, 0, box);
-                return of_both(in, in.op == Op::farther ? Side::below : Side::above, side, tau, box, is_cut);
+                return of_both(in, in.op == Op::farther ? Side::below : Side::above, side, tau, box, cut);
             case Op::maximum:
-                return of_both(in, Side::below, side, tau, box, is_cut);
+                return of_both(in, Side::below, side, tau, box, cut);
             case Op::minimum:
-                return of_both(in, Side::above, side, tau, box, is_cut);
+                return of_both(in, Side::above, side, tau, box, cut);
             case Op::corner:
                 // Up to 0 it is the maximum; above, no less than each.
-                if (tau <= 0) return of_both(in, Side::below, side, tau, box, is_cut);
+                if (tau <= 0) return of_both(in, Side::below, side, tau, box, cut);
                 return by_plane(v, side, tau, side == Side::above ? box : both(in, Side::below, tau, box));
             case Op::smooth_minimum:
                 // No more than each.
@@ -64,7 +66,7 @@ class Cutter {
                 if (side == Side::below) return where(in.a, Side::above, -tau, where(in.a, Side::below, tau, box));
                 return unite(where(in.a, side, tau, box), where(in.a, mirrored(side), -tau, box));
             default:
-                return by_plane(v, side, tau, box);
+                return by_plane(v, side == Side::at ? mirrored(cut) : side, tau, box);
         }
     }
 
@@ -79,13 +81,12 @@ class Cutter {
     }
     /// Of a value that is on one side where both operands are, below if it is their maximum; so it is at τ where one
     /// operand is, of what is left of the box on that side.
-    LaneBox of_both(const Instruction& in, Side of_all, Side side, float tau, const LaneBox& box, bool is_cut) {
+    LaneBox of_both(const Instruction& in, Side of_all, Side side, float tau, const LaneBox& box, Side cut) {
         if (side == of_all) return both(in, side, tau, box);
         if (side != Side::at) return unite(where(in.a, side, tau, box), where(in.b, side, tau, box));
-        const LaneBox left = is_cut ? box : both(in, of_all, tau, box);
+        const LaneBox left = cut == of_all ? box : both(in, of_all, tau, box);
         if (left.empty()) return {};
-        const auto at = [&](std::uint32_t v) { return where(v, side, tau, left, program_.code[v].op == in.op); };
-        return unite(at(in.a), at(in.b));
+        return unite(where(in.a, side, tau, left, of_all), where(in.b, side, tau, left, of_all));
     }
     LaneBox by_plane(std::uint32_t v, Side side, float tau, const LaneBox& box) {
         Plane& plane = planes_[v];
