@@ -76,6 +76,40 @@ TEST_CASE("wherever the label changes is a cell") {
     CHECK(all.all > 1500);
 }
 
+TEST_CASE("a cut asks for every kind of field away from zero, too") {
+    Random rng(33);
+    std::size_t changes = 0, kinds = 0;
+    for (const NodeKind& kind : node_kinds()) {
+        if (!kind.is_field) continue;
+        CAPTURE(kind.name);
+        ++kinds;
+        for (int i = 0; i < (long_tests() ? 200 : 8); ++i) {
+            const Field f = kind.field(rng, 2);
+            const float by = rng.uniform(0.05f, 0.3f);
+            const Field moved = i % 4 == 0   ? Field(Offset{f, by})
+                                : i % 4 == 1 ? Field(Offset{f, -by})
+                                : i % 4 == 2 ? Field(Shell{f, by})
+                                             : Field(Shell{Shell{f, by}, 0.5f * by});
+            const Field others = i % 8 < 4 ? Field(Union{{moved, Offset{Box{.size = glm::vec3(0.5f)}, by}}})
+                                           : Field(Intersection{{moved, Offset{Sphere{.radius = 0.4f}, by}}});
+            const glm::vec3 middle = 0.5f * rng.direction();
+            const Bounds box = Bounds{middle, middle}.inflated(0.6f);
+            const Phased object = IntersectShape{.of = Set{.phase = Phase{1}, .of = others},
+                                                 .shape = warped(Translate{middle}, Box{.size = glm::vec3(1.2f)}),
+                                                 .phases_cut = {}};
+            if (bounds(object).empty()) continue;
+            CAPTURE(i);
+            // Large boxes, whose cuts are many, and small ones, which may be within a corner.
+            const InterfaceCells cells(object, {.deepest = 1 + rng.below(5)});
+            const Changes c = changes_of(cells, box, {}, 100, rng);
+            CHECK(c.outside == 0);
+            changes += c.all;
+        }
+    }
+    MESSAGE(kinds, " kinds, ", changes, " changes");
+    CHECK(changes > 10'000);
+}
+
 TEST_CASE("boxes in which bumps meet the skin end with them") {
     const Phased object = read_tree(Document::from_file(PHASETREE_SOURCE_DIR "/scenes/tentacle.json")).object;
     const InterfaceCells cells(object, {.opaque = {phases(object).bits & ~std::uint64_t{1}}});

@@ -168,6 +168,77 @@ TEST_CASE("a box's own point is made ready as any affine point is") {
     }
 }
 
+namespace {
+
+/// How much the distance bends at most along straight lines through q, by differences of its gradient.
+template <class Solid>
+double largest_bend(const Solid& solid, const glm::dvec3& q) {
+    const auto gradient = [&](const glm::dvec3& at) {
+        const auto x = [&](int k) { return static_cast<float>(at[k]); };
+        const Vec3<Dual> p{Dual(x(0), 1.f, 0.f, 0.f), Dual(x(1), 0.f, 1.f, 0.f), Dual(x(2), 0.f, 0.f, 1.f)};
+        return glm::dvec3(solid.distance(p).gradient());
+    };
+    constexpr double h = 1.0 / 128;
+    const glm::dvec3 n = gradient(q);
+    const glm::dvec3 t = glm::normalize(glm::cross(n, std::abs(n.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+    const glm::dvec3 s = glm::cross(n, t);
+    const auto across = [&](const glm::dvec3& u) { return (gradient(q + h * u) - gradient(q - h * u)) / (2 * h); };
+    const glm::dvec3 along_t = across(t), along_s = across(s);
+    // Second derivatives by which it bends most along u, if no seam is near; that it does is asked anew.
+    const double angle =
+        0.5 * std::atan2(glm::dot(along_t, s) + glm::dot(along_s, t), glm::dot(along_t, t) - glm::dot(along_s, s));
+    const glm::dvec3 u = std::cos(angle) * t + std::sin(angle) * s;
+    return glm::dot(across(u), u);
+}
+
+}  // namespace
+
+TEST_CASE("a rounded solid's distance bends as that to the ball which it says lies in its surface") {
+    Random rng(41);
+    std::size_t kinds = 0;
+    for (const NodeKind& kind : node_kinds()) {
+        if (!kind.is_field) continue;
+        CAPTURE(kind.name);
+        // Of 1/(f + ρ), the bend at most: where ρ is of all points within reach, and of the point itself.
+        double within_reach = 0, at_the_point = 0;
+        std::size_t points = 0;
+        const auto look_at = [&](const auto& n) {
+            using N = std::remove_cvref_t<decltype(n)>;
+            if constexpr (RoundedPrimitive<N>) {
+                for (int j = 0; j < 400; ++j) {
+                    const glm::dvec3 p(rng.uniform(0, 1.5f) * rng.direction());
+                    const double reach = std::exp2(rng.uniform(-6, -1));
+                    const glm::dvec3 q =
+                        p + (j % 4 == 0 ? double{rng.uniform(0, 1)} : 1.0) * reach * glm::dvec3(rng.direction());
+                    const glm::vec3 single(q);
+                    const auto f = static_cast<double>(n.distance(Vec3<float>{single.x, single.y, single.z}));
+                    const double to_centre = f + n.rolling_radius(p, reach);
+                    if (!(to_centre > 0.125) || f > 0.25) continue;  // h is a sixteenth of that
+                    ++points;
+                    if (std::isinf(to_centre)) {
+                        within_reach = std::max(within_reach, largest_bend(n, q) > 1e-4 ? 2.0 : 1.0);
+                        at_the_point = 1;
+                    } else {
+                        const double bend = largest_bend(n, q);
+                        within_reach = std::max(within_reach, bend * to_centre);
+                        at_the_point = std::max(at_the_point, bend * (f + n.rolling_radius(q, 0)));
+                    }
+                }
+            }
+        };
+        for (int i = 0; i < 100; ++i) std::visit(look_at, kind.field(rng, 1).node()->node);
+        if (points == 0) continue;
+        ++kinds;
+        MESSAGE(kind.name, ": ", points, " points, ", within_reach, " within reach, ", at_the_point, " at the point");
+        CHECK(points > 2000);
+        // Differences over h bend less by (h/(f + ρ))²/2, and at seams.
+        CHECK(within_reach < 1.001);
+        CHECK(at_the_point > 0.999);
+        CHECK(at_the_point < 1.001);
+    }
+    CHECK(kinds == 4);
+}
+
 TEST_CASE("what is known at a box's centre encloses rounded solids, behind affine maps, too") {
     Random rng(29);
     std::size_t kinds = 0;

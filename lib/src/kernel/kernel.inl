@@ -123,7 +123,7 @@ HWY_INLINE Handler handler(std::uint32_t op) {
 /// The first `count` steps.
 HWY_INLINE void run(const Routine& routine, std::size_t count, float* registers) {
     const Step* first = routine.steps;
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || HWY_IS_ASAN || HWY_IS_TSAN  // GCC's, Clang's
     // A sanitizer's calls stay on the stack, which ends before a long program does: so one at a time.
     for (std::size_t i = 0; i < count; ++i)
         handler(first[i].op)(first + i, routine.data + i, routine.constants, registers, first + i + 1);
