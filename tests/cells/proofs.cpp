@@ -7,6 +7,7 @@
 #include "phasetree/cells/cells.hpp"
 #include "phasetree/phasetree.hpp"
 #include "phasetree/trace/tracer.hpp"
+#include "support/compared_crossings.hpp"
 #include "support/random_tree.hpp"
 
 using namespace phasetree;
@@ -57,6 +58,69 @@ Field edges(Random& rng) {
 }
 
 }  // namespace
+
+TEST_CASE("rays along what bends beside edges, and along rounded edges, meet what the whole object's rays meet") {
+    Random rng(34);
+    Compared all;
+    for (int n = 0; n < (long_tests() ? 4000 : 150); ++n) {
+        // Moved out by more and less than a cell is large: the corner's own distance counts, or that it is none.
+        const float by = std::exp2(-rng.uniform(3, 10)), size = rng.uniform(0.1f, 0.6f);
+        Field round = edges(rng);
+        if (n % 2 == 0) {
+            const Field profile = n % 8 < 4 ? Field(Rectangle{.width = size, .height = 0.5f * size})
+                                            : Field(Union{{Circle{.radius = 0.5f * size},
+                                                           Rectangle{.width = 1.2f * size, .height = 0.3f * size}}});
+            round = Offset{.of = Extrude{.of = profile, .height = rng.uniform(0.05f, 0.3f)}, .amount = by};
+        }
+        if (n % 4 == 2) round = Shell{.of = round, .half_thickness = 0.5f * by};
+        const Field ball = warped(Translate{0.3f * rng.direction()}, Sphere{.radius = rng.uniform(0.05f, 0.3f)});
+        round = warped(Rotate{.axis = rng.direction(), .angle = rng.uniform(0, 90)}, round);
+        Field both = Union{.of = {round, ball}};
+        // Where space is stretched leaves are steeper than distances are.
+        if (n % 4 == 1) both = warped(Twist{.rate = rng.uniform(90, 400)}, both);
+        const std::size_t before = all.different;
+        compare_crossings(solid(both), {}, 200, rng, all);
+        CAPTURE(n);
+        CHECK(all.different == before);
+    }
+    MESSAGE(all.rays, " rays, ", all.crossings, " crossings, ", all.different, " different");
+    CHECK(all.crossings > all.rays);
+}
+
+TEST_CASE("a ray that grazes a ball beside its crease with a plate meets it") {
+    Random rng(35);
+    Evaluator::Workspace w;
+    Compared all;
+    for (int n = 0; n < (long_tests() ? 2000 : 100); ++n) {
+        const float radius = rng.uniform(0.1f, 0.4f), height = rng.uniform(-0.3f, 0.3f) * radius;
+        const glm::vec3 up = rng.direction();
+        Field both = Union{{Sphere{.radius = radius}, warped(Translate{height * up}, Plane{.normal = up})}};
+        // In finer space what is known of its values is known of their multiples.
+        if (n % 4 < 2) {
+            const Field large =
+                Union{{Sphere{.radius = 4 * radius}, warped(Translate{4 * height * up}, Plane{.normal = up})}};
+            both = warped(Scale{.factor = 0.25f}, large);
+        }
+        const Phased object = n % 2 == 0 ? solid(Intersection{{both, Box{.size = glm::vec3(1)}}})
+                                         : solid(Difference{.from = Box{.size = glm::vec3(1)}, .subtract = {both}});
+        const InterfaceCells cells(object);
+        const InterfaceTracer tracer(object);
+        const std::size_t before = all.different;
+        for (int i = 0; i < 500; ++i) {
+            // A point of the ball a little above the plate, and past it a ray a little deeper than that.
+            const glm::vec3 side = glm::normalize(glm::cross(up, rng.direction()));
+            const float angle = std::asin(height / radius) + std::exp2(-rng.uniform(2, 8));
+            const glm::vec3 q = radius * (std::cos(angle) * side + std::sin(angle) * up);
+            const glm::vec3 normal = glm::normalize(q), d = glm::normalize(glm::cross(normal, rng.direction()));
+            const glm::vec3 o = q * (1 - std::exp2(-rng.uniform(6, 16))) - rng.uniform(0.2f, 0.8f) * radius * d;
+            compare_ray(object, cells, tracer, {}, {o, d}, w, all);
+        }
+        CAPTURE(n);
+        CHECK(all.different == before);
+    }
+    MESSAGE(all.rays, " rays, ", all.crossings, " crossings, ", all.different, " different");
+    CHECK(all.crossings > 2 * all.rays);
+}
 
 TEST_CASE("near edges rays take few batches, and meet what the whole object's rays meet") {
     Random rng(31);

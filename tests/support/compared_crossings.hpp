@@ -128,51 +128,55 @@ inline BuildQuality any_quality(Random& rng) {
     return rng.below(4) == 0 ? BuildQuality::low : BuildQuality::medium;
 }
 
-/// Along so many rays, until they enter an opaque phase.
+/// Along a ray, until it enters an opaque phase.
+inline void compare_ray(const Phased& object, const InterfaceCells& cells, const InterfaceTracer& tracer,
+                        PhaseSet opaque, const ComparedRay& ray, Evaluator::Workspace& w, Compared& result) {
+    const float tolerance = 4 * tracer.resolution();
+    glm::vec3 p = ray.origin;
+    const glm::vec3 d = ray.direction;
+    Phase phase = tracer.label(p, w);
+    ++result.rays;
+    for (int n = 0; n < 100 && !opaque.contains(phase); ++n) {
+        const auto by_whole = [&](const glm::vec3& from, Phase in) {
+            return tracer.first_crossing(from, d, 0, 1e6f, in, w);
+        };
+        const auto by_cells = [&](const glm::vec3& from, Phase in) {
+            return nearest_crossing(cells, from, d, in, w, result.counters);
+        };
+        std::optional<Crossing> expected = by_whole(p, phase), nearest = by_cells(p, phase);
+        if (expected.has_value() != nearest.has_value() ||
+            (expected && std::abs(nearest->t_in - expected->t_in) > tolerance)) {
+            expected = beyond_hairs(object, d, expected, tracer.resolution(), by_whole);
+            nearest = beyond_hairs(object, d, nearest, tracer.resolution(), by_cells);
+        }
+        if (expected.has_value() != nearest.has_value()) {
+            ++result.different;
+            break;
+        }
+        if (!expected) break;
+        ++result.crossings;
+        const bool same = nearest->from == expected->from && nearest->to == expected->to;
+        // A ray that grazes an interface may cross it anywhere there.
+        const auto grazes = [&](const Crossing& c) {
+            return is_rounding(object, c.p_out, c.p_out, d, c.from, tracer.resolution());
+        };
+        if ((std::abs(nearest->t_in - expected->t_in) > tolerance && !(grazes(*nearest) && grazes(*expected))) ||
+            (!same && !is_sliver(tracer, *expected, *nearest, d, w)))
+            ++result.different;
+        p = nearest->p_out;
+        phase = nearest->to;
+        result.into_opaque += opaque.contains(phase);
+    }
+}
+
+/// Along so many rays.
 inline void compare_crossings(const Phased& object, PhaseSet opaque, int rays, Random& rng, Compared& result,
                               BuildQuality quality = BuildQuality::medium) {
     Evaluator::Workspace w;
     const InterfaceCells cells(object, {.quality = quality, .opaque = opaque});
     const InterfaceTracer tracer(object);
-    const float tolerance = 4 * tracer.resolution();
-    for (int i = 0; i < rays; ++i) {
-        const ComparedRay ray = compared_ray(tracer, i % 3 == 2, rng, w);
-        glm::vec3 p = ray.origin;
-        const glm::vec3 d = ray.direction;
-        Phase phase = tracer.label(p, w);
-        ++result.rays;
-        for (int n = 0; n < 100 && !opaque.contains(phase); ++n) {
-            const auto by_whole = [&](const glm::vec3& from, Phase in) {
-                return tracer.first_crossing(from, d, 0, 1e6f, in, w);
-            };
-            const auto by_cells = [&](const glm::vec3& from, Phase in) {
-                return nearest_crossing(cells, from, d, in, w, result.counters);
-            };
-            std::optional<Crossing> expected = by_whole(p, phase), nearest = by_cells(p, phase);
-            if (expected.has_value() != nearest.has_value() ||
-                (expected && std::abs(nearest->t_in - expected->t_in) > tolerance)) {
-                expected = beyond_hairs(object, d, expected, tracer.resolution(), by_whole);
-                nearest = beyond_hairs(object, d, nearest, tracer.resolution(), by_cells);
-            }
-            if (expected.has_value() != nearest.has_value()) {
-                ++result.different;
-                break;
-            }
-            if (!expected) break;
-            ++result.crossings;
-            const bool same = nearest->from == expected->from && nearest->to == expected->to;
-            // A ray that grazes an interface may cross it anywhere there.
-            const auto grazes = [&](const Crossing& c) {
-                return is_rounding(object, c.p_out, c.p_out, d, c.from, tracer.resolution());
-            };
-            if ((std::abs(nearest->t_in - expected->t_in) > tolerance && !(grazes(*nearest) && grazes(*expected))) ||
-                (!same && !is_sliver(tracer, *expected, *nearest, d, w)))
-                ++result.different;
-            p = nearest->p_out;
-            phase = nearest->to;
-            result.into_opaque += opaque.contains(phase);
-        }
-    }
+    for (int i = 0; i < rays; ++i)
+        compare_ray(object, cells, tracer, opaque, compared_ray(tracer, i % 3 == 2, rng, w), w, result);
 }
 
 }  // namespace phasetree::tests
