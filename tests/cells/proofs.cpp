@@ -83,7 +83,9 @@ TEST_CASE("rays along what bends beside edges, and along rounded edges, meet wha
         CAPTURE(n);
         CHECK(all.different == before);
     }
-    MESSAGE(all.rays, " rays, ", all.crossings, " crossings, ", all.different, " different");
+    MESSAGE(all.rays, " rays, ", all.crossings, " crossings, ", all.different, " different; ", all.creeping,
+            " passed by a ray that creeps");
+    CHECK(all.creeping < all.rays / 5'000);
     CHECK(all.crossings > all.rays);
 }
 
