@@ -6,6 +6,7 @@
 
 #include "phasetree/math/dual.hpp"
 #include "phasetree/math/enclosure/convex_in_box.hpp"
+#include "phasetree/math/enclosure/difference.hpp"
 #include "phasetree/model/walk.hpp"
 #include "phasetree/nodes/copies/endless_grid.hpp"
 #include "phasetree/phasetree.hpp"
@@ -413,4 +414,50 @@ TEST_CASE("choices and operators of enclosures hold both branches") {
     CHECK(floor(a).value.low == -1);
     CHECK(floor(a).value.high == 2);
     CHECK((2.f - a).value.high == 3);
+}
+
+TEST_CASE("a difference is at least what is said of it, and just that where it bends down evenly") {
+    // f = c + g·q + k/2·|q|², q from the centre: of the difference of two the least is found axis by axis.
+    struct Quadratic {
+        double c, k;
+        std::array<double, 3> g;
+        Enclosure enclosed(const Enclosure::Vector& half) const {
+            std::array<Range, 3> slopes;
+            double reach = 0;
+            for (std::size_t i = 0; i < 3; ++i) {
+                slopes[i] = {g[i] - std::abs(k) * half[i], g[i] + std::abs(k) * half[i]};
+                reach += slopes[i].magnitude() * half[i];
+            }
+            return {c, {c - reach, c + reach}, slopes, g, {k, k}};
+        }
+    };
+    Random rng(39);
+    const auto number = [&] { return static_cast<double>(rng.uniform(-1, 1)); };
+    std::size_t exact = 0;
+    for (int n = 0; n < 10'000; ++n) {
+        const Quadratic a{number(), number(), {number(), number(), number()}};
+        const Quadratic b{number(), number(), {number(), number(), number()}};
+        const Enclosure::Vector half{0.5 + 0.4 * number(), 0.5 + 0.4 * number(), 0.5 + 0.4 * number()};
+        double least = a.c - b.c;
+        const double k = a.k - b.k;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double g = a.g[i] - b.g[i], at_ends = 0.5 * k * half[i] * half[i] - std::abs(g) * half[i];
+            least += k > 0 && std::abs(g) < k * half[i] ? -0.5 * g * g / k : at_ends;
+        }
+        Enclosure of_a = a.enclosed(half), of_b = b.enclosed(half);
+        const double bound = least_difference(of_a, of_b, half);
+        CHECK(bound <= least + 1e-12);
+        if (k < 0) {
+            CHECK(bound == doctest::Approx(least).epsilon(1e-12));
+            ++exact;
+        }
+        // By the gradients' ranges alone, where it may bend down endlessly or the centre is on a seam.
+        (n % 2 == 0 ? of_a : of_b).set_curvature(Range::all());
+        const double by_gradient = least_difference(of_a, of_b, half);
+        CHECK(by_gradient <= least + 1e-12);
+        CHECK(by_gradient > least - 100);
+        of_a.centre_gradient = detail::no_gradient;
+        CHECK(least_difference(of_a, of_b, half) == by_gradient);
+    }
+    CHECK(exact > 4'000);
 }

@@ -74,7 +74,8 @@ inline bool is_undecided(const Phased& object, const glm::vec3& a, const glm::ve
 template <class Next>
 std::optional<Crossing> beyond_hairs(const Phased& object, const glm::vec3& d, std::optional<Crossing> c,
                                      float resolution, const Next& next) {
-    while (c) {
+    // Between cells that contradict each other a ray does not get on.
+    for (int hairs = 0; c && hairs < 1000; ++hairs) {
         const std::optional<Crossing> after = next(c->p_out, c->to);
         if (!after || after->to != c->from) return c;
         if (after->t_in > resolution && !is_rounding(object, c->p_out, after->p_in, d, c->from, resolution) &&

@@ -5,6 +5,7 @@
 
 #include "cells/cut.hpp"
 #include "cells/enclose_primitive.hpp"
+#include "cells/nearly_linear.hpp"
 #include "cells/plane_cut.hpp"
 #include "cells/steps.hpp"
 #include "program/interpret.hpp"
@@ -90,7 +91,10 @@ void Encloser::compute(const WorkingProgram& program) {
         steps, registers.data(),
         [&]<class P, class Point>(const float* c, const Point& q, Enclosure& to) {
             if constexpr (RoundedPrimitive<P>) {
-                if (!enclose_rounded(detail::read<P>(c), q, to)) to = enclose_primitive<P>(c, q);
+                if (!enclose_rounded(detail::read<P>(c), q, to)) {
+                    to = enclose_primitive<P>(c, q);
+                    tighten_by_bend(to, half_);
+                }
             } else if constexpr (LongPrimitive<P>) {
                 LocalValue found;
                 std::span<const float> of;
@@ -105,6 +109,7 @@ void Encloser::compute(const WorkingProgram& program) {
                 if constexpr (LocalPrimitive<P>) local[at] = found;
             } else {
                 to = enclose_primitive<P>(c, q);
+                tighten_by_bend(to, half_);
             }
             to.tighten(half_);
         },
@@ -153,7 +158,7 @@ std::optional<ValueRanges> Encloser::ranges(const WorkingProgram& program) {
         set(i, v);
     }
     for (const ProgramOutput& o : program.outputs) set(o.value, component(o).value);
-    return ValueRanges{low, high, program.lipschitz};
+    return ValueRanges{low, high, program.lipschitz, program.code, registers_, slot_, half_, margin};
 }
 
 Enclosed Encloser::rest(const WorkingProgram& program) const {

@@ -53,4 +53,15 @@ struct NearlyLinear {
     }
 };
 
+/// Cuts the value's range to what that allows.
+inline void tighten_by_bend(Enclosure& f, const Enclosure::Vector& half) {
+    const NearlyLinear linear(f, half);
+    double reach = linear.slack;
+    for (std::size_t i = 0; i < 3; ++i) reach += std::abs(linear.normal[i]) * half[i];
+    if (!(reach < 1e30)) return;
+    const double low = std::max(f.value.low, linear.at_centre - reach);
+    const double high = std::min(f.value.high, linear.at_centre + reach);
+    f.value = {std::min(low, high), std::max(low, high)};  // as tighten() does
+}
+
 }  // namespace phasetree

@@ -7,12 +7,14 @@
 
 #include "cells/reach.hpp"
 #include "cells/rewrite.hpp"
+#include "phasetree/math/enclosure/difference.hpp"
 #include "phasetree/nodes/copies/endless_grid.hpp"
 
 /// Two kinds of pruning, in one backward sweep over the program.
 ///
 /// *By value* (Barbier et al. 2025): in min(a, b), if b − a at the centre exceeds what both can change by within the
-/// ball, b never wins and goes; likewise for max and smooth_min.
+/// ball, b never wins and goes; likewise for max and smooth_min. In a box, where gradients are known, if it exceeds
+/// what the difference can change by.
 ///
 /// *By threshold*: of an output only the sign matters. sign(max(a, b) − τ) is that of b − τ if a stays below τ
 /// throughout; if one of the two stays above, that decides and the other goes. Negation, offsets and scaling only move
@@ -72,6 +74,7 @@ struct RangesAnywhere {
 
     float low(std::uint32_t) const { return -Bounds::infinity; }
     float high(std::uint32_t) const { return Bounds::infinity; }
+    bool is_above(std::uint32_t, std::uint32_t, float) const { return false; }
 };
 
 template <class Ranges>
@@ -161,6 +164,7 @@ class Pruner {
     }
     float low(std::uint32_t i) const { return ranges_.low(i); }
     float high(std::uint32_t i) const { return ranges_.high(i); }
+    bool is_above(std::uint32_t a, std::uint32_t b, float least = 0) const { return ranges_.is_above(a, b, least); }
 
     void replace(std::uint32_t i, std::uint32_t by) {
         instead_[i] = by;
@@ -190,8 +194,8 @@ class Pruner {
                 return resolve_maximum(i, d);
             case Op::smooth_minimum: {
                 const float r = constant();
-                if (low(in.b) > high(in.a) + r) return replace(i, in.a);
-                if (low(in.a) > high(in.b) + r) return replace(i, in.b);
+                if (is_above(in.b, in.a, r)) return replace(i, in.a);
+                if (is_above(in.a, in.b, r)) return replace(i, in.b);
                 if (relative) {
                     // Beyond τ + r, what a takes off b is less than b's own distance from τ.
                     if (low(in.a) > d.tau() + r) return replace(i, in.b);
@@ -225,8 +229,8 @@ class Pruner {
                 return;
             case Op::corner: {
                 // Where one is negative and the smaller, the corner is the other.
-                if (high(in.a) < 0 && low(in.b) > high(in.a)) return replace(i, in.b);
-                if (high(in.b) < 0 && low(in.a) > high(in.b)) return replace(i, in.a);
+                if (high(in.a) < 0 && is_above(in.b, in.a)) return replace(i, in.b);
+                if (high(in.b) < 0 && is_above(in.a, in.b)) return replace(i, in.a);
                 if (relative) {
                     const float below = std::min(d.tau(), 0.f);
                     if (high(in.a) < below) return replace(i, in.b);
@@ -266,16 +270,16 @@ class Pruner {
     void resolve_minimum(std::uint32_t i, const Demand& d) {
         const Instruction& in = program_.code[i];
         const float low_a = low(in.a), high_a = high(in.a), low_b = low(in.b), high_b = high(in.b), tau = d.tau();
-        const bool is_b_first = bool(low_a > high_b) | bool(low_a > tau);
-        const bool is_a = bool(low_b > high_a) | ((!is_b_first) & (bool(low_b > tau) | bool(high_a < tau)));
+        const bool is_b_first = is_above(in.a, in.b) | bool(low_a > tau);
+        const bool is_a = is_above(in.b, in.a) | ((!is_b_first) & (bool(low_b > tau) | bool(high_a < tau)));
         take(i, is_a, is_b_first | bool(high_b < tau), d);
     }
 
     void resolve_maximum(std::uint32_t i, const Demand& d) {
         const Instruction& in = program_.code[i];
         const float low_a = low(in.a), high_a = high(in.a), low_b = low(in.b), high_b = high(in.b), tau = d.tau();
-        const bool is_b_first = bool(low_b > high_a) | bool(high_a < tau);
-        const bool is_a = bool(low_a > high_b) | ((!is_b_first) & (bool(high_b < tau) | bool(low_a > tau)));
+        const bool is_b_first = is_above(in.b, in.a) | bool(high_a < tau);
+        const bool is_a = is_above(in.a, in.b) | ((!is_b_first) & (bool(high_b < tau) | bool(low_a > tau)));
         take(i, is_a, is_b_first | bool(low_b > tau), d);
     }
 
@@ -386,6 +390,22 @@ std::span<const float> slopes_in_ball(const WorkingProgram& program, std::span<c
         while (!jumps[i] && slope[i] > half_a_jump) slope[i] /= FoldMap::jump;
     }
     return slope;
+}
+
+bool ValueRanges::is_above(std::uint32_t a, std::uint32_t b, float least, int depth) const {
+    if (low(a) > high(b) + least) return true;
+    const Enclosure &of_a = registers[slot[a]], &of_b = registers[slot[b]];
+    const double more = static_cast<double>(least) + 2 * margin;
+    if (!(of_a.centre - of_b.centre > more)) return false;
+    if (least_difference(of_a, of_b, half) > more) return true;
+    if (depth == 0) return false;
+    const auto is_so = [&](std::uint32_t x, std::uint32_t y) { return is_above(x, y, least, depth - 1); };
+    const Instruction &in_a = code[a], &in_b = code[b];
+    if (in_b.op == Op::minimum) return is_so(a, in_b.a) || is_so(a, in_b.b);
+    if (in_a.op == Op::maximum) return is_so(in_a.a, b) || is_so(in_a.b, b);
+    if (in_a.op == Op::minimum) return is_so(in_a.a, b) && is_so(in_a.b, b);
+    if (in_b.op == Op::maximum) return is_so(a, in_b.a) && is_so(a, in_b.b);
+    return false;
 }
 
 std::optional<WorkingProgram> prune(const WorkingProgram& program, std::span<const float> constants,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 
@@ -7,6 +8,8 @@
 #include "program/assemble.hpp"
 
 namespace phasetree {
+
+struct Enclosure;
 
 /// A program in the course of pruning: as Program, but its constants stay those of the whole, and operands that an
 /// operation does not take are 0, the input. Its memory is an arena's.
@@ -25,12 +28,20 @@ struct ValuesAt {
     float operator[](std::size_t instruction) const { return registers[slot[instruction]].lane[lane]; }
 };
 
-/// Bounds of every instruction's value in a region, and of its slope there.
+/// Bounds of every instruction's value in a box, and of its slope there; and the enclosures that they are of, which
+/// know differences better.
 struct ValueRanges {
     std::span<const float> lows, highs, slope;
+    std::span<const Instruction> code;
+    const Enclosure* registers;
+    std::span<const std::uint32_t> slot;
+    std::array<double, 3> half;  ///< the box's half extents
+    double margin;               ///< of a value
 
     float low(std::uint32_t i) const { return lows[i]; }
     float high(std::uint32_t i) const { return highs[i]; }
+    /// Whether a − b > least throughout. Minima and maxima are looked into that many deep.
+    bool is_above(std::uint32_t a, std::uint32_t b, float least, int depth = 1) const;
 };
 
 /// The same in a ball, by values at its centre and Lipschitz bounds; worked out for those that are asked.
@@ -41,6 +52,7 @@ struct RangesInBall {
 
     float low(std::uint32_t i) const { return centre[i] - slack(i); }
     float high(std::uint32_t i) const { return centre[i] + slack(i); }
+    bool is_above(std::uint32_t a, std::uint32_t b, float least) const { return low(a) > high(b) + least; }
 
   private:
     float slack(std::uint32_t i) const { return slope[i] * radius + rounding; }
