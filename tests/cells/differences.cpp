@@ -47,6 +47,16 @@ Arm random_arm(Random& rng) {
             .turn = glm::dmat3(x, y, glm::cross(x, y))};
 }
 
+void check_rays(const Phased& object, Random& rng, Compared& all) {
+    const std::size_t before = all.different;
+    compare_crossings(object, {}, 400, rng, all, any_quality(rng));
+    CHECK(all.different == before);
+}
+void check_totals(const Compared& all) {
+    MESSAGE(all.rays, " rays, ", all.crossings, " crossings, ", all.different, " different");
+    CHECK(all.crossings > all.rays);
+}
+
 }  // namespace
 
 TEST_CASE("links of an arm are told apart by their difference, and rays meet what they meet of the whole") {
@@ -65,13 +75,10 @@ TEST_CASE("links of an arm are told apart by their difference, and rays meet wha
             object = LayeredSequence{.of = object,
                                      .layers = {Phase{2}, Phase{3}},
                                      .thicknesses = {0.2f * arm.thick, rng.uniform(0.01f, 0.2f) * arm.thick}};
-        const std::size_t before = all.different;
-        compare_crossings(object, {}, 400, rng, all, any_quality(rng));
         CAPTURE(n);
-        CHECK(all.different == before);
+        check_rays(object, rng, all);
     }
-    MESSAGE(all.rays, " rays, ", all.crossings, " crossings, ", all.different, " different");
-    CHECK(all.crossings > all.rays);
+    check_totals(all);
 }
 
 TEST_CASE("a shallow dome and its plate are told apart by how the dome bends, as far as it does") {
@@ -91,13 +98,10 @@ TEST_CASE("a shallow dome and its plate are told apart by how the dome bends, as
         const Phased object = Set{.phase = Phase{1},
                                   .of = n % 32 < 16 ? Field(Intersection{{both, block}})
                                                     : Field(Difference{.from = block, .subtract = {both}})};
-        const std::size_t before = all.different;
-        compare_crossings(object, {}, 400, rng, all, any_quality(rng));
         CAPTURE(n);
-        CHECK(all.different == before);
+        check_rays(object, rng, all);
     }
-    MESSAGE(all.rays, " rays, ", all.crossings, " crossings, ", all.different, " different");
-    CHECK(all.crossings > all.rays);
+    check_totals(all);
 }
 
 TEST_CASE("of an arm of many short links cells have three") {
