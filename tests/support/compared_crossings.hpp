@@ -32,8 +32,8 @@ inline bool is_sliver(const InterfaceTracer& tracer, const Crossing& a, const Cr
 }
 
 /// Whether all along a ray from `a` to `b` a phase's distance is no more than rounding: than a sixteenth of a
-/// resolution, which tracing takes for that, and by how much floats round it there, up to half a resolution. Labels
-/// mean little then.
+/// resolution, which tracing takes for that, and by how much floats round it there and the places that they are asked
+/// at, up to half a resolution. Labels mean little then.
 inline bool is_rounding(const Phased& object, const glm::vec3& a, const glm::vec3& b, const glm::vec3& d, Phase phase,
                         float resolution) {
     const auto places = [&](int count, float beyond, auto&& f) {
@@ -51,7 +51,8 @@ inline bool is_rounding(const Phased& object, const glm::vec3& a, const glm::vec
     places(32, 16 * resolution, [&](const glm::vec3& p) {
         rounding = std::max(rounding, std::abs(distance(p) - values(object, p)[phase.index]));
     });
-    return deepest <= std::min(known + rounding, most);
+    const auto place = 0x1p-24 * static_cast<double>(std::abs(a.x) + std::abs(a.y) + std::abs(a.z));
+    return deepest <= std::min(known + rounding + place, most);
 }
 
 /// Whether what a ray crosses between `a` and `b`, each within a bracket of where it begins or ends, may be passed
@@ -91,10 +92,29 @@ std::optional<Crossing> beyond_hairs(const Phased& object, const glm::vec3& d, s
     return c;
 }
 
+/// What `trace` finds between two places of a ray. One that creeps along an interface for more than 256 batches is
+/// traced at a coarser resolution than stated, by the law in march.inl; so it is traced in halves then, until no part
+/// creeps.
+template <class Trace>
+std::optional<Crossing> traced_in_halves(const Trace& trace, float from, float to, std::size_t& creeping) {
+    TraceCounters counters;
+    const std::optional<Crossing> hit = trace(from, to, counters);
+    const float middle = 0.5f * (from + to);
+    if (counters.batches <= 256 || !(from < middle && middle < to)) return hit;
+    ++creeping;
+    if (const auto before = traced_in_halves(trace, from, middle, creeping)) return before;
+    return traced_in_halves(trace, middle, to, creeping);
+}
+
 /// Over all cells, in the order in which the ray enters them.
 inline std::optional<Crossing> nearest_crossing(const InterfaceCells& cells, const glm::vec3& p, const glm::vec3& d,
-                                                Phase phase, Evaluator::Workspace& w, TraceCounters& counters) {
-    std::vector<std::pair<float, std::size_t>> met;
+                                                Phase phase, Evaluator::Workspace& w, TraceCounters& counters,
+                                                std::size_t& creeping) {
+    struct Met {
+        float enter, leave;
+        std::size_t cell;
+    };
+    std::vector<Met> met;
     for (std::size_t c = 0; c < cells.size(); ++c) {
         const Bounds box = cells.bounds(c);
         float enter = 0, leave = Bounds::infinity;
@@ -103,30 +123,24 @@ inline std::optional<Crossing> nearest_crossing(const InterfaceCells& cells, con
             enter = std::max(enter, std::min(a, b) - 1e-5f);
             leave = std::min(leave, std::max(a, b) + 1e-5f);
         }
-        if (!(enter > leave)) met.emplace_back(enter, c);
+        if (!(enter > leave)) met.push_back({enter, leave, c});
     }
-    std::sort(met.begin(), met.end());
+    std::ranges::sort(met, {}, [](const Met& m) { return std::pair(m.enter, m.cell); });
     std::optional<Crossing> nearest;
-    for (const auto& [enter, c] : met) {
+    for (const auto& [enter, leave, c] : met) {
         if (nearest && nearest->t_in < enter) break;
-        const auto hit = cells.first_crossing(c, p, d, 0, nearest ? nearest->t_in : 1e6f, phase, w, counters);
+        const auto in_cell = [&](float from, float to, TraceCounters& some) {
+            const auto hit = cells.first_crossing(c, p, d, from, to, phase, w, some);
+            counters.visits += some.visits;
+            counters.batches += some.batches;
+            counters.phantoms += some.phantoms;
+            return hit;
+        };
+        const auto hit =
+            traced_in_halves(in_cell, 0, std::min(leave + 1e-3f, nearest ? nearest->t_in : 1e6f), creeping);
         if (hit && (!nearest || hit->t_in < nearest->t_in)) nearest = hit;
     }
     return nearest;
-}
-
-/// Of the whole object's program. A ray that creeps along an interface for more than 256 batches is traced at a coarser
-/// resolution than stated, by the law in march.inl; so it is traced in halves then, until no part of it creeps.
-inline std::optional<Crossing> crossing_of_whole(const InterfaceTracer& tracer, const glm::vec3& p, const glm::vec3& d,
-                                                 float from, float to, Phase phase, Evaluator::Workspace& w,
-                                                 std::size_t& creeping) {
-    TraceCounters counters;
-    const auto hit = tracer.first_crossing(p, d, from, to, phase, w, &counters);
-    const float middle = 0.5f * (from + to);
-    if (counters.batches <= 256 || !(from < middle && middle < to)) return hit;
-    ++creeping;
-    if (const auto before = crossing_of_whole(tracer, p, d, from, middle, phase, w, creeping)) return before;
-    return crossing_of_whole(tracer, p, d, middle, to, phase, w, creeping);
 }
 
 struct Compared {
@@ -171,10 +185,13 @@ inline void compare_ray(const Phased& object, const InterfaceCells& cells, const
     for (int n = 0; n < 100 && !opaque.contains(phase); ++n) {
         const auto by_whole = [&](const glm::vec3& from, Phase in) {
             const float end = glm::distance(from, tracer.bounds().centre()) + tracer.bounds().diagonal();
-            return crossing_of_whole(tracer, from, d, 0, end, in, w, result.creeping);
+            const auto whole = [&](float a, float b, TraceCounters& some) {
+                return tracer.first_crossing(from, d, a, b, in, w, &some);
+            };
+            return traced_in_halves(whole, 0, end, result.creeping);
         };
         const auto by_cells = [&](const glm::vec3& from, Phase in) {
-            return nearest_crossing(cells, from, d, in, w, result.counters);
+            return nearest_crossing(cells, from, d, in, w, result.counters, result.creeping);
         };
         // A ray that grazes an interface may cross it anywhere there.
         const auto is_there = [&](const std::optional<Crossing>& a, const std::optional<Crossing>& b) {

@@ -16,41 +16,58 @@
 /// ball, b never wins and goes; likewise for max and smooth_min. In a box, where gradients are known, if it exceeds
 /// what the difference can change by.
 ///
-/// *By threshold*: of an output only the sign matters. sign(max(a, b) − τ) is that of b − τ if a stays below τ
+/// *By what is demanded*: of an output only the sign matters. sign(max(a, b) − τ) is that of b − τ if a stays below τ
 /// throughout; if one of the two stays above, that decides and the other goes. Negation, offsets and scaling only move
-/// τ. So each value is demanded either as a value, or relative to one threshold; one that is demanded in several ways
-/// is demanded as a value. A replaced operand has the same sign relative to τ and is itself Lipschitz, so its distance
-/// from τ still bounds the distance to where the sign changes.
+/// τ. And of a in min(a, b) nothing matters above the most that b can be, for b is what is taken there. So each value
+/// is demanded between two numbers: what it is between them, and else only which side it is on. That reaches down a
+/// chain of minima to links that are far from the box, though each of them is too near the next one to be told from it.
+///
+/// What stands in for a value is the same where that is between the two numbers, and beyond the same one where it is
+/// not. Both operands of a minimum may be replaced at once: the smaller, a, is not above the most that b can be, so it
+/// stays what it is; and what stands in for b is b, or not below the most that a can be.
+///
+/// A value that stands in has the same sign relative to a threshold and is itself Lipschitz, so its distance from that
+/// still bounds the distance to where the sign changes.
 namespace phasetree {
 
 namespace {
 
-/// What a value is wanted for: nothing, its sign relative to a threshold, or itself. In one word, which is written and
-/// read again as a whole; two numbers that are none stand for the first and the last.
+/// What a value is wanted for: itself between two numbers, and else which of them it is beyond. If both are a
+/// threshold, its sign relative to that; if they are infinite, itself; if nothing is between, nothing.
 class Demand {
   public:
     Demand() = default;
-    /// A zero's sign means nothing.
-    static Demand threshold(float tau) {
-        return std::isnan(tau) ? value() : Demand(std::bit_cast<std::uint32_t>(tau + 0.f));
-    }
-    static Demand value() { return Demand(as_value); }
+    /// What is not a number is no bound. It is never nothing that is demanded so.
+    Demand(float least, float most)
+        : least_(std::isnan(least) ? -Bounds::infinity : least),
+          most_(std::max(least_, std::isnan(most) ? Bounds::infinity : most)) {}
+    static Demand threshold(float tau) { return {tau, tau}; }
+    static Demand value() { return {-Bounds::infinity, Bounds::infinity}; }
 
-    bool is_none() const { return word_ == as_none; }
-    bool is_threshold() const { return word_ < as_none || word_ > as_value; }
-    /// Not a number, if it is none: no comparison with that holds.
-    float tau() const { return std::bit_cast<float>(word_); }
-    bool is_sign() const { return word_ == 0; }
+    float least() const { return least_; }
+    float most() const { return most_; }
+    bool is_none() const { return least_ > most_; }
+    /// A zero's sign means nothing.
+    bool is_sign() const { return least_ == 0 && most_ == 0; }
     /// Both this and another one.
-    Demand with(Demand other) const { return is_none() || *this == other ? other : value(); }
-    bool operator==(const Demand&) const = default;
+    Demand with(const Demand& other) const {
+        return between(std::min(least_, other.least_), std::max(most_, other.most_));
+    }
+    /// No more of it than is below or above a number.
+    Demand below(float most) const { return between(least_, std::max(least_, most < most_ ? most : most_)); }
+    Demand above(float least) const { return between(std::min(most_, least > least_ ? least : least_), most_); }
+    Demand negated() const { return between(-most_, -least_); }
 
   private:
-    static constexpr std::uint32_t as_none = 0x7fc00001u, as_value = 0x7fc00002u;
+    /// Of numbers.
+    static Demand between(float least, float most) {
+        Demand d;
+        d.least_ = least;
+        d.most_ = most;
+        return d;
+    }
 
-    explicit Demand(std::uint32_t word) : word_(word) {}
-
-    std::uint32_t word_ = as_none;
+    float least_ = Bounds::infinity, most_ = -Bounds::infinity;
 };
 
 /// A slope above this has a jump in it.
@@ -175,7 +192,6 @@ class Pruner {
     void resolve(std::uint32_t i) {
         const Instruction& in = program_.code[i];
         const Demand d = demand_[i];
-        const bool relative = d.is_threshold();
         const auto constant = [&] { return constants_[in.data]; };
         if (in.op >= Op::first_primitive) {
             demand_[in.a] = Demand::value();
@@ -196,20 +212,18 @@ class Pruner {
                 const float r = constant();
                 if (is_above(in.b, in.a, r)) return replace(i, in.a);
                 if (is_above(in.a, in.b, r)) return replace(i, in.b);
-                if (relative) {
-                    // Beyond τ + r, what a takes off b is less than b's own distance from τ.
-                    if (low(in.a) > d.tau() + r) return replace(i, in.b);
-                    if (low(in.b) > d.tau() + r) return replace(i, in.a);
-                    if (high(in.a) < d.tau()) return replace(i, in.a);
-                    if (high(in.b) < d.tau()) return replace(i, in.b);
-                }
-                ask(in.a, Demand::value());
-                ask(in.b, Demand::value());
+                // More than r above all that is demanded, what a takes off b is less than what b is above it.
+                if (low(in.a) > d.most() + r) return replace(i, in.b);
+                if (low(in.b) > d.most() + r) return replace(i, in.a);
+                if (high(in.a) < d.least()) return replace(i, in.a);
+                if (high(in.b) < d.least()) return replace(i, in.b);
+                ask(in.a, {d.least(), std::min(d.most(), high(in.b)) + r});
+                ask(in.b, {d.least(), std::min(d.most(), high(in.a)) + r});
                 return;
             }
             case Op::guarded: {
                 const float half = 0.5f * constant();
-                if (low(in.a) > half || (d.is_sign() && low(in.a) > 0)) return replace(i, in.a);
+                if (low(in.a) > std::min(half, d.most())) return replace(i, in.a);
                 // Without a jump the plain intersection has the same sign.
                 if (d.is_sign() && ranges_.slope[in.b] <= 2 * ranges_.slope[in.a]) {
                     op_[i] = Op::maximum;
@@ -217,31 +231,40 @@ class Pruner {
                     return resolve_maximum(i, d);
                 }
                 ask(in.a, Demand::value());
-                ask(in.b, Demand::value());
-                return;
+                return ask(in.b, {std::max(d.least(), low(in.a)), d.most()});
             }
+            case Op::falloff:
+                return ask(in.a, {-Bounds::infinity, constant()});
             case Op::add:
                 // A skeleton out of reach adds nothing.
                 if (is_zero(in.a)) return replace(i, in.b);
                 if (is_zero(in.b)) return replace(i, in.a);
-                ask(in.a, Demand::value());
+                // Of one of the two, by how much the other can add. The other must then be itself.
+                if (is_single(in.a)) {
+                    ask(in.a, Demand::value());
+                    return ask(in.b, {d.least() - high(in.a), d.most() - low(in.a)});
+                }
                 ask(in.b, Demand::value());
-                return;
+                return ask(in.a, {d.least() - high(in.b), d.most() - low(in.b)});
+            case Op::subtract:
+                if (is_single(in.a)) {
+                    ask(in.a, Demand::value());
+                    return ask(in.b, {low(in.a) - d.most(), high(in.a) - d.least()});
+                }
+                ask(in.b, Demand::value());
+                return ask(in.a, {d.least() + low(in.b), d.most() + high(in.b)});
             case Op::corner: {
                 // Where one is negative and the smaller, the corner is the other.
                 if (high(in.a) < 0 && is_above(in.b, in.a)) return replace(i, in.b);
                 if (high(in.b) < 0 && is_above(in.a, in.b)) return replace(i, in.a);
-                if (relative) {
-                    const float below = std::min(d.tau(), 0.f);
-                    if (high(in.a) < below) return replace(i, in.b);
-                    if (high(in.b) < below) return replace(i, in.a);
-                    if (low(in.a) > d.tau()) return replace(i, in.a);
-                    if (low(in.b) > d.tau()) return replace(i, in.b);
-                }
-                // Up to 0 it is the maximum, and so relative to a τ ≤ 0 it has the sign that the maximum has.
-                const Demand each = relative && d.tau() <= 0 ? d : Demand::value();
-                ask(in.a, each);
-                ask(in.b, each);
+                const float below = std::min(d.least(), 0.f);
+                if (high(in.a) < below) return replace(i, in.b);
+                if (high(in.b) < below) return replace(i, in.a);
+                if (low(in.a) > d.most()) return replace(i, in.a);
+                if (low(in.b) > d.most()) return replace(i, in.b);
+                // Above 0 both matter, unless one of them is negative and the smaller.
+                ask(in.a, {std::max(below, std::min(low(in.b), 0.f)), d.most()});
+                ask(in.b, {std::max(below, std::min(low(in.a), 0.f)), d.most()});
                 return;
             }
             case Op::absolute:
@@ -249,49 +272,60 @@ class Pruner {
                 if (high(in.a) < 0) {
                     op_[i] = Op::negate;
                     is_changed_ = true;
-                    return ask(in.a, relative ? Demand::threshold(-d.tau()) : d);
+                    return ask(in.a, d.negated());
                 }
-                return ask(in.a, Demand::value());
+                return ask(in.a, {-std::max(d.most(), 0.f), std::max(d.most(), 0.f)});
             case Op::negate:
-                return ask(in.a, relative ? Demand::threshold(-d.tau()) : d);
+                return ask(in.a, d.negated());
             case Op::add_constant:
-                return ask(in.a, relative ? Demand::threshold(d.tau() - constant()) : d);
+                return ask(in.a, {d.least() - constant(), d.most() - constant()});
             case Op::constant_minus:
-                return ask(in.a, relative ? Demand::threshold(constant() - d.tau()) : d);
-            case Op::multiply_constant:
-                if (relative && constant() != 0) return ask(in.a, Demand::threshold(d.tau() / constant()));
-                return ask(in.a, Demand::value());
+                return ask(in.a, {constant() - d.most(), constant() - d.least()});
+            case Op::multiply_constant: {
+                const float c = constant();
+                if (c == 0) return ask(in.a, Demand::value());
+                const float one = d.least() / c, other = d.most() / c;
+                return ask(in.a, {std::min(one, other), std::max(one, other)});
+            }
             default:
                 if (operands(in.op) > 0) ask(in.a, Demand::value());
                 if (operands(in.op) > 1) ask(in.b, Demand::value());
         }
     }
 
+    /// Of either operand no more matters than is below the other.
     void resolve_minimum(std::uint32_t i, const Demand& d) {
         const Instruction& in = program_.code[i];
-        const float low_a = low(in.a), high_a = high(in.a), low_b = low(in.b), high_b = high(in.b), tau = d.tau();
-        const bool is_b_first = is_above(in.a, in.b) | bool(low_a > tau);
-        const bool is_a = is_above(in.b, in.a) | ((!is_b_first) & (bool(low_b > tau) | bool(high_a < tau)));
-        take(i, is_a, is_b_first | bool(high_b < tau), d);
+        const float low_a = low(in.a), high_a = high(in.a), low_b = low(in.b), high_b = high(in.b);
+        const bool is_b_first = is_above(in.a, in.b) | bool(low_a > d.most());
+        const bool is_a = is_above(in.b, in.a) | ((!is_b_first) & (bool(low_b > d.most()) | bool(high_a < d.least())));
+        take(i, is_a, is_b_first | bool(high_b < d.least()), d, d.below(high_b), d.below(high_a));
     }
 
     void resolve_maximum(std::uint32_t i, const Demand& d) {
         const Instruction& in = program_.code[i];
-        const float low_a = low(in.a), high_a = high(in.a), low_b = low(in.b), high_b = high(in.b), tau = d.tau();
-        const bool is_b_first = is_above(in.b, in.a) | bool(high_a < tau);
-        const bool is_a = is_above(in.a, in.b) | ((!is_b_first) & (bool(high_b < tau) | bool(low_a > tau)));
-        take(i, is_a, is_b_first | bool(low_b > tau), d);
+        const float low_a = low(in.a), high_a = high(in.a), low_b = low(in.b), high_b = high(in.b);
+        const bool is_b_first = is_above(in.b, in.a) | bool(high_a < d.least());
+        const bool is_a = is_above(in.a, in.b) | ((!is_b_first) & (bool(high_b < d.least()) | bool(low_a > d.most())));
+        take(i, is_a, is_b_first | bool(low_b > d.most()), d, d.above(low_b), d.above(low_a));
     }
 
     /// One of its operands in its place, a if both may be, or nothing. Here, where every other comparison surprises the
     /// processor, without a branch: what is demanded twice in the same way is demanded once.
-    void take(std::uint32_t i, bool is_a, bool is_b, const Demand& d) {
+    void take(std::uint32_t i, bool is_a, bool is_b, const Demand& d, const Demand& of_a, const Demand& of_b) {
         const Instruction& in = program_.code[i];
         const std::uint32_t first = (is_b & (!is_a)) ? in.b : in.a, second = is_a ? in.a : in.b;
-        instead_[i] = (is_a | is_b) ? first : i;
-        is_changed_ |= is_a | is_b;
-        ask(first, d);
-        ask(second, d);
+        const bool is_one = is_a | is_b;
+        instead_[i] = is_one ? first : i;
+        is_changed_ |= is_one;
+        ask(first, is_one ? d : of_a);
+        ask(second, is_one ? d : of_b);
+    }
+
+    /// Whether pruning could take nothing from a value.
+    bool is_single(std::uint32_t i) const {
+        const Instruction& in = program_.code[i];
+        return in.op >= Op::first_primitive || (in.op == Op::multiply_constant && is_single(in.a));
     }
 
     /// Whether a value is exactly zero throughout the ball.

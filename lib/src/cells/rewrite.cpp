@@ -117,6 +117,8 @@ std::optional<Rewriter::Pair> Rewriter::operands_if(Op op, const SignedValue& v)
 
 SignedValue Rewriter::extremum(Op op, SignedValue a, SignedValue b, float lipschitz, bool is_sign_enough) {
     for (int turn = 0; turn < 2; ++turn, std::swap(a, b)) {
+        const auto same = operands_if(op, b);
+        if (same && (same->a == a || same->b == a)) return b;
         const auto inner = operands_if(mirrored(op), b);
         if (!inner) continue;
         if (inner->a == a || inner->b == a) return a;

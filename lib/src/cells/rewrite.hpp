@@ -25,7 +25,7 @@ class SignedValue {
 ///   −(a + c) = −c − a, (−a)·k = −(a·k) … Operators of objects negate a lot (φ₀ = −f, a layer's −a₀ − t); where a
 ///   handful of instructions is left, every third would be a negation.
 /// * The same operation on the same operands is one instruction: what pruning leaves of several objects is often equal.
-/// * min(a, a) = a, max(a, −a) = |a|, min(a, max(a, b)) = a.
+/// * min(a, a) = a, max(a, −a) = |a|, min(a, max(a, b)) = a, min(a, min(a, b)) = min(a, b).
 /// * Where only the sign matters, min(a, max(−a, b)) is min(a, b), which is as steep and nowhere nearer to zero.
 /// All of these with min and max changed. Rounding is symmetric, so values are the same but for the sign of a zero.
 class Rewriter {
