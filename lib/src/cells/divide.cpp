@@ -174,8 +174,9 @@ Cost divide(const Share& share, const Division& d, Worker& w);
 /// Finds the cells of a share: itself, or those of its parts where that is cheaper. Its parts tell how much interface
 /// is in it, from which rays start as well; of one cell it is taken to be one.
 Cost find_cells(const Share& share, const Division& d, Worker& w) {
-    const bool is_meeting = share.cell.program.outputs.size() > 2 && share.cell.curvature.most[0] < Curvature::unknown;
-    const float promise = least_gain(d.options.quality, share.box.diagonal() / d.size, is_meeting);
+    const float promise =
+        least_gain(d.options.quality, share.box.diagonal() / d.size, share.cell.program.outputs.size() > 2,
+                   share.cell.curvature.most[0] < Curvature::unknown);
     const bool is_hopeless = share.stale >= share.patience.divisions;
     const bool is_final =
         is_hopeless || share.depth >= d.options.deepest || share.box.diagonal() < 64 * d.reach ||
