@@ -143,7 +143,8 @@ TEST_CASE("a ray that grazes a dome beside what cuts it meets it, where bounds a
         const Field both = Union{{ball, other}};
         const Phased object = n % 2 == 0 ? solid(Intersection{{both, Box{.size = glm::vec3(1)}}})
                                          : solid(Difference{.from = Box{.size = glm::vec3(1)}, .subtract = {both}});
-        const InterfaceCells cells(object);
+        // Large cells, too, in which a batch's places are far apart.
+        const InterfaceCells cells(object, {.deepest = n % 8 < 4 ? 2 : 14});
         const InterfaceTracer tracer(object);
         const std::size_t before = all.different;
         for (int i = 0; i < 500; ++i) {
@@ -151,8 +152,10 @@ TEST_CASE("a ray that grazes a dome beside what cuts it meets it, where bounds a
             const glm::vec3 near = std::exp2(-rng.uniform(3, 10)) * (glm::dot(along, side) > 0 ? along : -along);
             const glm::vec3 normal = glm::normalize(near + radius * up), q = radius * (normal - up);
             const glm::vec3 d = glm::normalize(glm::cross(normal, rng.direction()));
-            // From one resolution on, for less is rounding's.
-            const float depth = tracer.resolution() * std::exp2(rng.uniform(0, 8));
+            // Above the ray is about as much of it as fits between two places of a batch, but no less than a resolution
+            // deep, for that is rounding's.
+            const float chord = std::exp2(-rng.uniform(3, 8));
+            const float depth = std::max(tracer.resolution(), chord * chord / (8 * radius));
             const glm::vec3 o = q - depth * normal - rng.uniform(0.2f, 0.4f) * d;
             compare_ray(object, cells, tracer, {}, {o, d}, w, all);
         }
