@@ -94,11 +94,11 @@ Phased random_chains(Random& rng) {
 }  // namespace
 
 TEST_CASE("what is left of long chains of all operators has the same labels, and rays meet the same") {
-    Random rng(39);
     Compared rays;
     std::size_t points = 0;
     for (int n = 0; n < (long_tests() ? 3000 : 80); ++n) {
         CAPTURE(n);
+        Random rng(39'000 + static_cast<unsigned>(n));
         const Phased object = random_chains(rng);
         const BuildQuality quality = any_quality(rng);
         const Disagreements labels = compare_labels(InterfaceCells(object, {.quality = quality}), 8);

@@ -70,24 +70,28 @@ inline bool is_undecided(const Phased& object, const glm::vec3& a, const glm::ve
     return outside <= 2.75 * size && deep <= size;
 }
 
-/// The crossing, or the next one that is followed by more than a hair of another phase: what is thinner than the
-/// resolution may be passed, and what is nowhere deeper than rounding, or for less than may be decided.
+/// The crossing of a ray from `origin`, or the next one that is followed by more than a hair of another phase: what is
+/// thinner than the resolution may be passed, and what is nowhere deeper than rounding, or for less than may be
+/// decided.
 template <class Next>
-std::optional<Crossing> beyond_hairs(const Phased& object, const glm::vec3& d, std::optional<Crossing> c,
-                                     float resolution, const Next& next) {
+std::optional<Crossing> beyond_hairs(const Phased& object, const glm::vec3& origin, const glm::vec3& d,
+                                     std::optional<Crossing> c, float resolution, const Next& next) {
+    // Each from where it is on the ray, not from where the one before was found: a thousand hairs along a face would
+    // each round that, and never leave the face.
+    double passed = 0;
     // Between cells that contradict each other a ray does not get on.
     for (int hairs = 0; c && hairs < 1000; ++hairs) {
         const std::optional<Crossing> after = next(c->p_out, c->to);
-        if (!after || after->to != c->from) return c;
+        if (!after || after->to != c->from) break;
         if (after->t_in > resolution && !is_rounding(object, c->p_out, after->p_in, d, c->from, resolution) &&
             !is_undecided(object, c->p_out, after->p_in, d, c->from, resolution))
-            return c;
-        const float passed = c->t_out + after->t_out;
-        c = next(after->p_out, after->to);
-        if (c) {
-            c->t_in += passed;
-            c->t_out += passed;
-        }
+            break;
+        passed += static_cast<double>(c->t_out) + static_cast<double>(after->t_out);
+        c = next(glm::vec3(glm::dvec3(origin) + passed * glm::dvec3(d)), after->to);
+    }
+    if (c) {
+        c->t_in = static_cast<float>(passed + static_cast<double>(c->t_in));
+        c->t_out = static_cast<float>(passed + static_cast<double>(c->t_out));
     }
     return c;
 }
@@ -201,8 +205,8 @@ inline void compare_ray(const Phased& object, const InterfaceCells& cells, const
         };
         std::optional<Crossing> expected = by_whole(p, phase), nearest = by_cells(p, phase);
         if (!is_there(expected, nearest)) {
-            const auto e = beyond_hairs(object, d, expected, tracer.resolution(), by_whole);
-            const auto c = beyond_hairs(object, d, nearest, tracer.resolution(), by_cells);
+            const auto e = beyond_hairs(object, p, d, expected, tracer.resolution(), by_whole);
+            const auto c = beyond_hairs(object, p, d, nearest, tracer.resolution(), by_cells);
             // What is a hair to one of them may just not be to the other.
             if (!is_there(expected, c)) expected = e;
             if (!is_there(expected, nearest)) nearest = c;
