@@ -135,7 +135,7 @@ std::vector<float> values(std::span<const Instruction> code, std::span<const flo
 
 TEST_CASE("what is left of a program in a ball has its sign there, whatever stands below what") {
     constexpr float rounding = 1e-4f;
-    const int programs = long_tests() ? 2'000'000 : 40'000;
+    const int programs = long_tests() ? 2'000'000 : 200'000;
     std::size_t shortened = 0, gone = 0, points = 0, wrong = 0;
     int first_wrong = -1;
     Arena keep, scratch;
