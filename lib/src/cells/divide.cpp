@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "cells/enclose.hpp"
+#include "cells/first_component.hpp"
+#include "cells/jumps.hpp"
 #include "cells/price.hpp"
 #include "cells/quality.hpp"
 #include "cells/steps.hpp"

@@ -1,14 +1,12 @@
 #include "cells/prune.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 
+#include "cells/demand.hpp"
 #include "cells/reach.hpp"
 #include "cells/rewrite.hpp"
 #include "phasetree/math/enclosure/difference.hpp"
-#include "phasetree/nodes/copies/endless_grid.hpp"
 
 /// Two kinds of pruning, in one backward sweep over the program.
 ///
@@ -31,47 +29,6 @@
 namespace phasetree {
 
 namespace {
-
-/// What a value is wanted for: itself between two numbers, and else which of them it is beyond. If both are a
-/// threshold, its sign relative to that; if they are infinite, itself; if nothing is between, nothing.
-class Demand {
-  public:
-    Demand() = default;
-    /// What is not a number is no bound. It is never nothing that is demanded so.
-    Demand(float least, float most)
-        : least_(std::isnan(least) ? -Bounds::infinity : least),
-          most_(std::max(least_, std::isnan(most) ? Bounds::infinity : most)) {}
-    static Demand threshold(float tau) { return {tau, tau}; }
-    static Demand value() { return {-Bounds::infinity, Bounds::infinity}; }
-
-    float least() const { return least_; }
-    float most() const { return most_; }
-    bool is_none() const { return least_ > most_; }
-    /// A zero's sign means nothing.
-    bool is_sign() const { return least_ == 0 && most_ == 0; }
-    /// Both this and another one.
-    Demand with(const Demand& other) const {
-        return between(std::min(least_, other.least_), std::max(most_, other.most_));
-    }
-    /// No more of it than is below or above a number.
-    Demand below(float most) const { return between(least_, std::max(least_, most < most_ ? most : most_)); }
-    Demand above(float least) const { return between(std::min(most_, least > least_ ? least : least_), most_); }
-    Demand negated() const { return between(-most_, -least_); }
-
-  private:
-    /// Of numbers.
-    static Demand between(float least, float most) {
-        Demand d;
-        d.least_ = least;
-        d.most_ = most;
-        return d;
-    }
-
-    float least_ = Bounds::infinity, most_ = -Bounds::infinity;
-};
-
-/// A slope above this has a jump in it.
-constexpr float half_a_jump = 0x1p20f;
 
 /// Where two phases meet, one component tells both. The one that costs less.
 WorkingProgram one_of_two(const WorkingProgram& both, Arena& keep, Arena& scratch) {
@@ -357,74 +314,6 @@ std::optional<WorkingProgram> pruned(const WorkingProgram& program, std::span<co
 }
 
 }  // namespace
-
-LedProgram first_component_first(const WorkingProgram& program, Arena& keep, Arena& scratch) {
-    const std::size_t size = program.code.size();
-    const Reach first(program, program.outputs.first(1), scratch);
-    const std::span<std::uint32_t> renumbered = scratch.take<std::uint32_t>(size);
-    const std::span<Instruction> code = keep.take<Instruction>(size);
-    const std::span<float> lipschitz = keep.take<float>(size);
-    const std::span<ProgramOutput> outputs = keep.copy(program.outputs);
-    std::uint32_t count = 0;
-    for (const bool is_first : {true, false})
-        for (std::uint32_t i = 0; i < size; ++i) {
-            if (first.has(i) != is_first) continue;
-            const Instruction& in = program.code[i];
-            renumbered[i] = count;
-            code[count] = {in.op, i > 0 ? renumbered[in.a] : 0, i > 0 ? renumbered[in.b] : 0, in.data};
-            lipschitz[count++] = program.lipschitz[i];
-        }
-    for (ProgramOutput& o : outputs) o.value = renumbered[o.value];
-    return {{code, lipschitz, outputs}, static_cast<std::uint32_t>(first.size()), renumbered};
-}
-
-float finest_jump(const WorkingProgram& program, std::span<const float> constants) {
-    float finest = Bounds::infinity;
-    for (std::size_t i = 0; i < program.code.size(); ++i) {
-        if (!is_fold(program.code[i].op) || program.lipschitz[i] <= half_a_jump) continue;
-        FoldMap fold;
-        std::memcpy(static_cast<void*>(&fold), constants.data() + program.code[i].data, sizeof fold);
-        for (int axis = 0; axis < 3; ++axis)
-            if (fold.spacing[axis] > 0) finest = std::min(finest, fold.spacing[axis]);
-    }
-    return finest;
-}
-
-bool may_jump(const WorkingProgram& program) {
-    return std::ranges::any_of(program.lipschitz, [](float l) { return l > half_a_jump; });
-}
-
-/// Slopes within the ball. A fold of space jumps, which is recorded as a slope of FoldMap::jump; in a ball that
-/// touches none of its jumps that factor goes from all that follows. The guard above the fold tells: its bound is
-/// more than half of `far` wherever the fold jumps.
-std::span<const float> slopes_in_ball(const WorkingProgram& program, std::span<const float> constants,
-                                      const ValuesAt& value, float radius, float rounding, Arena& scratch) {
-    const std::span<float> slope = scratch.copy(program.lipschitz);
-    const auto size = static_cast<std::uint32_t>(program.code.size());
-    const std::span<char> is_still = scratch.take<char>(size);  // 1: folds without a jump in the ball
-    const std::span<char> jumps = scratch.take<char>(size);
-    std::ranges::fill(is_still, 0);
-    std::ranges::fill(jumps, 0);
-    for (std::uint32_t i = 1; i < size; ++i) {
-        const Instruction& guard = program.code[i];
-        if (guard.op != Op::guarded) continue;
-        // The bound's own slope is that of its point.
-        const float high = value[guard.a] + slope[guard.a] * radius + rounding;
-        // Several folds may have one point: none is still unless all of their guards say so.
-        const char says = high < 0.5f * constants[guard.data] ? 1 : 2;
-        for (std::uint32_t k = 1; k < i; ++k)
-            if (is_fold(program.code[k].op) && program.code[k].a == program.code[guard.a].a)
-                is_still[k] = static_cast<char>(is_still[k] | says);
-    }
-    for (std::uint32_t i = 1; i < size; ++i) {
-        const Instruction& in = program.code[i];
-        if (slope[i] <= half_a_jump) continue;
-        const int n = operands(in.op);
-        jumps[i] = (n > 0 && jumps[in.a]) || (n > 1 && jumps[in.b]) || (is_fold(in.op) && is_still[i] != 1);
-        while (!jumps[i] && slope[i] > half_a_jump) slope[i] /= FoldMap::jump;
-    }
-    return slope;
-}
 
 bool ValueRanges::is_above(std::uint32_t a, std::uint32_t b, float least, int depth) const {
     if (low(a) > high(b) + least) return true;

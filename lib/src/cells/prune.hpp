@@ -58,13 +58,6 @@ struct RangesInBall {
     float slack(std::uint32_t i) const { return slope[i] * radius + rounding; }
 };
 
-/// Whether anything in it has a slope that only a jump can have.
-bool may_jump(const WorkingProgram&);
-
-/// Slopes within a ball about a point with these values: of the program, but for folds that do not jump there.
-std::span<const float> slopes_in_ball(const WorkingProgram&, std::span<const float> constants, const ValuesAt& centre,
-                                      float radius, float rounding, Arena& scratch);
-
 /// What is left of a program in a region where its values are within these ranges, if an interface may pass through it
 /// that a ray can meet, which is in a phase that is not opaque; nothing otherwise. The result is in `keep`, or it is
 /// the program itself, if that was pruned before and all of it is left; `scratch` is left as it was.
@@ -83,17 +76,5 @@ inline bool is_far_bound(Op op) {
 /// Without what makes distances larger far from the surface, if there is any (Op::farther): the signs are the same.
 std::optional<WorkingProgram> without_far_bounds(const WorkingProgram&, std::span<const float> constants,
                                                  PhaseSet opaque, Arena& keep, Arena& scratch);
-
-/// A program of more than two phases with what its first component needs before the rest.
-struct LedProgram {
-    WorkingProgram program;
-    std::uint32_t leading = 0;                    ///< instructions that it needs, the input not counted
-    std::span<const std::uint32_t> renumbered{};  ///< where each instruction went, in `scratch`; empty if they stayed
-};
-LedProgram first_component_first(const WorkingProgram&, Arena& keep, Arena& scratch);
-
-/// The smallest period of what is folded in a program and still jumps, infinity if nothing does: larger cells cannot be
-/// pruned of it.
-float finest_jump(const WorkingProgram&, std::span<const float> constants);
 
 }  // namespace phasetree
