@@ -2,6 +2,7 @@
 // whole program is itself held to set algebra and analytic roots in tests/lib.
 
 #include "phasetree/cells/cells.hpp"
+#include "source_directory.hpp"
 
 #include <doctest/doctest.h>
 
@@ -20,7 +21,7 @@ using namespace phasetree::tests;
 namespace {
 
 Phased hourglass() {
-    return read_tree(Document::from_file(PHASETREE_SOURCE_DIR "/scenes/hourglass.json")).object;
+    return read_tree(Document::from_file(source_directory() + "/scenes/hourglass.json")).object;
 }
 
 Phased cut_to_size(Phased object) {

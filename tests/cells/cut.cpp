@@ -5,6 +5,7 @@
 #include "phasetree/cells/cells.hpp"
 #include "phasetree/phasetree.hpp"
 #include "phasetree/reading/tree.hpp"
+#include "source_directory.hpp"
 #include "support/random_tree.hpp"
 
 using namespace phasetree;
@@ -111,7 +112,7 @@ TEST_CASE("a cut asks for every kind of field away from zero, too") {
 }
 
 TEST_CASE("boxes in which bumps meet the skin end with them") {
-    const Phased object = read_tree(Document::from_file(PHASETREE_SOURCE_DIR "/scenes/tentacle.json")).object;
+    const Phased object = read_tree(Document::from_file(source_directory() + "/scenes/tentacle.json")).object;
     const InterfaceCells cells(object, {.opaque = {phases(object).bits & ~std::uint64_t{1}}});
     double sum = 0;
     for (std::size_t i = 0; i < cells.size(); ++i) sum += surface(cells.bounds(i));

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "phasetree/reading/tree.hpp"
+#include "source_directory.hpp"
 #include "support/compared_crossings.hpp"
 
 using namespace phasetree;
@@ -13,7 +14,7 @@ using namespace phasetree::tests;
 TEST_CASE("the nearest crossing over all cells is the whole object's in the gallery's scenes") {
     Compared all;
     int scenes = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(PHASETREE_SOURCE_DIR "/scenes")) {
+    for (const auto& entry : std::filesystem::directory_iterator(source_directory() + "/scenes")) {
         if (entry.path().extension() != ".json" || entry.path().stem() == "scene.schema") continue;
         const std::string path = entry.path().string();
         CAPTURE(path);
@@ -31,7 +32,7 @@ TEST_CASE("the nearest crossing over all cells is the whole object's in the gall
 // Dividing a box that is larger than the bumps of its noise wins nothing at first. Where it was given up, boxes of more
 // than two bumps of the scoops had 29 % of all cells' surface, which is how many rays visit them; now 17 %.
 TEST_CASE("boxes larger than the bumps of their noise are divided on") {
-    const InterfaceCells cells(read_tree(Document::from_file(PHASETREE_SOURCE_DIR "/scenes/ice_cup.json")).object);
+    const InterfaceCells cells(read_tree(Document::from_file(source_directory() + "/scenes/ice_cup.json")).object);
     double all = 0, large = 0;
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const Bounds box = cells.bounds(i);

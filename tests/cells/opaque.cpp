@@ -7,6 +7,7 @@
 
 #include "phasetree/cells/cells.hpp"
 #include "phasetree/reading/tree.hpp"
+#include "source_directory.hpp"
 #include "support/compared_crossings.hpp"
 
 using namespace phasetree;
@@ -52,7 +53,7 @@ TEST_CASE("an opaque object's inner interfaces cost the rays outside nothing") {
     const auto compare = [](const std::string& name, BuildQuality quality, double most_surface, double most_batches) {
         CAPTURE(name);
         const auto scene = [&](const std::string& file) {
-            const Phased object = read_tree(Document::from_file(PHASETREE_SOURCE_DIR "/scenes/" + file)).object;
+            const Phased object = read_tree(Document::from_file(source_directory() + "/scenes/" + file)).object;
             return cost_of(object, {phases(object).bits & ~std::uint64_t{1}}, quality);
         };
         const Cost one = scene("benchmark/" + name + "_monophase.json"), many = scene(name + ".json");
@@ -74,13 +75,13 @@ TEST_CASE("an opaque object's inner interfaces cost the rays outside nothing") {
 // There labels are known with the first samples, and how the surface bends tells where it is crossed; but on
 // the way from there to the next sample the label may have changed again.
 TEST_CASE("a neural field cut by a fine checker has the phase at its surface") {
-    std::ifstream file(PHASETREE_SOURCE_DIR "/scenes/bunny.json");
+    std::ifstream file(source_directory() + "/scenes/bunny.json");
     std::string text(std::istreambuf_iterator<char>(file), {});
     const std::string size = "\"size\": 0.17";
     REQUIRE(text.find(size) != std::string::npos);
     text.replace(text.find(size), size.size(), "\"size\": 0.003");
     const Phased object =
-        read_tree(Document::from_text(text, PHASETREE_SOURCE_DIR "/scenes/finely checkered bunny.json")).object;
+        read_tree(Document::from_text(text, source_directory() + "/scenes/finely checkered bunny.json")).object;
     Random rng(21);
     Compared all;
     compare_crossings(object, {0b1110}, long_tests() ? 20'000 : 4000, rng, all);
@@ -93,7 +94,7 @@ TEST_CASE("a neural field cut by a fine checker has the phase at its surface") {
 // Where three phases and more meet a ray in the vacuum asks for its component alone, and for the label behind a
 // crossing anew.
 TEST_CASE("opaque layers of a blob have the phase at its surface") {
-    const Phased object = read_tree(Document::from_file(PHASETREE_SOURCE_DIR "/scenes/blob.json")).object;
+    const Phased object = read_tree(Document::from_file(source_directory() + "/scenes/blob.json")).object;
     Random rng(5);
     Compared all;
     for (const BuildQuality quality : {BuildQuality::low, BuildQuality::medium})

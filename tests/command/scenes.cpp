@@ -7,12 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "command/command.hpp"
+#include "source_directory.hpp"
 
 using namespace phasetree::tests;
 
 namespace {
 
-const std::filesystem::path root = PHASETREE_SOURCE_DIR;
+const std::filesystem::path root = source_directory();
 
 std::vector<std::filesystem::path> scenes(const std::filesystem::path& folder = root / "scenes") {
     std::vector<std::filesystem::path> all;

@@ -4,6 +4,7 @@
 
 #include "phasetree/nodes/node.hpp"
 #include "phasetree/reading/tree.hpp"
+#include "source_directory.hpp"
 
 using namespace phasetree;
 
@@ -65,7 +66,7 @@ TEST_CASE("networks that do not fit together are refused") {
 }
 
 TEST_CASE("the bunny is what its training said") {
-    const Siren bunny = node_of(read_siren(PHASETREE_SOURCE_DIR "/scenes/assets/bunny.siren.json"), 0);
+    const Siren bunny = node_of(read_siren(source_directory() + "/scenes/assets/bunny.siren.json"), 0);
     CHECK(bunny.lipschitz == doctest::Approx(6.316).epsilon(2e-3));
     const double sampled = bunny.file.content->sampled_slope(20'000) / 1.1;
     CHECK(sampled > 1.1);

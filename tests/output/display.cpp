@@ -1,4 +1,5 @@
 #include "output/display.hpp"
+#include "source_directory.hpp"
 
 #include <OpenColorIO/OpenColorIO.h>
 #include <doctest/doctest.h>
@@ -55,7 +56,7 @@ std::string foreign(const std::string& roles, const std::string& shown_space) {
 }  // namespace
 
 TEST_CASE("the built-in configuration is the file that is installed for other tools") {
-    CHECK(default_color_config() == bytes_of(PHASETREE_SOURCE_DIR "/tracer/color/phasetree.ocio"));
+    CHECK(default_color_config() == bytes_of(source_directory() + "/tracer/color/phasetree.ocio"));
 }
 
 TEST_CASE("the built-in configuration is valid, and names the working space as OpenImageIO does") {
@@ -198,7 +199,7 @@ TEST_CASE("$OCIO is honoured, and a bad one is an error") {
     CHECK_FALSE(contains(picture, "\n"));
 
     // Our own file by its name is what is built in.
-    const OcioVariable ours(PHASETREE_SOURCE_DIR "/tracer/color/phasetree.ocio");
+    const OcioVariable ours(source_directory() + "/tracer/color/phasetree.ocio");
     const glm::vec3 color(0.4f, 0.9f, 3.0f);
     const glm::vec3 named = shown(DisplayTransform(), color);
     const OcioVariable none;

@@ -2,6 +2,7 @@
 //     phasetree nodes --markdown > scenes/nodes.md; phasetree nodes --json-schema > scenes/scene.schema.json
 
 #include "phasetree/reading/reference.hpp"
+#include "source_directory.hpp"
 
 #include <doctest/doctest.h>
 
@@ -15,7 +16,7 @@ using namespace phasetree;
 namespace {
 
 std::string committed(const std::string& file) {
-    std::ifstream in(std::string(PHASETREE_SOURCE_DIR) + "/scenes/" + file);
+    std::ifstream in(source_directory() + "/scenes/" + file);
     std::ostringstream text;
     text << in.rdbuf();
     return text.str();

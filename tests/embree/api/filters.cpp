@@ -3,6 +3,7 @@
 #include <map>
 
 #include "embree/api/api.hpp"
+#include "source_directory.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;
@@ -127,7 +128,7 @@ TEST_CASE("filters see every crossing once, in order, and phases follow on each 
 TEST_CASE("so they do where cells are many, which reach into each other") {
     for (const char* scene : {"hourglass", "reinforced_pipe", "box_of_operators"}) {
         CAPTURE(scene);
-        const std::string path = std::string(PHASETREE_SOURCE_DIR "/scenes/") + scene + ".json";
+        const std::string path = source_directory() + "/scenes/" + scene + ".json";
         Placed placed(embree::Tree::from_file(path));
         Filter filter;
         filter.expected_geometry = placed.id;

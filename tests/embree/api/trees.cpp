@@ -4,6 +4,7 @@
 
 #include "embree/api/api.hpp"
 #include "phasetree/reading/write.hpp"
+#include "source_directory.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;
@@ -37,7 +38,7 @@ std::string message_of(const std::function<void()>& f) {
 
 TEST_CASE("every scene of the gallery without images loads from its file") {
     int loaded = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(PHASETREE_SOURCE_DIR "/scenes")) {
+    for (const auto& entry : std::filesystem::directory_iterator(source_directory() + "/scenes")) {
         if (entry.path().extension() != ".json" || entry.path().stem() == "scene.schema") continue;
         CAPTURE(entry.path().string());
         const Document document = Document::from_file(entry.path());
