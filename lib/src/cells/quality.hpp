@@ -10,7 +10,7 @@ namespace phasetree {
 /// The share of what a box's rays need at least (price.hpp) that dividing it must promise to save. `size` is the box's
 /// diagonal over the object's. Small boxes must save more: along an interface there are as many as the square of how
 /// small they are, all of them are built, and few rays meet any one. How fast that grows is measured
-/// (benchmarks/README.md): faster where more than two phases meet, `is_meeting`, and fastest if the first one's
+/// (benchmarks/experiments.md): faster where more than two phases meet, `is_meeting`, and fastest if the first one's
 /// distance is well known there, `is_first_known`. What is saved then are mostly rays in the other phases, which prices
 /// take to be in the dark.
 inline float least_gain(BuildQuality quality, float size, bool is_meeting, bool is_first_known) {
