@@ -36,6 +36,9 @@ struct Parameter {
     std::string_view description;
     Limits limits = limits::any;
     bool optional = false;  ///< if absent, the member's default initialiser stands
+    /// Of a list of numbers: a single number may be written in its place, and is a list of one. What that means, the
+    /// node and its description say.
+    bool one_for_all = false;
 };
 
 /// What a node says of itself.

@@ -8,7 +8,9 @@ template <class Child>
 struct Grid : Copies<Grid<Child>, Child> {
     static constexpr NodeInfo info{
         "grid", "", "min over i, j, k of φ(p − (i dx, j dy, k dz)); of objects, the later over the earlier",
-        "Copies in rows along x, y and z; the first stays where it is. They may overlap."};
+        "Copies in rows along x, y and z; the first stays where it is. They may overlap. Their order: i counts "
+        "fastest, "
+        "then j, then k."};
     glm::vec3 spacing{1};
     int count_x = 1, count_y = 1, count_z = 1;
 

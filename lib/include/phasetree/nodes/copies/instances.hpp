@@ -21,9 +21,9 @@ struct Instances : Copies<Instances<Child>, Child> {
         v(&Instances::turns, Parameter{"turns", "degrees",
                                        "Angle of each copy about its own z axis; one number stands "
                                        "for all.",
-                                       limits::any, true});
-        v(&Instances::scales,
-          Parameter{"scales", "", "Factor of each copy's size; one number stands for all.", limits::positive, true});
+                                       limits::any, true, true});
+        v(&Instances::scales, Parameter{"scales", "", "Factor of each copy's size; one number stands for all.",
+                                        limits::positive, true, true});
     }
     void prepare() const {
         if (positions.size() > static_cast<std::size_t>(detail::most_copies))

@@ -66,9 +66,9 @@ struct Blob {
         v(&Blob::radii, Parameter{"radii", "m",
                                   "How far each skeleton reaches: one number for all, or one for each of the points, "
                                   "then the polyline, then the fields.",
-                                  limits::positive});
-        v(&Blob::weights,
-          Parameter{"weights", "", "The skeletons' weights, in the same way; 1 if absent.", limits::positive, true});
+                                  limits::positive, false, true});
+        v(&Blob::weights, Parameter{"weights", "", "The skeletons' weights, in the same way; 1 if absent.",
+                                    limits::positive, true, true});
         v(&Blob::threshold,
           Parameter{"threshold", "", "T; the larger, the smaller the solid.", limits::positive, true});
     }

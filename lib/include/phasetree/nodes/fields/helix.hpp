@@ -26,8 +26,9 @@ struct Helix {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{
         "helix", "", "√((ρ − R)² + 4ρR sin²(x/2) + k²(x − M)²) − r,  x + (ρR/k²) sin x = M,  or from an end",
-        "A coil of round wire about the z axis with round ends, centred at half its height; "
-        "it starts on the x axis and turns right-handed. Exact where turns do not touch."};
+        "A coil of round wire about the z axis with round ends, centred at half its height. It rises from its lower "
+        "end, at y = 0 and x > 0, counter-clockwise as seen from above, which is right-handed; a left-handed coil is "
+        "the mirror image across y = 0 and starts there, too. Exact where turns do not touch."};
     float radius = 1;
     float pitch = 0.5f;
     float turns = 3;

@@ -8,7 +8,9 @@ namespace phasetree {
 /// other phases.
 struct IntersectShape {
     static constexpr bool is_phased_node = true;
-    static constexpr NodeInfo info{"intersect_shape", "5.1", "φₖ = max(aₖ, f),  φ₀ = min(a₀, max(aₖ, −f))",
+    static constexpr NodeInfo info{"intersect_shape", "5.1",
+                                   "φₖ = max(aₖ, f),  φ₀ = min(a₀, −f) if all phases are cut, "
+                                   "else min(a₀, min over the cut k of max(aₖ, −f))",
                                    "Keeps what lies within a shape: of all phases, or of some and the rest unchanged."};
     Phased of{};
     Field shape{};

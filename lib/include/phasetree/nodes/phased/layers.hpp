@@ -40,8 +40,8 @@ struct Layers {
     template <class V>
     static void parameters(V&& v) {
         v(&Layers::of_phases, Parameter{"phases", "", "The phases of a period in their order, two or more."});
-        v(&Layers::thicknesses,
-          Parameter{"thicknesses", "m", "The layers' thicknesses; one number stands for all.", limits::positive});
+        v(&Layers::thicknesses, Parameter{"thicknesses", "m", "The layers' thicknesses; one number stands for all.",
+                                          limits::positive, false, true});
         v(&Layers::direction,
           Parameter{"direction", "", "Where the layers follow each other; any length but zero.", limits::any, true});
         v(&Layers::offset,

@@ -25,8 +25,8 @@ struct Strata {
         v(&Strata::of_phases, Parameter{"phases", "", "The phases in their order, two or more."});
         v(&Strata::thicknesses,
           Parameter{"thicknesses", "m",
-                    "The layers' thicknesses, the last layer's left out; one number stands for all.",
-                    limits::positive});
+                    "The layers' thicknesses, the last layer's left out; one number stands for all.", limits::positive,
+                    false, true});
         v(&Strata::direction,
           Parameter{"direction", "", "Where the layers follow each other; any length but zero.", limits::any, true});
         v(&Strata::offset, Parameter{"offset", "m", "From where along it the first layer is measured, from the origin.",

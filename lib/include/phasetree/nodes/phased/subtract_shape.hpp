@@ -6,7 +6,9 @@ namespace phasetree {
 
 struct SubtractShape {
     static constexpr bool is_phased_node = true;
-    static constexpr NodeInfo info{"subtract_shape", "5.1", "φₖ = max(aₖ, −f),  φ₀ = min(a₀, max(aₖ, f))",
+    static constexpr NodeInfo info{"subtract_shape", "5.1",
+                                   "φₖ = max(aₖ, −f),  φ₀ = min(a₀, f) if all phases are cut, "
+                                   "else min(a₀, min over the cut k of max(aₖ, f))",
                                    "Cuts a shape away: from all phases, or from some and the rest unchanged."};
     Phased of{};
     Field shape{};
