@@ -218,7 +218,7 @@ TEST_CASE("image environment: unusable pixels are replaced, unusable images refu
         CHECK(seen.b <= 65504.0f);
     }
     CHECK_THROWS_AS(ImageEnvironment(2, 2, {{1, 1, 1}}), std::invalid_argument);
-    CHECK_THROWS_AS(ImageEnvironment(0, 0, {}), std::invalid_argument);
+    CHECK_THROWS_AS(ImageEnvironment(0, 0, std::vector<glm::vec3>{}), std::invalid_argument);
     CHECK_THROWS_AS(ImageEnvironment(1, 1, {{1, 1, 1}}, nan), std::invalid_argument);
     CHECK_THROWS_AS(ImageEnvironment(1, 1, {{1, 1, 1}}, 0.0f, -1.0f), std::invalid_argument);
     CHECK_THROWS_AS(GradientEnvironment(glm::vec3(nan), {}, {}), std::invalid_argument);

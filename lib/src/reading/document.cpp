@@ -1,5 +1,7 @@
 #include "phasetree/reading/document.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "reading/document_data.hpp"
@@ -134,6 +136,30 @@ const std::string& Document::text() const {
 }
 const std::string& Document::name() const {
     return data_->name;
+}
+
+std::filesystem::path Document::file(Value named) const {
+    const std::filesystem::path path = std::filesystem::path(name()).parent_path() / named.string();
+    if (!files_within_) return path;
+    // What is opened is the path without links, so that it is the one that was looked at.
+    std::error_code problem;
+    std::filesystem::path real = std::filesystem::weakly_canonical(std::filesystem::absolute(path, problem), problem);
+    const auto [end, rest] = std::mismatch(files_within_->begin(), files_within_->end(), real.begin(), real.end());
+    const bool is_within = !problem && end == files_within_->end();
+    if (!is_within)
+        throw error(named, fmt::format("\"{}\" leads out of {}, the folder that files must lie in", named.string(),
+                                       files_within_->string()));
+    return real;
+}
+
+Document Document::with_files_within(const std::filesystem::path& folder) const {
+    std::error_code problem;
+    std::filesystem::path real = std::filesystem::canonical(folder, problem);
+    if (problem || !std::filesystem::is_directory(real, problem))
+        throw SceneError(folder.string(), "is no folder that files could lie in");
+    Document confined = *this;
+    confined.files_within_ = std::make_shared<const std::filesystem::path>(std::move(real));
+    return confined;
 }
 
 SceneError Document::error(std::size_t offset, std::string message, std::optional<std::string> suggestion) const {

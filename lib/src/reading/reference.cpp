@@ -70,6 +70,11 @@ TypeOf type_of(const std::vector<T>&, const Limits& l) {
     return {fmt::format("list of {}s", item.name), "[]", list_of(item.schema)};
 }
 
+/// A number by itself may stand for a list of one.
+TypeOf with_one_for_all(const TypeOf& list) {
+    return {"number or " + list.name, list.default_value, {{"anyOf", {list.schema["items"], list.schema}}}};
+}
+
 struct Described {
     Parameter parameter;
     TypeOf type;
@@ -87,7 +92,8 @@ NodePage page_of() {
     const N node{};
     std::size_t required = 0, lists = 0;
     for_each_parameter(node, [&](const auto& value, const Parameter& p) {
-        page.parameters.push_back({p, type_of(value, p.limits)});
+        const TypeOf type = type_of(value, p.limits);
+        page.parameters.push_back({p, p.one_for_all ? with_one_for_all(type) : type});
         if (p.optional) return;
         ++required;
         if constexpr (requires { value.front(); }) ++lists;

@@ -5,8 +5,9 @@
 
 namespace phasetree {
 
-SirenNetwork read_siren(const std::filesystem::path& path) {
-    const Document document = Document::from_file(path);
+namespace {
+
+SirenNetwork network_of(const Document& document) {
     ObjectReader root(document, document.root(), "the network");
     root.allow({"source", "radius", "layers"});
     root.finish();
@@ -34,7 +35,32 @@ SirenNetwork read_siren(const std::filesystem::path& path) {
         }
         network.layers.push_back(std::move(layer));
     }
-    if (const char* mistake = network.mistake()) throw document.error(document.root(), mistake);
+    return network;
+}
+
+/// Which file is read a scene says, which may be a stranger's, and who reads the error may not be who may read the
+/// file. So an error tells the place in it, and quotes nothing of it: `what` stands for what is wrong there. That a
+/// file is missing, too large and the like is told as it is.
+template <class F>
+auto unquoted(const std::filesystem::path& path, std::string_view what, F&& read) {
+    try {
+        return read();
+    } catch (const SceneError& e) {
+        if (e.line() == 0) throw;
+        throw SceneError(path.string(), fmt::format("{} (line {}, column {})", what, e.line(), e.column()));
+    }
+}
+
+}  // namespace
+
+SirenNetwork read_siren(const std::filesystem::path& path) {
+    const Document document = unquoted(path, "is no JSON text", [&] { return Document::from_file(path); });
+    SirenNetwork network = unquoted(
+        path,
+        "is no network {\"radius\": R, \"layers\": [{\"weights\": [[…], …], \"bias\": […]}, …]}, with a row of "
+        "weights for each number in bias",
+        [&] { return network_of(document); });
+    if (const char* mistake = network.mistake()) throw SceneError(path.string(), mistake);
     return network;
 }
 

@@ -36,6 +36,8 @@ bool has_node(std::string_view name) {
     return found;
 }
 
+static_assert(Document::max_depth >= 3 * max_tree_depth + 8, "the deepest tree that there may be can be written");
+
 class Reader {
   public:
     Reader(const Document& document, PhaseNames names, std::optional<Value> shapes, const FileReaders& files)
@@ -43,7 +45,7 @@ class Reader {
 
     template <class Handle>
     Handle read(Value value) {
-        const Level level(*this, value);
+        const Level level(*this, levels_, 2 * max_tree_depth, value);
         if (value.is_string()) return named<Handle>(value);
         if (!value.is_object() || value.size() != 1) {
             throw document_.error(value, value.is_object()
@@ -54,12 +56,12 @@ class Reader {
                                                            kind_name<Handle>, name_of(value.kind())));
         }
         const Value member = value[0];
-        std::optional<Handle> result;
+        Handle (Reader::*make_node)(Value) = nullptr;
         for_each_type(NodesOf<Handle>(), [&]<class N>() {
-            if (!result && N::info.name == member.key()) result = make<Handle, N>(member);
+            if (!make_node && N::info.name == member.key()) make_node = &Reader::make<Handle, N>;
         });
-        if (!result) throw unknown_node<Handle>(member);
-        return *result;
+        if (!make_node) throw unknown_node<Handle>(member);
+        return (this->*make_node)(member);
     }
 
     /// Reads the shapes that the tree did not use, so that a mistake in them is found too.
@@ -76,16 +78,20 @@ class Reader {
     }
 
   private:
-    /// Counts the nesting through named shapes too, so that no file can exhaust the stack.
+    /// Counts the nesting, of nodes and of nodes and names, through named shapes too, so that no file can exhaust the
+    /// stack.
     struct Level {
-        Level(Reader& r, Value value) : reader(r) {
-            if (++reader.depth_ > 2 * max_tree_depth)
+        Level(const Reader& reader, std::size_t& count, std::size_t most, Value value) : count_(count) {
+            if (count_ == most)
                 throw reader.document_.error(value, fmt::format("the tree is deeper than {} nodes", max_tree_depth));
+            ++count_;
         }
-        ~Level() { --reader.depth_; }
+        ~Level() { --count_; }
         Level(const Level&) = delete;
         Level& operator=(const Level&) = delete;
-        Reader& reader;
+
+      private:
+        std::size_t& count_;
     };
 
     template <class Handle>
@@ -143,6 +149,7 @@ class Reader {
 
     template <class Handle, class N>
     Handle make(Value member) {
+        const Level level(*this, nodes_, max_tree_depth, member);
         N node{};
         if (member.is_array())
             read_list(node, member);
@@ -202,8 +209,11 @@ class Reader {
             for (const Value item : value) target.push_back(read<typename T::value_type>(item));
         } else if constexpr (std::is_same_v<T, std::vector<float>> || std::is_same_v<T, std::vector<glm::vec2>> ||
                              std::is_same_v<T, std::vector<glm::vec3>> || std::is_same_v<T, std::vector<Phase>>) {
+            if (p.one_for_all && value.is_number()) return read_value(target.emplace_back(), value, p);
             if (!value.is_array())
-                throw document_.error(value, fmt::format("{} must be a list, but is {}", what, name_of(value.kind())));
+                throw document_.error(
+                    value, fmt::format("{} must be {}list, but is {}", what, p.one_for_all ? "a number or a " : "a ",
+                                       name_of(value.kind())));
             if (value.size() == 0) throw document_.error(value, fmt::format("{} must not be empty", what));
             for (const Value item : value) read_value(target.emplace_back(), item, p);
         } else if constexpr (std::is_same_v<T, Phase>) {
@@ -228,7 +238,7 @@ class Reader {
     /// Each file once.
     template <class Content>
     void read_file(FromFile<Content>& target, Value value) {
-        const std::filesystem::path path = document_.beside(target.path);
+        const std::filesystem::path path = document_.file(value);
         std::map<std::string, std::shared_ptr<const Content>, std::less<>>* known = nullptr;
         if constexpr (std::is_same_v<Content, SirenNetwork>)
             known = &networks_;
@@ -245,8 +255,6 @@ class Reader {
                 if (!files_.height_grid) throw std::runtime_error("this program reads no images");
                 target.content = std::make_shared<const Content>(files_.height_grid(path));
             }
-        } catch (const SceneError&) {
-            throw;  // it tells its own place
         } catch (const std::exception& e) {
             throw document_.error(value, e.what());
         }
@@ -305,7 +313,7 @@ class Reader {
     std::map<std::string, Field, std::less<>> fields_;
     std::map<std::string, Phased, std::less<>> objects_;
     std::vector<std::string> open_;  ///< shapes being read, to find cycles
-    std::size_t depth_ = 0;
+    std::size_t levels_ = 0, nodes_ = 0;
 };
 
 PhaseNames read_phases(const Document& document, Value root) {

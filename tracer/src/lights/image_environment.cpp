@@ -68,13 +68,15 @@ LatLongDistribution importance(int width, int height, const std::vector<glm::vec
 
 }  // namespace
 
-ImageEnvironment::ImageEnvironment(int width, int height, std::vector<glm::vec3> pixels, float rotation_degrees,
+EnvironmentImage::EnvironmentImage(int given_width, int given_height, std::vector<glm::vec3> given_pixels)
+    : width(given_width),
+      height(given_height),
+      pixels(usable(std::move(given_pixels), width, height)),
+      distribution(importance(width, height, pixels)) {}
+
+ImageEnvironment::ImageEnvironment(std::shared_ptr<const EnvironmentImage> image, float rotation_degrees,
                                    float intensity)
-    : width_(width),
-      height_(height),
-      pixels_(usable(std::move(pixels), width, height)),
-      distribution_(importance(width, height, pixels_)),
-      intensity_(intensity) {
+    : image_(std::move(image)), intensity_(intensity) {
     if (!std::isfinite(rotation_degrees)) throw std::invalid_argument("the environment's rotation must be finite");
     if (!std::isfinite(intensity) || intensity < 0.0f) {
         throw std::invalid_argument("the environment's intensity must be a finite number and not negative");
@@ -93,15 +95,16 @@ glm::vec3 ImageEnvironment::from_image(const glm::vec3& d) const {
 }
 
 glm::vec3 ImageEnvironment::radiance(const glm::vec3& direction) const {
+    const EnvironmentImage& image = *image_;
     const glm::vec2 uv = lat_long_of(to_image(direction));
-    const float x = uv.x * static_cast<float>(width_) - 0.5f;
-    const float y = uv.y * static_cast<float>(height_) - 0.5f;
+    const float x = uv.x * static_cast<float>(image.width) - 0.5f;
+    const float y = uv.y * static_cast<float>(image.height) - 0.5f;
     const float left = std::floor(x);
     const float top = std::floor(y);
     const auto texel = [&](int column, int row) {
-        const auto wrapped = static_cast<std::size_t>((column + width_) % width_);
-        const auto clamped = static_cast<std::size_t>(std::clamp(row, 0, height_ - 1));
-        return pixels_[clamped * static_cast<std::size_t>(width_) + wrapped];
+        const auto wrapped = static_cast<std::size_t>((column + image.width) % image.width);
+        const auto clamped = static_cast<std::size_t>(std::clamp(row, 0, image.height - 1));
+        return image.pixels[clamped * static_cast<std::size_t>(image.width) + wrapped];
     };
     const int column = static_cast<int>(left);
     const int row = static_cast<int>(top);
@@ -111,13 +114,13 @@ glm::vec3 ImageEnvironment::radiance(const glm::vec3& direction) const {
 }
 
 std::optional<DirectionSample> ImageEnvironment::sample(const glm::vec2& u) const {
-    auto sampled = distribution_.sample(u);
+    auto sampled = image_->distribution.sample(u);
     if (sampled) sampled->direction = from_image(sampled->direction);
     return sampled;
 }
 
 float ImageEnvironment::pdf(const glm::vec3& direction) const {
-    return distribution_.pdf(to_image(direction));
+    return image_->distribution.pdf(to_image(direction));
 }
 
 }  // namespace phasetree::tracer

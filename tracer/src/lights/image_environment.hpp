@@ -10,7 +10,9 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "lights/direction_sample.hpp"
@@ -18,27 +20,39 @@
 
 namespace phasetree::tracer {
 
+// The texels, and how they are sampled. Environments of the same image share it.
+struct EnvironmentImage {
+    // `pixels` row by row, the zenith's row first.
+    EnvironmentImage(int width, int height, std::vector<glm::vec3> pixels);
+
+    int width;
+    int height;
+    std::vector<glm::vec3> pixels;
+    LatLongDistribution distribution;
+};
+
 class ImageEnvironment {
   public:
-    // `pixels` row by row, the zenith's row first. `rotation_degrees` turns the environment clockwise seen from above:
-    // what the image shows at azimuth a is seen at a + rotation.
-    ImageEnvironment(int width, int height, std::vector<glm::vec3> pixels, float rotation_degrees = 0.0f,
+    // `rotation_degrees` turns the environment clockwise seen from above: what the image shows at azimuth a is seen at
+    // a + rotation.
+    ImageEnvironment(std::shared_ptr<const EnvironmentImage> image, float rotation_degrees = 0.0f,
                      float intensity = 1.0f);
+    ImageEnvironment(int width, int height, std::vector<glm::vec3> pixels, float rotation_degrees = 0.0f,
+                     float intensity = 1.0f)
+        : ImageEnvironment(std::make_shared<const EnvironmentImage>(width, height, std::move(pixels)), rotation_degrees,
+                           intensity) {}
 
     glm::vec3 radiance(const glm::vec3& direction) const;
     std::optional<DirectionSample> sample(const glm::vec2& u) const;
     float pdf(const glm::vec3& direction) const;
     // Luminance of the radiance integrated over all directions.
-    float fluence() const { return intensity_ * distribution_.integral(); }
+    float fluence() const { return intensity_ * image_->distribution.integral(); }
 
   private:
     glm::vec3 to_image(const glm::vec3& direction) const;
     glm::vec3 from_image(const glm::vec3& direction) const;
 
-    int width_;
-    int height_;
-    std::vector<glm::vec3> pixels_;
-    LatLongDistribution distribution_;
+    std::shared_ptr<const EnvironmentImage> image_;
     float cos_rotation_;
     float sin_rotation_;
     float intensity_;

@@ -1,13 +1,13 @@
 #include "lights/load_environment.hpp"
 
-#include <OpenImageIO/imageio.h>
-
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
+#include <cstdlib>
 #include <stdexcept>
 #include <utility>
 #include <vector>
+
+#include "image/read_image.hpp"
 
 namespace phasetree::tracer {
 
@@ -18,43 +18,37 @@ float linear_from_srgb(float value) {
     return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
 }
 
-std::runtime_error problem(const std::string& path, const std::string& what) {
-    return std::runtime_error("cannot use the environment image \"" + path + "\": " + what.substr(0, what.find('\n')));
+void check(const ImageHeader& header) {
+    constexpr std::int64_t most_pixels = std::int64_t{1} << 27;  // 16,384 × 8,192
+    // A pixel either way is what resizing leaves; more is another projection, such as a cube map or an angular map.
+    if (std::abs(header.width / 2 - header.height) > 1)
+        throw std::runtime_error("a lat-long image is twice as wide as high, this one is " +
+                                 std::to_string(header.width) + " × " + std::to_string(header.height));
+    if (static_cast<std::int64_t>(header.width) * header.height > most_pixels)
+        throw std::runtime_error("it is larger than 16384 × 8192");
 }
 
 }  // namespace
 
-ImageEnvironment load_environment(const std::string& path, float rotation_degrees, float intensity) {
-    // The library's own messages for these two are long and speak of formats and plug-ins.
-    std::error_code ignored;
-    if (!std::filesystem::exists(path, ignored)) throw problem(path, "there is no such file");
-    if (!std::filesystem::is_regular_file(path, ignored)) throw problem(path, "it is not a file");
-
-    const auto input = OIIO::ImageInput::open(path);
-    if (!input) throw problem(path, OIIO::geterror());
-    const OIIO::ImageSpec spec = input->spec();
-    constexpr std::int64_t most_pixels = std::int64_t{1} << 27;  // 16,384 × 8,192
-    const auto pixels_in_file = static_cast<std::int64_t>(spec.width) * spec.height;
-    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) throw problem(path, "it is empty");
-    if (spec.depth > 1) throw problem(path, "it is a volume, not an image");
-    // A pixel either way is what resizing leaves; more is another projection, such as a cube map or an angular map.
-    if (std::abs(spec.width / 2 - spec.height) > 1) {
-        throw problem(path, "a lat-long image is twice as wide as high, this one is " + std::to_string(spec.width) +
-                                " × " + std::to_string(spec.height));
-    }
-    if (pixels_in_file > most_pixels) throw problem(path, "it is larger than 16384 × 8192");
-    std::vector<glm::vec3> pixels(static_cast<std::size_t>(pixels_in_file));
-    static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
-    const bool grey = spec.nchannels < 3;
-    if (!input->read_image(0, 0, 0, grey ? 1 : 3, OIIO::TypeDesc::FLOAT, pixels.data(), sizeof(glm::vec3))) {
-        throw problem(path, input->geterror());
-    }
-    const bool encoded = !spec.format.is_floating_point();
-    for (glm::vec3& pixel : pixels) {
-        if (grey) pixel = glm::vec3(pixel.r);
-        if (encoded) pixel = {linear_from_srgb(pixel.r), linear_from_srgb(pixel.g), linear_from_srgb(pixel.b)};
-    }
-    return {spec.width, spec.height, std::move(pixels), rotation_degrees, intensity};
+std::shared_ptr<const EnvironmentImage> load_environment_image(const std::string& path) {
+    ImageHeader header;
+    std::vector<glm::vec3> pixels;
+    const auto begin = [&](const ImageHeader& read) {
+        check(read);
+        header = read;
+        // Reserved memory is not there before it is written to.
+        pixels.reserve(static_cast<std::size_t>(header.width) * static_cast<std::size_t>(header.height));
+        return header.channels < 3 ? 1 : 3;
+    };
+    read_image(path, "environment image", begin, [&](std::span<const float> values) {
+        const auto linear = [&](float v) { return header.is_floating_point ? v : linear_from_srgb(v); };
+        if (header.channels < 3)
+            for (const float v : values) pixels.emplace_back(linear(v));
+        else
+            for (std::size_t i = 0; i < values.size(); i += 3)
+                pixels.emplace_back(linear(values[i]), linear(values[i + 1]), linear(values[i + 2]));
+    });
+    return std::make_shared<const EnvironmentImage>(header.width, header.height, std::move(pixels));
 }
 
 }  // namespace phasetree::tracer

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
+#include <map>
 
 #include "lights/daylight.hpp"
 #include "lights/load_environment.hpp"
@@ -18,13 +20,21 @@ glm::vec3 radiance(ObjectReader& reader) {
            reader.optional("intensity", 1.0f, Range::not_negative());
 }
 
-void read_image(ObjectReader& reader, Lights& lights) {
+// By their paths: a file is read once, however many lights it makes.
+using Images = std::map<std::filesystem::path, std::shared_ptr<const EnvironmentImage>>;
+
+void read_image(ObjectReader& reader, Lights& lights, Images& images) {
     const Value file = reader.required_value("file");
-    const std::string name = as<std::string>(reader.document(), file, "\"file\"");
+    (void)as<std::string>(reader.document(), file, "\"file\"");
+    const std::filesystem::path path = reader.document().file(file);
     const float rotation = reader.optional("rotation", 0.0f);
     const float intensity = reader.optional("intensity", 1.0f, Range::not_negative());
     try {
-        lights.add(load_environment(reader.document().beside(name).string(), rotation, intensity));
+        std::error_code problem;
+        const std::filesystem::path real = std::filesystem::weakly_canonical(path, problem);
+        auto& image = images[problem ? path : real];
+        if (!image) image = load_environment_image(path.string());
+        lights.add(ImageEnvironment(image, rotation, intensity));
     } catch (const std::runtime_error& e) {
         throw reader.document().error(file, e.what());
     }
@@ -65,10 +75,10 @@ void read_sun(ObjectReader& reader, Lights& lights) {
 }
 
 void read_rectangle(ObjectReader& reader, Lights& lights) {
-    const glm::vec3 centre = reader.required<glm::vec3>("centre");
-    const glm::vec3 target = reader.required<glm::vec3>("target");
-    const float width = reader.required<float>("width", Range::positive());
-    const float height = reader.required<float>("height", Range::positive());
+    const glm::vec3 centre = reader.required<glm::vec3>("centre", coordinate);
+    const glm::vec3 target = reader.required<glm::vec3>("target", coordinate);
+    const float width = reader.required<float>("width", size_of_thing);
+    const float height = reader.required<float>("height", size_of_thing);
     if (!(glm::length(target - centre) > 0))
         throw reader.document().error(*reader.value("target"), "\"target\" is where the light itself is");
     lights.add(AreaLight(RectangleLight::facing(centre, target, width, height, radiance(reader),
@@ -76,19 +86,19 @@ void read_rectangle(ObjectReader& reader, Lights& lights) {
 }
 
 void read_sphere(ObjectReader& reader, Lights& lights) {
-    const glm::vec3 centre = reader.required<glm::vec3>("centre");
-    const float radius = reader.required<float>("radius", Range::positive());
+    const glm::vec3 centre = reader.required<glm::vec3>("centre", coordinate);
+    const float radius = reader.required<float>("radius", size_of_thing);
     lights.add(AreaLight(SphereLight(centre, radius, radiance(reader), reader.optional("visible_to_camera", true))));
 }
 
-void read_light(const Document& document, Value value, Lights& lights) {
+void read_light(const Document& document, Value value, Lights& lights, Images& images) {
     const Value member = chosen(document, value, "a light", kinds);
     const std::string_view kind = member.key();
     ObjectReader reader(document, member, fmt::format("the {} light", kind));
     try {
         if (kind == "constant") lights.add(ConstantEnvironment(radiance(reader)));
         if (kind == "gradient") read_gradient(reader, lights);
-        if (kind == "image") read_image(reader, lights);
+        if (kind == "image") read_image(reader, lights, images);
         if (kind == "sky") read_sky(reader, lights);
         if (kind == "sun") read_sun(reader, lights);
         if (kind == "rectangle") read_rectangle(reader, lights);
@@ -106,7 +116,8 @@ Lights read_lights(const Document& document, Value root) {
     if (const std::optional<Value> list = root.find("lights")) {
         if (!list->is_array())
             throw document.error(*list, fmt::format("\"lights\" must be a list, but is {}", name_of(list->kind())));
-        for (const Value light : *list) read_light(document, light, lights);
+        Images images;
+        for (const Value light : *list) read_light(document, light, lights, images);
     }
     if (const std::optional<Value> background = root.find("background"))
         lights.set_background(as_colour(document, *background, "\"background\""));

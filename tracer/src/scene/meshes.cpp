@@ -37,8 +37,8 @@ void add_quad(Mesh& mesh, const glm::vec3& a, const glm::vec3& b, const glm::vec
 
 // A square on the plane z = height.
 Mesh read_floor(ObjectReader& reader) {
-    const float z = reader.optional("height", 0.0f);
-    const float half = 0.5f * reader.optional("size", 1000.0f, Range::positive());
+    const float z = reader.optional("height", 0.0f, coordinate);
+    const float half = 0.5f * reader.optional("size", 1000.0f, size_of_thing);
     Mesh mesh;
     add_quad(mesh, {-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z});
     return mesh;
@@ -46,12 +46,12 @@ Mesh read_floor(ObjectReader& reader) {
 
 // A photographer's sweep: a floor at z = height that curves up into a wall at y = distance, without an edge.
 Mesh read_backdrop(ObjectReader& reader) {
-    const float z = reader.optional("height", 0.0f);
-    const float distance = reader.optional("distance", 5.0f, Range::positive());
-    const float radius = reader.optional("radius", 2.0f, Range::positive());
-    const float half = 0.5f * reader.optional("width", 100.0f, Range::positive());
-    const float front = reader.optional("front", 50.0f, Range::positive());
-    const float wall = reader.optional("wall", 50.0f, Range::positive());
+    const float z = reader.optional("height", 0.0f, coordinate);
+    const float distance = reader.optional("distance", 5.0f, size_of_thing);
+    const float radius = reader.optional("radius", 2.0f, size_of_thing);
+    const float half = 0.5f * reader.optional("width", 100.0f, size_of_thing);
+    const float front = reader.optional("front", 50.0f, size_of_thing);
+    const float wall = reader.optional("wall", 50.0f, size_of_thing);
     constexpr int steps = 64;
     std::vector<std::pair<glm::vec2, glm::vec2>> profile;  // (y, z) and the normal in that plane
     profile.push_back({{-front, z}, {0, 1}});
@@ -94,8 +94,8 @@ std::string read_text(const Document& document, Value file, const std::filesyste
 Mesh read_obj(ObjectReader& reader) {
     const Document& document = reader.document();
     const Value file = reader.required_value("file");
-    const std::string name = as<std::string>(document, file, "\"file\"");
-    const std::filesystem::path path = document.beside(name);
+    (void)as<std::string>(document, file, "\"file\"");
+    const std::filesystem::path path = document.file(file);
     tinyobj::ObjReader obj;
     tinyobj::ObjReaderConfig config;
     config.triangulate = true;
@@ -116,9 +116,9 @@ Mesh read_obj(ObjectReader& reader) {
         p = {std::cos(turn) * p.x - std::sin(turn) * p.y, std::sin(turn) * p.x + std::cos(turn) * p.y, p.z};
         mesh.vertices.push_back(p + move);
         for (int k = 0; k < 3; ++k)
-            if (!std::isfinite(mesh.vertices.back()[k]))
-                throw document.error(file,
-                                     fmt::format("{} has a coordinate that is not a finite number", path.string()));
+            if (!coordinate.contains(static_cast<double>(mesh.vertices.back()[k])))
+                throw document.error(
+                    file, fmt::format("{} has a coordinate that is no number or beyond 10¹⁵", path.string()));
     }
     for (const auto& shape : obj.GetShapes()) {
         const auto& index = shape.mesh.indices;

@@ -5,9 +5,17 @@
 #include <vector>
 
 #include "phasetree/reading/object_reader.hpp"
+#include "phasetree/reading/range.hpp"
 #include "scene/scene.hpp"
 
 namespace phasetree::tracer {
+
+// Where things may be and how large: rays from farther than Embree's 1.8·10¹⁸ end the program there, and differences
+// of coordinates have no digits left long before.
+inline constexpr double farthest = 1e15;
+inline constexpr Range coordinate{.min = -farthest, .max = farthest, .description = "from -1e15 to 1e15"};
+inline constexpr Range size_of_thing{
+    .min = 0, .max = farthest, .min_is_open = true, .description = "positive and at most 1e15"};
 
 // A choice between kinds is an object of one member, {"kind": {…}}, as nodes are. Returns that member, whose key is
 // one of `kinds`; `what` names the choice in messages ("a material").

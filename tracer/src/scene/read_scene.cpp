@@ -4,13 +4,25 @@
 
 namespace phasetree::tracer {
 
-Scene read_scene(const Document& document) {
+namespace {
+
+ObjectReader read_root(const Document& document) {
     ObjectReader root(document, document.root(), "the scene");
     root.allow({"version", "phases", "shapes", "tree", "meshes", "lights", "background", "camera", "render"});
     root.finish();
-    const Value version = root.required_value("version");
+    return root;
+}
+
+void check_version(const Document& document, Value version) {
     if (as<int>(document, version, "\"version\"") != 1)
         throw document.error(version, "this program reads scenes of version 1");
+}
+
+}  // namespace
+
+Scene read_scene(const Document& document) {
+    ObjectReader root = read_root(document);
+    check_version(document, root.required_value("version"));
 
     Scene scene;
     scene.file = document.name();
@@ -34,6 +46,18 @@ Scene read_scene(const Document& document) {
             *root.value("tree"),
             "the object is unbounded: cut it to size with {\"intersect_shape\": {\"of\": …, \"shape\": …}}");
     return scene;
+}
+
+SceneTree read_scene_without_camera(const Document& document) {
+    ObjectReader root = read_root(document);
+    if (const auto version = root.value("version")) check_version(document, *version);
+    SceneTree tree = read_tree(document, {.height_grid = read_height_grid});
+    (void)opaque_phases(document);
+    (void)read_lights(document, document.root());
+    if (const auto meshes = root.value("meshes")) (void)read_meshes(document, *meshes);
+    ThinLensParameters unused;
+    if (const auto settings = root.value("render")) (void)read_settings(document, *settings, unused);
+    return tree;
 }
 
 PhaseSet opaque_phases(const std::vector<Material>& materials) {

@@ -46,6 +46,10 @@ struct Scene {
 // Reads a whole scene. Files it names are relative to it. Throws SceneError with the place in the text.
 Scene read_scene(const Document& document);
 
+// Of a scene that has no camera: its tree, and that all else that it has is sound. It needs no materials either: phases
+// may have anything in their place that is no object. Throws SceneError.
+SceneTree read_scene_without_camera(const Document& document);
+
 // The phases that light does not travel in.
 PhaseSet opaque_phases(const std::vector<Material>& materials);
 // The same of a file that need not be more than a tree: phases that are given no material are clear.

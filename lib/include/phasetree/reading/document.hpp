@@ -101,12 +101,14 @@ class ValueIterator {
 };
 
 /// A JSON text (RFC 8259) with // and /* */ comments, read whole: immutable, cheap to copy, safe to share by threads.
-/// The text is UTF-8, at most 256 MiB, nested at most 200 levels deep; the keys of an object differ from each other;
-/// numbers are finite; strings hold no zero character. Anything else is a SceneError.
+/// The text is UTF-8, at most 256 MiB, nested at most max_depth levels deep; the keys of an object differ from each
+/// other; numbers are finite; strings hold no zero character. Anything else is a SceneError.
 class Document {
   public:
     static constexpr std::size_t max_bytes = std::size_t{256} << 20;
-    static constexpr std::size_t max_depth = 200;
+    /// A node is an object, its parameters another, and its children may be in a list: three levels. That is room for
+    /// a tree of 400 nodes one in the other, which is the deepest that there may be (max_tree_depth).
+    static constexpr std::size_t max_depth = 1216;
 
     /// Regular files only: a directory, a pipe or a device is an error at once.
     static Document from_file(const std::filesystem::path& path);
@@ -117,10 +119,12 @@ class Document {
     /// What errors call the file: the path as it was given.
     const std::string& name() const;
 
-    /// A path that the text names: relative to the text's file.
-    std::filesystem::path beside(const std::filesystem::path& named) const {
-        return std::filesystem::path(name()).parent_path() / named;
-    }
+    /// The file that a string of the text names, relative to the text's own file. SceneError at the value if it leaves
+    /// the folder that the files must lie in; then nothing is said of the file, not even whether there is one.
+    std::filesystem::path file(Value named) const;
+    /// The same text, whose files must lie in this folder or below it, symbolic links followed: for who reads the
+    /// scenes of strangers. SceneError if there is no such folder.
+    Document with_files_within(const std::filesystem::path& folder) const;
 
     /// An error at a byte offset, or at the first character of a value.
     SceneError error(std::size_t offset, std::string message, std::optional<std::string> suggestion = {}) const;
@@ -130,6 +134,7 @@ class Document {
     explicit Document(std::shared_ptr<const DocumentData> data) : data_(std::move(data)) {}
 
     std::shared_ptr<const DocumentData> data_;
+    std::shared_ptr<const std::filesystem::path> files_within_;  ///< as it is without links; null for anywhere
 };
 
 }  // namespace phasetree

@@ -34,7 +34,8 @@ struct FileReaders {
     std::function<HeightGrid(const std::filesystem::path&)> height_grid{};
 };
 
-/// The weights of a network: {"radius": R, "layers": [{"weights": [[…], …], "bias": […]}, …]}. Throws SceneError.
+/// The weights of a network: {"radius": R, "layers": [{"weights": [[…], …], "bias": […]}, …]}. Throws SceneError, which
+/// quotes nothing of the file.
 SirenNetwork read_siren(const std::filesystem::path&);
 
 /// Reads the model of a scene document; the rest of the file is not looked at.

@@ -1,0 +1,76 @@
+#include "image/read_image.hpp"
+
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+namespace phasetree::tracer {
+
+namespace {
+
+// Deflate, with which PNG compresses, makes 258 bytes of two bits at best: 1032 to 1.
+bool can_hold_what_it_claims(const OIIO::ImageInput& input, std::uintmax_t file_bytes) {
+    constexpr std::uintmax_t most = 1032;
+    return std::string_view(input.format_name()) != "png" ||
+           static_cast<std::uintmax_t>(input.spec().image_bytes(true)) / most <= file_bytes;
+}
+
+// The first channels of rows [begin, end), counted from 0.
+bool read_rows(OIIO::ImageInput& input, int begin, int end, int channels, float* values) {
+    const OIIO::ImageSpec& spec = input.spec();
+    if (spec.tile_width != 0)
+        return input.read_tiles(0, 0, spec.x, spec.x + spec.width, spec.y + begin, spec.y + end, spec.z, spec.z + 1, 0,
+                                channels, OIIO::TypeDesc::FLOAT, values);
+    return input.read_scanlines(0, 0, spec.y + begin, spec.y + end, spec.z, 0, channels, OIIO::TypeDesc::FLOAT, values);
+}
+
+void read_values(OIIO::ImageInput& input, int channels, const std::function<void(std::span<const float>)>& add) {
+    const OIIO::ImageSpec& spec = input.spec();
+    // Whole blocks and tiles, as the formats make them.
+    const int step = spec.tile_width != 0 ? spec.tile_height : 64;
+    std::vector<float> values;
+    for (int begin = 0; begin < spec.height; begin += step) {
+        const int end = std::min(begin + step, spec.height);
+        values.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(end - begin) *
+                      static_cast<std::size_t>(channels));
+        if (!read_rows(input, begin, end, channels, values.data())) throw std::runtime_error(input.geterror());
+        add(values);
+    }
+}
+
+void read(const std::filesystem::path& path, const std::function<int(const ImageHeader&)>& begin,
+          const std::function<void(std::span<const float>)>& add) {
+    // The library's own messages for these two are long and speak of formats and plug-ins.
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored)) throw std::runtime_error("there is no such file");
+    if (!std::filesystem::is_regular_file(path, ignored)) throw std::runtime_error("it is not a file");
+    const auto input = OIIO::ImageInput::open(path.string());
+    if (!input) throw std::runtime_error(OIIO::geterror());
+    const OIIO::ImageSpec& spec = input->spec();
+    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) throw std::runtime_error("it is empty");
+    if (spec.depth > 1) throw std::runtime_error("it is a volume, not an image");
+    const int channels = begin({spec.width, spec.height, spec.nchannels, spec.format.is_floating_point()});
+    if (!can_hold_what_it_claims(*input, std::filesystem::file_size(path, ignored)))
+        throw std::runtime_error("it is too short for the size that it claims");
+    read_values(*input, channels, add);
+}
+
+}  // namespace
+
+void read_image(const std::filesystem::path& path, const std::string& what,
+                const std::function<int(const ImageHeader&)>& begin,
+                const std::function<void(std::span<const float>)>& add) {
+    try {
+        read(path, begin, add);
+    } catch (const std::runtime_error& e) {
+        const std::string message = e.what();
+        throw std::runtime_error("cannot use the " + what + " \"" + path.string() +
+                                 "\": " + message.substr(0, message.find('\n')));
+    }
+}
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,30 @@
+// Images that scenes name, read by OpenImageIO: any format it knows (OpenEXR, Radiance HDR, TIFF, PNG, …).
+//
+// A file's header may claim any size. So memory is taken as rows are decoded, and a file that ends early costs no more
+// than what it holds; a PNG file that is too short for what it claims is refused at once, because the decoder takes all
+// of an interlaced one's memory beforehand.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+
+namespace phasetree::tracer {
+
+struct ImageHeader {
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+    bool is_floating_point = false;
+};
+
+// `begin` gets the header before anything is decoded, and returns how many of the channels to read; it throws
+// std::runtime_error for an image that is not wanted. `add` gets the values of some rows at a time, the top ones first;
+// integers of any width are 0 to 1. Whatever is wrong with the file is std::runtime_error "cannot use the <what>
+// "<path>": …".
+void read_image(const std::filesystem::path& path, const std::string& what,
+                const std::function<int(const ImageHeader&)>& begin,
+                const std::function<void(std::span<const float>)>& add);
+
+}  // namespace phasetree::tracer
