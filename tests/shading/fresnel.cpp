@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 
 #include "shading/beer_lambert.hpp"
 
@@ -78,4 +79,23 @@ TEST_CASE("Beer-Lambert") {
     CHECK(static_cast<double>(t.z) == doctest::Approx(std::exp(-6.0)));
     const glm::vec3 far = transmittance({0.0f, 0.5f, 0.0f}, INFINITY);
     CHECK(far == glm::vec3{1.0f, 0.0f, 1.0f});
+}
+
+TEST_CASE("conductors of any index: a reflectance between 0 and 1, and the right one") {
+    const float most = std::numeric_limits<float>::max();
+    for (const float eta : {1e-38f, 1e-10f, 0.1f, 1.0f, 7.0f, 1e5f, 1e10f, 1e20f, most})
+        for (const float k : {0.0f, 1e-38f, 1e-10f, 1.0f, 5.0f, 1e5f, 1e10f, 1e20f, most})
+            for (const float c : {0.0f, 1e-30f, 1e-4f, 0.3f, 0.9f, 1.0f}) {
+                CAPTURE(eta);
+                CAPTURE(k);
+                CAPTURE(c);
+                const float r = fresnel_conductor(c, eta, k);
+                CHECK(r >= 0.0f);
+                CHECK(r <= 1.0f);
+                if (c < 1.0f) continue;
+                // At normal incidence ((η − 1)² + k²)/((η + 1)² + k²).
+                const long double n = eta, x = k;
+                const long double expected = ((n - 1) * (n - 1) + x * x) / ((n + 1) * (n + 1) + x * x);
+                CHECK(static_cast<double>(r) == doctest::Approx(static_cast<double>(expected)).epsilon(1e-6));
+            }
 }

@@ -1,5 +1,6 @@
 #include "lights/sun.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -19,15 +20,21 @@ Sun::Sun(const glm::vec3& direction, const glm::vec3& irradiance, float angular_
     const glm::dvec3 towards(direction);
     if (!(glm::length(towards) > 0.0)) throw std::invalid_argument("the sun's direction must not be zero");
     direction_ = glm::normalize(towards);
-    const double radius = 0.5 * static_cast<double>(angular_diameter_degrees) * std::numbers::pi / 180.0;
+    const double diameter = std::max(angular_diameter_degrees, least_angular_diameter_degrees);
+    const double radius = 0.5 * diameter * std::numbers::pi / 180.0;
+    // Of a direction's three coordinates, after a rotation of some roundings.
+    constexpr double rounding = 2e-7;
+    const double chord = 2.0 * std::sin(0.5 * radius) + rounding;
+    squared_chord_ = static_cast<float>(chord * chord);
     cap_height_ = static_cast<float>(2.0 * std::sin(0.5 * radius) * std::sin(0.5 * radius));
     radiance_ = irradiance / static_cast<float>(std::numbers::pi * std::sin(radius) * std::sin(radius));
+    if (!is_finite(radiance_)) throw std::invalid_argument("the sun's irradiance is too large");
 }
 
 bool Sun::in_disk(const glm::vec3& direction) const {
     // |ω − s|² = 2(1 − cos θ), which keeps its digits for small angles.
     const glm::vec3 chord = direction - direction_;
-    return glm::dot(chord, chord) <= 2.0f * cap_height_;
+    return glm::dot(chord, chord) <= squared_chord_;
 }
 
 glm::vec3 Sun::radiance(const glm::vec3& direction) const {

@@ -3,6 +3,11 @@
 // It is described by the irradiance E⊥ it gives a surface that faces it; L = E⊥/(π sin²α). So a larger sun softens
 // shadows and caustics and leaves the exposure as it is. Sampled uniformly in its cone, p = 1/(2π(1 − cos α)); a
 // surface whose whole upper half-space holds the disk receives E = Lπ sin²α cos θ.
+//
+// Directions are floats, so one that was sampled in the disk may lie a hair outside of it. The disk therefore reaches
+// that much farther for who asks what is seen in a direction: else the light of what was sampled there would be lost,
+// of a small sun all of it. Suns below 0.01 degrees are taken for ones of that size, of the same irradiance: the
+// hair would be as large as they are, and nobody sees the difference.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -15,6 +20,7 @@ namespace phasetree::tracer {
 class Sun {
   public:
     static constexpr float real_angular_diameter_degrees = 0.53f;
+    static constexpr float least_angular_diameter_degrees = 0.01f;
 
     // `direction` points towards the sun, of any length; `irradiance` is E⊥. The diameter is in (0, 90] degrees.
     Sun(const glm::vec3& direction, const glm::vec3& irradiance,
@@ -33,7 +39,8 @@ class Sun {
 
     glm::vec3 direction_;
     glm::vec3 radiance_;
-    float cap_height_;  // 1 − cos α, of which nothing would be left if cos α were stored
+    float squared_chord_;  // from the middle to as far as the disk reaches
+    float cap_height_;     // 1 − cos α, of which nothing would be left if cos α were stored
 };
 
 }  // namespace phasetree::tracer

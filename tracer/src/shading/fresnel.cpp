@@ -17,20 +17,23 @@ DielectricFresnel fresnel_dielectric(float cos_theta, float eta) {
     return {std::min(1.0f, 0.5f * (parallel * parallel + perpendicular * perpendicular)), transmitted};
 }
 
+// In doubles: the fourth powers of every float that η and k may be are finite in them.
 float fresnel_conductor(float cos_theta, float eta, float k) {
-    const float c = std::clamp(cos_theta, 0.0f, 1.0f);
-    const float c2 = c * c;
-    const float s2 = (1.0f - c) * (1.0f + c);
+    const double c = std::clamp(cos_theta, 0.0f, 1.0f);
+    // At c = 0 nothing gets in; for η = 1, k = 0 it would be 0/0.
+    if (c == 0) return 1.0f;
+    const double n = eta, c2 = c * c, s2 = (1 - c) * (1 + c);
     // (a + ib)² = (η + ik)² − sin²θ
-    const float real = eta * eta - k * k - s2;
-    const float imaginary = 2.0f * eta * k;
-    const float a2_plus_b2 = std::sqrt(real * real + imaginary * imaginary);
-    const float a = std::sqrt(std::max(0.0f, 0.5f * (a2_plus_b2 + real)));
-    const float perpendicular = (a2_plus_b2 + c2 - 2.0f * a * c) / (a2_plus_b2 + c2 + 2.0f * a * c);
-    const float parallel_ratio_top = c2 * a2_plus_b2 + s2 * s2 - 2.0f * a * c * s2;
-    const float parallel_ratio_bottom = c2 * a2_plus_b2 + s2 * s2 + 2.0f * a * c * s2;
-    if (!(parallel_ratio_bottom > 0.0f)) return 1.0f;
-    return std::clamp(0.5f * perpendicular * (1.0f + parallel_ratio_top / parallel_ratio_bottom), 0.0f, 1.0f);
+    const double real = n * n - static_cast<double>(k) * k - s2;
+    const double imaginary = 2 * n * k;
+    const double a2_plus_b2 = std::sqrt(real * real + imaginary * imaginary);
+    const double a = std::sqrt(std::max(0.0, 0.5 * (a2_plus_b2 + real)));
+    const double perpendicular = (a2_plus_b2 + c2 - 2 * a * c) / (a2_plus_b2 + c2 + 2 * a * c);
+    const double parallel_ratio_top = c2 * a2_plus_b2 + s2 * s2 - 2 * a * c * s2;
+    const double parallel_ratio_bottom = c2 * a2_plus_b2 + s2 * s2 + 2 * a * c * s2;
+    if (!(parallel_ratio_bottom > 0)) return 1.0f;
+    return static_cast<float>(
+        std::clamp(0.5 * perpendicular * (1 + parallel_ratio_top / parallel_ratio_bottom), 0.0, 1.0));
 }
 
 glm::vec3 fresnel_conductor(float cos_theta, const glm::vec3& eta, const glm::vec3& k) {
