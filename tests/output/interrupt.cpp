@@ -21,6 +21,7 @@ int deadly_signal(F&& f) {
         setrlimit(RLIMIT_CORE, &no_core);
         std::signal(SIGINT, SIG_DFL);
         std::signal(SIGTERM, SIG_DFL);
+        std::signal(SIGHUP, SIG_DFL);
         f();
         ::_exit(0);
     }
@@ -33,7 +34,7 @@ int deadly_signal(F&& f) {
 
 TEST_CASE("the first signal is a question, for a guard's life only") {
     CHECK_FALSE(interrupted());
-    for (const int signal : {SIGINT, SIGTERM}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         {
             const InterruptGuard guard;
             CHECK_FALSE(interrupted());
@@ -46,10 +47,10 @@ TEST_CASE("the first signal is a question, for a guard's life only") {
     }
 }
 
-TEST_CASE("after the first signal both have their default action, which ends the program") {
+TEST_CASE("after the first signal all have their default action, which ends the program") {
     const InterruptGuard guard;
     std::raise(SIGTERM);
-    for (const int signal : {SIGINT, SIGTERM}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction current {};
         sigaction(signal, nullptr, &current);
         const bool is_default = current.sa_handler == SIG_DFL;

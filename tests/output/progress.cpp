@@ -51,16 +51,20 @@ TEST_CASE("a log gets one line for every five percent, and 100 at the end") {
         CHECK(screen.take() == "Progress: 0%\n");
         progress.advance(49);
         CHECK(screen.take() == "");
+        screen.now += 2s;
         progress.advance(1);
-        CHECK(screen.take() == "Progress: 5%\n");
+        CHECK(screen.take() == "Progress: 5%, 0:02 elapsed, ETA 0:38\n");
         progress.advance(0);
         CHECK(screen.take() == "");
+        screen.now += 60s;
         progress.advance(284);
-        CHECK(screen.take() == "Progress: 30%\n");
+        // The first two seconds are forgotten but for e⁻⁶: 4.735 a second.
+        CHECK(screen.take() == "Progress: 30%, 1:02 elapsed, ETA 2:21\n");
+        screen.now += 600s;
         progress.advance(665);
-        CHECK(screen.take() == "Progress: 95%\n");
+        CHECK(screen.take() == "Progress: 95%, 11:02 elapsed, ETA 0:01\n");
         progress.advance(1);
-        CHECK(screen.take() == "Progress: 100%\n");
+        CHECK(screen.take() == "Progress: 100%, 11:02 elapsed\n");
         progress.advance(5);
         progress.finish();
     }
@@ -79,7 +83,7 @@ TEST_CASE("every multiple of five percent is hit exactly, whatever the total") {
     }
     Screen empty;
     Progress nothing(0, empty.output(false));
-    CHECK(empty.take() == "Progress: 100%\n");
+    CHECK(empty.take() == "Progress: 100%, 0:00 elapsed\n");
 }
 
 TEST_CASE("after an interruption the lines end where the work ended") {
@@ -88,7 +92,7 @@ TEST_CASE("after an interruption the lines end where the work ended") {
         Progress progress(100, screen.output(false));
         progress.advance(57);
     }
-    CHECK(screen.take() == "Progress: 0%\nProgress: 55%\n");
+    CHECK(screen.take() == "Progress: 0%\nProgress: 55%, 0:00 elapsed, ETA -:--\n");
 }
 
 TEST_CASE("a terminal gets a bar with percentage, samples, time and estimate") {

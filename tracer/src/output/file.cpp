@@ -77,14 +77,24 @@ class Temporary {
     bool renamed_ = false;
 };
 
+/// Where a symbolic link leads, and that one, and so on, whether there is a file or not.
+fs::path followed(const fs::path& path) {
+    constexpr int most_links = 40;  // Linux's own limit
+    fs::path target = path;
+    std::error_code error;
+    for (int i = 0; fs::is_symlink(fs::symlink_status(target, error)); ++i) {
+        if (i == most_links) fail(path, "the symbolic link leads nowhere: in a circle");
+        const fs::path next = fs::read_symlink(target, error);
+        if (error) fail(path, fmt::format("the symbolic link leads nowhere: {}", error.message()));
+        target = target.parent_path() / next;
+    }
+    return target;
+}
+
 /// Where the file really goes, links followed; fails with what can be said without creating anything.
 fs::path resolve(const fs::path& path) {
     std::error_code error;
-    fs::path target = path;
-    if (fs::is_symlink(fs::symlink_status(path, error))) {
-        target = fs::weakly_canonical(path, error);
-        if (error) fail(path, fmt::format("the symbolic link leads nowhere: {}", error.message()));
-    }
+    const fs::path target = followed(path);
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
     const fs::file_status folder_status = fs::status(folder, error);
     if (folder_status.type() == fs::file_type::not_found) {

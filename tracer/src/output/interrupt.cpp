@@ -12,9 +12,9 @@ std::atomic<bool> signal_arrived{false};
 std::atomic<bool> guard_lives{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-constexpr std::array<int, 2> handled_signals{SIGINT, SIGTERM};
+constexpr std::array<int, 3> handled_signals{SIGINT, SIGTERM, SIGHUP};
 
-// The first signal of either kind. With the default actions back, the second ends the program by the system's own hand,
+// The first signal of any kind. With the default actions back, the second ends the program by the system's own hand,
 // however stuck it is, and the shell learns why.
 extern "C" void phasetree_on_interrupt(int) {
     signal_arrived = true;

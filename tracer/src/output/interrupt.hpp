@@ -1,14 +1,14 @@
 #pragma once
 
-// Ctrl-C and SIGTERM, turned into a question a render loop can ask.
+// Ctrl-C, SIGTERM and a terminal that goes away (SIGHUP), turned into a question a render loop can ask.
 
 #include <array>
 #include <csignal>
 
 namespace phasetree::tracer {
 
-/// While it lives, the first SIGINT or SIGTERM only makes interrupted() true, so that the image so far can be written;
-/// the second ends the program at once. A signal that was ignored (nohup, a background job) stays ignored. The
+/// While it lives, the first SIGINT, SIGTERM or SIGHUP only makes interrupted() true, so that the image so far can be
+/// written; the second ends the program at once. A signal that was ignored (nohup, a background job) stays ignored. The
 /// destructor brings back the earlier handlers. One at a time: a second guard while one lives throws std::logic_error.
 class InterruptGuard {
   public:
@@ -18,7 +18,7 @@ class InterruptGuard {
     InterruptGuard& operator=(const InterruptGuard&) = delete;
 
   private:
-    std::array<struct sigaction, 2> previous_{};  // of SIGINT and SIGTERM
+    std::array<struct sigaction, 3> previous_{};
 };
 
 /// Whether a signal has arrived since the living InterruptGuard was made; false without one.

@@ -115,36 +115,51 @@ void Progress::finish() {
 }
 
 void Progress::print_line() {
-    const int twentieths = share(done_.load(std::memory_order_relaxed), total_, 20);
+    const std::uint64_t done = done_.load(std::memory_order_relaxed);
+    const int twentieths = share(done, total_, 20);
     if (finished_ || twentieths <= shown_twentieths_.load(std::memory_order_relaxed)) return;
     shown_twentieths_.store(twentieths, std::memory_order_relaxed);
-    *output_.stream << fmt::format("Progress: {}%\n", 5 * twentieths) << std::flush;
+    const TimePoint now = output_.now();
+    measure_rate(now, done);
+    const double elapsed = seconds(now - start_);
+    const std::string at = done >= total_ ? fmt::format(", {} elapsed", duration_text(elapsed))
+                           : done > 0     ? ", " + times(done, elapsed)
+                                          : "";
+    *output_.stream << fmt::format("Progress: {}%{}\n", 5 * twentieths, at) << std::flush;
 }
 
-void Progress::draw_bar(TimePoint now) {
-    if (finished_) return;
-    next_draw_.store((now + redraw_interval).time_since_epoch().count(), std::memory_order_relaxed);
-    const std::uint64_t done = done_.load(std::memory_order_relaxed);
+void Progress::measure_rate(TimePoint now, std::uint64_t done) {
     const double passed = seconds(now - last_draw_);
     const double fading = std::exp(-passed / rate_memory);
     recent_samples_ = recent_samples_ * fading + static_cast<double>(done - last_done_);
     recent_seconds_ = recent_seconds_ * fading + passed;
     last_draw_ = now;
     last_done_ = done;
+}
+
+std::string Progress::times(std::uint64_t done, double elapsed) const {
+    const double rate = recent_seconds_ > 0.0 ? recent_samples_ / recent_seconds_ : 0.0;
+    const std::string left = rate > 0.0 ? duration_text(static_cast<double>(total_ - done) / rate) : "-:--";
+    return fmt::format("{} elapsed, ETA {}", duration_text(elapsed), left);
+}
+
+void Progress::draw_bar(TimePoint now) {
+    if (finished_) return;
+    next_draw_.store((now + redraw_interval).time_since_epoch().count(), std::memory_order_relaxed);
+    const std::uint64_t done = done_.load(std::memory_order_relaxed);
+    measure_rate(now, done);
     const std::string line = bar_line(std::min(done, total_), seconds(now - start_));
     *output_.stream << fmt::format("{}{}{}", to_line_start, line, erase_to_end) << std::flush;
 }
 
 std::string Progress::bar_line(std::uint64_t done, double elapsed) const {
-    const double rate = recent_seconds_ > 0.0 ? recent_samples_ / recent_seconds_ : 0.0;
-    const std::string left = rate > 0.0 ? duration_text(static_cast<double>(total_ - done) / rate) : "-:--";
     const std::string percent = fmt::format("{:3}%", share(done, total_, 100));
-    const std::string times = fmt::format("{} elapsed, ETA {}", duration_text(elapsed), left);
+    const std::string at = times(done, elapsed);
     const std::string samples = fmt::format("{}/{} samples", count_text(done), count_text(total_));
 
     // The last column stays free: some terminals wrap as soon as it is filled.
     const int width = output_.columns() - 1;
-    const std::string tail = fmt::format("{}, {}", samples, times);
+    const std::string tail = fmt::format("{}, {}", samples, at);
     const int bar = std::min(width - static_cast<int>(percent.size() + tail.size()) - 4, 60);
     if (bar >= narrowest_bar) {
         const int filled = share(done, total_, bar);
@@ -152,7 +167,7 @@ std::string Progress::bar_line(std::uint64_t done, double elapsed) const {
                            std::string(static_cast<std::size_t>(bar - filled), ' '), tail);
     }
     // Too narrow: give up the bar, then the samples, then the times.
-    for (const std::string& line : {fmt::format("{} {}", percent, tail), fmt::format("{} {}", percent, times)}) {
+    for (const std::string& line : {fmt::format("{} {}", percent, tail), fmt::format("{} {}", percent, at)}) {
         if (static_cast<int>(line.size()) <= width) return line;
     }
     return percent;

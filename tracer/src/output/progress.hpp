@@ -1,6 +1,7 @@
 #pragma once
 
-// How far the rendering is, on standard error: a bar on a terminal, otherwise (a log, a pipe) lines "Progress: NN%".
+// How far the rendering is, on standard error: a bar on a terminal, otherwise (a log, a pipe) lines
+// "Progress: 15%, 0:12 elapsed, ETA 1:07".
 
 #include <atomic>
 #include <chrono>
@@ -45,6 +46,8 @@ class Progress {
 
     void draw_bar(TimePoint now);
     void print_line();
+    void measure_rate(TimePoint now, std::uint64_t done);
+    std::string times(std::uint64_t done, double elapsed) const;
     std::string bar_line(std::uint64_t done, double elapsed) const;
 
     const std::uint64_t total_;
