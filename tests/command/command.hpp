@@ -29,6 +29,7 @@ struct Outcome {
     std::string out, err;
     double seconds = 0;
     double processor_seconds = 0;  // how long it takes on a busy machine says nothing of the program
+    double peak_megabytes = 0;     // of memory that was there at once
 };
 
 // What a process has used of the processors so far, all threads together; 0 of one that has ended.
@@ -84,6 +85,7 @@ class Shell {
             if (ready) {
                 for (const auto& [name, value] : environment) ::setenv(name.c_str(), value.c_str(), 1);
                 if (environment.empty()) ::unsetenv("OCIO");
+                if (in_child) in_child();
                 ::execv(argv[0], argv.data());
             }
             ::_exit(127);
@@ -103,6 +105,7 @@ class Shell {
         };
         outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         outcome.processor_seconds = seconds(used.ru_utime) + seconds(used.ru_stime);
+        outcome.peak_megabytes = static_cast<double>(used.ru_maxrss) / 1024;
         if (WIFEXITED(status)) outcome.code = WEXITSTATUS(status);
         if (WIFSIGNALED(status)) outcome.signal = WTERMSIG(status);
         outcome.out = bytes_of(out);
@@ -113,6 +116,7 @@ class Shell {
     TemporaryDirectory directory;
     std::vector<std::pair<std::string, std::string>> environment;
     std::chrono::seconds patience = give_up_after;
+    std::function<void()> in_child;  // called last of all before the command takes the process's place
 };
 
 // A scene that renders quickly; the parts may be replaced.

@@ -87,7 +87,8 @@ TEST_CASE("progress in plain lines where there is no terminal, rising to 100 %")
     int last = -1, count = 0;
     for (const std::string& line : lines_of(o.err)) {
         std::smatch match;
-        if (!std::regex_match(line, match, std::regex("Progress: ([0-9]+)%"))) continue;
+        if (!std::regex_match(line, match, std::regex("Progress: ([0-9]+)%(, [0-9]+:[0-9]+ elapsed(, ETA .*)?)?")))
+            continue;
         const int percent = std::stoi(match[1]);
         CHECK(percent > last);
         last = percent;

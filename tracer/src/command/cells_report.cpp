@@ -1,8 +1,8 @@
 #include "command/cells_report.hpp"
 
-#include <fmt/format.h>
-
 #include <nlohmann/json.hpp>
+
+#include "command/streams.hpp"
 
 namespace phasetree::tracer {
 
@@ -17,11 +17,11 @@ void add_cells(nlohmann::ordered_json& json, const CellStatistics& s) {
 }
 
 void print_cells(const CellStatistics& s) {
-    fmt::print("{:<14}{} with {} different programs\n", "cells", s.cells, s.routines);
-    fmt::print("{:<14}{} instructions or fewer in half of the cells, {} in nine of ten, {} at most\n", "  programs",
-               s.median_instructions, s.percentile90_instructions, s.most_instructions);
-    fmt::print("{:<14}{}\n", "  bytes", s.bytes);
-    fmt::print("{:<14}{:.3f} s\n", "  build time", s.build_seconds);
+    put("{:<14}{} with {} different programs\n", "cells", s.cells, s.routines);
+    put("{:<14}{} instructions or fewer in half of the cells, {} in nine of ten, {} at most\n", "  programs",
+        s.median_instructions, s.percentile90_instructions, s.most_instructions);
+    put("{:<14}{}\n", "  bytes", s.bytes);
+    put("{:<14}{:.3f} s\n", "  build time", s.build_seconds);
 }
 
 }  // namespace phasetree::tracer

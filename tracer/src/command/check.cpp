@@ -1,23 +1,52 @@
-#include <fmt/format.h>
-
-#include <cstdio>
-
 #include "command/commands.hpp"
+#include "command/empty_object.hpp"
 #include "command/load.hpp"
+#include "command/streams.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/program/evaluator.hpp"
+#include "phasetree/trace/tracer.hpp"
+#include "render/threads.hpp"
 
 namespace phasetree::tracer {
+
+namespace {
+
+// A scene without a camera is a tree for all that does not render. Says what it is good for.
+int check_without_camera(const Document& document, const std::string& shown) {
+    const SceneTree tree = read_scene_without_camera(document);
+    const Evaluator evaluator(record_tree(document, tree.object));
+    std::string rays = "eval, info, trace and programs that trace rays";
+    const Bounds b = bounds(tree.object);
+    if (b.empty() || b.finite())
+        (void)made_of_tree(document, [&] { return prepare_to_trace(tree.object); });
+    else
+        rays = "eval and info; it is unbounded, so rays cannot be traced";
+    if (is_empty(tree.object, evaluator)) say("{}\n", empty_object_warning(document));
+    put("{}: the tree is sound, for {}; the scene has no \"camera\", so it cannot be rendered\n", shown, rays);
+    return only_a_tree;
+}
+
+int check(const SceneFile& file) {
+    const AvailableThreads threads;
+    const Document document = read_document(file);
+    if (document.root().is_object() && !document.root().find("camera"))
+        return check_without_camera(document, file.shown());
+    const Scene scene = load_scene(document);
+    if (is_empty(scene.object, Evaluator(record_tree(document, scene.object))))
+        say("{}\n", empty_object_warning(document));
+    return 0;
+}
+
+}  // namespace
 
 void add_check(CLI::App& app, Run& run) {
     CLI::App* command =
         app.add_subcommand("check", "Validate a scene file: silent and 0 if all is well, else the error and 2");
-    auto file = std::make_shared<std::string>();
-    command->add_option("scene", *file, "The scene file")->required();
-    command->callback([file, &run] {
-        run = [file] {
-            (void)load_scene(*file);
-            return 0;
-        };
-    });
+    command->footer(
+        "What render would refuse is an error, and so are mistakes in what render would not look at. A scene without a "
+        "camera is checked as far as it goes; then what it is good for is said and the exit code is 3.");
+    const auto file = add_scene_file(*command);
+    command->callback([file, &run] { run = [file] { return check(*file); }; });
 }
 
 }  // namespace phasetree::tracer

@@ -1,11 +1,9 @@
-#include <fmt/format.h>
-
-#include <cstdio>
 #include <iostream>
 
 #include "command/commands.hpp"
 #include "command/load.hpp"
 #include "command/numbers.hpp"
+#include "command/streams.hpp"
 #include "phasetree/math/float_mode.hpp"
 #include "phasetree/program/evaluator.hpp"
 #include "phasetree/reading/tree.hpp"
@@ -14,22 +12,25 @@ namespace phasetree::tracer {
 
 namespace {
 
+constexpr std::string_view columns[] = {"x", "y", "z"};
+
 // Phases that the object never has are left empty.
-int eval(const std::string& file) {
-    const Document document = Document::from_file(file);
-    const SceneTree tree = read_tree(document);
+int eval(const SceneFile& file) {
+    const Document document = read_document_beside_input(file);
+    const SceneTree tree = read_model(document);
     const Evaluator evaluator(record_tree(document, tree.object));
     Evaluator::Workspace workspace;
     const FlushSubnormals flush;
     std::string header = "x,y,z,phase";
-    for (const std::string& name : tree.phases.names) header += ",phi." + name;
-    fmt::print("{}\n", header);
-    for_each_line_of_numbers(std::cin, 3, [&](const std::array<float, 6>& v, std::size_t) {
+    for (const std::string& name : tree.phases.names) header += "," + csv_cell("phi." + name);
+    put("{}\n", header);
+    for_each_line_of_numbers(std::cin, columns, [&](const std::array<float, 6>& v, std::size_t) {
         const Phases<float> phi = evaluator.distances({v[0], v[1], v[2]}, workspace);
-        std::string line = fmt::format("{},{},{},{}", v[0], v[1], v[2], tree.phases[label(phi)]);
+        std::string line = fmt::format("{},{},{},{}", unsigned_zero(v[0]), unsigned_zero(v[1]), unsigned_zero(v[2]),
+                                       csv_cell(tree.phases[label(phi)]));
         for (std::size_t i = 0; i < tree.phases.names.size(); ++i)
-            line += phi.has(static_cast<int>(i)) ? fmt::format(",{}", phi[static_cast<int>(i)]) : ",";
-        fmt::print("{}\n", line);
+            line += phi.has(static_cast<int>(i)) ? fmt::format(",{}", unsigned_zero(phi[static_cast<int>(i)])) : ",";
+        put("{}\n", line);
     });
     return 0;
 }
@@ -39,8 +40,12 @@ int eval(const std::string& file) {
 void add_eval(CLI::App& app, Run& run) {
     CLI::App* command =
         app.add_subcommand("eval", "Read points \"x y z\" and write the phase and all distances there as CSV");
-    auto file = std::make_shared<std::string>();
-    command->add_option("scene", *file, "The scene file")->required();
+    command->footer(
+        "Standard input: a point a line, three numbers with blanks or a comma between; # begins a comment. Or CSV with "
+        "a header that names the columns x, y and z, such as this command's own output.\n"
+        "Standard output: x,y,z,phase,phi.vacuum,phi.NAME…, a line a point. phi is the signed distance to a phase, "
+        "negative in it; empty for phases that the object never has.");
+    const auto file = add_scene_file(*command);
     command->callback([file, &run] { run = [file] { return eval(*file); }; });
 }
 

@@ -1,36 +1,46 @@
-#include <fmt/format.h>
-
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "command/build_quality.hpp"
 #include "command/cells_report.hpp"
 #include "command/commands.hpp"
+#include "command/empty_object.hpp"
 #include "command/load.hpp"
+#include "command/numbers.hpp"
+#include "command/streams.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/program/evaluator.hpp"
 #include "phasetree/reading/tree.hpp"
+#include "render/threads.hpp"
 #include "scene/scene.hpp"
 
 namespace phasetree::tracer {
 
 namespace {
 
-int info(const std::string& file, bool as_json, bool with_cells, BuildQuality quality) {
-    const Document document = Document::from_file(file);
-    const SceneTree tree = read_tree(document);
+glm::vec3 unsigned_zeroes(const glm::vec3& v) {
+    return {unsigned_zero(v.x), unsigned_zero(v.y), unsigned_zero(v.z)};
+}
+
+int info(const SceneFile& file, bool as_json, bool with_cells, BuildQuality quality) {
+    const AvailableThreads threads;
+    const Document document = read_document(file);
+    const SceneTree tree = read_model(document);
     const TreeStatistics s = statistics(tree.object);
-    const Bounds b = bounds(tree.object);
+    Bounds b = bounds(tree.object);
+    b = {unsigned_zeroes(b.low), unsigned_zeroes(b.high)};
     const Evaluator evaluator(record_tree(document, tree.object));
     const Program& program = evaluator.program();
     const PhaseSet there = phases(tree.object);
     std::optional<CellStatistics> cells;
     if (with_cells)
-        cells = InterfaceCells(tree.object, {.quality = quality, .opaque = opaque_phases(document)}).statistics();
+        cells = made_of_tree(document, [&] {
+            return InterfaceCells(tree.object, {.quality = quality, .opaque = opaque_phases(document)}).statistics();
+        });
+    const bool nothing_left = is_empty(tree.object, evaluator);
 
     if (as_json) {
         nlohmann::ordered_json json;
-        json["scene"] = file;
+        json["scene"] = file.shown();
         json["nodes"] = s.nodes;
         json["depth"] = s.depth;
         json["tree_bytes"] = s.bytes;
@@ -41,29 +51,30 @@ int info(const std::string& file, bool as_json, bool with_cells, BuildQuality qu
             json["bounds"] = {{b.low.x, b.low.y, b.low.z}, {b.high.x, b.high.y, b.high.z}};
         else
             json["bounds"] = nullptr;
+        json["empty"] = nothing_left;
         json["instructions"] = program.instructions.size();
         json["program_bytes"] = evaluator.bytes();
         json["simd"] = simd_target();
         if (cells) add_cells(json, *cells);
-        fmt::print("{}\n", json.dump(2));
+        put("{}\n", json.dump(2));
         return 0;
     }
     std::string names;
     for_each_phase(there.bits & ~std::uint64_t{1}, [&](int i) {
         names += (names.empty() ? "" : ", ") + tree.phases.names[static_cast<std::size_t>(i)];
     });
-    fmt::print("{:<14}{}\n", "scene", file);
-    fmt::print("{:<14}{} ({} deep)\n", "nodes", s.nodes, s.depth);
-    fmt::print("{:<14}{} ({})\n", "phases", std::popcount(there.bits & ~std::uint64_t{1}), names);
-    fmt::print("{:<14}{}\n", "tree bytes", s.bytes);
+    put("{:<14}{}\n", "scene", file.shown());
+    put("{:<14}{} ({} deep)\n", "nodes", s.nodes, s.depth);
+    put("{:<14}{} ({})\n", "phases", std::popcount(there.bits & ~std::uint64_t{1}), names);
+    put("{:<14}{}\n", "tree bytes", s.bytes);
     if (b.finite() && !b.empty())
-        fmt::print("{:<14}[{}, {}, {}] to [{}, {}, {}]\n", "bounds", b.low.x, b.low.y, b.low.z, b.high.x, b.high.y,
-                   b.high.z);
+        put("{:<14}[{}, {}, {}] to [{}, {}, {}]\n", "bounds", b.low.x, b.low.y, b.low.z, b.high.x, b.high.y, b.high.z);
     else
-        fmt::print("{:<14}{}\n", "bounds", b.empty() ? "empty" : "unbounded");
-    fmt::print("{:<14}{}\n", "instructions", program.instructions.size());
-    fmt::print("{:<14}{}\n", "program bytes", evaluator.bytes());
-    fmt::print("{:<14}{}\n", "SIMD", simd_target());
+        put("{:<14}{}\n", "bounds", b.empty() ? "none" : "unbounded");
+    if (nothing_left) put("{:<14}{}\n", "empty", "nothing of the object is left: it is vacuum everywhere");
+    put("{:<14}{}\n", "instructions", program.instructions.size());
+    put("{:<14}{}\n", "program bytes", evaluator.bytes());
+    put("{:<14}{}\n", "SIMD", simd_target());
     if (cells) print_cells(*cells);
     return 0;
 }
@@ -72,9 +83,8 @@ int info(const std::string& file, bool as_json, bool with_cells, BuildQuality qu
 
 void add_info(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand("info", "Print a scene's nodes, phases, bytes, bounds and instructions");
-    auto file = std::make_shared<std::string>();
+    const auto file = add_scene_file(*command);
     auto json = std::make_shared<bool>(false), cells = std::make_shared<bool>(false);
-    command->add_option("scene", *file, "The scene file")->required();
     command->add_flag("--json", *json, "As JSON");
     auto quality = std::make_shared<BuildQuality>(BuildQuality::medium);
     auto* const with_cells = command->add_flag(

@@ -1,16 +1,31 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "command/scene_file.hpp"
+#include "output/display.hpp"
 #include "phasetree/program/program.hpp"
 #include "scene/scene.hpp"
 
 namespace phasetree::tracer {
 
-// Reads a scene and makes sure that it can be traced: beside what read_scene finds, that the camera is not inside an
-// opaque phase, and that something shines, and that the object
-// is not too large. Throws SceneError.
-Scene load_scene(const std::string& file);
+// Reads a scene and makes sure that it can be rendered: beside what read_scene finds, that the object is neither too
+// large nor too small nor too far away, that the camera is not inside an opaque phase, that something shines, and that
+// there is the view that the scene names. Throws SceneError.
+Scene load_scene(const Document&);
+
+// How a scene is shown: as the options say, which come before what the scene says. Throws DisplayError for the options,
+// SceneError for the scene.
+DisplayTransform display_of(const Document&, const RenderSettings&, const std::optional<std::string>& display,
+                            const std::optional<std::string>& view, std::optional<float> exposure);
+
+// The same for a subcommand that reads something else from standard input, so that the scene cannot come from there.
+// Throws InputError.
+Document read_document_beside_input(const SceneFile&);
+
+// The tree alone of a scene that need not have anything else.
+SceneTree read_model(const Document&);
 
 // What `make` makes of the document's tree; where the object allows of none (unbounded, too large), that is an error at
 // "tree".

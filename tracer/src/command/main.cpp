@@ -1,18 +1,22 @@
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <new>
 
 #include "command/commands.hpp"
 #include "command/numbers.hpp"
+#include "command/streams.hpp"
 #include "command/subcommand.hpp"
 #include "output/error.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/reading/error.hpp"
 #include "phasetree/version.hpp"
 
-int main(int argc, char** argv) {
-    using namespace phasetree;
+namespace {
+
+using namespace phasetree;
+using tracer::say;
+
+int run_command(int argc, char** argv) {
     CLI::App app("Multiphase signed distance fields, path traced.", "phasetree");
     app.set_version_flag("--version", fmt::format("phasetree {}", version()));
     app.require_subcommand(1);
@@ -30,22 +34,38 @@ int main(int argc, char** argv) {
     }
     try {
         return run();
+    } catch (const tracer::StandardOutputError&) {
+        throw;
     } catch (const SceneError& e) {
-        fmt::print(stderr, "{}\n", e.what());
+        say("{}\n", e.what());
     } catch (const tracer::InputError& e) {
-        fmt::print(stderr, "{}\n", e.what());
+        say("{}\n", e.what());
     } catch (const ModelError& e) {
-        fmt::print(stderr, "phasetree: {}\n", e.what());
+        say("phasetree: {}\n", e.what());
     } catch (const tracer::OutputError& e) {
-        fmt::print(stderr, "phasetree: {}\n", e.what());
+        say("phasetree: {}\n", e.what());
     } catch (const tracer::DisplayError& e) {
-        fmt::print(stderr, "phasetree: {}\n", e.what());
+        say("phasetree: {}\n", e.what());
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "phasetree: out of memory\n");
+        say("phasetree: out of memory\n");
         return 1;
     } catch (const std::exception& e) {
-        fmt::print(stderr, "phasetree: {}\n", e.what());
+        say("phasetree: {}\n", e.what());
         return 1;
     }
     return 2;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    tracer::guard_standard_streams();
+    try {
+        const int code = run_command(argc, argv);
+        tracer::finish_output();
+        return code;
+    } catch (const tracer::StandardOutputError& e) {
+        if (!e.is_broken_pipe()) say("phasetree: {}\n", e.what());
+        return 1;
+    }
 }

@@ -1,8 +1,5 @@
-#include <fmt/format.h>
-
-#include <cstdio>
-
 #include "command/commands.hpp"
+#include "command/streams.hpp"
 #include "phasetree/reading/reference.hpp"
 
 namespace phasetree::tracer {
@@ -18,7 +15,7 @@ void add_nodes(CLI::App& app, Run& run) {
             const std::string text = *schema     ? scene_json_schema()
                                      : *markdown ? node_reference_markdown()
                                                  : node_reference_text();
-            std::fwrite(text.data(), 1, text.size(), stdout);
+            put(text);
             return 0;
         };
     });

@@ -3,26 +3,28 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "command/build_quality.hpp"
 #include "command/cells_report.hpp"
 #include "command/commands.hpp"
+#include "command/empty_object.hpp"
 #include "command/load.hpp"
+#include "command/streams.hpp"
 #include "output/file.hpp"
 #include "output/interrupt.hpp"
 #include "output/progress.hpp"
 #include "output/write.hpp"
 #include "phasetree/cells/cells.hpp"
+#include "render/threads.hpp"
 
 namespace phasetree::tracer {
 
 namespace {
 
 struct Options {
-    std::string scene;
+    std::shared_ptr<SceneFile> scene;
     std::vector<std::string> outputs;
     std::optional<int> samples;
     std::optional<std::string> size;
@@ -69,7 +71,7 @@ void write_stats(const std::string& path, const Options& options, const World& w
         return r.counters.rays ? static_cast<double>(n) / static_cast<double>(r.counters.rays) : 0.0;
     };
     nlohmann::ordered_json json;
-    json["scene"] = options.scene;
+    json["scene"] = options.scene->shown();
     json["width"] = r.image.width;
     json["height"] = r.image.height;
     json["samples"] = r.samples;
@@ -89,8 +91,7 @@ void write_stats(const std::string& path, const Options& options, const World& w
     write_file(json.dump(2) + "\n", path);
 }
 
-int render_scene(const Options& options) {
-    Scene scene = load_scene(options.scene);
+void apply(const Options& options, Scene& scene) {
     if (options.samples) scene.settings.samples = *options.samples;
     if (options.seed) scene.settings.seed = *options.seed;
     if (options.size) {
@@ -101,18 +102,76 @@ int render_scene(const Options& options) {
         scene.camera.width = size[0];
         scene.camera.height = size[1];
     }
+}
+
+// Makes sure that they can be written, before hours of work.
+std::vector<std::string> outputs_of(const Options& options) {
     std::vector<std::string> outputs = options.outputs;
     if (outputs.empty()) {
-        const std::string stem = std::filesystem::path(options.scene).stem().string();
+        const std::string stem =
+            options.scene->is_standard_input() ? "scene" : std::filesystem::path(options.scene->name).stem().string();
         outputs = {stem + ".exr", stem + ".png"};
     }
     for (const std::string& output : outputs) check_writable(output);
     if (options.stats) check_file_writable(*options.stats);
-    const DisplayTransform display(options.display, options.view ? options.view : scene.settings.view,
-                                   options.exposure.value_or(scene.settings.exposure_ev));
+    return outputs;
+}
+
+// Writes all that can be written, after hours of work: where one file fails, the others do not. Returns whether none
+// did.
+class Writing {
+  public:
+    template <class Write>
+    bool operator()(Write&& write) {
+        try {
+            write();
+            return true;
+        } catch (const std::bad_alloc&) {
+            say("phasetree: out of memory\n");
+        } catch (const std::exception& e) {
+            say("phasetree: {}\n", e.what());
+        }
+        all_is_well_ = false;
+        return false;
+    }
+    bool all_is_well() const { return all_is_well_; }
+
+  private:
+    bool all_is_well_ = true;
+};
+
+bool write_all(const Options& options, const std::vector<std::string>& outputs, const DisplayTransform& display,
+               const Scene& scene, const World& world, const Rendering& rendering) {
+    Metadata metadata;
+    metadata.scene = options.scene->shown();
+    metadata.samples_per_pixel = rendering.samples;
+    metadata.seed = scene.settings.seed;
+    Writing writing;
+    std::string written;
+    for (const std::string& output : outputs)
+        if (writing([&] { write_image(rendering.image, output, metadata, display); }))
+            written += fmt::format("{} ({}x{}, {} samples a pixel, {:.1f} s)\n", output, rendering.image.width,
+                                   rendering.image.height, rendering.samples, rendering.seconds);
+    if (options.stats) writing([&] { write_stats(*options.stats, options, world, rendering); });
+    if (const std::size_t bad = count_non_finite(rendering.image))
+        say("phasetree: {} pixels are not finite numbers; please report this scene\n", bad);
+    if (!options.quiet) say(written);
+    return writing.all_is_well();
+}
+
+int render_scene(const Options& options) {
+    const AvailableThreads threads(options.threads);
+    const Document document = read_document(*options.scene);
+    Scene scene = load_scene(document);
+    apply(options, scene);
+    const std::vector<std::string> outputs = outputs_of(options);
+    const DisplayTransform display =
+        display_of(document, scene.settings, options.display, options.view, options.exposure);
+    if (threads.count() < threads.wanted())
+        say("phasetree: only {} of {} threads can be started\n", threads.count(), threads.wanted());
     RenderJob job;
     job.pixels = pixels(options, scene);
-    job.threads = options.threads;
+    job.threads = threads.count();
     job.cancelled = [] { return interrupted(); };
 
     const InterruptGuard guard;
@@ -120,10 +179,11 @@ int render_scene(const Options& options) {
     try {
         prepared.emplace(scene, options.quality, job.cancelled);
     } catch (const BuildCancelled&) {
-        fmt::print(stderr, "phasetree: interrupted while the object was being prepared; nothing is written\n");
+        say("phasetree: interrupted while the object was being prepared; nothing is written\n");
         return 1;
     }
     const World& world = *prepared;
+    if (world.object().size() == 0) say("{}\n", empty_object_warning(document));
     const auto total = static_cast<std::uint64_t>(job.pixels.width()) *
                        static_cast<std::uint64_t>(job.pixels.height()) *
                        static_cast<std::uint64_t>(scene.settings.samples);
@@ -132,25 +192,11 @@ int render_scene(const Options& options) {
     const Rendering rendering = render(world, scene, job);
     progress.finish();
 
-    Metadata metadata;
-    metadata.scene = options.scene;
-    metadata.samples_per_pixel = rendering.samples;
-    metadata.seed = scene.settings.seed;
-    for (const std::string& output : outputs) write_image(rendering.image, output, metadata, display);
-    if (options.stats) write_stats(*options.stats, options, world, rendering);
-    if (const std::size_t bad = count_non_finite(rendering.image))
-        fmt::print(stderr, "phasetree: {} pixels are not finite numbers; please report this scene\n", bad);
-    if (!options.quiet) {
-        for (const std::string& output : outputs)
-            fmt::print(stderr, "{} ({}x{}, {} samples a pixel, {:.1f} s)\n", output, rendering.image.width,
-                       rendering.image.height, rendering.samples, rendering.seconds);
-    }
-    if (rendering.cancelled) {
-        fmt::print(stderr, "phasetree: interrupted; the image has {} of {} samples a pixel{}\n", rendering.samples,
-                   scene.settings.samples, scene.settings.samples == 1 ? ", in part" : "");
-        return 1;
-    }
-    return 0;
+    const bool all_is_well = write_all(options, outputs, display, scene, world, rendering);
+    if (rendering.cancelled)
+        say("phasetree: interrupted; the image has {} of {} samples a pixel{}\n", rendering.samples,
+            scene.settings.samples, scene.settings.samples == 1 ? ", in part" : "");
+    return rendering.cancelled || !all_is_well ? 1 : 0;
 }
 
 }  // namespace
@@ -158,7 +204,7 @@ int render_scene(const Options& options) {
 void add_render(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand("render", "Path-trace a scene to images");
     auto o = std::make_shared<Options>();
-    command->add_option("scene", o->scene, "The scene file")->required();
+    o->scene = add_scene_file(*command);
     command
         ->add_option("-o,--output", o->outputs,
                      "Image to write, the extension choosing the format: .exr .png .jpg .tif; may be repeated "

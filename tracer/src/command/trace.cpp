@@ -1,12 +1,10 @@
-#include <fmt/format.h>
-
-#include <cstdio>
 #include <iostream>
 #include <limits>
 
 #include "command/commands.hpp"
 #include "command/load.hpp"
 #include "command/numbers.hpp"
+#include "command/streams.hpp"
 #include "phasetree/math/float_mode.hpp"
 #include "phasetree/program/evaluator.hpp"
 #include "phasetree/reading/tree.hpp"
@@ -16,29 +14,32 @@ namespace phasetree::tracer {
 
 namespace {
 
+constexpr std::string_view columns[] = {"ox", "oy", "oz", "dx", "dy", "dz"};
+
 // t counts in units of the direction as it was given, so that origin + t·direction is the place.
-int trace(const std::string& file) {
-    const Document document = Document::from_file(file);
-    const SceneTree tree = read_tree(document);
+int trace(const SceneFile& file) {
+    const Document document = read_document_beside_input(file);
+    const SceneTree tree = read_model(document);
     (void)record_tree(document, tree.object);
     const InterfaceTracer tracer = made_of_tree(document, [&] { return InterfaceTracer(tree.object); });
     Evaluator::Workspace workspace;
     const FlushSubnormals flush;
-    fmt::print("ray,t,from,to,nx,ny,nz\n");
+    put("ray,t,from,to,nx,ny,nz\n");
     std::size_t ray = 0;
-    for_each_line_of_numbers(std::cin, 6, [&](const std::array<float, 6>& v, std::size_t line) {
+    for_each_line_of_numbers(std::cin, columns, [&](const std::array<float, 6>& v, std::size_t line) {
         const glm::vec3 origin(v[0], v[1], v[2]), given(v[3], v[4], v[5]);
         const double length = glm::length(glm::dvec3(given));
         if (!(length > 0)) throw InputError(fmt::format("<stdin>:{}:1: the ray has no direction", line));
         const glm::vec3 direction(glm::dvec3(given) / length);
         glm::vec3 start = origin;
         Phase phase = tracer.label(origin, workspace);
+        put("{},0,,{},,,\n", ray, csv_cell(tree.phases[phase]));
         while (const auto c =
                    tracer.first_crossing(start, direction, 0, std::numeric_limits<float>::max(), phase, workspace)) {
             const double t = glm::dot(glm::dvec3(c->p_in) - glm::dvec3(origin), glm::dvec3(direction)) / length;
             const glm::vec3 n = tracer.normal(*c, direction);
-            fmt::print("{},{},{},{},{},{},{}\n", ray, static_cast<float>(t), tree.phases[c->from], tree.phases[c->to],
-                       n.x, n.y, n.z);
+            put("{},{},{},{},{},{},{}\n", ray, unsigned_zero(static_cast<float>(t)), csv_cell(tree.phases[c->from]),
+                csv_cell(tree.phases[c->to]), unsigned_zero(n.x), unsigned_zero(n.y), unsigned_zero(n.z));
             start = c->p_out;
             phase = c->to;
         }
@@ -52,8 +53,16 @@ int trace(const std::string& file) {
 void add_trace(CLI::App& app, Run& run) {
     CLI::App* command =
         app.add_subcommand("trace", "Read rays \"ox oy oz dx dy dz\" and write every interface along each as CSV");
-    auto file = std::make_shared<std::string>();
-    command->add_option("scene", *file, "The scene file")->required();
+    command->footer(
+        "Standard input: a ray a line, its origin and its direction of any length, six numbers with blanks or a comma "
+        "between; # begins a comment. Or CSV with a header that names the columns ox, oy, oz, dx, dy and dz.\n"
+        "Standard output: ray,t,from,to,nx,ny,nz. Rays count from 0. Each begins with a line that says where it "
+        "starts: "
+        "t is 0, \"from\" and the normal are empty, and \"to\" is the phase at its origin. Then comes a line for each "
+        "interface in its order. The interface is at origin + t·direction, where t is the near end of the bracket that "
+        "was found, which is still in \"from\"; the far end, in \"to\", is within the resolution behind it. The normal "
+        "is of unit length and points out of \"from\" into \"to\", which is along the ray: normal·direction ≥ 0.");
+    const auto file = add_scene_file(*command);
     command->callback([file, &run] { run = [file] { return trace(*file); }; });
 }
 

@@ -1,0 +1,203 @@
+// What a run comes to when something outside fails: a disk, a terminal, threads; and what `check` says of scenes that
+// are good for less than a picture.
+#include <fmt/format.h>
+#include <grp.h>
+
+#include <regex>
+
+#include "command.hpp"
+
+using namespace phasetree::tests;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string only_tree = R"({"version": 1, "phases": {"glass": {"clear": {"ior": 1.5}}, "wood": 0},
+"tree": )";
+
+std::string tree_of(const std::string& shape, const std::string& more = "") {
+    return only_tree + R"({"set": {"phase": "glass", "of": )" + shape + "}}" + more + "}\n";
+}
+
+}  // namespace
+
+TEST_CASE("where one file cannot be written the others are, and the exit code is 1") {
+    Shell shell;
+    SceneText scene;
+    scene.rest = R"("render": {"width": 120, "height": 80, "samples": 1})";
+    write_text(shell.directory / "scene.json", scene.text());
+    REQUIRE(shell.run({"render", "scene.json", "-o", "whole.exr", "-o", "whole.jpg", "--quiet"}).code == 0);
+    const auto large = fs::file_size(shell.directory / "whole.exr"),
+               small = fs::file_size(shell.directory / "whole.jpg");
+    REQUIRE(large > 2 * small);
+    // As a disk does on which there is room for the small file.
+    shell.in_child = [&] {
+        const rlimit limit{small + 1000, small + 1000};
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+    };
+    for (const bool large_first : {true, false}) {
+        const Outcome o = shell.run({"render", "scene.json", "-o", large_first ? "a.exr" : "a.jpg", "-o",
+                                     large_first ? "a.jpg" : "a.exr", "--stats", "a.json", "--quiet"});
+        CAPTURE(o.err);
+        CHECK(o.code == 1);
+        CHECK(o.signal == 0);
+        CHECK(o.err == "phasetree: cannot write \"a.exr\": File too large\n");
+        CHECK(bytes_of(shell.directory / "a.jpg") == bytes_of(shell.directory / "whole.jpg"));
+        CHECK(bytes_of(shell.directory / "a.json").size() > 100);
+        CHECK(shell.directory.size() == 5);  // no half file, and no temporary one
+        fs::remove(shell.directory / "a.jpg");
+        fs::remove(shell.directory / "a.json");
+    }
+    // What is told before rendering stays the mistake of who asked for it.
+    CHECK(shell.run({"render", "scene.json", "-o", "nowhere/a.exr", "-o", "a.jpg"}).code == 2);
+    CHECK_FALSE(fs::exists(shell.directory / "a.jpg"));
+}
+
+TEST_CASE("a dangling symbolic link is followed") {
+    const Shell shell;
+    write_text(shell.directory / "scene.json", SceneText().text());
+    fs::create_directory(shell.directory / "pictures");
+    fs::create_symlink("pictures/second.png", shell.directory / "first.png");
+    fs::create_symlink("third.png", shell.directory / "pictures/second.png");
+    CHECK(shell.run({"render", "scene.json", "-o", "first.png", "--quiet"}).code == 0);
+    CHECK(fs::is_symlink(shell.directory / "first.png"));
+    CHECK(fs::is_symlink(shell.directory / "pictures/second.png"));
+    CHECK(fs::is_regular_file(fs::symlink_status(shell.directory / "pictures/third.png")));
+    fs::create_symlink("nowhere/a.png", shell.directory / "lost.png");
+    CHECK(shell.run({"render", "scene.json", "-o", "lost.png", "--quiet"}).code == 2);
+}
+
+TEST_CASE("a terminal that goes away interrupts as Ctrl-C does, but not under nohup") {
+    for (const bool ignored : {false, true}) {
+        Shell shell;
+        write_text(shell.directory / "scene.json", SceneText().text());
+        shell.in_child = [&] { std::signal(SIGHUP, ignored ? SIG_IGN : SIG_DFL); };
+        bool sent = false;
+        const auto hang_up = [&](pid_t child) {
+            if (sent || !catches(child, SIGTERM) || processor_seconds(child) < 0.7) return;
+            sent = true;
+            ::kill(child, SIGHUP);
+            if (ignored) ::kill(child, SIGTERM);
+        };
+        const Outcome o =
+            shell.run({"render", "scene.json", "-o", "a.exr", "--quiet", "--spp", "16000000"}, "", hang_up);
+        CHECK(sent);
+        CHECK(o.signal == 0);
+        CHECK(o.code == 1);
+        CHECK(o.err.find("interrupted") != std::string::npos);
+        CHECK(bytes_of(shell.directory / "a.exr").size() > 500);
+    }
+}
+
+TEST_CASE("threads that cannot be started: it is said, and fewer do the work") {
+    if (::geteuid() != 0) return;  // the limit is one of a user's, and this one has processes already
+    Shell shell;
+    fs::permissions(shell.directory.path(), fs::perms::all);
+    write_text(shell.directory / "scene.json", SceneText().text());
+    const Outcome whole = shell.run({"render", "scene.json", "-o", "a.exr", "--threads", "1"});
+    REQUIRE(whole.code == 0);
+    const std::string image = bytes_of(shell.directory / "a.exr");
+    fs::permissions(shell.directory / "a.exr", fs::perms::all);
+    int none = 0, fewer = 0;
+    // Libraries that are loaded with the program may start threads of their own, before it begins.
+    for (rlim_t most = 1; most <= 24; ++most) {
+        CAPTURE(most);
+        shell.in_child = [&] {
+            const rlimit limit{most, most};
+            ::setrlimit(RLIMIT_NPROC, &limit);
+            if (::setgroups(0, nullptr) != 0 || ::setgid(54321) != 0 || ::setuid(54321) != 0) ::_exit(126);
+        };
+        if (shell.run({"--version"}).code != 0) continue;
+        const Outcome o = shell.run({"render", "scene.json", "-o", "a.exr", "--quiet", "--threads", "20"});
+        CAPTURE(o.err);
+        CHECK(o.signal == 0);
+        if (o.code == 1) {
+            ++none;
+            CHECK(o.err.find("phasetree: no thread can be started beside the first") == 0);
+            continue;
+        }
+        CHECK(o.code == 0);
+        if (o.err.empty()) continue;
+        ++fewer;
+        CHECK(std::regex_match(o.err, std::regex("phasetree: only [0-9]+ of 20 threads can be started\n")));
+        const bool same = bytes_of(shell.directory / "a.exr") == image;
+        CHECK(same);
+    }
+    CHECK(none > 0);
+    CHECK(fewer > 0);
+}
+
+TEST_CASE("check of a scene without a camera says what it is good for") {
+    const Shell shell;
+    const auto check = [&](const std::string& text) {
+        write_text(shell.directory / "scene.json", text);
+        return shell.run({"check", "scene.json"});
+    };
+    const Outcome o = check(tree_of(R"({"sphere": {"radius": 1}})"));
+    CHECK(o.code == 3);
+    CHECK(o.err == "");
+    CHECK(o.out ==
+          "scene.json: the tree is sound, for eval, info, trace and programs that trace rays; the scene has no "
+          "\"camera\", so it cannot be rendered\n");
+    CHECK(shell.run({"render", "scene.json"}).code == 2);
+    for (const char* const command : {"eval", "trace", "info"}) CHECK(shell.run({command, "scene.json"}).code == 0);
+
+    const Outcome unbounded = check(tree_of(R"({"plane": {}})"));
+    CHECK(unbounded.code == 3);
+    CHECK(unbounded.out.find("for eval and info; it is unbounded, so rays cannot be traced") != std::string::npos);
+    CHECK(shell.run({"eval", "scene.json"}).code == 0);
+    CHECK(shell.run({"trace", "scene.json"}).code == 2);
+
+    // What there is must be right.
+    struct Wrong {
+        std::string text, message;
+    };
+    for (const Wrong& w :
+         {Wrong{tree_of(R"({"sphere": {"radius": 0}})"), "scene.json:2:64: \"radius\" must be positive"},
+          Wrong{tree_of(R"({"sphere": {"radius": 1}})", R"(, "camrea": {"a": 0})"), "did you mean \"camera\"?"},
+          Wrong{tree_of(R"({"sphere": {"radius": 1}})", R"(, "lights": {"a": 0})"), "\"lights\" must be a list"},
+          Wrong{tree_of(R"({"sphere": {"radius": 1}})", R"(, "meshes": {"a": 0})"), "\"meshes\" must be a list"},
+          Wrong{tree_of(R"({"sphere": {"radius": 1}})", R"(, "render": {"width": 0})"), "\"width\" must be"},
+          Wrong{tree_of(R"({"sphere": {"radius": 3e38}})"), "beyond what 32-bit floats can trace"},
+          Wrong{"{\"version\": 7}", "version 1"}}) {
+        const Outcome wrong = check(w.text);
+        CAPTURE(wrong.err);
+        CHECK(wrong.code == 2);
+        CHECK(wrong.out == "");
+        CHECK(wrong.err.find(w.message) != std::string::npos);
+    }
+}
+
+TEST_CASE("an object of which nothing is left is worth a sentence") {
+    const Shell shell;
+    // Its box is not empty, and it is.
+    SceneText scene;
+    scene.tree = R"({"set": {"phase": "glass", "of": {"intersection": ["ball",
+        {"translate": {"by": [1.8, 1, 0], "of": "ball"}}]}}})";
+    const std::string warning =
+        "scene.json:4:9: warning: the object is empty: nothing of it is left, so no ray meets it\n";
+    write_text(shell.directory / "scene.json", scene.text());
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"check", "scene.json"}, {"render", "scene.json", "-o", "a.exr", "--quiet"}}) {
+        const Outcome o = shell.run(words);
+        CHECK(o.code == 0);
+        CHECK(o.err.find(warning) == 0);
+    }
+    CHECK(shell.run({"info", "scene.json"}).out.find("nothing of the object is left") != std::string::npos);
+    CHECK(shell.run({"info", "scene.json", "--json"}).out.find("\"empty\": true") != std::string::npos);
+    // So thin that no point of a grid is in it.
+    scene.tree = R"({"under": [{"set": {"phase": "glass", "of": {"translate": {"by": [0, 0, 1], "of":
+        {"box": {"size": [2, 2, 0.001]}}}}}}, {"set": {"phase": "glass", "of": {"box": {"size": [2, 2, 0.001]}}}}]})";
+    write_text(shell.directory / "scene.json", scene.text());
+    const Outcome thin = shell.run({"check", "scene.json"});
+    CHECK(thin.code == 0);
+    CHECK(thin.err == "");
+    CHECK(shell.run({"info", "scene.json", "--json"}).out.find("\"empty\": false") != std::string::npos);
+    // One whose very box is empty.
+    write_text(shell.directory / "scene.json",
+               tree_of(R"({"offset": {"distance": -2, "of": {"sphere": {"radius": 1}}}})"));
+    CHECK(shell.run({"info", "scene.json"}).out.find("nothing of the object is left") != std::string::npos);
+    const Outcome none = shell.run({"check", "scene.json"});
+    CHECK(none.code == 2);
+    CHECK(none.err.find("the object is empty") != std::string::npos);
+}

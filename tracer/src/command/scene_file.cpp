@@ -1,0 +1,47 @@
+#include "command/scene_file.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+namespace phasetree::tracer {
+
+namespace {
+
+std::string standard_input(const std::string& shown) {
+    std::string text;
+    std::size_t length = 0;
+    while (true) {
+        text.resize(std::max<std::size_t>(2 * length, 1 << 16));
+        const ssize_t got = ::read(STDIN_FILENO, text.data() + length, text.size() - length);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) throw SceneError(shown, "cannot be read: " + std::generic_category().message(errno));
+        length += static_cast<std::size_t>(got);
+        if (length > Document::max_bytes) throw SceneError(shown, "is larger than 256 MiB");
+        if (got == 0) break;
+    }
+    text.resize(length);
+    return text;
+}
+
+}  // namespace
+
+std::shared_ptr<SceneFile> add_scene_file(CLI::App& command) {
+    auto file = std::make_shared<SceneFile>();
+    command.add_option("scene", file->name, "The scene file; - for standard input")->required();
+    command
+        .add_option("--assets-within", file->assets_within,
+                    "Refuse files that the scene names outside of this folder, links followed: for scenes of strangers "
+                    "(default: any file that the user may read)")
+        ->option_text("DIR");
+    return file;
+}
+
+Document read_document(const SceneFile& file) {
+    const Document document = file.is_standard_input() ? Document::from_text(standard_input(file.shown()), file.shown())
+                                                       : Document::from_file(file.name);
+    return file.assets_within ? document.with_files_within(*file.assets_within) : document;
+}
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,29 @@
+// Which scene a subcommand reads, and from where it may read files.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "phasetree/reading/document.hpp"
+
+namespace phasetree::tracer {
+
+struct SceneFile {
+    std::string name;
+    std::optional<std::string> assets_within;
+
+    // What errors and files made of the scene call it.
+    std::string shown() const { return is_standard_input() ? "<stdin>" : name; }
+    // "-", and what the system calls it.
+    bool is_standard_input() const { return name == "-" || name == "/dev/stdin" || name == "/dev/fd/0"; }
+};
+
+// Adds the argument SCENE and the option --assets-within.
+std::shared_ptr<SceneFile> add_scene_file(CLI::App& command);
+
+// Throws SceneError.
+Document read_document(const SceneFile&);
+
+}  // namespace phasetree::tracer

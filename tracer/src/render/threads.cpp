@@ -1,0 +1,63 @@
+#include "render/threads.hpp"
+
+#include <OpenImageIO/imageio.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <iterator>
+#include <latch>
+#include <stdexcept>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace phasetree::tracer {
+
+namespace {
+
+std::ptrdiff_t running() {
+    std::error_code problem;
+    const std::filesystem::directory_iterator tasks("/proc/self/task", problem);
+    return problem ? 0 : std::distance(begin(tasks), end(tasks));
+}
+
+// How many of so many threads can be started beside this one.
+int startable(int wanted) {
+    const std::ptrdiff_t before = running();
+    std::vector<std::thread> threads;
+    std::latch all_are_counted(1);
+    try {
+        while (static_cast<int>(threads.size()) < wanted) threads.emplace_back([&] { all_are_counted.wait(); });
+    } catch (const std::system_error&) {
+        // Then it is as many as there are.
+    }
+    all_are_counted.count_down();
+    for (std::thread& thread : threads) thread.join();
+    // One that has been joined counts for a moment longer, until the system has cleared it away.
+    for (int i = 0; i < 1000 && running() > before; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return static_cast<int>(threads.size());
+}
+
+}  // namespace
+
+AvailableThreads::AvailableThreads(int wanted)
+    : wanted_(wanted > 0 ? wanted : tbb::this_task_arena::max_concurrency()), count_(wanted_) {
+    // OpenImageIO and OpenEXR start one a core for themselves, and TBB may start one that does not count for it.
+    const int others = 2 * static_cast<int>(std::thread::hardware_concurrency()) + 1;
+    const int there = startable(wanted_ - 1 + others);
+    if (there == wanted_ - 1 + others) return;
+    if (there == 0)
+        throw std::runtime_error(
+            "no thread can be started beside the first, and one at least is needed: the limit on "
+            "processes is reached");
+    count_ = std::min(wanted_, there);
+    limit_.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count_));
+    // They can do without. OpenImageIO asks for its own when it first needs them.
+    ::setenv("OPENIMAGEIO_THREADS", "1", 1);
+    OIIO::attribute("exr_threads", -1);
+}
+
+}  // namespace phasetree::tracer
