@@ -172,9 +172,11 @@ std::optional<Crossing> InterfaceCells::first_crossing(std::size_t cell, const T
 
 CrossingNormal InterfaceCells::normal(std::size_t cell, const Crossing& c, const glm::vec3& direction) const {
     const Data::Cell& at = data_->cells[cell];
-    return normal_of(c, direction, [&](const glm::vec3& p, Phase phase) {
-        return gradient(data_->routine(at), data_->slots(at), p, phase);
-    });
+    const auto component_at = [&](const glm::vec3& p, Phase phase) {
+        return component(data_->routine(at), data_->slots(at), p, phase);
+    };
+    const auto holds = [&](const glm::vec3& p) { return at.box.contains(p); };
+    return NormalOf(c, direction, data_->resolution, component_at, holds)();
 }
 
 Phase InterfaceCells::label(const glm::vec3& p, Evaluator::Workspace& w) const {

@@ -68,7 +68,12 @@ inline bool is_fold(Op op) {
     return traits(op).is_fold;
 }
 
-/// Gradient of one component at a point, by dual numbers.
-glm::vec3 gradient(const Routine&, std::uint32_t slots, const glm::vec3& p, Phase);
+/// A component's value at a point, and its gradient.
+struct Component {
+    float value = 0;
+    glm::vec3 gradient{0};
+};
+/// By dual numbers; zero if the phase is absent.
+Component component(const Routine&, std::uint32_t slots, const glm::vec3& p, Phase);
 
 }  // namespace phasetree

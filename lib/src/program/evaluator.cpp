@@ -44,7 +44,7 @@ Phase Evaluator::label(const glm::vec3& p, Workspace& w) const {
 }
 
 glm::vec3 Evaluator::gradient(const glm::vec3& p, Phase phase) const {
-    return phasetree::gradient(assembly_->routine(program_.constants.data()), assembly_->slots, p, phase);
+    return component(assembly_->routine(program_.constants.data()), assembly_->slots, p, phase).gradient;
 }
 
 std::size_t Evaluator::bytes() const {

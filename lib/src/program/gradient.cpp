@@ -3,11 +3,11 @@
 
 namespace phasetree {
 
-glm::vec3 gradient(const Routine& routine, std::uint32_t slots, const glm::vec3& p, Phase phase) {
+Component component(const Routine& routine, std::uint32_t slots, const glm::vec3& p, Phase phase) {
     const OutputSlot* output = nullptr;
     for (std::size_t i = 0; i < routine.output_count; ++i)
         if (routine.outputs[i].phase == static_cast<float>(phase.index)) output = &routine.outputs[i];
-    if (!output) return glm::vec3(0);
+    if (!output) return {};
 
     thread_local std::vector<Dual> registers;
     if (registers.size() < slots) registers.resize(slots);
@@ -20,7 +20,8 @@ glm::vec3 gradient(const Routine& routine, std::uint32_t slots, const glm::vec3&
             to = detail::distance_of<P>(constants, q);
         },
         [](const Dual&) {});
-    return registers[output->slot].gradient() * output->sign;
+    const Dual& found = registers[output->slot];
+    return {found.value() * output->sign, found.gradient() * output->sign};
 }
 
 }  // namespace phasetree

@@ -54,24 +54,13 @@ std::optional<Crossing> InterfaceTracer::first_crossing(const glm::vec3& origin,
                                      c);
 }
 
-CrossingNormal normal_of(const Crossing& c, const glm::vec3& direction,
-                         const std::function<glm::vec3(const glm::vec3&, Phase)>& gradient) {
-    // Both gradients are normals of the same interface. Beside an edge one of them may belong to a neighbouring face
-    // that the ray does not cross: then the other is right.
-    const auto unit = [](const glm::vec3& g) {
-        const float l = glm::length(g);
-        return l > 0 ? g / l : glm::vec3(0);
-    };
-    const glm::vec3 growing = gradient(c.p_in, c.from), leaving = unit(growing);
-    if (glm::dot(leaving, direction) > 0) return {leaving, growing};
-    const glm::vec3 entering = -unit(gradient(c.p_out, c.to));
-    if (glm::dot(entering, direction) > 0) return {entering};
-    return {direction};
-}
-
 glm::vec3 InterfaceTracer::normal(const Crossing& c, const glm::vec3& direction) const {
-    return normal_of(c, direction, [&](const glm::vec3& p, Phase phase) { return evaluator_->gradient(p, phase); })
-        .unit;
+    const Assembly& assembly = *evaluator_->assembly_;
+    const Routine routine = assembly.routine(evaluator_->program().constants.data());
+    const auto component_at = [&](const glm::vec3& p, Phase phase) {
+        return component(routine, assembly.slots, p, phase);
+    };
+    return NormalOf(c, direction, resolution_, component_at, [](const glm::vec3&) { return true; })().unit;
 }
 
 Phase InterfaceTracer::label(const glm::vec3& p, Evaluator::Workspace& w) const {

@@ -2,6 +2,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "phasetree/math/arc_tangent.hpp"
 #include "phasetree/math/vec3.hpp"
 
 namespace phasetree {
@@ -9,6 +10,10 @@ namespace phasetree {
 /// A number with its gradient in space: forward-mode differentiation. Comparisons look at the value alone, so the
 /// gradient is that of the branch which the value takes. The four floats are one register, and choices are made
 /// without branches, which a processor would guess wrong at every other hit.
+///
+/// Where two values are equal, the gradient of their minimum is the first one's and that of their maximum the second
+/// one's. So min(a, b) and max(a, b) are a sorted pair also of gradients, not twice the same; max(a, 0) + min(a, 0) has
+/// the gradient of a; and smooth_min of equal values has the mean.
 class Dual {
   public:
     using Lanes [[gnu::vector_size(16)]] = float;
@@ -74,7 +79,8 @@ class Dual {
     return Dual(all ? yes.lanes() : no.lanes());
 }
 [[gnu::always_inline]] inline Dual min(const Dual& a, const Dual& b) {
-    return Dual(a.values() < b.values() ? a.lanes() : b.lanes());
+    // Of two zeros the value is the second one, as ever: they may differ in sign.
+    return Dual(min(a.value(), b.value()), a.values() <= b.values() ? a.lanes() : b.lanes());
 }
 [[gnu::always_inline]] inline Dual max(const Dual& a, const Dual& b) {
     return Dual(a.values() > b.values() ? a.lanes() : b.lanes());
@@ -95,6 +101,13 @@ class Dual {
     const float v = std::sqrt(a.value());
     const float k = v > 0 ? 0.5f / v : 0.f;  // at a cone's apex every direction is as good: none
     return Dual(v, Dual::each(k) * a.lanes());
+}
+/// In place of the equation's own derivative, which takes that of the lesser over the greater coordinate and so the
+/// wrong one where they are equal: (x dy − y dx)/(x² + y²), none at the origin.
+[[gnu::always_inline]] inline Dual angle_of(const Dual& x, const Dual& y) {
+    const float a = x.value(), b = y.value(), squared = a * a + b * b;
+    const float k = squared > 0 ? 1.f / squared : 0.f;
+    return Dual(angle_of(a, b), (Dual::each(a) * y.lanes() - Dual::each(b) * x.lanes()) * Dual::each(k));
 }
 
 }  // namespace phasetree

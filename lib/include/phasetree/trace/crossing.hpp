@@ -22,10 +22,16 @@ struct Crossing {
 };
 
 /// The normal of a crossing, and what a ray that leaves it may tell the cell that found it (Departure).
+///
+/// It is of unit length and leads from `from` into `to`, so that it points along the ray, never against it: into a
+/// solid where the ray enters, out of it where it leaves. (Embree's Ng, which the plugin gives, faces the ray: it is
+/// minus this.) It is the gradient of `from` at p_in, unless that is zero to rounding or contradicts the bracket: then
+/// a gradient a resolution or two beside, where it is certain. By an edge it is that of one of the faces, or of the
+/// distance to the edge, which lies between.
 struct CrossingNormal {
-    glm::vec3 unit{0};  ///< from `from` into `to`, so that it points along the ray
-    /// How the distance from `from` grows at p_in, as a vector: along `unit`, and 1 long at most. Zero where only the
-    /// other phase's component told the normal.
+    glm::vec3 unit{0};
+    /// How the distance from `from` grows at p_in, as a vector: along `unit`, and 1 long at most. Zero where the normal
+    /// was not told by that.
     glm::vec3 gradient{0};
 };
 

@@ -32,7 +32,7 @@ class InterfaceTracer {
                                            float t_max, std::optional<Phase> carried, Evaluator::Workspace&,
                                            TraceCounters* = nullptr) const;
 
-    /// Unit normal of a crossing, from `from` into `to`.
+    /// Unit normal of a crossing, from `from` into `to`: see CrossingNormal.
     glm::vec3 normal(const Crossing&, const glm::vec3& direction) const;
 
     /// The phase at a point; vacuum outside the bounds.

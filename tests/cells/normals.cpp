@@ -1,0 +1,63 @@
+// Cells' normals, as those of whole programs: tests/lib/normals.cpp.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include "phasetree/math/float_mode.hpp"
+#include "phasetree/phasetree.hpp"
+#include "support/normal_checks.hpp"
+
+using namespace phasetree;
+using namespace phasetree::tests;
+
+namespace {
+
+/// Calls found(cell, crossing) for the cells that hold a crossing and find it.
+template <class Found>
+void each_cell(const InterfaceCells& cells, const Crossing& c, const glm::vec3& d, Found&& found) {
+    const float size = cells.bounds().diagonal();
+    const glm::vec3 o = c.p_in - 0.01f * size * d;
+    for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+        if (!cells.bounds(cell).contains(c.p_in) || !cells.bounds(cell).contains(c.p_out)) continue;
+        TraceCounters unused;
+        const auto again = cells.first_crossing(cell, o, d, 0, 0.02f * size, {}, Evaluator::thread_workspace(), unused);
+        if (again && again->from == c.from && again->to == c.to &&
+            glm::length(again->p_in - c.p_in) < 3 * cells.resolution())
+            found(cell, *again);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("no normal of a cell is an outlier, whatever the node") {
+    const FlushSubnormals flush;
+    NormalTotals all;
+    const int trees = long_tests() ? 30 : 2, rays = long_tests() ? 60 : 12;
+    for (const NodeKind& kind : node_kinds()) {
+        Random rng(81);
+        for (int tree = 0; tree < trees; ++tree) {
+            const auto object = traceable(kind.object(rng, 1 + tree % 3 + !kind.is_field));
+            if (!object) continue;
+            const InterfaceTracer tracer(*object);
+            const InterfaceCells cells(*object, {.deepest = 5});
+            grazing_rays(*object, tracer, rng, rays, [&](const glm::vec3& o, const glm::vec3& ray) {
+                each_crossing(tracer, o, ray, [&](const Crossing& c, const glm::vec3& d) {
+                    each_cell(cells, c, d, [&](std::size_t cell, const Crossing& again) {
+                        const CrossingNormal normal = cells.normal(cell, again, d);
+                        const NormalCheck check{*object, again, d, cells.resolution(), normal.unit};
+                        REQUIRE(glm::dot(normal.unit, d) > 0);
+                        all.count(check, check.verdict(), kind.name);
+                        // What is known of the growth there is along the normal.
+                        const float slope = glm::length(normal.gradient);
+                        REQUIRE(slope <= 1 + 1e-4f);
+                        if (slope > 0) REQUIRE(glm::length(normal.gradient / slope - normal.unit) < 1e-5f);
+                    });
+                });
+            });
+        }
+    }
+    MESSAGE(all.right, " normals, ", all.by_an_edge, " more by edges");
+    INFO(all.complaints);
+    CHECK(all.wrong == 0);
+    CHECK(all.right > 10'000);
+    CHECK(all.right > 10 * all.by_an_edge);
+}
