@@ -86,9 +86,6 @@ struct Visit {
     float rise;     ///< of a Departure, or none
     /// Where an unfinished search goes on, counted from where it began: a place in the ray's phase; or 0.
     float from = 0;
-    /// Up to here, counted in the same way, gaps of one label are passed that are no longer than `coarse`, rather than
-    /// the resolution.
-    float coarse_until = 0, coarse = 0;
 
     static constexpr float no_departure = -2;
 };

@@ -35,7 +35,6 @@ struct RaySegment {
     float direction[3];
     float length;
     float from;
-    float coarse, coarse_until;  ///< as Visit has them
     float behind;  ///< how far before 0 the ray has come from
     float resolution;
     float slope;         ///< bounds what a component changes by for each unit along the ray
@@ -155,8 +154,6 @@ class March {
         }
         return report(c, larger(here_.t + root - reach, here_.t), smaller(here_.t + root + reach, next.t), next.label);
     }
-    /// Gaps of one label that are no longer than this are passed.
-    float fine() const { return here_.t < ray_.coarse_until ? ray_.coarse : ray_.resolution; }
     /// To be gone on with from the last place that is certainly in the ray's phase.
     bool pause(RayCrossing& c) const {
         c.is_unfinished = true;
@@ -231,7 +228,7 @@ bool March::find(RayCrossing& result) {
         is_provable_ = !is_curvature_known_ && routine_.proof_steps > 0 &&
                        (routine_.outputs[0].phase == phase_ || is_shared(routine_));
         other_.label = none;
-        judge(f, t, c, here_, fine());
+        judge(f, t, c, here_, resolution);
         if (f.doubt == 0) return false;
         f.next = 1;
         break;
@@ -286,7 +283,7 @@ bool March::find(RayCrossing& result) {
         if (batches_ >= most_batches) return pause(result);
         if (depth == 0) {
             if (here_.t >= length) return false;
-            if (!fill(frames[0], spread_evenly(here_.t, length), here_, 3.402823466e38f, fine())) return false;
+            if (!fill(frames[0], spread_evenly(here_.t, length), here_, 3.402823466e38f, resolution)) return false;
             depth = 1;
             is_aligned = true;
         }
@@ -315,18 +312,17 @@ bool March::find(RayCrossing& result) {
         const Place next = f.place(f.next);
         const bool same = next.label == phase_;
         const float gap = next.t - here_.t;
-        const float fine = this->fine();
         const float low = past(here_), high = before(next);
         const bool is_covered = same && (ray_.is_monotone || here_.distance + next.distance >= gap * ray_.slope ||
                                          is_bridged(here_.distance, next.distance, gap));
-        const bool is_resolved = is_covered || gap <= (same ? fine : resolution) || (same && high - low <= fine);
+        const bool is_resolved = is_covered || gap <= resolution || (same && high - low <= resolution);
         if (!is_resolved) {
             if (depth == deepest) {  // forget what lies ahead
                 depth = 0;
                 continue;
             }
             const Batch t = look_ahead(f, is_aligned ? f.next : -1, next);
-            if (fill(frames[depth], t, here_, next.t, fine, !same)) {
+            if (fill(frames[depth], t, here_, next.t, resolution, !same)) {
                 ++depth;
                 is_aligned = true;
                 continue;
@@ -362,7 +358,7 @@ Batch March::look_ahead(const Frame& f, int lane, const Place& next) const {
     const float gap = next.t - here_.t;
     if (const float slope = (next.distance - here_.distance) / gap; slope > 0.02f) {
         // The ray leaves an interface it started on, at a low angle: one frame for many of the gaps ahead.
-        return spread_growing(here_.t, ray_.length, larger(here_.distance, 0.25f * fine()), smaller(slope, 1.f));
+        return spread_growing(here_.t, ray_.length, larger(here_.distance, 0.25f * ray_.resolution), smaller(slope, 1.f));
     }
     const float low = past(here_), high = before(next);
     return spread_evenly(smaller(low, high), high);

@@ -109,8 +109,6 @@ bool visit(const Visit& v, RayCrossing& result) {
                              {direction.x, direction.y, direction.z},
                              static_cast<float>(span.high - span.low),
                              v.from,
-                             v.coarse,
-                             v.coarse_until,
                              static_cast<float>(span.low) - v.t_min,
                              v.resolution,
                              slope,

@@ -12,11 +12,11 @@
 /// than rounding, which is no change of label (March::is_crossing), and the ray goes on behind the stretch. Along a
 /// plane one such stretch is all there is of it; what bends takes stretches of about √(resolution · radius).
 ///
-/// Where that proves nothing (patterns and images, whose derivatives are not known) the kernel goes on by steps of a
-/// resolution. So the work is bounded by the ray's length: some 8/7 batches for each 7 resolutions of a creep that
-/// nothing is known of. After most_pauses, 131,072 batches, more than a ray takes to creep along the whole object at
-/// the resolution that is chosen for it, stretches are passed at a coarser resolution, twice as coarse and twice as
-/// long each time, so that no ray takes forever at any. What lies behind such a stretch is searched at the resolution.
+/// Where that proves nothing (outlines, patterns and images, whose derivatives are not known) the ray walks by steps of
+/// a resolution, eight in a batch, while the interface is near; so the work is bounded by the length of the creep.
+/// After most_batches, 131,072, twice as many as take a ray along the whole object at the resolution that is chosen for
+/// it, steps double every 256 batches for the rest of this creep, so that no ray takes forever at any resolution. What
+/// the ray meets behind the creep, or when a label changes in it, is searched for at the resolution.
 namespace phasetree {
 
 /// Ends a search that the kernel has left unfinished; whether there is a crossing.
