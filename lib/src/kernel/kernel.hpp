@@ -84,17 +84,22 @@ struct Visit {
     float resolution;
     float carried;  ///< the phase that the ray is in; negative: the label at its start
     float rise;     ///< of a Departure, or none
+    /// Where an unfinished search goes on, counted from where it began: a place in the ray's phase; or 0.
+    float from = 0;
 
     static constexpr float no_departure = -2;
 };
 
 /// The first change of label there; see Crossing. Without one, only what it cost.
 struct RayCrossing {
-    double start;     ///< how far along the ray this is:
+    double start;     ///< how far along the ray this is, where the search began:
     float origin[3];  ///< and from there
     float t_in, t_out;
     float from, to;
     std::uint32_t batches, phantoms;
+    /// It was given up for now: no change was found up to t_in, which is in the phase `from`. See trace/creep.hpp.
+    bool is_unfinished;
+    float length;  ///< of what is searched
 };
 
 /// Of a neuron's numbers in network_layer().

@@ -29,19 +29,12 @@ struct alignas(64) Frame {
     Place place(int lane) const { return lane < 0 ? from : Place{t[lane], distance[lane], label[lane]}; }
 };
 
-/// Makes the resolution coarser for a ray that creeps along an interface, so that the work stays bounded: it doubles
-/// for every 64 batches past the first 256.
-HWY_INLINE float effective_resolution(float resolution, std::uint32_t batches) {
-    if (batches < 256) return resolution;
-    const std::uint32_t doublings = (batches - 256) / 64 + 1;
-    return resolution * float_of((127 + (doublings < 60 ? doublings : 60)) << 23);
-}
-
-/// A piece of a ray: origin + t·direction, 0 ≤ t ≤ length.
+/// A piece of a ray: origin + t·direction, from ≤ t ≤ length.
 struct RaySegment {
     float origin[3];
     float direction[3];
     float length;
+    float from;
     float behind;  ///< how far before 0 the ray has come from
     float resolution;
     float slope;         ///< bounds what a component changes by for each unit along the ray
@@ -62,6 +55,7 @@ class March {
 
     bool search(RayCrossing& crossing) {
         const bool hit = find(crossing);
+        crossing.length = ray_.length;
         crossing.batches = batches_;
         crossing.phantoms = phantoms_;
         return hit;
@@ -69,6 +63,8 @@ class March {
 
   private:
     static constexpr float none = -1;  ///< no label
+    /// After so many the search pauses: most rays that take so many creep along an interface (trace/creep.hpp).
+    static constexpr std::uint32_t most_batches = 256;
 
     /// By the first component alone, if that is enough, labels are the ray's phase or another_phase.
     HWY_INLINE Classified sample(const Batch& t, bool is_whole = false) {
@@ -158,6 +154,13 @@ class March {
         }
         return report(c, larger(here_.t + root - reach, here_.t), smaller(here_.t + root + reach, next.t), next.label);
     }
+    /// To be gone on with from the last place that is certainly in the ray's phase.
+    bool pause(RayCrossing& c) const {
+        c.is_unfinished = true;
+        c.t_in = certain_.t;
+        c.from = phase_;
+        return false;
+    }
     /// Of distances.
     float rounding() const { return ray_.resolution * (1.f / 16); }
 
@@ -204,7 +207,7 @@ bool March::find(RayCrossing& result) {
         const bool is_curvature_known = ray_.curvature[routine_.outputs[0].phase == ray_.carried ? 0 : 1] < 1e30f;
         const Batch t = ray_.on_interface && !ray_.is_monotone && !is_curvature_known
                             ? spread_from_interface(length, resolution)
-                            : spread_evenly(0, length);
+                            : spread_evenly(ray_.from, length);
         const Classified c = sample(t);
         Frame& f = frames[0];
         store(t, f.t);
@@ -235,11 +238,11 @@ bool March::find(RayCrossing& result) {
 
     if (here_.label != phase_) {
         // Rounding may have put the start just across the interface it was found on: look a little ahead.
-        const Batch t = (lanes() + 1.f) * (resolution * (4.f / batch_size));
+        const Batch t = Batch(ray_.from) + (lanes() + 1.f) * (resolution * (4.f / batch_size));
         const Classified c = sample(t);
         const std::uint32_t other = bits(less(c.label, Batch(phase_))) | bits(less(Batch(phase_), c.label));
         const std::uint32_t back = ~other & ~bits(less(Batch(length), t)) & all_lanes;
-        if (!back) return is_entered_late(result) || report(result, 0, 0, here_.label);
+        if (!back) return is_entered_late(result) || report(result, ray_.from, ray_.from, here_.label);
         alignas(64) float near[batch_size], distance[batch_size];
         store(t, near);
         store(c.distance, distance);
@@ -277,11 +280,10 @@ bool March::find(RayCrossing& result) {
     }
 
     for (;;) {
+        if (batches_ >= most_batches) return pause(result);
         if (depth == 0) {
             if (here_.t >= length) return false;
-            if (!fill(frames[0], spread_evenly(here_.t, length), here_, 3.402823466e38f,
-                      effective_resolution(resolution, batches_)))
-                return false;
+            if (!fill(frames[0], spread_evenly(here_.t, length), here_, 3.402823466e38f, resolution)) return false;
             depth = 1;
             is_aligned = true;
         }
@@ -310,18 +312,17 @@ bool March::find(RayCrossing& result) {
         const Place next = f.place(f.next);
         const bool same = next.label == phase_;
         const float gap = next.t - here_.t;
-        const float fine = effective_resolution(resolution, batches_);
         const float low = past(here_), high = before(next);
         const bool is_covered = same && (ray_.is_monotone || here_.distance + next.distance >= gap * ray_.slope ||
                                          is_bridged(here_.distance, next.distance, gap));
-        const bool is_resolved = is_covered || gap <= (same ? fine : resolution) || (same && high - low <= fine);
+        const bool is_resolved = is_covered || gap <= resolution || (same && high - low <= resolution);
         if (!is_resolved) {
             if (depth == deepest) {  // forget what lies ahead
                 depth = 0;
                 continue;
             }
             const Batch t = look_ahead(f, is_aligned ? f.next : -1, next);
-            if (fill(frames[depth], t, here_, next.t, fine, !same)) {
+            if (fill(frames[depth], t, here_, next.t, resolution, !same)) {
                 ++depth;
                 is_aligned = true;
                 continue;
@@ -355,10 +356,9 @@ HWY_INLINE Batch March::narrowing(const Frame& f, int lane, const Place& next) c
 Batch March::look_ahead(const Frame& f, int lane, const Place& next) const {
     if (next.label != phase_) return narrowing(f, lane, next);
     const float gap = next.t - here_.t;
-    const float fine = effective_resolution(ray_.resolution, batches_);
     if (const float slope = (next.distance - here_.distance) / gap; slope > 0.02f) {
         // The ray leaves an interface it started on, at a low angle: one frame for many of the gaps ahead.
-        return spread_growing(here_.t, ray_.length, larger(here_.distance, 0.25f * fine), smaller(slope, 1.f));
+        return spread_growing(here_.t, ray_.length, larger(here_.distance, 0.25f * ray_.resolution), smaller(slope, 1.f));
     }
     const float low = past(here_), high = before(next);
     return spread_evenly(smaller(low, high), high);

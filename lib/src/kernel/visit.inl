@@ -39,6 +39,7 @@ constexpr float least_rise = 0.02f;
 
 bool visit(const Visit& v, RayCrossing& result) {
     result.batches = result.phantoms = 0;
+    result.is_unfinished = false;
     const TracedRay& ray = *v.ray;
     if (!ray.is_traceable) return false;
     const auto &origin = ray.origin, &direction = ray.direction;
@@ -107,20 +108,22 @@ bool visit(const Visit& v, RayCrossing& result) {
     const RaySegment segment{{x, y, z},
                              {direction.x, direction.y, direction.z},
                              static_cast<float>(span.high - span.low),
+                             v.from,
                              static_cast<float>(span.low) - v.t_min,
                              v.resolution,
                              slope,
                              {v.curvature[0], v.curvature[1]},
                              carried,
                              is_monotone,
-                             on_interface};
+                             on_interface && v.from == 0};
     alignas(64) float registers[few_slots * batch_size];
-    if (!March(routine, segment, v.registers ? v.registers : registers).search(result)) return false;
+    const bool is_hit = March(routine, segment, v.registers ? v.registers : registers).search(result);
+    if (!is_hit && !result.is_unfinished) return false;
     result.start = span.low;
     result.origin[0] = x;
     result.origin[1] = y;
     result.origin[2] = z;
-    return true;
+    return is_hit;
 }
 
 }  // namespace

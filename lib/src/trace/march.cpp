@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "program/target.hpp"
+#include "trace/creep.hpp"
 
 namespace phasetree {
 
@@ -14,9 +15,11 @@ TracedRay::TracedRay(const glm::vec3& o, const glm::vec3& d) : origin(o), direct
 
 std::optional<Crossing> first_crossing(const Visit& visit, TraceCounters& counters) {
     RayCrossing c;
-    const bool is_hit = active_kernel().visit(visit, c);
+    bool is_hit = active_kernel().visit(visit, c);
     counters.batches += c.batches;
     counters.phantoms += c.phantoms;
+    if (c.is_unfinished) [[unlikely]]
+        is_hit = finish_search(visit, c, counters);
     if (!is_hit) return std::nullopt;
     const glm::vec3 start{c.origin[0], c.origin[1], c.origin[2]}, &direction = visit.ray->direction;
     return Crossing{static_cast<float>(c.start + static_cast<double>(c.t_in)),
