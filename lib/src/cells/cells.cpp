@@ -135,11 +135,13 @@ InterfaceCells::InterfaceCells(const Phased& object, const CellOptions& options)
     data->opaque = options.opaque;
     data->curvature_code = CurvatureCode(data->bounds.diagonal());
 
-    const Division division(options, rewritten, recorded.constants, data->reach, 0.5f * traceable.resolution,
+    BuildProgress progress(options.progress);
+    const Division division(options, progress, rewritten, recorded.constants, data->reach, 0.5f * traceable.resolution,
                             data->bounds.diagonal());
     FoundPieces found = divide_into_cells(data->bounds, rewritten, division);
     data->add(std::move(found), Routines(recorded.constants));
     data->whole.emplace(std::move(recorded));
+    progress.finish();
     data->build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     data_ = std::move(data);
 }

@@ -91,6 +91,7 @@ struct Share {
     float left = 1;                    ///< what is left of the cost since something was won
     float period = Bounds::infinity;   ///< of the finest fold that still jumps
     float pattern = Bounds::infinity;  ///< how large the features of patterns are
+    double part = 1;                   ///< of all that is to be done, about
     Candidate cell{};
 };
 
@@ -166,6 +167,9 @@ bool prepare(Share& share, const Division& d, Worker& w) {
     return true;
 }
 
+/// So deep the progress is told: what follows is done soon.
+constexpr int told_depth = 5;
+
 /// What cells cost the rays that enter them, and how much interface is in them.
 struct Cost {
     float all = 0, interface = 0;
@@ -186,12 +190,14 @@ Cost find_cells(const Share& share, const Division& d, Worker& w) {
     if (!is_final) {
         const FoundPieces::Mark before = w.found.mark();
         Cost divided = divide(share, d, w);
+        if (share.depth == told_depth) d.progress.add(share.part);
         divided.all += price::parts * surface(share.box);
         const float more = std::max(0.f, divided.interface - one_interface(share.cell.box));
         const float starting = price::starts * more / surface(share.cell.box);
         if (divided.all < share.cell.cost * (1 + starting)) return divided;
         w.found.forget_from(before);
     }
+    if (is_final && share.depth <= told_depth) d.progress.add(share.part);
     const ArenaScope programs(w.programs), scratch(w.scratch);
     const Candidate& cell = share.cell;
     const WorkingProgram program = localised(cell.program, cell.local, w.found.last().near, w.scratch);
@@ -264,6 +270,8 @@ Cost divide(const Share& share, const Division& d, Worker& w) {
         if (std::isfinite(share.pattern)) part.pattern = finest_pattern(part.program, d.constants);
         is_left[i] = prepare(part, d, own);
     });
+    const auto left_count = std::ranges::count(is_left, true);
+    if (left_count == 0 && share.depth < told_depth) d.progress.add(share.part);
     float sum = price::parts * surface(share.box);
     for (std::size_t i = 0; i < parts.count; ++i)
         if (is_left[i]) sum += divided[i].cell.cost;
@@ -274,6 +282,7 @@ Cost divide(const Share& share, const Division& d, Worker& w) {
     each([&](std::size_t i, Worker& own) {
         if (!is_left[i]) return;
         Share& part = divided[i];
+        part.part = share.part / static_cast<double>(left_count);
         // An object's features are smaller than a period of a fold, too.
         const float coarse = std::isfinite(part.period) ? 0.25f * part.period : part.patience.large * d.size;
         const float diagonal = part.box.diagonal();
