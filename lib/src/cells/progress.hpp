@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <functional>
 #include <mutex>
@@ -19,6 +20,13 @@ class BuildProgress {
         const std::unique_lock lock(telling_, std::try_to_lock);
         if (lock.owns_lock()) tell(done);
     }
+    /// Of what was left all is to be done again, or this share of it.
+    void start_again(double share) {
+        const std::scoped_lock lock(telling_);
+        base_ += scale_ * std::min(1.0, done_.load());
+        scale_ = (1 - base_) * share;
+        done_ = 0;
+    }
     /// All of it is done.
     void finish() {
         if (!tell_) return;
@@ -29,7 +37,8 @@ class BuildProgress {
   private:
     static constexpr double step = 1.0 / 1024, last = 1 - step;
 
-    void tell(double done) {
+    void tell(double done_now) {
+        const double done = base_ + scale_ * done_now;
         if (done < told_ + step || done > last) return;
         told_ = done;
         tell_(static_cast<float>(done));
@@ -38,7 +47,7 @@ class BuildProgress {
     const std::function<void(float)>& tell_;
     std::atomic<double> done_{0};
     std::mutex telling_;  ///< guards what follows, and the calls
-    double told_ = 0;
+    double base_ = 0, scale_ = 1, told_ = 0;
 };
 
 }  // namespace phasetree
