@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "cells/curvature_code.hpp"
-#include "cells/divide.hpp"
+#include "cells/divide_within.hpp"
 #include "cells/rewrite.hpp"
 #include "cells/routines.hpp"
 #include "phasetree/model/handle.hpp"
@@ -16,6 +16,15 @@
 #include "trace/normal.hpp"
 
 namespace phasetree {
+
+namespace {
+
+std::size_t bytes_for(const CellOptions& options) {
+    constexpr std::size_t most = std::size_t{64} << 30;  // so that all can be numbered
+    return std::min(options.most_bytes > 0 ? options.most_bytes : default_cell_bytes(), most);
+}
+
+}  // namespace
 
 struct InterfaceCells::Data {
     /// One line of the cache.
@@ -39,6 +48,7 @@ struct InterfaceCells::Data {
     std::vector<ProofStep> proofs;
     std::vector<std::uint32_t> first_proof;  ///< of each cell, and the end
     double build_seconds = 0;
+    bool is_coarser = false;
 
     CurvatureCode curvature_code;
 
@@ -95,10 +105,11 @@ struct InterfaceCells::Data {
     }
 
     /// Cells with equal programs share one.
-    void add(FoundPieces found, Routines made) {
+    void add(FoundPieces found, Routines made, const std::function<bool()>& cancelled) {
         cells.reserve(found.cells());
         first_proof.reserve(found.cells() + 1);
         for (Found& piece : found) {
+            if (cancelled && cancelled()) throw BuildCancelled();
             made.take_near(piece);
             add(piece, made);
         }
@@ -135,11 +146,14 @@ InterfaceCells::InterfaceCells(const Phased& object, const CellOptions& options)
     data->opaque = options.opaque;
     data->curvature_code = CurvatureCode(data->bounds.diagonal());
 
-    const Division division(options, rewritten, recorded.constants, data->reach, 0.5f * traceable.resolution,
+    BuildProgress progress(options.progress);
+    const Division division(options, progress, rewritten, recorded.constants, data->reach, 0.5f * traceable.resolution,
                             data->bounds.diagonal());
-    FoundPieces found = divide_into_cells(data->bounds, rewritten, division);
-    data->add(std::move(found), Routines(recorded.constants));
+    FoundWithin within = divide_within(bytes_for(options), data->bounds, rewritten, division);
+    data->is_coarser = within.is_coarser;
+    data->add(std::move(within.found), Routines(recorded.constants), options.cancelled);
     data->whole.emplace(std::move(recorded));
+    progress.finish();
     data->build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     data_ = std::move(data);
 }
@@ -217,6 +231,7 @@ CellStatistics InterfaceCells::statistics() const {
               data_->proofs.size() * sizeof(ProofStep) + data_->first_proof.size() * sizeof(data_->first_proof[0]) +
               data_->whole->bytes();
     s.build_seconds = data_->build_seconds;
+    s.is_coarser = data_->is_coarser;
     if (data_->cells.empty()) return s;
     std::vector<std::size_t> length;
     for (std::size_t i = 0; i < size(); ++i) length.push_back(data_->routines.shapes[data_->cells[i].shape].steps);

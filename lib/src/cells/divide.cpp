@@ -91,6 +91,7 @@ struct Share {
     float left = 1;                    ///< what is left of the cost since something was won
     float period = Bounds::infinity;   ///< of the finest fold that still jumps
     float pattern = Bounds::infinity;  ///< how large the features of patterns are
+    double part = 1;                   ///< of all that is to be done, about
     Candidate cell{};
 };
 
@@ -166,6 +167,9 @@ bool prepare(Share& share, const Division& d, Worker& w) {
     return true;
 }
 
+/// So deep the progress is told: what follows is done soon.
+constexpr int told_depth = 5;
+
 /// What cells cost the rays that enter them, and how much interface is in them.
 struct Cost {
     float all = 0, interface = 0;
@@ -173,28 +177,13 @@ struct Cost {
 
 Cost divide(const Share& share, const Division& d, Worker& w);
 
-/// Finds the cells of a share: itself, or those of its parts where that is cheaper. Its parts tell how much interface
-/// is in it, from which rays start as well; of one cell it is taken to be one.
-Cost find_cells(const Share& share, const Division& d, Worker& w) {
-    const float promise =
-        least_gain(d.options.quality, share.box.diagonal() / d.size, share.cell.program.outputs.size() > 2,
-                   share.cell.curvature.most[0] < Curvature::unknown);
-    const bool is_hopeless = share.stale >= share.patience.divisions;
-    const bool is_final =
-        is_hopeless || share.depth >= d.options.deepest || share.box.diagonal() < 64 * d.reach ||
-        share.cell.cost < (1 + promise) * least_cost(share.cell.box) + price::parts * surface(share.box);
-    if (!is_final) {
-        const FoundPieces::Mark before = w.found.mark();
-        Cost divided = divide(share, d, w);
-        divided.all += price::parts * surface(share.box);
-        const float more = std::max(0.f, divided.interface - one_interface(share.cell.box));
-        const float starting = price::starts * more / surface(share.cell.box);
-        if (divided.all < share.cell.cost * (1 + starting)) return divided;
-        w.found.forget_from(before);
-    }
+/// Makes a share a cell.
+Cost add_cell(const Share& share, Worker& w) {
     const ArenaScope programs(w.programs), scratch(w.scratch);
     const Candidate& cell = share.cell;
-    const WorkingProgram program = localised(cell.program, cell.local, w.found.last().near, w.scratch);
+    Found& found = w.found.last();
+    const Found::Mark before = found.mark();
+    const WorkingProgram program = localised(cell.program, cell.local, found.near, w.scratch);
     LedProgram led{program};
     if (program.outputs.size() > 2) {
         led = first_component_first(program, w.programs, w.scratch);
@@ -204,8 +193,38 @@ Cost find_cells(const Share& share, const Division& d, Worker& w) {
     const std::span<ProofPart> proof = w.scratch.copy(cell.proof);
     if (!led.renumbered.empty())
         for (ProofPart& part : proof) part.value = led.renumbered[part.value];
-    w.found.last().add(cell.box, cell.bound, cell.curvature, led.program, led.leading, proof);
+    found.add(cell.box, cell.bound, cell.curvature, led.program, led.leading, proof);
+    w.account.add(Found::bytes(before, found.mark()), w.others.budget());
     return {cell.cost, one_interface(cell.box)};
+}
+
+/// Finds the cells of a share: itself, or those of its parts where that is cheaper. Its parts tell how much interface
+/// is in it, from which rays start as well; of one cell it is taken to be one.
+Cost find_cells(const Share& share, const Division& d, Worker& w) {
+    const float promise =
+        least_gain(d.options.quality, share.box.diagonal() / d.size, share.cell.program.outputs.size() > 2,
+                   share.cell.curvature.most[0] < Curvature::unknown);
+    const bool is_hopeless = share.stale >= share.patience.divisions;
+    const bool is_small = share.box.diagonal() < 64 * d.reach;
+    const float least = least_cost(share.cell.box);
+    const bool is_final = is_hopeless || share.depth >= d.options.deepest || is_small ||
+                          share.cell.cost < (1 + promise) * least + price::parts * surface(share.box) ||
+                          !w.others.budget().is_worth_dividing(share.box, share.cell.cost - least);
+    if (is_final) {
+        if (share.depth <= told_depth) d.progress.add(share.part);
+        return add_cell(share, w);
+    }
+    const FoundPieces::Mark before = w.found.mark();
+    const std::size_t had = w.account.has();
+    Cost divided = divide(share, d, w);
+    if (share.depth == told_depth) d.progress.add(share.part);
+    divided.all += price::parts * surface(share.box);
+    const float more = std::max(0.f, divided.interface - one_interface(share.cell.box));
+    const float starting = price::starts * more / surface(share.cell.box);
+    if (divided.all < share.cell.cost * (1 + starting)) return divided;
+    w.found.forget_from(before);
+    w.account.keep(had);
+    return add_cell(share, w);
 }
 
 /// The values of a program's instructions at the centres of parts of a box, one a lane: ValuesAt for each.
@@ -264,6 +283,8 @@ Cost divide(const Share& share, const Division& d, Worker& w) {
         if (std::isfinite(share.pattern)) part.pattern = finest_pattern(part.program, d.constants);
         is_left[i] = prepare(part, d, own);
     });
+    const auto left_count = std::ranges::count(is_left, true);
+    if (left_count == 0 && share.depth < told_depth) d.progress.add(share.part);
     float sum = price::parts * surface(share.box);
     for (std::size_t i = 0; i < parts.count; ++i)
         if (is_left[i]) sum += divided[i].cell.cost;
@@ -274,6 +295,7 @@ Cost divide(const Share& share, const Division& d, Worker& w) {
     each([&](std::size_t i, Worker& own) {
         if (!is_left[i]) return;
         Share& part = divided[i];
+        part.part = share.part / static_cast<double>(left_count);
         // An object's features are smaller than a period of a fold, too.
         const float coarse = std::isfinite(part.period) ? 0.25f * part.period : part.patience.large * d.size;
         const float diagonal = part.box.diagonal();
@@ -288,7 +310,10 @@ Cost divide(const Share& share, const Division& d, Worker& w) {
         part.left = is_won ? 1.f : left;
         costs[i] = find_cells(part, d, own);
     });
-    for (const Workers::Borrowed& worker : workers) w.found.take(worker->found);
+    for (const Workers::Borrowed& worker : workers) {
+        w.found.take(worker->found);
+        w.account.take(worker->account);
+    }
     Cost all;
     for (const Cost& c : costs) {
         all.all += c.all;
@@ -299,13 +324,17 @@ Cost divide(const Share& share, const Division& d, Worker& w) {
 
 }  // namespace
 
-FoundPieces divide_into_cells(const Bounds& box, const WorkingProgram& program, const Division& d) {
+FoundPieces divide_into_cells(const Bounds& box, const WorkingProgram& program, const Division& d, CellBudget& budget) {
     Share root{box, program};
     root.period = finest_jump(program, d.constants);
     root.pattern = finest_pattern(program, d.constants);
-    Workers workers;
+    Workers workers(budget);
     Worker worker{workers};
-    if (prepare(root, d, worker)) divide(root, d, worker);
+    if (!prepare(root, d, worker)) return {};
+    if (budget.is_worth_dividing(root.box, root.cell.cost))
+        divide(root, d, worker);
+    else
+        add_cell(root, worker);
     return std::move(worker.found);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cells/localise.hpp"
+#include "cells/progress.hpp"
 #include "phasetree/cells/cells.hpp"
 
 namespace phasetree {
@@ -8,6 +9,7 @@ namespace phasetree {
 /// What every step of the division needs.
 struct Division {
     const CellOptions& options;
+    BuildProgress& progress;
     std::span<const float> constants;
     float reach;     ///< how far beyond its share a cell must be right
     float rounding;  ///< error of a value
@@ -15,9 +17,10 @@ struct Division {
     /// What no part's program has if that of the whole has none.
     bool has_folds, has_local_primitives, has_far_bounds;
 
-    Division(const CellOptions& all, const WorkingProgram& program, std::span<const float> numbers, float beyond,
-             float error, float diagonal)
+    Division(const CellOptions& all, BuildProgress& told, const WorkingProgram& program, std::span<const float> numbers,
+             float beyond, float error, float diagonal)
         : options(all),
+          progress(told),
           constants(numbers),
           reach(beyond),
           rounding(error),

@@ -26,6 +26,13 @@ struct Found {
     struct Mark {
         std::size_t cells, code, outputs, proofs, near;
     };
+    /// About what a cell of so much takes as long as it exists, and Embree's tree over it: as it was found, its box and
+    /// bound again, its routine or that which it shares, and what vectors and tables have to spare.
+    static std::size_t bytes(const Mark& from, const Mark& to) {
+        return per_cell * (to.cells - from.cells) + per_instruction * (to.code - from.code) +
+               2 * sizeof(ProgramOutput) * (to.outputs - from.outputs) +
+               2 * sizeof(ProofPart) * (to.proofs - from.proofs) + 3 * sizeof(float) * (to.near - from.near);
+    }
     Mark mark() const { return {cells.size(), code.size(), outputs.size(), proofs.size(), near.size()}; }
     void forget_from(const Mark& m) {
         each(m, [](auto& of, std::size_t count) { of.resize(count); });
@@ -55,6 +62,8 @@ struct Found {
     }
 
   private:
+    static constexpr std::size_t per_cell = 2 * sizeof(Cell), per_instruction = 2 * sizeof(Instruction);
+
     template <class F>
     void each(const Mark& m, F&& f) {
         f(cells, m.cells);

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "cells/budget.hpp"
 #include "cells/found.hpp"
 
 namespace phasetree {
@@ -16,6 +17,7 @@ struct Worker {
     Workers& others;
     Arena programs{}, scratch{};
     FoundPieces found{};
+    CellAccount account{};           ///< for what was found
     std::vector<float> constants{};  ///< of the object, and for a while what local values want
 };
 
@@ -23,6 +25,9 @@ struct Worker {
 /// its cells do. Any thread may borrow.
 class Workers {
   public:
+    explicit Workers(CellBudget& budget) : budget_(budget) {}
+    CellBudget& budget() const { return budget_; }
+
     class Borrowed {
       public:
         Borrowed(Workers& from, std::unique_ptr<Worker> worker) : from_(&from), worker_(std::move(worker)) {}
@@ -57,6 +62,7 @@ class Workers {
         worker->programs.release({});
         worker->scratch.release({});
         worker->found = {};
+        worker->account = {};
         return {*this, std::move(worker)};
     }
 
@@ -66,6 +72,7 @@ class Workers {
         idle_.push_back(std::move(worker));
     }
 
+    CellBudget& budget_;
     std::mutex mutex_;
     std::size_t count_ = 0;
     std::vector<std::unique_ptr<Worker>> idle_;

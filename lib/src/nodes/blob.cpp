@@ -1,10 +1,13 @@
 #include "phasetree/nodes/fields/blob.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <queue>
+#include <span>
 
-#include "phasetree/model/walk.hpp"
+#include "nodes/prepared_field.hpp"
+#include "phasetree/nodes/node.hpp"
 
 namespace phasetree {
 
@@ -24,18 +27,49 @@ double steepness(const Blob& blob, const std::vector<double>& distances, double 
     return sum;
 }
 
-std::vector<double> distances_at(const Blob& blob, const glm::vec3& p) {
-    std::vector<double> all;
-    for (const glm::vec3& v : blob.points) all.push_back(static_cast<double>(glm::length(p - v)));
-    const Vec3<float> q{p.x, p.y, p.z};
-    if (!blob.segments.empty()) {
-        float nearest = Bounds::infinity;
-        for (const Blob::Segment& s : blob.segments) nearest = std::min(nearest, s.distance(q));
-        all.push_back(static_cast<double>(nearest));
+/// The distances to a blob's skeletons.
+class Skeletons {
+  public:
+    Skeletons(const Blob& blob, Preparation& preparation) : blob_(blob), preparation_(preparation) {
+        own_steps_ = blob.points.size() + 3 * blob.segments.size();
+        for (const Field& f : blob.of) fields_.emplace_back(Blob::info.name, f, preparation);
     }
-    for (const Field& f : blob.of) all.push_back(static_cast<double>(distance(f, p)));
-    return all;
-}
+
+    /// At each point of a batch, of which so many count.
+    void find(const BatchOfPoints& p, std::size_t count) {
+        preparation_.pay(count * own_steps_);
+        values_.clear();
+        for (PreparedField& f : fields_) values_.push_back(f(p));
+        for (std::size_t lane = 0; lane < count; ++lane) {
+            std::vector<double>& all = at_[lane];
+            all.clear();
+            const Vec3<float> q{p.x[lane], p.y[lane], p.z[lane]};
+            for (const glm::vec3& v : blob_.points)
+                all.push_back(static_cast<double>(glm::length(glm::vec3(q.x, q.y, q.z) - v)));
+            if (!blob_.segments.empty()) {
+                float nearest = Bounds::infinity;
+                for (const Blob::Segment& s : blob_.segments) nearest = std::min(nearest, s.distance(q));
+                all.push_back(static_cast<double>(nearest));
+            }
+            for (const BatchOfFloats& v : values_) all.push_back(static_cast<double>(v[lane]));
+        }
+    }
+    const std::vector<double>& at(std::size_t lane) const { return at_[lane]; }
+    /// Of one call of find().
+    std::uint64_t steps() const {
+        std::uint64_t steps = batch_size * (1 + own_steps_);
+        for (const PreparedField& f : fields_) steps += f.steps();
+        return steps;
+    }
+
+  private:
+    const Blob& blob_;
+    Preparation& preparation_;
+    std::vector<PreparedField> fields_;
+    std::uint64_t own_steps_ = 0;
+    std::vector<BatchOfFloats> values_;
+    std::array<std::vector<double>, batch_size> at_;
+};
 
 /// A bound of sup ‖∇b‖ over all of space, close to Σ wᵢ |gᵢ′| at its worst place: cubes over the supports, of which the
 /// one that allows most is divided until that no longer helps.
@@ -64,20 +98,35 @@ double blob_slope(const Blob& blob) {
     };
     std::priority_queue<Cube> cubes;
     double reached = 0;  // somewhere, the sum is that much
-    const auto add = [&](const glm::vec3& centre, float half) {
-        const std::vector<double> d = distances_at(blob, centre);
-        reached = std::max(reached, steepness(blob, d, 0));
-        cubes.push({steepness(blob, d, static_cast<double>(half) * std::sqrt(3.0) * (1 + 1e-6)), centre, half});
+    Preparation preparation(Blob::info.name);
+    Skeletons skeletons(blob, preparation);
+    const auto add = [&](std::span<const glm::vec3> centres, float half) {
+        BatchOfPoints points;
+        for (std::size_t lane = 0; lane < batch_size; ++lane)
+            points.set(lane, centres[std::min(lane, centres.size() - 1)]);
+        skeletons.find(points, centres.size());
+        for (std::size_t lane = 0; lane < centres.size(); ++lane) {
+            const std::vector<double>& d = skeletons.at(lane);
+            reached = std::max(reached, steepness(blob, d, 0));
+            cubes.push(
+                {steepness(blob, d, static_cast<double>(half) * std::sqrt(3.0) * (1 + 1e-6)), centres[lane], half});
+        }
     };
-    const glm::vec3 extent = support.extent();
-    add(support.centre(), 0.5f * std::max({extent.x, extent.y, extent.z}) * (1 + 1e-6f));
-    const std::size_t most = std::clamp<std::size_t>(2'000'000 / blob.count(), 2'000, 50'000);
+    const glm::vec3 extent = support.extent(), middle = support.centre();
+    add({&middle, 1}, 0.5f * std::max({extent.x, extent.y, extent.z}) * (1 + 1e-6f));
+    // Skeletons of many instructions are asked less often, and what is found is a bound all the same.
+    const std::uint64_t affordable = 8 * (preparation.left() / 2 / skeletons.steps());
+    const std::size_t most =
+        std::min<std::uint64_t>(std::clamp<std::size_t>(2'000'000 / blob.count(), 2'000, 50'000), affordable);
     for (std::size_t n = 0; n < most && cubes.top().bound > 1.02 * reached; n += 8) {
         const Cube cube = cubes.top();
         cubes.pop();
         const float half = 0.5f * cube.half;
+        std::array<glm::vec3, 8> centres;
         for (int corner = 0; corner < 8; ++corner)
-            add(cube.centre + half * glm::vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1), half);
+            centres[static_cast<std::size_t>(corner)] =
+                cube.centre + half * glm::vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+        add(centres, half);
     }
     return std::min(everywhere, cubes.top().bound);
 }

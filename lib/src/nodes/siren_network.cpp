@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/preparation.hpp"
 #include "phasetree/math/dual.hpp"
 #include "phasetree/math/spectral.hpp"
 #include "phasetree/nodes/fields/siren.hpp"
@@ -26,6 +27,8 @@ double spectral_norm(const SirenNetwork::Layer& layer) {
                 g[i * n + j] += wide ? at(i, k) * at(j, k) : at(k, i) * at(k, j);
     return std::sqrt(largest_eigenvalue(std::move(g), n));
 }
+
+constexpr std::uint64_t multiplications_a_step = 4;
 
 /// The van der Corput sequence.
 double radical_inverse(unsigned n, unsigned base) {
@@ -65,6 +68,11 @@ const char* SirenNetwork::mistake() const {
 }
 
 double SirenNetwork::spectral_bound() const {
+    Preparation preparation(Siren::info.name);
+    for (const Layer& layer : layers) {
+        const auto n = static_cast<std::uint64_t>(std::min(layer.inputs, layer.outputs));
+        preparation.pay(13 * n * n * n / multiplications_a_step);
+    }
     double product = 1;
     for (const Layer& layer : layers) product *= spectral_norm(layer);
     return product;
@@ -72,6 +80,8 @@ double SirenNetwork::spectral_bound() const {
 
 double SirenNetwork::sampled_slope(int points) const {
     const Siren::Network network{table(1)};
+    const auto multiplications = static_cast<std::uint64_t>(Siren::Network::multiplications(network.values.data()));
+    Preparation(Siren::info.name).pay(static_cast<std::uint64_t>(points) * multiplications / multiplications_a_step);
     double steepest = 0;
     for (int n = 0; n < points; ++n) {
         const auto coordinate = [&](unsigned base) {

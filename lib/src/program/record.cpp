@@ -36,6 +36,7 @@ class Recorder {
     }
 
     Recorded field(const Field& f, const RecordedPoint& p) {
+        work(1);
         const Key key{f.node(), p.id};
         if (const auto found = fields_.find(key); found != fields_.end()) return found->second;
         const Recorded r = std::visit(
@@ -52,6 +53,7 @@ class Recorder {
     }
 
     Phases<Recorded> phases(const Phased& a, const RecordedPoint& p) {
+        work(1);
         const Key key{a.node(), p.id};
         if (const auto found = objects_.find(key); found != objects_.end()) {
             Phases<Recorded> r;
@@ -82,6 +84,7 @@ class Recorder {
 
     /// Hash-consing: an instruction that is already there is not written again.
     Recorded emit(Op op, std::uint32_t a, std::uint32_t b, std::span<const float> data, float lipschitz) {
+        work(1 + data.size() / 16);
         std::uint64_t hash = mix(mix(static_cast<std::uint64_t>(op), a), b);
         for (const float f : data) hash = mix(hash, std::bit_cast<std::uint32_t>(f));
         for (;; ++hash) {
@@ -91,6 +94,11 @@ class Recorder {
                 if (next >= limit_)
                     throw ModelError(
                         fmt::format("the object takes more than {} instructions: shared shapes multiply it", limit_));
+                if (program_.constants.size() + data.size() > most_constants)
+                    throw ModelError(
+                        fmt::format("the object's instructions carry more than {} numbers: shared shapes "
+                                    "multiply those of an image, a network or an outline",
+                                    most_constants));
                 program_.instructions.push_back({op, a, b, static_cast<std::uint32_t>(program_.constants.size())});
                 program_.constants.insert(program_.constants.end(), data.begin(), data.end());
                 program_.lipschitz.push_back(lipschitz);
@@ -121,6 +129,15 @@ class Recorder {
         std::size_t operator()(const Key& k) const { return std::hash<const void*>()(k.node) * 31 + k.point; }
     };
 
+    /// Copies that come to the same write nothing, and are work all the same.
+    void work(std::size_t steps) {
+        work_ += steps;
+        if (work_ > most_work_for_one * limit_)
+            throw ModelError(
+                fmt::format("to find the object's instructions takes more than {} steps: shared shapes multiply them",
+                            most_work_for_one * limit_));
+    }
+
     /// The opcode of what is derived from the list of nodes.
     static Op derived(std::size_t index) {
         return static_cast<Op>(static_cast<std::size_t>(Op::first_primitive) + index);
@@ -144,8 +161,10 @@ class Recorder {
         return {reinterpret_cast<const float*>(&s), sizeof(Struct) / sizeof(float)};
     }
 
+    static constexpr std::size_t most_work_for_one = 40, most_constants = std::size_t{1} << 28;
+
     Program& program_;
-    std::size_t limit_;
+    std::size_t limit_, work_ = 0;
     std::unordered_map<std::uint64_t, std::uint32_t> known_;  ///< by hash, or the next free number after it
     std::unordered_map<Key, Recorded, Hash> fields_;
     std::unordered_map<Key, std::vector<std::pair<int, std::uint32_t>>, Hash> objects_;

@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "model/preparation.hpp"
 #include "phasetree/nodes/node.hpp"
 #include "phasetree/reading/object_reader.hpp"
 #include "phasetree/reading/suggest.hpp"
@@ -305,6 +306,7 @@ class Reader {
     }
 
     const Document& document_;
+    PreparationTogether preparation_;
     PhaseNames names_;
     std::optional<Value> shapes_;
     const FileReaders& files_;

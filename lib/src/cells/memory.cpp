@@ -1,0 +1,73 @@
+// How much memory there is for cells. Linux limits a group of processes, a container for one, by files
+// (https://docs.kernel.org/admin-guide/cgroup-v2.html, memory.max; before that memory.limit_in_bytes).
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include "phasetree/cells/cells.hpp"
+
+namespace phasetree {
+
+namespace {
+
+constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
+
+/// The number in a file; no limit if there is no file or no number ("max").
+std::uint64_t limit_in(const std::filesystem::path& file) {
+    std::uint64_t bytes = 0;
+    std::ifstream in(file);
+    return in >> bytes ? bytes : no_limit;
+}
+
+/// Of a group and all groups around it. In a container the mounted root is its own group, and the path may be unknown.
+std::uint64_t limit_of_group(const std::filesystem::path& root, const std::string& path, const char* file) {
+    std::uint64_t least = limit_in(root / file);
+    std::filesystem::path group = root;
+    for (const auto& part : std::filesystem::path(path).relative_path()) {
+        group /= part;
+        least = std::min(least, limit_in(group / file));
+    }
+    return least;
+}
+
+/// A line of /proc/self/cgroup is "0::/path", or "4:memory:/path" of the first version.
+std::uint64_t limit_of_groups() {
+    std::uint64_t least = no_limit;
+    std::ifstream groups("/proc/self/cgroup");
+    for (std::string line; std::getline(groups, line);) {
+        const std::size_t first = line.find(':'), second = line.find(':', first + 1);
+        if (first == std::string::npos || second == std::string::npos) continue;
+        const std::string controllers = line.substr(first + 1, second - first - 1), path = line.substr(second + 1);
+        if (controllers.empty())
+            least = std::min(least, limit_of_group("/sys/fs/cgroup", path, "memory.max"));
+        else if (controllers.find("memory") != std::string::npos)
+            least = std::min(least, limit_of_group("/sys/fs/cgroup/memory", path, "memory.limit_in_bytes"));
+    }
+    return least;
+}
+
+std::uint64_t physical_memory() {
+    const long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
+    return pages > 0 && size > 0 ? static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(size) : no_limit;
+}
+
+std::uint64_t limit_of_process() {
+    rlimit limit{};
+    return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY ? limit.rlim_cur : no_limit;
+}
+
+}  // namespace
+
+std::size_t default_cell_bytes() {
+    constexpr std::uint64_t most = std::uint64_t{2} << 30;
+    return static_cast<std::size_t>(
+        std::min(most, std::min({physical_memory(), limit_of_groups(), limit_of_process()}) / 4));
+}
+
+}  // namespace phasetree
