@@ -58,7 +58,7 @@ if(NOT status EQUAL 0)
 endif()
 
 string(REPLACE "." "\\." folder "${prefix}")
-set(packaging "${WORK}/plugins/packaging")
+set(packaging "${WORK}/plugins/packaging/libraries")
 file(GLOB_RECURSE scripts "${WORK}/*/cmake_install.cmake")
 set(install "")
 foreach(script ${scripts})
