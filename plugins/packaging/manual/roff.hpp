@@ -7,11 +7,11 @@
 namespace phasetree::manual {
 
 // Prose: a backslash stays one, and no line is taken for a request because of how it begins.
-inline std::string roff(std::string_view text) {
+inline std::string roff(std::string_view text, bool starts_line = true) {
     std::string escaped;
     for (const char c : text) {
-        const bool starts_line = escaped.empty() || escaped.back() == '\n';
         if (starts_line && (c == '.' || c == '\'')) escaped += "\\&";
+        starts_line = c == '\n';
         if (c == '\\')
             escaped += "\\e";
         else

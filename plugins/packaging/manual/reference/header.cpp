@@ -41,7 +41,7 @@ class Reader {
     int line() const { return 1 + static_cast<int>(std::count(text_.begin(), text_.begin() + position(at_), '\n')); }
 
     [[noreturn]] void fail(const std::string& what) const {
-        throw HeaderError(header_.file + ":" + std::to_string(line()) + ": " + what);
+        throw HeaderError(header_.file + ":" + std::to_string(begun_at_) + ": " + what);
     }
 
     static std::ptrdiff_t position(std::size_t at) { return static_cast<std::ptrdiff_t>(at); }
@@ -61,6 +61,7 @@ class Reader {
 
     void comment() {
         const bool is_first = at_ == 0;
+        begun_at_ = line();
         comment_ = blocks_of(up_to("*/"));
         together_ = false;
         rest_of_line();
@@ -68,7 +69,7 @@ class Reader {
     }
 
     void directive() {
-        declared_at_ = this->line();
+        begun_at_ = this->line();
         std::string line = up_to("\n");
         while (line.ends_with("\\\n")) line += up_to("\n");
         if (line.starts_with("#if defined(__cplusplus)")) {
@@ -87,7 +88,7 @@ class Reader {
     // Up to the semicolon outside of braces and parentheses, or a function's closing brace.
     void declaration() {
         const std::size_t from = at_;
-        declared_at_ = line();
+        begun_at_ = line();
         int depth = 0;
         const auto is_function = [&] { return !text_.substr(from, at_ - from).starts_with("typedef"); };
         for (;; ++at_) {
@@ -139,7 +140,7 @@ class Reader {
 
     void add(Declaration declaration) {
         if (!together_) {
-            header_.entries.push_back({{}, std::move(comment_), declared_at_});
+            header_.entries.push_back({{}, std::move(comment_), begun_at_});
             comment_.clear();
         }
         header_.entries.back().declarations.push_back(std::move(declaration));
@@ -150,7 +151,7 @@ class Reader {
     std::size_t at_ = 0;
     Header header_;
     std::vector<Block> comment_;  // the last one, until it has found its declaration
-    int declared_at_ = 0;         // the line of the declaration that is read
+    int begun_at_ = 0;            // the line where what is being read begins
     bool together_ = false;       // the next declaration has the last one's comment
 };
 

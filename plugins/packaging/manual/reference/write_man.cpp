@@ -16,7 +16,7 @@ std::string prose(const std::string& text) {
     for (const Span& span : spans_of(text)) {
         switch (span.style) {
             case Style::plain:
-                out += roff(span.text);
+                out += roff(span.text, out.empty());
                 break;
             case Style::emphasis:
                 out += "\\fI" + roff(span.text) + "\\fR";
