@@ -66,15 +66,19 @@ expect("${page}" "phasetreeSetGeometryShownPhases \\- Changes the phases to show
     ".SH \"ERRORS\"\n.TP\n.B PHASETREE_ERROR_INVALID_ARGUMENT\nan opaque phase is not among them\n"
     ".BR PhasetreeGeometryOptions (3)")
 
-# Nothing that groff would warn of; links aside, which it seeks among what is installed.
+# Nothing that groff would warn of.
 find_program(groff groff)
 if(groff)
-    file(GLOB pages "${PAGES}/*.3")
-    list(LENGTH pages count)
-    execute_process(COMMAND "${groff}" -man -Tutf8 -Kutf8 -ww -z ${pages} WORKING_DIRECTORY "${PAGES}/.."
-        RESULT_VARIABLE status ERROR_VARIABLE errors)
-    if(errors OR NOT status EQUAL 0)
-        message(FATAL_ERROR "groff says of ${count} pages:\n${errors}")
+    set(pages "")
+    foreach(function ${functions} phasetree_embree)
+        file(READ "${PAGES}/${function}.3" page)
+        if(NOT page MATCHES "^\\.so ")
+            list(APPEND pages "${PAGES}/${function}.3")
+        endif()
+    endforeach()
+    run("${groff}" -man -Tutf8 -Kutf8 -ww -z ${pages})
+    if(errors)
+        message(FATAL_ERROR "groff says of the pages:\n${errors}")
     endif()
 endif()
 

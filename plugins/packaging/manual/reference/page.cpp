@@ -90,6 +90,7 @@ void resolve_above(Page& page, const std::string& call_before) {
         text = std::regex_replace(text, above, "as for " + call_before, std::regex_constants::format_first_only);
     };
     if (call_before.empty()) return;
+    resolve(page.summary);
     for (Block& block : page.description) resolve(block.text);
     for (Definition& parameter : page.parameters) resolve(parameter.text);
 }
