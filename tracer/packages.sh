@@ -78,16 +78,16 @@ configure() {
         name_packages
         return 1
     fi
-    if ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$directory/CMakeCache.txt" 2>/dev/null; then
+    # The presets name Ninja, and a folder keeps what it was configured with; where ninja is not installed make serves.
+    local has_ninja=
+    ! command -v ninja >/dev/null && ! command -v ninja-build >/dev/null || has_ninja=yes
+    generator=$(sed -n 's/^CMAKE_GENERATOR:INTERNAL=//p' "$directory/CMakeCache.txt" 2>/dev/null)
+    if ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$directory/CMakeCache.txt" 2>/dev/null ||
+        { [ "$generator" = Ninja ] && [ -z "$has_ninja" ]; }; then
         # There is none, or the repository was moved or is mounted elsewhere and CMake would refuse the old cache.
         rm -rf "$directory/CMakeCache.txt" "$directory/CMakeFiles"
-    fi
-    # The presets name Ninja. A folder keeps the generator that it was configured with; where ninja is not installed a new
-    # one takes make.
-    generator=$(sed -n 's/^CMAKE_GENERATOR:INTERNAL=//p' "$directory/CMakeCache.txt" 2>/dev/null)
-    if [ -z "$generator" ]; then
         generator=Ninja
-        command -v ninja >/dev/null || command -v ninja-build >/dev/null || generator="Unix Makefiles"
+        [ "$has_ninja" ] || generator="Unix Makefiles"
     fi
     if ! (cd "$root" && cmake --preset "$preset" -G "$generator") >"$log" 2>&1; then
         cat "$log" >&2
