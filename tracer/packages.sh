@@ -71,20 +71,25 @@ install_packages() {
 # configure PRESET: runs CMake's configure step; on failure shows what CMake said and, if packages are missing, which.
 # Libraries from elsewhere are named as CMake wants it: CMAKE_PREFIX_PATH=/opt/embree bash tests/run.sh.
 configure() {
-    local preset=$1 directory="$root/build/$1" log="$root/build/$1/configure.log" generator=()
+    local preset=$1 directory="$root/build/$1" log="$root/build/$1/configure.log" generator=
     mkdir -p "$directory"
     if ! command -v cmake >/dev/null; then
         say "cmake is not installed."
         name_packages
         return 1
     fi
-    if ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$directory/CMakeCache.txt" 2>/dev/null; then
+    # The presets name Ninja, and a folder keeps what it was configured with; where ninja is not installed make serves.
+    local has_ninja=
+    ! command -v ninja >/dev/null && ! command -v ninja-build >/dev/null || has_ninja=yes
+    generator=$(sed -n 's/^CMAKE_GENERATOR:INTERNAL=//p' "$directory/CMakeCache.txt" 2>/dev/null)
+    if ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$directory/CMakeCache.txt" 2>/dev/null ||
+        { [ "$generator" = Ninja ] && [ -z "$has_ninja" ]; }; then
         # There is none, or the repository was moved or is mounted elsewhere and CMake would refuse the old cache.
         rm -rf "$directory/CMakeCache.txt" "$directory/CMakeFiles"
-        # Ninja is quicker when little has changed; where it is not installed CMake takes make.
-        ! command -v ninja >/dev/null || generator=(-G Ninja)
+        generator=Ninja
+        [ "$has_ninja" ] || generator="Unix Makefiles"
     fi
-    if ! (cd "$root" && cmake --preset "$preset" "${generator[@]}") >"$log" 2>&1; then
+    if ! (cd "$root" && cmake --preset "$preset" -G "$generator") >"$log" 2>&1; then
         cat "$log" >&2
         name_packages
         return 1

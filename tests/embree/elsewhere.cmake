@@ -69,7 +69,9 @@ file(WRITE "${WORK}/install.cmake" "${install}")
 expect("${WORK}/install.cmake"
     "libphasetree_embree${MAJOR}\\.so[^\n]*\"\n[^\n]*RPATH \"${folder}/lib\""
     "/bin/phasetree\"\n[^\n]*RPATH \"${folder}/lib\"")
-expect("${packaging}/phasetreeConfig.cmake"
+expect("${packaging}/libraries/phasetreeConfig.cmake"
     "find_path\\(PHASETREE_[^\n]*HINTS \"${folder}/include\"" "find_library\\(PHASETREE_[^\n]*HINTS \"${folder}/lib\"")
-expect("${packaging}/phasetree-embree${MAJOR}.pc" "Cflags:[^\n]* -I${folder}/include" "Libs:[^\n]* -L${folder}/lib -lembree")
+expect("${packaging}/libraries/phasetree-embree${MAJOR}.pc" "Cflags:[^\n]* -I${folder}/include" "Libs:[^\n]* -L${folder}/lib -lembree")
+# cpack says that a package cannot depend on that one.
+expect("${packaging}/cpack.cmake" "set\\(embree_folders \"${folder}/lib\"\\)")
 file(REMOVE_RECURSE "${prefix}" "${WORK}")

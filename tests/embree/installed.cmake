@@ -3,23 +3,7 @@
 #   cmake -DBUILD=… -DWORK=… -DMAJOR=3 -DCONFIG=Release -DGENERATOR=Ninja -P installed.cmake
 cmake_minimum_required(VERSION 3.25)
 
-function(run)
-    execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors)
-    if(NOT status EQUAL 0)
-        string(JOIN " " command ${ARGN})
-        message(FATAL_ERROR "${command}\nended with ${status}\n${output}\n${errors}")
-    endif()
-    set(output "${output}" PARENT_SCOPE)
-endfunction()
-
-function(expect text)
-    foreach(part ${ARGN})
-        string(FIND "${text}" "${part}" at)
-        if(at EQUAL -1)
-            message(FATAL_ERROR "\"${part}\" is not in\n${text}")
-        endif()
-    endforeach()
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/../packaging/checks.cmake)
 
 file(REMOVE_RECURSE "${WORK}")
 set(prefix "${WORK}/prefix")
@@ -29,9 +13,10 @@ run(${CMAKE_COMMAND} --install "${BUILD}" --prefix "${prefix}" --config "${CONFI
 file(GLOB_RECURSE installed RELATIVE "${prefix}" "${prefix}/*")
 expect("${installed}" include/phasetree/phasetree_embree.h include/phasetree/phasetree_embree.hpp include/phasetree/embree/hit.h
     include/phasetree/model/handle.hpp libphasetree_embree${MAJOR}.so libphasetree.a cmake/phasetree/phasetreeConfig.cmake
-    pkgconfig/phasetree-embree${MAJOR}.pc share/phasetree/scenes/hourglass.json share/phasetree/phasetree.ocio)
+    pkgconfig/phasetree-embree${MAJOR}.pc share/phasetree/scenes/hourglass.json
+    share/man/man3/phasetreeDecodeHit.3 share/doc/phasetree/reference.html)
 if(EXISTS "${prefix}/bin/phasetree")
-    expect("${installed}" share/man/man1/phasetree.1)
+    expect("${installed}" share/man/man1/phasetree.1 share/phasetree/phasetree.ocio)
     run("${prefix}/bin/phasetree" --version)
     expect("${output}" "phasetree ")
 endif()
@@ -72,6 +57,14 @@ if(NOT status EQUAL 1)
     message(FATAL_ERROR "phases of a missing file ended with ${status}")
 endif()
 expect("${errors}" "/no/such.json")
+
+# Whichever Embree is there, where nobody says which: the newest of those installed.
+file(GLOB_RECURSE majors "${prefix}/*/phasetree-embree?.cmake")
+list(SORT majors ORDER DESCENDING)
+list(GET majors 0 newest)
+string(REGEX REPLACE ".*embree([34])\\.cmake$" "phasetree::embree\\1" newest "${newest}")
+run(${CMAKE_COMMAND} -G "${GENERATOR}" -S "${examples}" -B "${WORK}/examples-default" -DCMAKE_PREFIX_PATH=${prefix})
+expect("${output}" "The examples use ${newest}\n")
 
 # By pkg-config.
 find_program(pkg_config pkg-config)

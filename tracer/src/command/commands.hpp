@@ -19,4 +19,7 @@ void add_eval(CLI::App& app, Run& run);
 void add_trace(CLI::App& app, Run& run);
 void add_nodes(CLI::App& app, Run& run);
 
+// All of them, in the order of the help.
+void add_commands(CLI::App& app, Run& run);
+
 }  // namespace phasetree::tracer

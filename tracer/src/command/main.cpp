@@ -21,12 +21,7 @@ int run_command(int argc, char** argv) {
     app.set_version_flag("--version", fmt::format("phasetree {}", version()));
     app.require_subcommand(1);
     tracer::Run run;
-    tracer::add_render(app, run);
-    tracer::add_check(app, run);
-    tracer::add_info(app, run);
-    tracer::add_eval(app, run);
-    tracer::add_trace(app, run);
-    tracer::add_nodes(app, run);
+    tracer::add_commands(app, run);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

@@ -9,12 +9,12 @@
 extern "C" {
 #endif
 
-/* What phasetreeNewGeometry registers with Embree. geometryUserPtr is the PhasetreeGeometry. */
+/* The callbacks that phasetreeNewGeometry registers with Embree. geometryUserPtr is the PhasetreeGeometry. */
 PHASETREE_API void phasetreeBoundsFunction(const struct RTCBoundsFunctionArguments* args);
 PHASETREE_API void phasetreeIntersectFunction(const struct RTCIntersectFunctionNArguments* args);
 PHASETREE_API void phasetreeOccludedFunction(const struct RTCOccludedFunctionNArguments* args);
 
-/* The same for a primitive of an RTCGeometry that is the application's own: from its callbacks it calls these with the
+/* Callbacks for a primitive of an RTCGeometry that is the application's own: from its callbacks it calls these with the
  * handle, and the arguments just as Embree gave them (Embree keeps more behind them than it tells; a copy will not do).
  * primID is not looked at. Filters are those of the application's RTCGeometry. Handles without references: nothing is
  * hit, and the bounds are empty. */

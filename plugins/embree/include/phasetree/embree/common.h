@@ -38,9 +38,11 @@ extern "C" {
 /* No phase known: see PhasetreeMedium. */
 #define PHASETREE_UNKNOWN_PHASE 0xffffffffu
 
+/* Handles: opaque and reference counted. */
 typedef struct PhasetreeTreeHandle* PhasetreeTree;
 typedef struct PhasetreeGeometryHandle* PhasetreeGeometry;
 
+/* What a call returns. Why it failed is told by phasetreeGetErrorMessage. */
 typedef enum PhasetreeError {
     PHASETREE_ERROR_NONE = 0,
     PHASETREE_ERROR_INVALID_HANDLE = 1,   /* NULL, freed, of another kind, or not ours at all */
@@ -54,11 +56,11 @@ typedef enum PhasetreeError {
     PHASETREE_ERROR_UNKNOWN = 9
 } PhasetreeError;
 
-/* The version of the library that is linked, as PHASETREE_API_VERSION. */
+/* Returns the version of the library that is linked, as PHASETREE_API_VERSION. */
 PHASETREE_API unsigned int phasetreeGetApiVersion(void);
 
-/* What was wrong with the last call of *this thread* that failed, for a person, in UTF-8, without a newline at its end;
- * "" if none has. Good until the next call of this thread that fails, or the thread's end. */
+/* Returns what was wrong with the last call of *this thread* that failed, for a person, in UTF-8, without a newline at
+ * its end; "" if none has. Good until the next call of this thread that fails, or the thread's end. */
 PHASETREE_API const char* phasetreeGetErrorMessage(void);
 
 #if defined(__cplusplus)

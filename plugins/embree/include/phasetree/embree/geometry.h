@@ -12,6 +12,7 @@ extern "C" {
 typedef uint64_t PhasetreePhaseSet;
 #define PHASETREE_ALL_PHASES (~(PhasetreePhaseSet)0)
 
+/* What is particular to a geometry, as bits of PhasetreeGeometryOptions.flags. */
 typedef enum PhasetreeGeometryFlags {
     PHASETREE_GEOMETRY_FLAG_NONE = 0,
     /* Every ray query that can reach the geometry has a PhasetreeRayContext for its context: see there. Without the
@@ -50,6 +51,7 @@ typedef struct PhasetreeGeometryOptions {
     void* cancelledUserPtr;
 } PhasetreeGeometryOptions;
 
+/* Sets the defaults. */
 static inline void phasetreeInitGeometryOptions(PhasetreeGeometryOptions* options) {
     options->flags = PHASETREE_GEOMETRY_FLAG_NONE;
     options->resolution = 0;
@@ -92,6 +94,8 @@ static inline void phasetreeInitGeometryOptions(PhasetreeGeometryOptions* option
 PHASETREE_API PhasetreeError phasetreeNewGeometry(unsigned int apiVersion, RTCDevice device, PhasetreeTree tree,
                                                   const PhasetreeGeometryOptions* options, PhasetreeGeometry* geometry);
 
+/* Adds a reference to a geometry, or takes one away: the last one frees it. When that may be, phasetreeNewGeometry
+ * tells. */
 PHASETREE_API PhasetreeError phasetreeRetainGeometry(PhasetreeGeometry geometry);
 PHASETREE_API PhasetreeError phasetreeReleaseGeometry(PhasetreeGeometry geometry);
 
@@ -141,6 +145,7 @@ PHASETREE_API PhasetreeError phasetreeSetGeometryShownPhases(PhasetreeGeometry g
 PHASETREE_API PhasetreeError phasetreeSetGeometryMotion(PhasetreeGeometry geometry, const float* transforms,
                                                         unsigned int timeStepCount, float startTime, float endTime);
 
+/* What was built of a geometry. */
 typedef struct PhasetreeGeometryStatistics {
     size_t cells; /* primIDs of hits are below this */
     size_t bytes; /* of the cells and their programs, without Embree's tree over them */
@@ -149,6 +154,7 @@ typedef struct PhasetreeGeometryStatistics {
     float buildSeconds;                                             /* of the cells */
 } PhasetreeGeometryStatistics;
 
+/* Tells what was built of a geometry, and how long that took. */
 PHASETREE_API PhasetreeError phasetreeGetGeometryStatistics(PhasetreeGeometry geometry,
                                                             PhasetreeGeometryStatistics* statistics);
 

@@ -19,8 +19,8 @@ typedef struct PhasetreeHit {
     float pointIn[3], pointOut[3]; /* in geometry space */
 } PhasetreeHit;
 
-/* The phases of hit i among N, within a filter function (C has none of Embree's accessors) or anywhere else: the one
- * that the ray leaves, and the one that it enters. Only for hits of a phasetree geometry. */
+/* Returns a phase of hit i among N, within a filter function (C has none of Embree's accessors) or anywhere else: the
+ * one that the ray leaves, or the one that it enters. Only for hits of a phasetree geometry. */
 static inline unsigned int phasetreeGetPhaseLeft(const struct RTCHitN* hits, unsigned int N, unsigned int i) {
     return (unsigned int)((const float*)hits)[3 * N + i];
 }
@@ -81,6 +81,7 @@ typedef struct PhasetreeRayContext {
     void (*filter)(const struct RTCFilterFunctionNArguments* args);
 } PhasetreeRayContext;
 
+/* Initialises Embree's context, and ours so that rays carry nothing. */
 static inline void phasetreeInitRayContext(PhasetreeRayContext* context) {
 #if RTC_VERSION_MAJOR >= 4
     rtcInitRayQueryContext(&context->context);

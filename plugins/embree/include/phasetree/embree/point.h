@@ -52,6 +52,7 @@ typedef struct PhasetreePointQueryGeometry {
     PhasetreeGeometry geometry;
 } PhasetreePointQueryGeometry;
 
+/* What a point query of a whole scene is told, and what it finds: the user pointer of rtcPointQuery. */
 typedef struct PhasetreePointQuery {
     unsigned int apiVersion; /* PHASETREE_API_VERSION */
     const PhasetreePointQueryGeometry* geometries;
@@ -64,10 +65,10 @@ typedef struct PhasetreePointQuery {
     unsigned int geomID, instID;
 } PhasetreePointQuery;
 
-/* For rtcPointQuery: as its callback, or registered with geometries (PHASETREE_GEOMETRY_FLAG_POINT_QUERY). The query's
- * user pointer is a PhasetreePointQuery. Shrinks the query's radius to the distance found, as Embree wants it, so that
- * it goes well with an application's own callbacks for meshes, called from one that dispatches by geomID. Works within
- * instances of any affine transform. */
+/* The callback for rtcPointQuery: given to it, or registered with geometries (PHASETREE_GEOMETRY_FLAG_POINT_QUERY). The
+ * query's user pointer is a PhasetreePointQuery. Shrinks the query's radius to the distance found, as Embree wants it,
+ * so that it goes well with an application's own callbacks for meshes, called from one that dispatches by geomID. Works
+ * within instances of any affine transform. Returns true if it has shrunk the radius. */
 PHASETREE_API bool phasetreePointQueryFunction(struct RTCPointQueryFunctionArguments* args);
 
 #if defined(__cplusplus)

@@ -11,8 +11,10 @@ extern "C" {
 /* Where PhasetreeFileReader.readImage puts an image: only within that call. */
 typedef struct PhasetreeImageSink* PhasetreeImage;
 
-/* Sets an image's size in pixels and returns room for its width·height values, owned by the library: rows from the top,
- * each value from 0 (low) to 1 (high). NULL if a size is 0, above 32768, or memory is short. */
+/* Sets an image's size in pixels and makes room for its values.
+ *
+ * returns  the room, owned by the library, for width·height values: rows from the top, each value from 0 (low) to 1
+ *          (high). NULL if a size is 0, above 32768, or memory is short. */
 PHASETREE_API float* phasetreeNewImageValues(PhasetreeImage image, unsigned int width, unsigned int height);
 
 /* How height maps are read, the only images that trees name; the library itself reads none. readImage is called during
@@ -35,7 +37,7 @@ typedef struct PhasetreeFileReader {
 PHASETREE_API PhasetreeError phasetreeNewTreeFromFile(unsigned int apiVersion, const char* path,
                                                       const PhasetreeFileReader* reader, PhasetreeTree* tree);
 
-/* The same from a text in memory.
+/* Reads a tree from a text in memory, else as phasetreeNewTreeFromFile does.
  *
  * text    UTF-8, `length` bytes; need not end with 0. Copied.
  * name    what errors call it, and, taken for a path, beside what files are sought; NULL: "<text>" and the working
@@ -54,6 +56,7 @@ PHASETREE_API PhasetreeError phasetreeNewTreeFromText(unsigned int apiVersion, c
 PHASETREE_API PhasetreeError phasetreeNewEditedTree(PhasetreeTree tree, const char* path, const char* value,
                                                     PhasetreeTree* edited);
 
+/* Adds a reference to a tree, or takes one away: the last one frees it. */
 PHASETREE_API PhasetreeError phasetreeRetainTree(PhasetreeTree tree);
 PHASETREE_API PhasetreeError phasetreeReleaseTree(PhasetreeTree tree);
 

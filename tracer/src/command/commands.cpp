@@ -1,0 +1,14 @@
+#include "command/commands.hpp"
+
+namespace phasetree::tracer {
+
+void add_commands(CLI::App& app, Run& run) {
+    add_render(app, run);
+    add_check(app, run);
+    add_info(app, run);
+    add_eval(app, run);
+    add_trace(app, run);
+    add_nodes(app, run);
+}
+
+}  // namespace phasetree::tracer
