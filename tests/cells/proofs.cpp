@@ -83,8 +83,7 @@ TEST_CASE("rays along what bends beside edges, and along rounded edges, meet wha
         CAPTURE(n);
         CHECK(all.different == before);
     }
-    MESSAGE(all.rays, " rays, ", all.crossings, " crossings, ", all.different, " different; ", all.creeping,
-            " stretches along which one creeps, halved");
+    MESSAGE(all.rays, " rays, ", all.crossings, " crossings, ", all.different, " different");
     CHECK(all.crossings > all.rays);
 }
 

@@ -17,8 +17,10 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 const Phased object =
     Under{.of = {Set{.phase = Phase{1}, .of = Sphere{}}, Set{.phase = Phase{2}, .of = Box{.size = {1, 1, 3}}}}};
 
-/// Batches that a ray may take at most: the resolution doubles for every 64 beyond 256.
+/// Batches that a ray takes at most where what it creeps along can be enclosed.
 constexpr std::uint64_t most_batches = 5000;
+/// And at all, by the law of trace/creep.hpp: 524,288, and then some for each doubling of its steps.
+constexpr std::uint64_t most_batches_at_all = 600'000;
 
 }  // namespace
 
@@ -141,5 +143,73 @@ TEST_CASE("the work of one ray is bounded, also along an interface and for phant
         }
     }
     MESSAGE("most batches of one ray: ", most);
-    CHECK(most < most_batches);
+    CHECK(most < most_batches_at_all);
+}
+
+TEST_CASE("a ray creeps along any surface in bounded time, at any resolution, and then finds what is there") {
+    const auto turned = [](Field f) { return warped(Rotate{.axis = {1, 2, 3}, .angle = 40}, std::move(f)); };
+    const auto twisted = [](Field f) { return warped(Twist{.rate = 180}, std::move(f)); };
+    const Field outline = Polygon{.points = {{-0.5f, -0.3f}, {0.5f, -0.3f}, {0.5f, 0.25f}, {-0.5f, 0.25f}}};
+    struct Creep {
+        std::string along;
+        Field solid;
+        glm::vec3 from, direction;
+        std::uint64_t most;
+    };
+    const Creep creeps[] = {
+        {"a face", Box{.size = glm::vec3(1)}, {-3, 0.1f, 0.5f}, {1, 0, 0}, most_batches},
+        {"an edge", Box{.size = glm::vec3(1)}, {-3, 0.5f, 0.5f}, {1, 0, 0}, most_batches},
+        {"a seam",
+         Union{.of = {Box{.size = glm::vec3(1)}, warped(Translate{{0, 1, 0}}, Box{.size = glm::vec3(1)})}},
+         {-3, 0.5f, 0.5f},
+         {1, 0, 0},
+         most_batches},
+        {"a line of a cylinder", Cylinder{.radius = 0.5f, .height = 2}, {0.3f, 0.4f, -5}, {0, 0, 1}, most_batches},
+        {"a twisted surface", twisted(Box{.size = {1, 0.5f, 2}}), {-3, 0.25f, 0}, {1, 0, 0}, most_batches},
+        {"a pyramid's face", Pyramid{.base = 2, .height = 1}, {3, 0, -2.5f}, {-1, 0, 1}, most_batches},
+        {"an outline", Extrude{.of = outline, .height = 1}, {-3, 0.25f, 0.1f}, {1, 0, 0}, most_batches_at_all},
+    };
+    Evaluator::Workspace w;
+    for (const bool is_turned : {false, true}) {
+        for (const Creep& creep : creeps) {
+            CAPTURE(creep.along);
+            CAPTURE(is_turned);
+            const glm::vec3 d = glm::normalize(creep.direction);
+            const float far = 6;
+            const Field ball = warped(Translate{creep.from + far * d}, Sphere{.radius = 0.1f});
+            const Field both = Union{.of = {creep.solid, ball}};
+            const Field placed = is_turned ? turned(both) : both;
+            // The same place of the ray in turned space.
+            Rotate turn{.axis = {1, 2, 3}, .angle = 40};
+            prepare(turn);
+            const auto place = [&](const glm::vec3& p) { return is_turned ? turn.matrix * p : p; };
+            const glm::vec3 o = place(creep.from), along = glm::normalize(place(d));
+            const Phased object_of_creep = Set{.phase = Phase{1}, .of = placed};
+            for (const float finer : {1.f, 8.f, 1000.f}) {
+                CAPTURE(finer);
+                const float chosen = InterfaceTracer(object_of_creep).resolution();
+                const InterfaceTracer tracer(object_of_creep, chosen / finer);
+                glm::vec3 from = o;
+                Phase carried = vacuum;
+                float passed = 0;
+                std::uint64_t most = 0;
+                bool is_found = false;
+                // What is within rounding of the surface may be in it for some while.
+                for (int n = 0; n < 100; ++n) {
+                    TraceCounters c;
+                    const auto hit = tracer.first_crossing(from, along, 0, infinity, carried, w, &c);
+                    most = std::max(most, c.batches);
+                    if (!hit) break;
+                    passed += hit->t_out;
+                    is_found = is_found || (hit->to == Phase{1} && std::abs(passed - (far - 0.1f)) < 1e-4f);
+                    from = hit->p_out;
+                    carried = hit->to;
+                }
+                CHECK(most < (finer > 1 ? most_batches_at_all : creep.most));
+                if (finer > 1) continue;  // below floats' own resolution a ray may cross a face at each step
+                CHECK(is_found);
+                CHECK(most > 256);
+            }
+        }
+    }
 }

@@ -96,24 +96,9 @@ std::optional<Crossing> beyond_hairs(const Phased& object, const glm::vec3& orig
     return c;
 }
 
-/// What `trace` finds between two places of a ray. One that creeps along an interface for more than 256 batches is
-/// traced at a coarser resolution than stated, by the law in march.inl; so it is traced in halves then, until no part
-/// creeps.
-template <class Trace>
-std::optional<Crossing> traced_in_halves(const Trace& trace, float from, float to, std::size_t& creeping) {
-    TraceCounters counters;
-    const std::optional<Crossing> hit = trace(from, to, counters);
-    const float middle = 0.5f * (from + to);
-    if (counters.batches <= 256 || !(from < middle && middle < to)) return hit;
-    ++creeping;
-    if (const auto before = traced_in_halves(trace, from, middle, creeping)) return before;
-    return traced_in_halves(trace, middle, to, creeping);
-}
-
 /// Over all cells, in the order in which the ray enters them.
 inline std::optional<Crossing> nearest_crossing(const InterfaceCells& cells, const glm::vec3& p, const glm::vec3& d,
-                                                Phase phase, Evaluator::Workspace& w, TraceCounters& counters,
-                                                std::size_t& creeping) {
+                                                Phase phase, Evaluator::Workspace& w, TraceCounters& counters) {
     struct Met {
         float enter, leave;
         std::size_t cell;
@@ -133,22 +118,15 @@ inline std::optional<Crossing> nearest_crossing(const InterfaceCells& cells, con
     std::optional<Crossing> nearest;
     for (const auto& [enter, leave, c] : met) {
         if (nearest && nearest->t_in < enter) break;
-        const auto in_cell = [&](float from, float to, TraceCounters& some) {
-            const auto hit = cells.first_crossing(c, p, d, from, to, phase, w, some);
-            counters.visits += some.visits;
-            counters.batches += some.batches;
-            counters.phantoms += some.phantoms;
-            return hit;
-        };
-        const auto hit =
-            traced_in_halves(in_cell, 0, std::min(leave + 1e-3f, nearest ? nearest->t_in : 1e6f), creeping);
+        const float end = std::min(leave + 1e-3f, nearest ? nearest->t_in : 1e6f);
+        const auto hit = cells.first_crossing(c, p, d, 0, end, phase, w, counters);
         if (hit && (!nearest || hit->t_in < nearest->t_in)) nearest = hit;
     }
     return nearest;
 }
 
 struct Compared {
-    std::size_t rays = 0, crossings = 0, different = 0, into_opaque = 0, creeping = 0;
+    std::size_t rays = 0, crossings = 0, different = 0, into_opaque = 0;
     TraceCounters counters{};
 };
 
@@ -189,13 +167,10 @@ inline void compare_ray(const Phased& object, const InterfaceCells& cells, const
     for (int n = 0; n < 100 && !opaque.contains(phase); ++n) {
         const auto by_whole = [&](const glm::vec3& from, Phase in) {
             const float end = glm::distance(from, tracer.bounds().centre()) + tracer.bounds().diagonal();
-            const auto whole = [&](float a, float b, TraceCounters& some) {
-                return tracer.first_crossing(from, d, a, b, in, w, &some);
-            };
-            return traced_in_halves(whole, 0, end, result.creeping);
+            return tracer.first_crossing(from, d, 0, end, in, w);
         };
         const auto by_cells = [&](const glm::vec3& from, Phase in) {
-            return nearest_crossing(cells, from, d, in, w, result.counters, result.creeping);
+            return nearest_crossing(cells, from, d, in, w, result.counters);
         };
         // A ray that grazes an interface may cross it anywhere there.
         const auto is_there = [&](const std::optional<Crossing>& a, const std::optional<Crossing>& b) {

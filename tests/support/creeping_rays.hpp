@@ -327,12 +327,6 @@ void check(const Scene& scene, const Tracer& tracer, Totals& totals) {
             s2 << "phase " << int(s.phase.index) << " from " << s.enters << " to " << s.leaves << " is missed ("
                << (s.leaves - s.enters) / resolution << " resolutions)" << (enters ? ", its end" : "")
                << (leaves ? ", its begin" : "") << ", aside " << aside / resolution;
-            if (std::getenv("DUMP")) {
-                std::printf("%s: root %.9f %.9f phase %d exact labels:", scene.kind.c_str(), s.enters, s.leaves, int(s.phase.index));
-                for (int k = -2; k <= 12; ++k) std::printf(" %d", int(tests::label(scene.object, o + (s.enters + k * 0.1 * (s.leaves - s.enters)) * d).index));
-                std::printf("\n");
-                for (const Change& c : changes) if (c.out > s.enters - 0.1 && c.in < s.leaves + 0.1) std::printf("   %.9f %.9f %d -> %d\n", c.in, c.out, int(c.from.index), int(c.to.index));
-            }
             complain(s2.str());
         }
     }

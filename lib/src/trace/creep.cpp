@@ -15,7 +15,7 @@ namespace {
 constexpr float first_stretch = 1024, shortest_stretch = 256;
 /// What enclosing a stretch costs, in batches.
 constexpr std::uint64_t batches_to_enclose = 32;
-constexpr std::uint64_t batches_of_walk = 256, most_batches = 131'072;
+constexpr std::uint64_t batches_of_walk = 256, most_batches = 524'288;
 /// In resolutions: so far from an interface a ray creeps no more.
 constexpr float away = 16;
 /// Of a resolution: a step's length, with room for the rounding of places.

@@ -13,10 +13,11 @@
 /// plane one such stretch is all there is of it; what bends takes stretches of about √(resolution · radius).
 ///
 /// Where that proves nothing (outlines, patterns and images, whose derivatives are not known) the ray walks by steps of
-/// a resolution, eight in a batch, while the interface is near; so the work is bounded by the length of the creep.
-/// After most_batches, 131,072, twice as many as take a ray along the whole object at the resolution that is chosen for
-/// it, steps double every 256 batches for the rest of this creep, so that no ray takes forever at any resolution. What
-/// the ray meets behind the creep, or when a label changes in it, is searched for at the resolution.
+/// a resolution, eight in a batch, while the interface is near; and where the label flickers by rounding the kernel
+/// goes on, at three resolutions a batch. So the work is bounded by the length of the creep. The longest ray through an
+/// object has half a million resolutions, as they are chosen; after so many batches (most_batches) steps double every
+/// 256 batches until the ray is away from the interface, so that no ray takes forever at any resolution. What it
+/// meets there is searched for at the resolution again.
 namespace phasetree {
 
 /// Ends a search that the kernel has left unfinished; whether there is a crossing.
