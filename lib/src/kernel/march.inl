@@ -78,16 +78,16 @@ class March {
 
     /// Samples a frame, and finds out which of its gaps are in doubt; the first one is from `from`. False, and nothing
     /// done, if no sample is strictly between `from` and `to`: no float lies there.
-    bool fill(Frame& f, const Batch& t, const Place& from, float to, float fine, bool is_whole = false) {
+    bool fill(Frame& f, const Batch& t, const Place& from, float to, bool is_whole = false) {
         const Classified c = sample(t, is_whole);
         if (!(bits(less(Batch(from.t), t)) & bits(less(t, Batch(to))))) return false;
         store(t, f.t);
         store(c.distance, f.distance);
         store(c.label, f.label);
-        judge(f, t, c, from, fine);
+        judge(f, t, c, from);
         return true;
     }
-    HWY_INLINE void judge(Frame& f, const Batch& t, const Classified& c, const Place& from, float fine) const {
+    HWY_INLINE void judge(Frame& f, const Batch& t, const Classified& c, const Place& from) const {
         f.from = {from.t, from.distance, phase_};
         f.next = 0;
         const std::uint32_t other = bits(less(c.label, Batch(phase_))) | bits(less(Batch(phase_), c.label));
@@ -97,7 +97,7 @@ class March {
         if (ray_.is_monotone) return;  // between two places of one label it stays
         const Batch gap = t - shifted(t, from.t), covered = c.distance + shifted(c.distance, from.distance);
         std::uint32_t open = bits(less(covered, gap * ray_.slope));
-        const std::uint32_t is_long = bits(less(Batch(fine), gap));
+        const std::uint32_t is_long = bits(less(Batch(ray_.resolution), gap));
         if (is_curvature_known_ && (open & is_long)) {
             const Batch margin(rounding()), zero(0.f), half_curvature(half_curvature_);
             const Batch b = max(c.distance - margin, zero), a = shifted(b, larger(from.distance - rounding(), 0.f));
@@ -228,7 +228,7 @@ bool March::find(RayCrossing& result) {
         is_provable_ = !is_curvature_known_ && routine_.proof_steps > 0 &&
                        (routine_.outputs[0].phase == phase_ || is_shared(routine_));
         other_.label = none;
-        judge(f, t, c, here_, resolution);
+        judge(f, t, c, here_);
         if (f.doubt == 0) return false;
         f.next = 1;
         break;
@@ -269,7 +269,7 @@ bool March::find(RayCrossing& result) {
         }
         if (next.t - here_.t > resolution) {
             if (is_pinned(next, lane, result)) return true;
-            if (!fill(frames[depth], narrowing(f, lane, next), here_, next.t, resolution, true)) break;
+            if (!fill(frames[depth], narrowing(f, lane, next), here_, next.t, true)) break;
             ++depth;
             continue;
         }
@@ -283,7 +283,7 @@ bool March::find(RayCrossing& result) {
         if (batches_ >= most_batches) return pause(result);
         if (depth == 0) {
             if (here_.t >= length) return false;
-            if (!fill(frames[0], spread_evenly(here_.t, length), here_, 3.402823466e38f, resolution)) return false;
+            if (!fill(frames[0], spread_evenly(here_.t, length), here_, 3.402823466e38f)) return false;
             depth = 1;
             is_aligned = true;
         }
@@ -322,7 +322,7 @@ bool March::find(RayCrossing& result) {
                 continue;
             }
             const Batch t = look_ahead(f, is_aligned ? f.next : -1, next);
-            if (fill(frames[depth], t, here_, next.t, resolution, !same)) {
+            if (fill(frames[depth], t, here_, next.t, !same)) {
                 ++depth;
                 is_aligned = true;
                 continue;

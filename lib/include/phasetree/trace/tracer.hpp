@@ -19,9 +19,9 @@ TraceableObject prepare_to_trace(const Phased& object, float resolution = 0);
 /// Traces rays from phase to phase through one object. Immutable; any thread may use it, each with its own Workspace.
 class InterfaceTracer {
   public:
-    /// `resolution`: nothing thinner along a ray is guaranteed to be seen, nor what is up to 2.75 times as
-    /// thick and deeper than a sixteenth of it for no longer than it; 0 chooses 2·10⁻⁶ of the object's diagonal
-    /// or what float coordinates allow where the object is far from the origin.
+    /// `resolution`: nothing thinner along a ray is guaranteed to be seen, nor what is up to 2.75 times as thick and
+    /// deeper than a sixteenth of it for no longer than it, nor what a ray within a surface is nowhere deeper in than
+    /// that; 0 chooses 2·10⁻⁶ of the object's diagonal or what float coordinates allow far from the origin.
     /// Throws ModelError if the object is unbounded or empty.
     explicit InterfaceTracer(const Phased& object, float resolution = 0);
 
