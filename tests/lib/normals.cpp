@@ -229,7 +229,7 @@ TEST_CASE("a ray within rounding of a plane that it runs along has the plane's n
     const FlushSubnormals flush;
     Random rng(74);
     std::size_t crossings = 0;
-    for (int scene = 0; scene < 40; ++scene) {
+    for (int scene = 0; scene < 160; ++scene) {
         const Rotate turn{.axis = rng.direction(), .angle = rng.uniform(-180, 180)};
         const Phased object = Set{.phase = Phase{1}, .of = warped(turn, Field(Box{.size = {1, 1, 1}}))};
         const InterfaceTracer tracer(object);
