@@ -142,10 +142,10 @@ void each_crossing(const InterfaceTracer& tracer, const glm::vec3& origin, const
     }
 }
 
-/// Calls ray(origin, direction) for rays at an object and, for each that hits, for rays that graze it there, some of
-/// them very nearly, all jittered.
+/// Calls ray(origin, direction) for rays at an object and, for each that hits, for some that graze it there, a few of
+/// them at less than rounding, all jittered.
 template <class Ray>
-void grazing_rays(const Phased& object, const InterfaceTracer& tracer, Random& rng, int count, Ray&& ray) {
+void grazing_rays(const Phased& object, const InterfaceTracer& tracer, Random& rng, int count, int grazing, Ray&& ray) {
     const Bounds b = tracer.bounds();
     const float size = b.diagonal();
     Evaluator::Workspace& w = Evaluator::thread_workspace();
@@ -159,13 +159,29 @@ void grazing_rays(const Phased& object, const InterfaceTracer& tracer, Random& r
             direction_of_growth(object, glm::dvec3(c->p_in), c->from, 0.01 * static_cast<double>(tracer.resolution()));
         const glm::dvec3 along = glm::cross(m, glm::dvec3(rng.direction()));
         if (!(glm::length(along) > 0)) continue;
-        for (int k = 0; k < 4; ++k) {
+        for (int k = 0; k < grazing; ++k) {
             const double cosine = rng.chance(0.1) ? 0.0 : static_cast<double>(std::exp2(rng.uniform(-12, -2)));
             const glm::vec3 slanted(glm::normalize(glm::normalize(along) + cosine * m));
             const glm::vec3 jitter = 3e-5f * size * rng.uniform(0, 1) * rng.direction();
             ray(c->p_in - 0.5f * size * slanted + jitter, slanted);
         }
     }
+}
+
+/// A cone that leans and is sheared, and rays that graze its side where the field is zero to rounding: of two hundred
+/// gradients there one is of nothing.
+inline Phased leaning_cone() {
+    Field cone = CappedCone{.radius_bottom = 0.5f, .radius_top = 0.25f, .height = 1};
+    cone = warped(Translate{.by = {-1, -0.75f, 0}}, Field(warped(Rotate{.angle = 33}, cone)));
+    cone = warped(Affine{.x = {1, 0, 0}, .y = {-0.4f, 1, 0}, .z = {0, 0.2f, -1}, .by = {0.25f, 0.5f, -0.5f}}, cone);
+    return Set{.phase = Phase{1}, .of = cone};
+}
+template <class Ray>
+void rays_at_leaning_cone(int count, Ray&& ray) {
+    const glm::vec3 origin(-0.7166949665f, -0.14259064813f, -1.3098654976f);
+    const glm::vec3 d = glm::normalize(glm::vec3(0.09979006958f, -0.1956524048f, 0.36351296997f));
+    Random rng(73);
+    for (int n = 0; n < count; ++n) ray(origin + 1e-4f * rng.direction(), d);
 }
 
 }  // namespace phasetree::tests
