@@ -24,6 +24,9 @@ std::string tree_of(const std::string& shape, const std::string& more = "") {
 TEST_CASE("where one file cannot be written the others are, and the exit code is 1") {
     Shell shell;
     SceneText scene;
+    // Something to see, so that floats take more room than bytes.
+    scene.lights =
+        R"([{"gradient": {"zenith": [1, 0.5, 0.2], "horizon": [0.2, 0.3, 0.9], "ground": [0.1, 0.2, 0.1]}}])";
     scene.rest = R"("render": {"width": 120, "height": 80, "samples": 1})";
     write_text(shell.directory / "scene.json", scene.text());
     REQUIRE(shell.run({"render", "scene.json", "-o", "whole.exr", "-o", "whole.jpg", "--quiet"}).code == 0);

@@ -43,8 +43,9 @@ void add_check(CLI::App& app, Run& run) {
     CLI::App* command =
         app.add_subcommand("check", "Validate a scene file: silent and 0 if all is well, else the error and 2");
     command->footer(
-        "What render would refuse is an error, and so are mistakes in what render would not look at. A scene without a "
-        "camera is checked as far as it goes; then what it is good for is said and the exit code is 3.");
+        "What render would refuse is an error, and so are mistakes in what render would not look\n"
+        "at. A scene without a camera is checked as far as it goes; then what it is good for is\n"
+        "said and the exit code is 3.");
     const auto file = add_scene_file(*command);
     command->callback([file, &run] { run = [file] { return check(*file); }; });
 }

@@ -41,10 +41,11 @@ void add_eval(CLI::App& app, Run& run) {
     CLI::App* command =
         app.add_subcommand("eval", "Read points \"x y z\" and write the phase and all distances there as CSV");
     command->footer(
-        "Standard input: a point a line, three numbers with blanks or a comma between; # begins a comment. Or CSV with "
-        "a header that names the columns x, y and z, such as this command's own output.\n"
-        "Standard output: x,y,z,phase,phi.vacuum,phi.NAME…, a line a point. phi is the signed distance to a phase, "
-        "negative in it; empty for phases that the object never has.");
+        "Standard input: a point a line, three numbers with blanks or a comma between; # begins a\n"
+        "comment. Or CSV with a header that names the columns x, y and z, such as this command's\n"
+        "own output.\n"
+        "Standard output: x,y,z,phase,phi.vacuum,phi.NAME…, a line a point. phi is the signed\n"
+        "distance to a phase, negative in it; empty for phases that the object never has.");
     const auto file = add_scene_file(*command);
     command->callback([file, &run] { run = [file] { return eval(*file); }; });
 }

@@ -20,6 +20,9 @@ int run_command(int argc, char** argv) {
     CLI::App app("Multiphase signed distance fields, path traced.", "phasetree");
     app.set_version_flag("--version", fmt::format("phasetree {}", version()));
     app.require_subcommand(1);
+    app.footer(
+        "Exit codes: 0 for success; 1 if the run was interrupted or something could not be written;\n"
+        "2 for a scene, input or arguments that are wrong; 3 of check for a scene that is only a tree.");
     tracer::Run run;
     tracer::add_commands(app, run);
     try {

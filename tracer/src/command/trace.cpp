@@ -54,14 +54,15 @@ void add_trace(CLI::App& app, Run& run) {
     CLI::App* command =
         app.add_subcommand("trace", "Read rays \"ox oy oz dx dy dz\" and write every interface along each as CSV");
     command->footer(
-        "Standard input: a ray a line, its origin and its direction of any length, six numbers with blanks or a comma "
-        "between; # begins a comment. Or CSV with a header that names the columns ox, oy, oz, dx, dy and dz.\n"
-        "Standard output: ray,t,from,to,nx,ny,nz. Rays count from 0. Each begins with a line that says where it "
-        "starts: "
-        "t is 0, \"from\" and the normal are empty, and \"to\" is the phase at its origin. Then comes a line for each "
-        "interface in its order. The interface is at origin + t·direction, where t is the near end of the bracket that "
-        "was found, which is still in \"from\"; the far end, in \"to\", is within the resolution behind it. The normal "
-        "is of unit length and points out of \"from\" into \"to\", which is along the ray: normal·direction ≥ 0.");
+        "Standard input: a ray a line, its origin and its direction of any length, six numbers with\n"
+        "blanks or a comma between; # begins a comment. Or CSV with a header that names the columns\n"
+        "ox, oy, oz, dx, dy and dz.\n"
+        "Standard output: ray,t,from,to,nx,ny,nz. Rays count from 0. Each begins with a line that\n"
+        "says where it starts: t is 0, \"from\" and the normal are empty, and \"to\" is the phase at\n"
+        "its origin. Then comes a line for each interface in its order. The interface is at origin\n"
+        "+ t·direction, where t is the near end of the bracket that was found, which is still in\n"
+        "\"from\"; the far end, in \"to\", is within the resolution behind it. The normal is of unit\n"
+        "length and points out of \"from\" into \"to\", which is along the ray: normal·direction ≥ 0.");
     const auto file = add_scene_file(*command);
     command->callback([file, &run] { run = [file] { return trace(*file); }; });
 }
