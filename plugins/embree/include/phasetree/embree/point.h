@@ -65,7 +65,8 @@ PHASETREE_API PhasetreeError phasetreeGetPhaseN(PhasetreeGeometry geometry, cons
  * phaseCount   the phases 0 … phaseCount − 1 are asked for; 1 … PHASETREE_MAX_PHASES.
  * distances    that of phase k at point i is written pointStride·i + phaseStride·k bytes behind it. Both strides are
  *              multiples of 4. Phases within points: pointStride = 4·phaseCount, phaseStride = 4; points within phases:
- *              pointStride = 4, phaseStride = 4·count. No two may fall on each other.
+ *              pointStride = 4, phaseStride = 4·count. One stride must step over all that the other reaches, which is
+ *              that times its count.
  *
  * Errors as above, and PHASETREE_ERROR_INVALID_ARGUMENT for strides that overlap. */
 PHASETREE_API PhasetreeError phasetreeGetDistancesN(PhasetreeGeometry geometry, const PhasetreePoints* points,
