@@ -2,9 +2,11 @@
 #include "phasetree/cells/file.hpp"
 
 #include <doctest/doctest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -442,6 +444,17 @@ TEST_CASE("a file that cannot be written leaves nothing behind") {
     CHECK(reason(w.folder / "no/such/folder") == Reason::unusable);
     CHECK(reason(w.folder / ".") == Reason::unusable);
     CHECK(reason("/dev/null") == Reason::unusable);
+    // No room for all of it, as on a full disk.
+    rlimit before{};
+    REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit little{20000, before.rlim_max};
+    REQUIRE(::setrlimit(RLIMIT_FSIZE, &little) == 0);
+    const auto full = reason(w.path), full_elsewhere = reason(w.folder / "other");
+    ::setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+    CHECK(full == Reason::unusable);
+    CHECK(full_elsewhere == Reason::unusable);
     CHECK(w.folder.files() == 1);
     CHECK(bytes_of(w.path) == w.bytes);
     fs::create_symlink(w.path, w.folder / "link");
