@@ -32,6 +32,7 @@ const std::vector<Command>& commands() {
         {"naive", "interface cells against the paper's way", naive},
         {"phases", "the same geometry with 1 to 32 phases (Figure 20)", phases},
         {"simd", "instruction sets and threads", simd},
+        {"host", "what a host pays for decoding, cells from files, points", host},
     };
     return all;
 }

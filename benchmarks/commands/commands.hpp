@@ -13,5 +13,6 @@ Report naive(const Settings&);
 Report phases(const Settings&);
 Report quality(const Settings&);
 Report simd(const Settings&);
+Report host(const Settings&);
 
 }  // namespace phasetree::bench

@@ -45,7 +45,8 @@ TEST_CASE("phasetree-bench all: every subcommand's numbers are finite and positi
                                                    {"quality", "objects", 10, 2, 0},
                                                    {"naive", "scenes", 2, 2, 2},
                                                    {"mesh", "scenes", 16, 3, 4},
-                                                   {"simd", "instruction_sets", 0, 2, 1}}) {
+                                                   {"simd", "instruction_sets", 0, 2, 1},
+                                                   {"host", "scenes", 4, 2, 0}}) {
         CAPTURE(e.command);
         const nlohmann::json& report = all.at(e.command);
         const nlohmann::json& table = report.at(e.table);

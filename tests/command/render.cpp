@@ -137,6 +137,56 @@ TEST_CASE("--stats is JSON and tells what was done") {
     CHECK(cells[1] == stats.at("cells"));
 }
 
+TEST_CASE("--cells keeps the prepared object from one rendering to the next") {
+    const Shell shell;
+    SceneText scene;
+    scene.tree = R"({"set": {"phase": "wood", "of": "ball"}})";
+    write_text(shell.directory / "scene.json", scene.text());
+    const auto render = [&](std::vector<std::string> more) {
+        std::vector<std::string> all{"render", "scene.json", "-o", "a.exr", "--quiet"};
+        all.insert(all.end(), more.begin(), more.end());
+        return shell.run(all);
+    };
+    const std::vector<std::string> kept{"--cells", "object.cells"};
+    const auto image = [&] { return bytes_of(shell.directory / "a.exr"); };
+    const auto file = [&] { return bytes_of(shell.directory / "object.cells"); };
+    REQUIRE(render({}).code == 0);
+    const auto first_image = image();
+    REQUIRE(render(kept).code == 0);
+    const auto first_file = file();
+    CHECK(image() == first_image);
+    const auto written = std::filesystem::last_write_time(shell.directory / "object.cells");
+    REQUIRE(render(kept).code == 0);
+    CHECK(image() == first_image);
+    CHECK(std::filesystem::last_write_time(shell.directory / "object.cells") == written);
+
+    // Of another object, or damaged: built and written anew, and the image is right.
+    scene.shapes = R"({"ball": {"sphere": {"radius": 1.3}}})";
+    write_text(shell.directory / "scene.json", scene.text());
+    REQUIRE(render({}).code == 0);
+    const auto second_image = image();
+    CHECK(second_image != first_image);
+    REQUIRE(render(kept).code == 0);
+    CHECK(image() == second_image);
+    const auto second_file = file();
+    CHECK(second_file != first_file);
+    write_text(shell.directory / "object.cells", std::string(second_file.begin(), second_file.end() - 5));
+    REQUIRE(render(kept).code == 0);
+    CHECK(image() == second_image);
+    CHECK(file() == second_file);
+    CHECK(shell.directory.size() == 3);
+
+    // What is no such file is left alone.
+    write_text(shell.directory / "notes.txt", "not to be lost, however long it takes to say so\n");
+    const Outcome o = render({"--cells", "notes.txt"});
+    CHECK(o.code == 2);
+    CHECK(o.err.find("notes.txt") != std::string::npos);
+    CHECK(o.err.find("no file of cells") != std::string::npos);
+    CHECK(bytes_of(shell.directory / "notes.txt").size() == 48);
+    CHECK(render({"--cells", "no/such/folder"}).code == 2);
+    CHECK(render({"--cells", "."}).code == 2);
+}
+
 TEST_CASE("Ctrl-C writes what there is and exits with 1") {
     const Shell shell;
     write_text(shell.directory / "scene.json", SceneText().text());

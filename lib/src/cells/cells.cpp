@@ -7,8 +7,8 @@
 
 #include "cells/curvature_code.hpp"
 #include "cells/divide_within.hpp"
+#include "cells/file.hpp"
 #include "cells/rewrite.hpp"
-#include "cells/routines.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/trace/tracer.hpp"
 #include "program/target.hpp"
@@ -26,31 +26,35 @@ std::size_t bytes_for(const CellOptions& options) {
 
 }  // namespace
 
-struct InterfaceCells::Data {
-    /// One line of the cache.
-    struct alignas(64) Cell {
-        Bounds box;
-        LinearBound bound;
-        std::uint32_t shape, first_data;
-        std::uint8_t curvature, other_curvature, first_phase;
-        bool is_by_own, is_by_first;
-    };
-    static_assert(sizeof(Cell) == 64);
+struct InterfaceCells::Data : CellTables {
+    using Cell = InterfaceCell;
+
+    /// All but what is built.
+    Data(const Phased& object, const CellOptions& options) {
+        const TraceableObject traceable = prepare_to_trace(object, options.resolution);
+        bounds = traceable.bounds;
+        resolution = traceable.resolution;
+        reach = 4 * resolution;
+        opaque = options.opaque;
+        deepest = options.deepest;
+        quality = options.quality;
+        most_bytes = bytes_for(options);
+        curvature_code = CurvatureCode(bounds.diagonal());
+    }
 
     std::optional<Evaluator> whole;
     Bounds bounds;
     float resolution = 0;
     float reach = 0;
     PhaseSet opaque;
-    std::vector<Cell> cells;
-    std::size_t routine_count = 0;
-    RoutineTables routines;
-    std::vector<ProofStep> proofs;
-    std::vector<std::uint32_t> first_proof;  ///< of each cell, and the end
+    int deepest = 0;
+    BuildQuality quality{};
+    std::size_t most_bytes = 0;
     double build_seconds = 0;
-    bool is_coarser = false;
 
     CurvatureCode curvature_code;
+
+    CellsMade made() const { return {resolution, opaque, deepest, quality, most_bytes}; }
 
     Routine routine(const Cell& c) const {
         Routine r = routines.routine(routines.shapes[c.shape], c.first_data, whole->program().constants.data());
@@ -135,27 +139,40 @@ struct InterfaceCells::Data {
 
 InterfaceCells::InterfaceCells(const Phased& object, const CellOptions& options) {
     const auto start = std::chrono::steady_clock::now();
-    const TraceableObject traceable = prepare_to_trace(object, options.resolution);
+    auto data = std::make_unique<Data>(object, options);
     Program recorded = phasetree::record(object);
+    data->recorded_constants = recorded.constants.size();
     Arena arena;
     const WorkingProgram rewritten = rewrite(recorded, arena);
-    auto data = std::make_unique<Data>();
-    data->bounds = traceable.bounds;
-    data->resolution = traceable.resolution;
-    data->reach = 4 * traceable.resolution;
-    data->opaque = options.opaque;
-    data->curvature_code = CurvatureCode(data->bounds.diagonal());
-
     BuildProgress progress(options.progress);
-    const Division division(options, progress, rewritten, recorded.constants, data->reach, 0.5f * traceable.resolution,
+
+    const Division division(options, progress, rewritten, recorded.constants, data->reach, 0.5f * data->resolution,
                             data->bounds.diagonal());
-    FoundWithin within = divide_within(bytes_for(options), data->bounds, rewritten, division);
+    FoundWithin within = divide_within(data->most_bytes, data->bounds, rewritten, division);
     data->is_coarser = within.is_coarser;
     data->add(std::move(within.found), Routines(recorded.constants), options.cancelled);
     data->whole.emplace(std::move(recorded));
     progress.finish();
     data->build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     data_ = std::move(data);
+}
+
+InterfaceCells::InterfaceCells(std::unique_ptr<const Data> data) : data_(std::move(data)) {}
+
+CellsFile::Contents CellsFile::contents(const InterfaceCells& cells) {
+    const InterfaceCells::Data& d = *cells.data_;
+    return {d, d.whole->program(), d.made()};
+}
+
+std::shared_ptr<const InterfaceCells> CellsFile::read(const Phased& object, const CellOptions& options,
+                                                      const Reader& reader) {
+    const auto start = std::chrono::steady_clock::now();
+    auto data = std::make_unique<InterfaceCells::Data>(object, options);
+    Program program = phasetree::record(object);
+    static_cast<CellTables&>(*data) = reader(program, data->made());
+    data->whole.emplace(std::move(program));
+    data->build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return std::shared_ptr<const InterfaceCells>(new InterfaceCells(std::move(data)));
 }
 
 InterfaceCells::~InterfaceCells() = default;
@@ -191,6 +208,13 @@ CrossingNormal InterfaceCells::normal(std::size_t cell, const Crossing& c, const
     };
     const auto holds = [&](const glm::vec3& p) { return at.box.contains(p); };
     return NormalOf(c, direction, data_->resolution, component_at, holds)();
+}
+
+void InterfaceCells::sample_ray(std::size_t cell, const glm::vec3& origin, const glm::vec3& direction,
+                                const BatchOfFloats& t, Samples& out, Evaluator::Workspace& w) const {
+    const Data::Cell& c = data_->cells[cell];
+    active_kernel().sample_ray(data_->routine(c), &origin.x, &direction.x, t.lane.data(), w.registers(data_->slots(c)),
+                               out.label.lane.data(), out.distance.lane.data());
 }
 
 Phase InterfaceCells::label(const glm::vec3& p, Evaluator::Workspace& w) const {

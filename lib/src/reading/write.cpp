@@ -34,12 +34,12 @@ class Writer {
   public:
     explicit Writer(const SceneTree& tree) : tree_(tree) { count(tree.object); }
 
-    std::string document() {
+    /// `material` is each phase's.
+    std::string document(std::string_view material) {
         const std::string object = node(tree_.object);
         std::string text = "{\n  \"version\": 1,\n  \"phases\": {";
         for (std::size_t i = 1; i < tree_.phases.names.size(); ++i)
-            text += fmt::format("{}\n    {}: {{\"diffuse\": {{\"color\": [0.5, 0.5, 0.5]}}}}", i > 1 ? "," : "",
-                                in_quotes(tree_.phases.names[i]));
+            text += fmt::format("{}\n    {}: {}", i > 1 ? "," : "", in_quotes(tree_.phases.names[i]), material);
         text += "\n  },\n";
         if (!shapes_.empty()) {
             text += "  \"shapes\": {";
@@ -121,7 +121,11 @@ class Writer {
 }  // namespace
 
 std::string write_tree(const SceneTree& tree) {
-    return Writer(tree).document();
+    return Writer(tree).document(R"({"diffuse": {"color": [0.5, 0.5, 0.5]}})");
+}
+
+std::string write_tree_without_materials(const SceneTree& tree) {
+    return Writer(tree).document("null");
 }
 
 }  // namespace phasetree

@@ -212,6 +212,27 @@ inline bool occluded_one(RTCScene scene, RTCRayHit ray, const Call& call = {}) {
     return ray.ray.tfar < 0;
 }
 
+// A call that fails must, and its message have this in it.
+inline void expect_error(PhasetreeError error, PhasetreeError expected, const char* part) {
+    CHECK(error == expected);
+    const std::string message = phasetreeGetErrorMessage();
+    CAPTURE(message);
+    CHECK(message.find(part) != std::string::npos);
+}
+
+// Twelve floats as a map.
+struct ColumnMap {
+    glm::dmat3 linear{1};
+    glm::dvec3 shift{0};
+    explicit ColumnMap(const std::array<float, 12>& m) {
+        for (int column = 0; column < 3; ++column)
+            for (int row = 0; row < 3; ++row)
+                linear[column][row] = static_cast<double>(m[static_cast<std::size_t>(3 * column + row)]);
+        for (int row = 0; row < 3; ++row) shift[row] = static_cast<double>(m[static_cast<std::size_t>(9 + row)]);
+    }
+    glm::dvec3 operator()(const glm::dvec3& p) const { return linear * p + shift; }
+};
+
 inline glm::vec3 vec(const float* p) {
     return {p[0], p[1], p[2]};
 }

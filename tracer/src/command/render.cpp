@@ -16,7 +16,7 @@
 #include "output/interrupt.hpp"
 #include "output/progress.hpp"
 #include "output/write.hpp"
-#include "phasetree/cells/cells.hpp"
+#include "phasetree/cells/file.hpp"
 #include "render/threads.hpp"
 
 namespace phasetree::tracer {
@@ -33,7 +33,7 @@ struct Options {
     BuildQuality quality = BuildQuality::medium;
     std::optional<std::uint32_t> seed;
     std::optional<float> exposure;
-    std::optional<std::string> display, view, stats;
+    std::optional<std::string> display, view, stats, cells;
     bool quiet = false;
 };
 
@@ -177,10 +177,12 @@ int render_scene(const Options& options) {
     const InterruptGuard guard;
     std::optional<World> prepared;
     try {
-        prepared.emplace(scene, options.quality, job.cancelled);
+        prepared.emplace(scene, options.quality, job.cancelled, options.cells);
     } catch (const BuildCancelled&) {
         say("phasetree: interrupted while the object was being prepared; nothing is written\n");
         return 1;
+    } catch (const CellsFileError& e) {
+        throw OutputError(e.what());
     }
     const World& world = *prepared;
     if (world.object().size() == 0) say("{}\n", empty_object_warning(document));
@@ -217,6 +219,9 @@ void add_render(CLI::App& app, Run& run) {
     command->add_option("--threads", o->threads, "Threads (default: one a core); the image does not depend on it")
         ->check(CLI::Range(1, 1024));
     add_build_quality(*command, o->quality);
+    command->add_option("--cells", o->cells,
+                        "File that keeps the prepared object for the next time: read if it is there and of this "
+                        "object, else written");
     command->add_option("--seed", o->seed, "Seed of the sampling");
     command->add_option("--exposure", o->exposure, "Stops by which display images are brighter; EXR stays as it is")
         ->check(CLI::Range(-50.0, 50.0));

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "integrator/kept_cells.hpp"
+
 namespace phasetree::tracer {
 
 namespace {
@@ -25,13 +27,15 @@ RTCRay ray_of(const glm::vec3& origin, const glm::vec3& direction, float far) {
 
 }  // namespace
 
-World::World(const Scene& scene, BuildQuality quality, std::function<bool()> cancelled)
+World::World(const Scene& scene, BuildQuality quality, std::function<bool()> cancelled,
+             const std::optional<std::filesystem::path>& kept)
     : scene_(scene), interfaces_(scene.materials) {
     CellOptions options;
     options.quality = quality;
     options.cancelled = std::move(cancelled);
     options.opaque = opaque_phases(scene.materials);
-    object_ = std::make_shared<const InterfaceCells>(scene.object, options);
+    object_ =
+        kept ? kept_cells(*kept, scene.object, options) : std::make_shared<const InterfaceCells>(scene.object, options);
     device_ = rtcNewDevice(nullptr);
     if (!device_) throw std::runtime_error("Embree cannot be started");
     embree_ = rtcNewScene(device_);

@@ -1,8 +1,10 @@
 // The scene in Embree: the object as user geometry, and the meshes beside it; and what is found by rays beforehand.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "integrator/flat_boundaries.hpp"
@@ -42,9 +44,9 @@ enum class Purpose { path, light };
 class World {
   public:
     // Refers to the scene, which must outlive it. Throws ModelError for an object that cannot be traced, BuildCancelled
-    // once `cancelled` says so.
+    // once `cancelled` says so. `kept` is a file for the object's cells: see kept_cells.hpp.
     explicit World(const Scene& scene, BuildQuality quality = BuildQuality::medium,
-                   std::function<bool()> cancelled = {});
+                   std::function<bool()> cancelled = {}, const std::optional<std::filesystem::path>& kept = {});
     ~World();
     World(const World&) = delete;
     World& operator=(const World&) = delete;

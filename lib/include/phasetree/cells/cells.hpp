@@ -79,6 +79,10 @@ class InterfaceCells {
     /// The normal of a crossing found in the cell.
     CrossingNormal normal(std::size_t cell, const Crossing&, const glm::vec3& direction) const;
 
+    /// Phase and interface distance along a ray by the cell's program, at origin + t·direction; all within the cell.
+    void sample_ray(std::size_t cell, const glm::vec3& origin, const glm::vec3& direction, const BatchOfFloats& t,
+                    Samples&, Evaluator::Workspace&) const;
+
     /// The phase at a point, by the whole object's program; vacuum outside the bounds.
     Phase label(const glm::vec3& p, Evaluator::Workspace&) const;
     /// The phase at a point by the cell's program; p within the cell.
@@ -92,7 +96,9 @@ class InterfaceCells {
     CellStatistics statistics() const;
 
   private:
+    friend struct CellsFile;  // cells/file.hpp
     struct Data;
+    explicit InterfaceCells(std::unique_ptr<const Data>);
     std::unique_ptr<const Data> data_;
 };
 

@@ -12,4 +12,7 @@ namespace phasetree {
 /// std::out_of_range if the tree has phases without a name.
 std::string write_tree(const SceneTree&);
 
+/// The same with null for each phase's material: a text to read the tree from again, and nothing else.
+std::string write_tree_without_materials(const SceneTree&);
+
 }  // namespace phasetree

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -73,7 +74,7 @@ class Tree {
     template <class SceneTree>
     static Tree of(const SceneTree& tree, const std::string& name = "<tree>",
                    const PhasetreeFileReader* reader = nullptr) {
-        return from_text(write_tree(tree), name, reader);
+        return from_text(write_tree_without_materials(tree), name, reader);
     }
 
     Tree edited(const std::string& path, const std::string& value) const {
@@ -96,6 +97,12 @@ class Tree {
         check(phasetreeGetTreePhaseByName(get(), name.c_str(), &phase));
         return phase;
     }
+    /// JSON; nothing if the scene has none.
+    std::optional<std::string> phase_material(unsigned phase) const {
+        const char* json = nullptr;
+        check(phasetreeGetTreePhaseMaterial(get(), phase, &json));
+        return json ? std::optional<std::string>(json) : std::nullopt;
+    }
     RTCBounds bounds() const {
         RTCBounds box{};
         check(phasetreeGetTreeBounds(get(), &box));
@@ -114,11 +121,27 @@ inline PhasetreeGeometryOptions default_options() {
     return options;
 }
 
+/// An application's own of a phase.
+struct PhaseUserData {
+    std::int64_t integer = 0;
+    void* pointer = nullptr;
+};
+
 /// A geometry. A copy is another owner of the same one. Must outlive the scenes that its RTCGeometry is in.
 class Geometry {
   public:
     Geometry(RTCDevice device, const Tree& tree, const PhasetreeGeometryOptions& options = default_options())
         : reference_(make(device, tree, options)) {}
+
+    /// With cells that write_cells() of a geometry of the same tree and options has written.
+    static Geometry from_cells(RTCDevice device, const Tree& tree, const std::string& path,
+                               const PhasetreeGeometryOptions& options = default_options()) {
+        PhasetreeGeometry geometry = nullptr;
+        check(phasetreeNewGeometryFromCells(PHASETREE_API_VERSION, device, tree.get(), &options, path.c_str(),
+                                            &geometry));
+        return Geometry(geometry);
+    }
+    void write_cells(const std::string& path) const { check(phasetreeWriteGeometryCells(get(), path.c_str())); }
 
     /// The RTCGeometry: uncommitted, the handle's own.
     RTCGeometry embree() const {
@@ -131,6 +154,14 @@ class Geometry {
         void* pointer = nullptr;
         check(phasetreeGetGeometryUserData(get(), &pointer));
         return pointer;
+    }
+    void set_phase_user_data(unsigned phase, const PhaseUserData& mine) {
+        check(phasetreeSetGeometryPhaseUserData(get(), phase, mine.integer, mine.pointer));
+    }
+    PhaseUserData phase_user_data(unsigned phase) const {
+        PhaseUserData mine;
+        check(phasetreeGetGeometryPhaseUserData(get(), phase, &mine.integer, &mine.pointer));
+        return mine;
     }
     void set_tree(const Tree& tree, const PhasetreeGeometryOptions& options = default_options()) {
         check(phasetreeSetGeometryTree(get(), tree.get(), &options));
@@ -151,6 +182,17 @@ class Geometry {
         check(phasetreeDecodeHit(get(), &rayhit, object_to_world, &hit));
         return hit;
     }
+    /// A hit's place, or a point of geometry space, in the tree's own space.
+    std::array<float, 3> tree_point(const RTCRayHit& rayhit, const float* object_to_world = nullptr) const {
+        std::array<float, 3> point{};
+        check(phasetreeGetHitTreePoint(get(), &rayhit, object_to_world, point.data()));
+        return point;
+    }
+    std::array<float, 3> tree_point(const std::array<float, 3>& point, float time = 0) const {
+        std::array<float, 3> there{};
+        check(phasetreeGetTreePoint(get(), point.data(), time, there.data()));
+        return there;
+    }
     unsigned phase(const std::array<float, 3>& point, float time = 0, float* empty_radius = nullptr) const {
         unsigned phase = 0;
         check(phasetreeGetPhase(get(), point.data(), time, &phase, empty_radius));
@@ -159,6 +201,23 @@ class Geometry {
     std::array<float, PHASETREE_MAX_PHASES> distances(const std::array<float, 3>& point, float time = 0) const {
         std::array<float, PHASETREE_MAX_PHASES> all{};
         check(phasetreeGetDistances(get(), point.data(), time, all.data()));
+        return all;
+    }
+    /// Of many points, at one time; with the radii that are empty if they are wanted.
+    std::vector<unsigned> phases(const std::vector<std::array<float, 3>>& points, float time = 0,
+                                 std::vector<float>* empty_radii = nullptr) const {
+        std::vector<unsigned> all(points.size());
+        if (empty_radii) empty_radii->resize(points.size());
+        const PhasetreePoints p = listed(points, time);
+        check(phasetreeGetPhaseN(get(), &p, all.data(), empty_radii ? empty_radii->data() : nullptr));
+        return all;
+    }
+    /// Φ of the phases 0 … phase_count − 1 at each point, one point after another.
+    std::vector<float> distances(const std::vector<std::array<float, 3>>& points, unsigned phase_count,
+                                 float time = 0) const {
+        std::vector<float> all(points.size() * phase_count);
+        const PhasetreePoints p = listed(points, time);
+        check(phasetreeGetDistancesN(get(), &p, phase_count, all.data(), sizeof(float) * phase_count, sizeof(float)));
         return all;
     }
     PhasetreeClosest closest(const std::array<float, 3>& point, float radius, float tolerance = 0.01f,
@@ -170,6 +229,22 @@ class Geometry {
     PhasetreeGeometry get() const { return reference_.get(); }
 
   private:
+    explicit Geometry(PhasetreeGeometry handle) : reference_(handle) {}
+    /// Refers to both.
+    static PhasetreePoints listed(const std::vector<std::array<float, 3>>& points, const float& time) {
+        PhasetreePoints p;
+        phasetreeInitPoints(&p);
+        p.count = points.size();
+        if (!points.empty()) {
+            p.x = points.front().data();
+            p.y = p.x + 1;
+            p.z = p.x + 2;
+        }
+        p.stride = sizeof points.front();
+        p.time = &time;
+        p.timeStride = 0;
+        return p;
+    }
     static PhasetreeGeometry make(RTCDevice device, const Tree& tree, const PhasetreeGeometryOptions& options) {
         PhasetreeGeometry geometry = nullptr;
         check(phasetreeNewGeometry(PHASETREE_API_VERSION, device, tree.get(), &options, &geometry));

@@ -51,7 +51,9 @@ Value value_at(const Document& document, std::string_view pointer) {
     return at;
 }
 
-/// Where a value ends that begins at `at`; the text is sound JSON with comments.
+}  // namespace
+
+/// The text is sound JSON with comments.
 std::size_t end_of(const std::string& text, const Value& value) {
     std::size_t at = value.offset();
     if (!value.is_string() && !value.is_array() && !value.is_object()) return at + value.written().size();
@@ -77,8 +79,6 @@ std::size_t end_of(const std::string& text, const Value& value) {
     } while (depth > 0);
     return at;
 }
-
-}  // namespace
 
 std::string with_value(const Document& document, std::string_view pointer, std::string_view value) {
     // By itself first: what is no JSON value could otherwise rearrange what is around it, as could a comment behind it.

@@ -3,6 +3,7 @@
 #include <new>
 
 #include "phasetree/cells/cells.hpp"
+#include "phasetree/cells/file.hpp"
 #include "phasetree/reading/error.hpp"
 
 namespace phasetree::embree::api {
@@ -47,6 +48,8 @@ PhasetreeError report_exception(const char* call) noexcept {
         return report(PHASETREE_ERROR_INVALID_TREE, e.what());
     } catch (const ModelError& e) {
         return report(PHASETREE_ERROR_INVALID_TREE, e.what());
+    } catch (const CellsFileError& e) {
+        return report(PHASETREE_ERROR_CELLS_FILE, e.what());
     } catch (const BuildCancelled&) {
         return report(PHASETREE_ERROR_CANCELLED, "cancelled by the application");
     } catch (const std::bad_alloc&) {

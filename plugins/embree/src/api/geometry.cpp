@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 
 #include "api/geometry_data.hpp"
 #include "api/tree_data.hpp"
+#include "phasetree/cells/file.hpp"
 
 namespace phasetree::embree::api {
 
@@ -59,21 +61,59 @@ PhasetreeGeometryOptions checked(const PhasetreeGeometryOptions* given) {
     return options;
 }
 
-std::unique_ptr<const Object> build(RTCDevice device, const Phased& tree, const PhasetreeGeometryOptions& options) {
+CellOptions cell_options(const PhasetreeGeometryOptions& options) {
     CellOptions cells;
     cells.resolution = options.resolution;
     cells.quality = *quality_of(options.buildQuality);
     cells.opaque = {options.opaquePhases};
     if (options.cellDivisions > 0) cells.deepest = static_cast<int>(options.cellDivisions);
-    if (options.cancelled) cells.cancelled = [&] { return options.cancelled(options.cancelledUserPtr); };
+    // The application's two ways to end a build.
+    const auto is_ended = std::make_shared<std::atomic<bool>>(false);
+    if (options.cancelled || options.progress)
+        cells.cancelled = [&options, is_ended] {
+            return *is_ended || (options.cancelled && options.cancelled(options.cancelledUserPtr));
+        };
+    if (options.progress)
+        cells.progress = [&options, is_ended](float done) {
+            if (!*is_ended && !options.progress(options.progressUserPtr, static_cast<double>(done))) *is_ended = true;
+        };
+    return cells;
+}
+
+std::unique_ptr<const Object> object_of(RTCDevice device, std::shared_ptr<const InterfaceCells> cells) {
     try {
-        return std::make_unique<const Object>(device, std::make_shared<const InterfaceCells>(tree, cells));
+        return std::make_unique<const Object>(device, std::move(cells));
     } catch (const EmbreeError& e) {
         const auto code = e.code() == RTC_ERROR_CANCELLED       ? PHASETREE_ERROR_CANCELLED
                           : e.code() == RTC_ERROR_OUT_OF_MEMORY ? PHASETREE_ERROR_OUT_OF_MEMORY
                                                                 : PHASETREE_ERROR_EMBREE;
         throw ApiError(code, e.what());
     }
+}
+
+std::unique_ptr<const Object> build(RTCDevice device, const Phased& tree, const PhasetreeGeometryOptions& options) {
+    const CellOptions with = cell_options(options);
+    const auto cells = std::make_shared<const InterfaceCells>(tree, with);
+    if (with.cancelled && with.cancelled()) throw BuildCancelled();  // by the last it was told
+    return object_of(device, cells);
+}
+
+/// Makes a geometry's handle; `cells` gives its object.
+template <class Cells>
+void make_geometry(RTCDevice device, const PhasetreeGeometryOptions& options, PhasetreeGeometry* geometry,
+                   Cells&& object) {
+    auto data = std::make_unique<GeometryData>(device, options.flags);
+    data->shown = {options.shownPhases};
+    data->object = object();
+    const RTCGeometry handle = data->handle;
+    const auto number = GeometryTable::instance().insert(std::move(data));
+    *geometry = reinterpret_cast<PhasetreeGeometry>(static_cast<std::uintptr_t>(number));
+    rtcSetGeometryUserData(handle, *geometry);
+}
+
+GeometryData::PhaseUserData& of_phase(GeometryData& data, unsigned phase) {
+    if (phase >= data.of_phase.size()) throw invalid("phase is {}; phases are 0 … {}", phase, data.of_phase.size() - 1);
+    return data.of_phase[phase];
 }
 
 Motion motion_of(const float* transforms, unsigned count, float start, float end) {
@@ -134,13 +174,30 @@ PhasetreeError phasetreeNewGeometry(unsigned int api_version, RTCDevice device, 
         const TreeData& model = api::data_of(tree);
         require(geometry, "geometry");
         const PhasetreeGeometryOptions o = checked(options);
-        auto data = std::make_unique<GeometryData>(device, o.flags);
-        data->shown = {o.shownPhases};
-        data->object = build(device, model.tree.object, o);
-        const RTCGeometry handle = data->handle;
-        const auto number = GeometryTable::instance().insert(std::move(data));
-        *geometry = reinterpret_cast<PhasetreeGeometry>(static_cast<std::uintptr_t>(number));
-        rtcSetGeometryUserData(handle, *geometry);
+        make_geometry(device, o, geometry, [&] { return build(device, model.tree.object, o); });
+    });
+}
+
+PhasetreeError phasetreeNewGeometryFromCells(unsigned int api_version, RTCDevice device, PhasetreeTree tree,
+                                             const PhasetreeGeometryOptions* options, const char* path,
+                                             PhasetreeGeometry* geometry) {
+    return guarded_call(__func__, [&] {
+        require_version(api_version);
+        require(device, "device");
+        const TreeData& model = api::data_of(tree);
+        require(path, "path");
+        require(geometry, "geometry");
+        const PhasetreeGeometryOptions o = checked(options);
+        make_geometry(device, o, geometry,
+                      [&] { return object_of(device, read_cells(path, model.tree.object, cell_options(o))); });
+    });
+}
+
+PhasetreeError phasetreeWriteGeometryCells(PhasetreeGeometry geometry, const char* path) {
+    return guarded_call(__func__, [&] {
+        const GeometryData& data = api::data_of(geometry);
+        require(path, "path");
+        write_cells(path, data.object->cells());
     });
 }
 
@@ -187,6 +244,20 @@ PhasetreeError phasetreeGetGeometryUserData(PhasetreeGeometry geometry, void** u
         const GeometryData& data = api::data_of(geometry);
         require(user_pointer, "userPtr");
         *user_pointer = data.user_pointer;
+    });
+}
+
+PhasetreeError phasetreeSetGeometryPhaseUserData(PhasetreeGeometry geometry, unsigned int phase, int64_t user_integer,
+                                                 void* user_pointer) {
+    return guarded_call(__func__, [&] { of_phase(api::data_of(geometry), phase) = {user_integer, user_pointer}; });
+}
+
+PhasetreeError phasetreeGetGeometryPhaseUserData(PhasetreeGeometry geometry, unsigned int phase, int64_t* user_integer,
+                                                 void** user_pointer) {
+    return guarded_call(__func__, [&] {
+        const GeometryData::PhaseUserData& mine = of_phase(api::data_of(geometry), phase);
+        if (user_integer) *user_integer = mine.integer;
+        if (user_pointer) *user_pointer = mine.pointer;
     });
 }
 

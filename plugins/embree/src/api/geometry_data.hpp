@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "api/errors.hpp"
 #include "api/handles.hpp"
 #include "object/motion.hpp"
@@ -20,6 +22,11 @@ struct GeometryData {
     PhaseSet shown{PHASETREE_ALL_PHASES};
     Motion motion;
     void* user_pointer = nullptr;
+    struct PhaseUserData {
+        std::int64_t integer = 0;
+        void* pointer = nullptr;
+    };
+    std::array<PhaseUserData, PHASETREE_MAX_PHASES> of_phase{};  ///< the application's
     std::unique_ptr<const Object> object;
 
     bool has(PhasetreeGeometryFlags flag) const { return (flags & static_cast<unsigned>(flag)) != 0; }
@@ -35,6 +42,16 @@ using GeometryTable = HandleTable<GeometryData, 0x5047>;
 inline GeometryData* find(PhasetreeGeometry handle) noexcept {
     return GeometryTable::instance().find(reinterpret_cast<std::uintptr_t>(handle));
 }
+/// What is not possible now, though it is at other times.
+inline ApiError not_now(const std::string& why) {
+    return {PHASETREE_ERROR_INVALID_OPERATION, why};
+}
+/// Where the object is at a time. Throws ApiError if the motion has no inverse there.
+Placement placement_at(const GeometryData&, float time);
+/// The radius of a ball in geometry space that has no interface, about a point of the tree's space where the sampled
+/// distance to one is known.
+float radius_without_interface(const GeometryData&, const glm::vec3& p, float sampled, const Placement&);
+
 /// Throws for a handle that is none.
 GeometryData& data_of(PhasetreeGeometry handle);
 

@@ -25,8 +25,13 @@ PhasetreeTree make(Document document, std::optional<PhasetreeFileReader> reader)
         };
     }
     SceneTree tree = read_tree(document, readers);
+    std::vector<std::optional<std::string>> materials(1);  // the vacuum's
+    for (const Value phase : *document.root().find("phases")) {
+        materials.emplace_back();
+        if (phase.is_object()) materials.back() = json_of(document, phase);
+    }
     const auto number = TreeTable::instance().insert(
-        std::make_unique<TreeData>(TreeData{std::move(document), reader, std::move(tree)}));
+        std::make_unique<TreeData>(TreeData{std::move(document), reader, std::move(tree), std::move(materials)}));
     return reinterpret_cast<PhasetreeTree>(static_cast<std::uintptr_t>(number));
 }
 

@@ -13,12 +13,18 @@ struct TreeData {
     Document document;
     std::optional<PhasetreeFileReader> reader;
     SceneTree tree;
+    std::vector<std::optional<std::string>> materials;  ///< of each phase, as JSON
 };
 
 using TreeTable = HandleTable<TreeData, 0x5054>;
 
 /// Throws for a handle that is none.
 const TreeData& data_of(PhasetreeTree handle);
+
+/// Where a value of a text ends.
+std::size_t end_of(const std::string& text, const Value&);
+/// A value's text without comments.
+std::string json_of(const Document&, const Value&);
 
 /// A scene's text with the value at a JSON Pointer (RFC 6901) replaced. Throws ApiError if there is no such value.
 std::string with_value(const Document&, std::string_view pointer, std::string_view value);

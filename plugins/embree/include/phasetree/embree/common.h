@@ -29,7 +29,7 @@ extern "C" {
 /* The interface's version, 100 · the interface's number + Embree's major version. Structures and calls of one number
  * never change. An application passes PHASETREE_API_VERSION where a call has a parameter apiVersion; a library that
  * does not serve that number, or serves the other Embree, answers PHASETREE_ERROR_VERSION. */
-#define PHASETREE_API_NUMBER 1
+#define PHASETREE_API_NUMBER 2
 #define PHASETREE_API_VERSION (100 * PHASETREE_API_NUMBER + RTC_VERSION_MAJOR)
 
 /* Phases have the indices 0 … PHASETREE_MAX_PHASES − 1; 0 is the vacuum, around and within every object. */
@@ -53,7 +53,8 @@ typedef enum PhasetreeError {
     PHASETREE_ERROR_CANCELLED = 6,         /* by PhasetreeGeometryOptions.cancelled or Embree's memory monitor */
     PHASETREE_ERROR_OUT_OF_MEMORY = 7,
     PHASETREE_ERROR_EMBREE = 8, /* Embree refused; the message has its error's name */
-    PHASETREE_ERROR_UNKNOWN = 9
+    PHASETREE_ERROR_UNKNOWN = 9,
+    PHASETREE_ERROR_CELLS_FILE = 10 /* a file of cells that cannot be read or written, is damaged, or does not fit */
 } PhasetreeError;
 
 /* Returns the version of the library that is linked, as PHASETREE_API_VERSION. */

@@ -49,6 +49,13 @@ typedef struct PhasetreeGeometryOptions {
      * NULL: never asked. Used during the call only. */
     bool (*cancelled)(void* userPtr);
     void* cancelledUserPtr;
+    /* Told how much of the cells is built, from 0 to 1: never less than before, and 1 once they are complete, which
+     * leaves Embree's tree over them to be built. The shares are estimates. As Embree's own progress monitor's: true
+     * goes on; false ends the call with PHASETREE_ERROR_CANCELLED, and it is not called again. Called by any thread
+     * that builds, but by one at a time, which the others then wait for: return soon, and call nothing that builds.
+     * NULL: nobody is told. Used during the call only; not at all where cells are read from a file. */
+    RTCProgressMonitorFunction progress;
+    void* progressUserPtr;
 } PhasetreeGeometryOptions;
 
 /* Sets the defaults. */
@@ -61,6 +68,8 @@ static inline void phasetreeInitGeometryOptions(PhasetreeGeometryOptions* option
     options->opaquePhases = 0;
     options->cancelled = NULL;
     options->cancelledUserPtr = NULL;
+    options->progress = NULL;
+    options->progressUserPtr = NULL;
 }
 
 /* Makes a geometry of a tree: a snapshot, so the tree may be released at once.
@@ -70,7 +79,12 @@ static inline void phasetreeInitGeometryOptions(PhasetreeGeometryOptions* option
  * geometry  receives the new handle.
  *
  * Builds cells and, within Embree, a tree over them, using Embree's and TBB's threads; that is the expensive part, and
- * committing the RTCGeometry costs nothing beside it. Embree's memory monitor sees the memory of Embree's tree.
+ * committing the RTCGeometry costs nothing beside it. Embree's memory monitor sees the memory of Embree's tree. The
+ * cells are built by as many threads as Embree's device may have: both take theirs from TBB, whose number the first
+ * device's configuration ("threads=") or a tbb::global_control of the application limits for the process.
+ *
+ * PHASETREE_ERROR_INVALID_TREE  the tree is empty (nothing of it is left, or all is vacuum), or unbounded: it has no
+ *                               cells, and the message says so. phasetreeGetTreeBounds tells beforehand.
  * Embree's error code of the calling thread (rtcGetDeviceError) is cleared.
  *
  * A hit of the geometry is a change of phase along a ray:
@@ -115,6 +129,14 @@ PHASETREE_API PhasetreeError phasetreeGetGeometryFromEmbree(RTCGeometry embreeGe
 PHASETREE_API PhasetreeError phasetreeSetGeometryUserData(PhasetreeGeometry geometry, void* userPtr);
 PHASETREE_API PhasetreeError phasetreeGetGeometryUserData(PhasetreeGeometry geometry, void** userPtr);
 
+/* Keep an application's own number and pointer for each phase, 0 and NULL at first: which material of its own it is,
+ * say. The library never looks at them. They stay when the geometry gets another tree, and go by the phase's index, 0 …
+ * PHASETREE_MAX_PHASES − 1, whether the tree has it or not. Either output may be NULL. Setting is exclusive. */
+PHASETREE_API PhasetreeError phasetreeSetGeometryPhaseUserData(PhasetreeGeometry geometry, unsigned int phase,
+                                                               int64_t userInteger, void* userPtr);
+PHASETREE_API PhasetreeError phasetreeGetGeometryPhaseUserData(PhasetreeGeometry geometry, unsigned int phase,
+                                                               int64_t* userInteger, void** userPtr);
+
 /* Edits: gives the geometry another tree, or an edited one. Exclusive. Everything is built anew within the call, as by
  * phasetreeNewGeometry; what was there before stays in use if the call fails. The options' flags are not looked at.
  *
@@ -145,13 +167,40 @@ PHASETREE_API PhasetreeError phasetreeSetGeometryShownPhases(PhasetreeGeometry g
 PHASETREE_API PhasetreeError phasetreeSetGeometryMotion(PhasetreeGeometry geometry, const float* transforms,
                                                         unsigned int timeStepCount, float startTime, float endTime);
 
+/* Writes the geometry's cells to a file, which phasetreeNewGeometryFromCells reads in much less time than building
+ * takes.
+ *
+ * path  UTF-8, ends with 0. The file appears whole or not at all, under a temporary name in its folder before; what was
+ *       there is replaced.
+ *
+ * PHASETREE_ERROR_CELLS_FILE  it cannot be written; the message has the system's reason */
+PHASETREE_API PhasetreeError phasetreeWriteGeometryCells(PhasetreeGeometry geometry, const char* path);
+
+/* Makes a geometry as phasetreeNewGeometry does, with cells from a file instead of built ones; to the last bit those
+ * that would be built. Embree's tree over them is built as always.
+ *
+ * tree, options  those that the cells were built for: the same shapes (names and materials do not matter), resolution,
+ *                buildQuality, cellDivisions and opaquePhases. What else is in the options may differ.
+ *
+ * PHASETREE_ERROR_CELLS_FILE  there is no such file; it is something else, or damaged (its size, its checksums and all
+ *                             indices in it are looked at); or its cells are those of another tree, of other options,
+ *                             of another version of the library or for another kind of machine. The message says which.
+ *                             Build then, and write the file anew.
+ *
+ * The file is for the machine's processor architecture and byte order; its instruction set (SSE2 … AVX-512) does not
+ * matter. The checksums find accidents and not forgery: a forged file may hold a wrong object, though none that makes a
+ * ray read memory that it should not. */
+PHASETREE_API PhasetreeError phasetreeNewGeometryFromCells(unsigned int apiVersion, RTCDevice device,
+                                                           PhasetreeTree tree, const PhasetreeGeometryOptions* options,
+                                                           const char* path, PhasetreeGeometry* geometry);
+
 /* What was built of a geometry. */
 typedef struct PhasetreeGeometryStatistics {
     size_t cells; /* primIDs of hits are below this */
     size_t bytes; /* of the cells and their programs, without Embree's tree over them */
     size_t wholeInstructions, medianInstructions, mostInstructions; /* of the whole object's program, and of cells' */
     float resolution;                                               /* a distance, in the tree's space */
-    float buildSeconds;                                             /* of the cells */
+    float buildSeconds;                                             /* of the cells, or to read them */
 } PhasetreeGeometryStatistics;
 
 /* Tells what was built of a geometry, and how long that took. */

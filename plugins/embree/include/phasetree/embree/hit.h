@@ -28,19 +28,32 @@ static inline unsigned int phasetreeGetPhaseEntered(const struct RTCHitN* hits, 
     return (unsigned int)((const float*)hits)[4 * N + i];
 }
 
-/* Tells what a stock ray query has found.
+/* Tells what a stock ray query has found: where exactly the phase ends and the next one begins. For which two phases
+ * they are RTCHit.u and v suffice, and for the interface's normal Ng; a host that only shades a surface need not
+ * decode. Decode to go on from a hit.
  *
  * rayhit       as the query left it: the ray's origin, direction, tnear and time, tfar and the hit, which must be one
  *              of this geometry.
  * objectToWorld  of the instance through which the ray met the geometry, 12 floats, 3×4 column-major, at the ray's time
  *              (for nested ones the product); NULL if hit.instID[0] is RTC_INVALID_GEOMETRY_ID.
  *
- * The bracket is found again, by a few samples on the ray around tfar. tOut and pointOut are moved on, by less than two
+ * pointIn and pointOut are in geometry space: a host that wants them in the world applies objectToWorld itself.
+ *
+ * The bracket is found again, by a few samples on the ray around tfar, with the short program of the cell that the hit
+ * names: that takes no longer than the ray took. (Where the hit's cell does not know it, because primID is wrong, say,
+ * the whole object is asked, and that may take many times as long.) tOut and pointOut are moved on, by less than two
  * resolutions, to where the phase is certain in spite of the rounding that a new ray undergoes: the same ray with
  * tnear = tOut starts in phaseEntered, so that a host that carries no phases neither meets this crossing again nor
  * passes the next one, as long as phases are thicker along the ray than some five resolutions. */
 PHASETREE_API PhasetreeError phasetreeDecodeHit(PhasetreeGeometry geometry, const struct RTCRayHit* rayhit,
                                                 const float* objectToWorld, PhasetreeHit* hit);
+
+/* Tells where a hit is in the tree's own space, whatever motion and instances do to the object: a place for solid
+ * textures, which then move with it. The point of the ray at tfar, within the rounding of that; nothing is decoded and
+ * nothing evaluated. rayhit and objectToWorld as above, and phases are not looked at. For other points, such as a
+ * decoded hit's pointIn and pointOut, see phasetreeGetTreePoint. */
+PHASETREE_API PhasetreeError phasetreeGetHitTreePoint(PhasetreeGeometry geometry, const struct RTCRayHit* rayhit,
+                                                      const float* objectToWorld, float treePoint[3]);
 
 /* That a ray, where it starts, is in `phase` of the geometry geomID, within the instance instID (and, with Embree 4,
  * instPrimID) or none: RTC_INVALID_GEOMETRY_ID. Of nested instances, the innermost's. */
@@ -53,8 +66,8 @@ typedef struct PhasetreeMedium {
 typedef struct PhasetreeRay {
     /* In: the phases that the ray carries. For a geometry that is not listed, or with PHASETREE_UNKNOWN_PHASE, the
      * phase at the ray's start counts, as with a stock context. If another phase is at the start than the one carried,
-     * beyond what rounding explains, that is a crossing where it is noticed: at the start, if that is near an interface,
-     * else where the ray comes near the next one. Owned by the application; not written. */
+     * beyond what rounding explains, that is a crossing where it is noticed: at the start, if that is near an
+     * interface, else where the ray comes near the next one. Owned by the application; not written. */
     const PhasetreeMedium* media;
     unsigned int mediumCount;
     /* Out: the crossing behind the last hit that a geometry of this library reported for the ray. If the ray's hit is a

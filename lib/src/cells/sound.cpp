@@ -1,0 +1,165 @@
+#include "cells/sound.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "phasetree/nodes/list.hpp"
+#include "program/fused.hpp"
+
+namespace phasetree {
+
+namespace {
+
+constexpr std::uint32_t first_primitive = static_cast<std::uint32_t>(Op::first_primitive);
+constexpr std::uint32_t first_data_primitive = first_primitive + static_cast<std::uint32_t>(Primitives::size);
+constexpr std::uint32_t operations = first_placed + static_cast<std::uint32_t>(Primitives::size);
+
+/// How many floats each operation takes; one with data of its own says so itself.
+std::array<std::size_t, operations> all_floats() {
+    std::array<std::size_t, operations> all{};
+    for (const Op op :
+         {Op::add_constant, Op::constant_minus, Op::multiply_constant, Op::smooth_minimum, Op::guarded, Op::falloff})
+        all[static_cast<std::size_t>(op)] = 1;
+    std::size_t primitive = first_primitive, map = first_map, placed = first_placed;
+    for_each_type(Primitives(), [&]<class P>() {
+        all[primitive++] = sizeof(P) / sizeof(float);
+        all[placed++] = placed_floats + sizeof(P) / sizeof(float);
+    });
+    for_each_type(PointMaps(), [&]<class M>() { all[map++] = sizeof(M) / sizeof(float); });
+    all[affine_map] = sizeof(AffineMap) / sizeof(float);
+    return all;
+}
+
+bool is_known(std::uint32_t op) {
+    return op > static_cast<std::uint32_t>(Op::input) && op < operations;
+}
+bool has_data(std::uint32_t op) {
+    return op >= first_data_primitive && op < first_map;
+}
+/// A number that is the upper half of a float and no NaN.
+bool is_number(std::uint16_t half) {
+    return !std::isnan(std::bit_cast<float>(std::uint32_t{half} << 16));
+}
+bool is_phase(float phase) {
+    return phase >= 0 && phase < static_cast<float>(Phase::capacity) && phase == std::floor(phase);
+}
+bool fits(std::uint64_t first, std::uint64_t count, std::size_t size) {
+    return first <= size && count <= size - first;
+}
+
+class Check {
+  public:
+    Check(const CellTables& t, const Program& program) : t_(t), r_(t.routines), constants_(program.constants) {
+        for (const Instruction& in : program.instructions)
+            if (has_data(static_cast<std::uint32_t>(in.op)))
+                of_object_.push_back({static_cast<std::uint32_t>(in.op), in.data});
+        std::ranges::sort(of_object_);
+    }
+
+    std::string operator()() {
+        for (const RoutineTables::Shape& s : r_.shapes)
+            if (!is_sound(s)) return "a routine is impossible";
+        if (t_.first_proof.size() != t_.cells.size() + 1 || t_.first_proof.front() != 0 ||
+            t_.first_proof.back() != t_.proofs.size() || !std::ranges::is_sorted(t_.first_proof))
+            return "its proofs are not its cells'";
+        for (std::size_t i = 0; i < t_.cells.size(); ++i) {
+            const InterfaceCell& c = t_.cells[i];
+            if (c.shape >= r_.shapes.size() || c.first_phase >= Phase::capacity) return "a cell is impossible";
+            if (!has_constants(c)) return "a routine's constants are missing";
+            if (!is_proof(t_.first_proof[i], t_.first_proof[i + 1], r_.shapes[c.shape].slots))
+                return "a proof is impossible";
+        }
+        return "";
+    }
+
+  private:
+    /// A step's operands, from slot `first` on.
+    bool is_written(std::uint32_t first, std::uint32_t count) const {
+        if (!fits(first, count, written_.size())) return false;
+        return std::all_of(written_.begin() + first, written_.begin() + first + count, [](char w) { return w != 0; });
+    }
+    bool is_sound(const Step& s) {
+        if (!is_known(s.op)) return false;
+        const OpTraits& its = traits(static_cast<Op>(s.op));
+        const bool takes_point = s.op >= first_primitive;
+        const std::uint32_t size = its.gives_point ? 3 : 1;
+        // One that takes nothing has 0 there, and nobody reads it.
+        if (!is_written(s.a, takes_point ? 3 : 1) || !is_written(s.b, 1)) return false;
+        if (s.op >= first_placed && traits(static_cast<Op>(s.op - first_placed + first_primitive)).is_long_primitive)
+            return false;
+        if (!fits(s.to, size, written_.size())) return false;
+        std::fill_n(written_.begin() + s.to, size, char{1});
+        return true;
+    }
+    bool is_sound(const RoutineTables::Shape& s) {
+        if (!fits(s.first_step, s.steps, r_.steps.size()) || !fits(s.first_output, s.outputs, r_.outputs.size()))
+            return false;
+        // Each step writes a point at most, and slots are used again.
+        if (s.slots < 3 || s.slots > 3 + 3 * std::uint64_t{s.steps} || s.leading > s.steps) return false;
+        if (s.outputs == 0 || s.outputs > Phase::capacity) return false;
+        written_.assign(s.slots, 0);
+        std::fill_n(written_.begin(), 3, char{1});
+        for (std::uint32_t i = 0; i < s.steps; ++i)
+            if (!is_sound(r_.steps[s.first_step + i])) return false;
+        for (std::uint32_t i = 0; i < s.outputs; ++i) {
+            const OutputSlot& o = r_.outputs[s.first_output + i];
+            if (!is_written(o.slot, 1) || !is_phase(o.phase) || !(o.sign == 1 || o.sign == -1)) return false;
+        }
+        return true;
+    }
+
+    bool has_constants(const InterfaceCell& c) const {
+        const RoutineTables::Shape& s = r_.shapes[c.shape];
+        if (!fits(c.first_data, s.steps, r_.data.size())) return false;
+        for (std::uint32_t i = 0; i < s.steps; ++i)
+            if (!has_constants(r_.steps[s.first_step + i].op, r_.data[c.first_data + i])) return false;
+        return true;
+    }
+    bool has_constants(std::uint32_t op, std::uint32_t at) const {
+        static const auto floats = all_floats();
+        if (!fits(at, floats[op], constants_.size())) return false;
+        if (!has_data(op)) return true;
+        if (traits(static_cast<Op>(op)).is_near) return is_list_of_sites(at);
+        return std::ranges::binary_search(of_object_, std::pair{op, at});
+    }
+    bool is_list_of_sites(std::uint32_t at) const {
+        constexpr std::uint32_t before = VoronoiNear::parameters + 1;
+        if (!fits(at, before, constants_.size())) return false;
+        const float count = constants_[at + before - 1];
+        constexpr auto each = static_cast<float>(VoronoiSites::site_floats);
+        if (!(count >= 0 && count <= each * VoronoiSites::neighbours) || count != each * std::floor(count / each))
+            return false;
+        return fits(at + before, static_cast<std::uint64_t>(count), constants_.size());
+    }
+
+    bool is_proof(std::uint32_t first, std::uint32_t end, std::uint32_t slots) const {
+        if (end - first > most_proof_steps) return false;
+        std::size_t depth = 0;
+        for (std::uint32_t i = first; i < end; ++i) {
+            const ProofStep& s = t_.proofs[i];
+            if (s.kind == ProofStep::leaf) {
+                if (s.slot >= slots || !is_number(s.factor) || !is_number(s.up) || !is_number(s.down)) return false;
+                ++depth;
+            } else {
+                if (depth < 2) return false;
+                --depth;
+            }
+        }
+        return depth == 1 || first == end;
+    }
+
+    const CellTables& t_;
+    const RoutineTables& r_;
+    std::span<const float> constants_;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> of_object_;  ///< primitives with data, and where those are
+    std::vector<char> written_;                                       ///< slots, by the steps so far
+};
+
+}  // namespace
+
+std::string what_is_unsound(const CellTables& tables, const Program& program) {
+    return Check(tables, program)();
+}
+
+}  // namespace phasetree

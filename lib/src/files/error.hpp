@@ -1,0 +1,23 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+namespace phasetree {
+
+/// What the system has against a file. Whoever opened it knows its name.
+class FileError : public std::runtime_error {
+  public:
+    explicit FileError(int code) : FileError(code, std::generic_category().message(code)) {}
+    FileError(int code, const std::string& what) : std::runtime_error(what), code_(code) {}
+    bool is_missing() const {
+        return code_ == static_cast<int>(std::errc::no_such_file_or_directory) ||
+               code_ == static_cast<int>(std::errc::not_a_directory);
+    }
+
+  private:
+    int code_;
+};
+
+}  // namespace phasetree
