@@ -34,7 +34,7 @@ class PreparationTogether {
     /// The one that this thread holds, if it does, pays so much; throws ModelError, said of the node.
     static void pay(std::string_view node, std::uint64_t steps);
 
-    static constexpr std::uint64_t most = 8 * Preparation::most;
+    static constexpr std::uint64_t most = 4 * Preparation::most;
 
   private:
     std::uint64_t paid_ = 0;

@@ -11,7 +11,9 @@
 #include "command/commands.hpp"
 #include "command/empty_object.hpp"
 #include "command/load.hpp"
+#include "command/max_memory.hpp"
 #include "command/streams.hpp"
+#include "output/cell_progress.hpp"
 #include "output/file.hpp"
 #include "output/interrupt.hpp"
 #include "output/progress.hpp"
@@ -31,6 +33,7 @@ struct Options {
     std::optional<std::string> crop;
     int threads = 0;
     BuildQuality quality = BuildQuality::medium;
+    std::size_t most_bytes = 0;
     std::optional<std::uint32_t> seed;
     std::optional<float> exposure;
     std::optional<std::string> display, view, stats;
@@ -177,13 +180,17 @@ int render_scene(const Options& options) {
     const InterruptGuard guard;
     std::optional<World> prepared;
     try {
-        prepared.emplace(scene, options.quality, job.cancelled);
+        CellProgress progress(ProgressOutput::standard_error(options.quiet));
+        prepared.emplace(
+            scene, options.quality, job.cancelled, [&](float done) { progress.tell(done); }, options.most_bytes);
     } catch (const BuildCancelled&) {
         say("phasetree: interrupted while the object was being prepared; nothing is written\n");
         return 1;
     }
     const World& world = *prepared;
     if (world.object().size() == 0) say("{}\n", empty_object_warning(document));
+    if (!options.quiet && world.object().statistics().is_coarser)
+        say("phasetree: the object would take more memory than --max-memory allows: rays are slower\n");
     const auto total = static_cast<std::uint64_t>(job.pixels.width()) *
                        static_cast<std::uint64_t>(job.pixels.height()) *
                        static_cast<std::uint64_t>(scene.settings.samples);
@@ -217,6 +224,7 @@ void add_render(CLI::App& app, Run& run) {
     command->add_option("--threads", o->threads, "Threads (default: one a core); the image does not depend on it")
         ->check(CLI::Range(1, 1024));
     add_build_quality(*command, o->quality);
+    add_max_memory(*command, o->most_bytes);
     command->add_option("--seed", o->seed, "Seed of the sampling");
     command->add_option("--exposure", o->exposure, "Stops by which display images are brighter; EXR stays as it is")
         ->check(CLI::Range(-50.0, 50.0));

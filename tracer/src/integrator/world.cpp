@@ -25,11 +25,14 @@ RTCRay ray_of(const glm::vec3& origin, const glm::vec3& direction, float far) {
 
 }  // namespace
 
-World::World(const Scene& scene, BuildQuality quality, std::function<bool()> cancelled)
+World::World(const Scene& scene, BuildQuality quality, std::function<bool()> cancelled,
+             std::function<void(float)> progress, std::size_t most_bytes)
     : scene_(scene), interfaces_(scene.materials) {
     CellOptions options;
     options.quality = quality;
     options.cancelled = std::move(cancelled);
+    options.progress = std::move(progress);
+    options.most_bytes = most_bytes;
     options.opaque = opaque_phases(scene.materials);
     object_ = std::make_shared<const InterfaceCells>(scene.object, options);
     device_ = rtcNewDevice(nullptr);

@@ -42,9 +42,10 @@ enum class Purpose { path, light };
 class World {
   public:
     // Refers to the scene, which must outlive it. Throws ModelError for an object that cannot be traced, BuildCancelled
-    // once `cancelled` says so.
+    // once `cancelled` says so. The rest is as CellOptions has it.
     explicit World(const Scene& scene, BuildQuality quality = BuildQuality::medium,
-                   std::function<bool()> cancelled = {});
+                   std::function<bool()> cancelled = {}, std::function<void(float)> progress = {},
+                   std::size_t most_bytes = 0);
     ~World();
     World(const World&) = delete;
     World& operator=(const World&) = delete;

@@ -65,6 +65,7 @@ std::unique_ptr<const Object> build(RTCDevice device, const Phased& tree, const 
     cells.quality = *quality_of(options.buildQuality);
     cells.opaque = {options.opaquePhases};
     if (options.cellDivisions > 0) cells.deepest = static_cast<int>(options.cellDivisions);
+    cells.most_bytes = options.mostBytes;
     if (options.cancelled) cells.cancelled = [&] { return options.cancelled(options.cancelledUserPtr); };
     try {
         return std::make_unique<const Object>(device, std::make_shared<const InterfaceCells>(tree, cells));
