@@ -48,7 +48,7 @@ namespace {
 template <class Handle, class Memory>
 Bounds remembered(const Handle& handle, float level, BoundsQuery& query, Memory& memory) {
     // Nodes ask when they are made, too, each anew; a question is about so many steps.
-    PreparationTogether::pay("bounds", 20);
+    PreparationTogether::pay("bounds", 60);
     // A tree of offsets of shared subtrees can ask exponentially many levels. Past some, they are rounded up to a few:
     // the box of a higher level holds that of a lower one.
     if (!memory.known.contains({handle.node(), level}) && ++memory.levels[handle.node()] > 16) {

@@ -15,7 +15,7 @@ class Preparation {
     void pay(std::uint64_t steps);
     std::uint64_t left() const { return most - paid_; }
 
-    static constexpr std::uint64_t most = 1'000'000'000;
+    static constexpr std::uint64_t most = 400'000'000;
 
   private:
     std::string_view node_;
@@ -34,7 +34,7 @@ class PreparationTogether {
     /// The one that this thread holds, if it does, pays so much; throws ModelError, said of the node.
     static void pay(std::string_view node, std::uint64_t steps);
 
-    static constexpr std::uint64_t most = 8 * Preparation::most;
+    static constexpr std::uint64_t most = 10 * Preparation::most;
 
   private:
     std::uint64_t paid_ = 0;

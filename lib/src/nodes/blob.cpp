@@ -115,7 +115,7 @@ double blob_slope(const Blob& blob) {
     const glm::vec3 extent = support.extent(), middle = support.centre();
     add({&middle, 1}, 0.5f * std::max({extent.x, extent.y, extent.z}) * (1 + 1e-6f));
     // Skeletons of many instructions are asked less often, and what is found is a bound all the same.
-    const std::uint64_t affordable = 8 * (preparation.left() / 2 / skeletons.steps());
+    const std::uint64_t affordable = batch_size * (preparation.left() / 8 / skeletons.steps());
     const std::size_t most =
         std::min<std::uint64_t>(std::clamp<std::size_t>(2'000'000 / blob.count(), 2'000, 50'000), affordable);
     for (std::size_t n = 0; n < most && cubes.top().bound > 1.02 * reached; n += 8) {

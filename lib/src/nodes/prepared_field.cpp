@@ -23,7 +23,7 @@ Program recorded(std::string_view node, const Field& field) {
 constexpr auto height_map = static_cast<Op>(static_cast<std::size_t>(Op::first_primitive) + Primitives::size +
                                             index_in<HeightMap>(DataPrimitives()));
 
-/// A long primitive counts for more than one, and one with data for as many as there are; but of a height map an
+/// A long primitive counts for more than one, and one with data for a quarter of them; but of a height map an
 /// evaluation looks at nine.
 std::uint64_t steps_of(const Program& program) {
     std::uint64_t steps = 20;  // to call it
@@ -31,7 +31,7 @@ std::uint64_t steps_of(const Program& program) {
         const Instruction& in = program.instructions[i];
         const std::size_t end =
             i + 1 < program.instructions.size() ? program.instructions[i + 1].data : program.constants.size();
-        const std::size_t floats = in.op == height_map ? 0 : end - in.data;
+        const std::size_t floats = in.op == height_map ? 0 : (end - in.data) / 4;
         steps += std::max<std::uint64_t>(traits(in.op).half_works / 2, floats);
     }
     return steps;

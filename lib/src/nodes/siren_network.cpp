@@ -28,7 +28,7 @@ double spectral_norm(const SirenNetwork::Layer& layer) {
     return std::sqrt(largest_eigenvalue(std::move(g), n));
 }
 
-constexpr std::uint64_t multiplications_a_step = 4;
+constexpr std::uint64_t multiplications_a_step = 8;
 
 /// The van der Corput sequence.
 double radical_inverse(unsigned n, unsigned base) {

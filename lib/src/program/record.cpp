@@ -161,7 +161,7 @@ class Recorder {
         return {reinterpret_cast<const float*>(&s), sizeof(Struct) / sizeof(float)};
     }
 
-    static constexpr std::size_t most_work_for_one = 40, most_constants = std::size_t{1} << 28;
+    static constexpr std::size_t most_work_for_one = 16, most_constants = std::size_t{1} << 28;
 
     Program& program_;
     std::size_t limit_, work_ = 0;

@@ -13,6 +13,7 @@ void add_cells(nlohmann::ordered_json& json, const CellStatistics& s) {
                                      {"percentile90", s.percentile90_instructions},
                                      {"most", s.most_instructions}};
     json["cell_bytes"] = s.bytes;
+    json["cells_are_coarser"] = s.is_coarser;
     json["cell_build_seconds"] = s.build_seconds;
 }
 
@@ -21,6 +22,7 @@ void print_cells(const CellStatistics& s) {
     put("{:<14}{} instructions or fewer in half of the cells, {} in nine of ten, {} at most\n", "  programs",
         s.median_instructions, s.percentile90_instructions, s.most_instructions);
     put("{:<14}{}\n", "  bytes", s.bytes);
+    if (s.is_coarser) put("{:<14}rays are slower than with more of it (--max-memory)\n", "  memory");
     put("{:<14}{:.3f} s\n", "  build time", s.build_seconds);
 }
 

@@ -5,8 +5,10 @@
 #include "command/commands.hpp"
 #include "command/empty_object.hpp"
 #include "command/load.hpp"
+#include "command/max_memory.hpp"
 #include "command/numbers.hpp"
 #include "command/streams.hpp"
+#include "output/cell_progress.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/program/evaluator.hpp"
 #include "phasetree/reading/tree.hpp"
@@ -21,7 +23,7 @@ glm::vec3 unsigned_zeroes(const glm::vec3& v) {
     return {unsigned_zero(v.x), unsigned_zero(v.y), unsigned_zero(v.z)};
 }
 
-int info(const SceneFile& file, bool as_json, bool with_cells, BuildQuality quality) {
+int info(const SceneFile& file, bool as_json, bool with_cells, const CellOptions& given) {
     const AvailableThreads threads;
     const Document document = read_document(file);
     const SceneTree tree = read_model(document);
@@ -32,10 +34,13 @@ int info(const SceneFile& file, bool as_json, bool with_cells, BuildQuality qual
     const Program& program = evaluator.program();
     const PhaseSet there = phases(tree.object);
     std::optional<CellStatistics> cells;
-    if (with_cells)
-        cells = made_of_tree(document, [&] {
-            return InterfaceCells(tree.object, {.quality = quality, .opaque = opaque_phases(document)}).statistics();
-        });
+    if (with_cells) {
+        CellOptions options = given;
+        options.opaque = opaque_phases(document);
+        CellProgress progress(ProgressOutput::standard_error(false));
+        options.progress = [&](float done) { progress.tell(done); };
+        cells = made_of_tree(document, [&] { return InterfaceCells(tree.object, options).statistics(); });
+    }
     const bool nothing_left = is_empty(tree.object, evaluator);
 
     if (as_json) {
@@ -86,11 +91,12 @@ void add_info(CLI::App& app, Run& run) {
     const auto file = add_scene_file(*command);
     auto json = std::make_shared<bool>(false), cells = std::make_shared<bool>(false);
     command->add_flag("--json", *json, "As JSON");
-    auto quality = std::make_shared<BuildQuality>(BuildQuality::medium);
+    auto options = std::make_shared<CellOptions>();
     auto* const with_cells = command->add_flag(
         "--cells", *cells, "Also build the cells in which a render traces rays, and say what they are");
-    add_build_quality(*command, *quality)->needs(with_cells);
-    command->callback([=, &run] { run = [=] { return info(*file, *json, *cells, *quality); }; });
+    add_build_quality(*command, options->quality)->needs(with_cells);
+    add_max_memory(*command, options->most_bytes)->needs(with_cells);
+    command->callback([=, &run] { run = [=] { return info(*file, *json, *cells, *options); }; });
 }
 
 }  // namespace phasetree::tracer

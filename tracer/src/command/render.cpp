@@ -11,7 +11,9 @@
 #include "command/commands.hpp"
 #include "command/empty_object.hpp"
 #include "command/load.hpp"
+#include "command/max_memory.hpp"
 #include "command/streams.hpp"
+#include "output/cell_progress.hpp"
 #include "output/file.hpp"
 #include "output/interrupt.hpp"
 #include "output/progress.hpp"
@@ -31,6 +33,7 @@ struct Options {
     std::optional<std::string> crop;
     int threads = 0;
     BuildQuality quality = BuildQuality::medium;
+    std::size_t most_bytes = 0;
     std::optional<std::uint32_t> seed;
     std::optional<float> exposure;
     std::optional<std::string> display, view, stats, cells;
@@ -177,7 +180,12 @@ int render_scene(const Options& options) {
     const InterruptGuard guard;
     std::optional<World> prepared;
     try {
-        prepared.emplace(scene, options.quality, job.cancelled, options.cells);
+        CellProgress progress(ProgressOutput::standard_error(options.quiet));
+        prepared.emplace(scene, WorldOptions{.quality = options.quality,
+                                             .cancelled = job.cancelled,
+                                             .progress = [&](float done) { progress.tell(done); },
+                                             .most_bytes = options.most_bytes,
+                                             .kept_cells = options.cells});
     } catch (const BuildCancelled&) {
         say("phasetree: interrupted while the object was being prepared; nothing is written\n");
         return 1;
@@ -186,6 +194,8 @@ int render_scene(const Options& options) {
     }
     const World& world = *prepared;
     if (world.object().size() == 0) say("{}\n", empty_object_warning(document));
+    if (!options.quiet && world.object().statistics().is_coarser)
+        say("phasetree: the object would take more memory than --max-memory allows: rays are slower\n");
     const auto total = static_cast<std::uint64_t>(job.pixels.width()) *
                        static_cast<std::uint64_t>(job.pixels.height()) *
                        static_cast<std::uint64_t>(scene.settings.samples);
@@ -219,6 +229,7 @@ void add_render(CLI::App& app, Run& run) {
     command->add_option("--threads", o->threads, "Threads (default: one a core); the image does not depend on it")
         ->check(CLI::Range(1, 1024));
     add_build_quality(*command, o->quality);
+    add_max_memory(*command, o->most_bytes);
     command->add_option("--cells", o->cells,
                         "File that keeps the prepared object for the next time: read if it is there and of this "
                         "object, else written");

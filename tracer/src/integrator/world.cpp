@@ -27,15 +27,15 @@ RTCRay ray_of(const glm::vec3& origin, const glm::vec3& direction, float far) {
 
 }  // namespace
 
-World::World(const Scene& scene, BuildQuality quality, std::function<bool()> cancelled,
-             const std::optional<std::filesystem::path>& kept)
-    : scene_(scene), interfaces_(scene.materials) {
+World::World(const Scene& scene, const WorldOptions& wanted) : scene_(scene), interfaces_(scene.materials) {
     CellOptions options;
-    options.quality = quality;
-    options.cancelled = std::move(cancelled);
+    options.quality = wanted.quality;
+    options.cancelled = wanted.cancelled;
+    options.progress = wanted.progress;
+    options.most_bytes = wanted.most_bytes;
     options.opaque = opaque_phases(scene.materials);
-    object_ =
-        kept ? kept_cells(*kept, scene.object, options) : std::make_shared<const InterfaceCells>(scene.object, options);
+    object_ = wanted.kept_cells ? kept_cells(*wanted.kept_cells, scene.object, options)
+                                : std::make_shared<const InterfaceCells>(scene.object, options);
     device_ = rtcNewDevice(nullptr);
     if (!device_) throw std::runtime_error("Embree cannot be started");
     embree_ = rtcNewScene(device_);

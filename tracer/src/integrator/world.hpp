@@ -41,12 +41,20 @@ struct Surface {
 // more; that has no optics then.
 enum class Purpose { path, light };
 
+// How the object is prepared; what is not said here is as CellOptions has it.
+struct WorldOptions {
+    BuildQuality quality = BuildQuality::medium;
+    std::function<bool()> cancelled{};
+    std::function<void(float)> progress{};
+    std::size_t most_bytes = 0;
+    std::optional<std::filesystem::path> kept_cells{};  // a file for the object's cells: see kept_cells.hpp
+};
+
 class World {
   public:
     // Refers to the scene, which must outlive it. Throws ModelError for an object that cannot be traced, BuildCancelled
-    // once `cancelled` says so. `kept` is a file for the object's cells: see kept_cells.hpp.
-    explicit World(const Scene& scene, BuildQuality quality = BuildQuality::medium,
-                   std::function<bool()> cancelled = {}, const std::optional<std::filesystem::path>& kept = {});
+    // once WorldOptions::cancelled says so.
+    explicit World(const Scene& scene, const WorldOptions& = {});
     ~World();
     World(const World&) = delete;
     World& operator=(const World&) = delete;

@@ -72,8 +72,9 @@ ProgressOutput ProgressOutput::standard_error(bool quiet) {
     return output;
 }
 
-Progress::Progress(std::uint64_t total, ProgressOutput output)
+Progress::Progress(std::uint64_t total, ProgressOutput output, std::string task)
     : total_(total),
+      task_(std::move(task)),
       output_(std::move(output)),
       start_(output_.now()),
       next_draw_(start_.time_since_epoch().count()),
@@ -125,7 +126,7 @@ void Progress::print_line() {
     const std::string at = done >= total_ ? fmt::format(", {} elapsed", duration_text(elapsed))
                            : done > 0     ? ", " + times(done, elapsed)
                                           : "";
-    *output_.stream << fmt::format("Progress: {}%{}\n", 5 * twentieths, at) << std::flush;
+    *output_.stream << fmt::format("{}: {}%{}\n", task_.empty() ? "Progress" : task_, 5 * twentieths, at) << std::flush;
 }
 
 void Progress::measure_rate(TimePoint now, std::uint64_t done) {
@@ -155,7 +156,8 @@ void Progress::draw_bar(TimePoint now) {
 std::string Progress::bar_line(std::uint64_t done, double elapsed) const {
     const std::string percent = fmt::format("{:3}%", share(done, total_, 100));
     const std::string at = times(done, elapsed);
-    const std::string samples = fmt::format("{}/{} samples", count_text(done), count_text(total_));
+    const std::string samples =
+        !task_.empty() ? task_ : fmt::format("{}/{} samples", count_text(done), count_text(total_));
 
     // The last column stays free: some terminals wrap as soon as it is filled.
     const int width = output_.columns() - 1;

@@ -28,8 +28,8 @@ struct ProgressOutput {
 
 class Progress {
   public:
-    /// total: the number of samples to come.
-    Progress(std::uint64_t total, ProgressOutput output);
+    /// total: the number of samples to come; or of something else, of which the bar tells the `task` and not how many.
+    Progress(std::uint64_t total, ProgressOutput output, std::string task = {});
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -51,6 +51,7 @@ class Progress {
     std::string bar_line(std::uint64_t done, double elapsed) const;
 
     const std::uint64_t total_;
+    const std::string task_;
     const ProgressOutput output_;
     const TimePoint start_;
     std::atomic<std::uint64_t> done_{0};

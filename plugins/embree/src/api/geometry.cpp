@@ -67,6 +67,7 @@ CellOptions cell_options(const PhasetreeGeometryOptions& options) {
     cells.quality = *quality_of(options.buildQuality);
     cells.opaque = {options.opaquePhases};
     if (options.cellDivisions > 0) cells.deepest = static_cast<int>(options.cellDivisions);
+    cells.most_bytes = options.mostBytes;
     // The application's two ways to end a build.
     const auto is_ended = std::make_shared<std::atomic<bool>>(false);
     if (options.cancelled || options.progress)

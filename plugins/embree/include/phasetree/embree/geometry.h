@@ -37,6 +37,10 @@ typedef struct PhasetreeGeometryOptions {
      * same. What rays find is, too. */
     unsigned int buildQuality;
     unsigned int cellDivisions; /* at most so many times from the bounds on, 20 or fewer; 0: the library's choice */
+    /* About how many bytes the cells and Embree's tree over them may take, and building them. Where they would take
+     * more, cells are larger, and rays find the same more slowly. 0: 2 GiB, or a quarter of what the machine has or
+     * the process may use, if that is less. phasetreeGetGeometryStatistics tells what they take. */
+    size_t mostBytes;
     /* Phases to show: a crossing between two phases of which none is in the set is passed as if it were not there. The
      * vacuum never counts as shown, in the set or not. To hide one phase, leave it out. */
     PhasetreePhaseSet shownPhases;
@@ -64,6 +68,7 @@ static inline void phasetreeInitGeometryOptions(PhasetreeGeometryOptions* option
     options->resolution = 0;
     options->buildQuality = RTC_BUILD_QUALITY_MEDIUM;
     options->cellDivisions = 0;
+    options->mostBytes = 0;
     options->shownPhases = PHASETREE_ALL_PHASES;
     options->opaquePhases = 0;
     options->cancelled = NULL;

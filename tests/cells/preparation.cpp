@@ -1,0 +1,26 @@
+#include "model/preparation.hpp"
+
+#include <doctest/doctest.h>
+
+#include "phasetree/model/handle.hpp"
+
+using namespace phasetree;
+
+TEST_CASE("a node, and all nodes of a scene together, may do so much work and no more") {
+    Preparation alone("a");
+    alone.pay(Preparation::most);
+    CHECK(alone.left() == 0);
+    CHECK_THROWS_AS(alone.pay(1), ModelError);
+
+    const PreparationTogether scene;
+    for (std::uint64_t i = 0; i < PreparationTogether::most / Preparation::most; ++i)
+        Preparation("b").pay(Preparation::most);
+    CHECK_THROWS_WITH_AS(
+        Preparation("c").pay(1),
+        "c: this and the nodes before it take more work to prepare than a scene may: 4000 million steps", ModelError);
+    {
+        const PreparationTogether another;
+        Preparation("d").pay(Preparation::most);
+    }
+    CHECK_THROWS_AS(Preparation("e").pay(1), ModelError);
+}

@@ -1,0 +1,111 @@
+// Shapes made of shapes, forty levels of them, each with the one below as every child that it has: few nodes that stand
+// for billions. What walks a tree must go through each node once, or count what it does and refuse; a test that does
+// not end tells of one that does neither.
+#include <doctest/doctest.h>
+
+#include "phasetree/program/program.hpp"
+#include "phasetree/reading/write.hpp"
+#include "support/random_node.hpp"
+
+using namespace phasetree;
+using namespace phasetree::tests;
+
+namespace {
+
+constexpr int levels = 40;
+
+struct Shapes {
+    Field field;
+    Phased object;
+
+    explicit Shapes(Field f) : field(f), object(Set{.phase = Phase{1}, .of = f}) {}
+    explicit Shapes(Phased o) : field(Merge{.of = o}), object(o) {}
+};
+
+/// Each time that it is asked for, the shapes are a little further on, or else always in one place.
+class Moved {
+  public:
+    Moved(const Shapes& shapes, bool moves) : shapes_(shapes), moves_(moves) {}
+    void operator()(Field& f) { f = moves_ ? warped(next(), shapes_.field) : shapes_.field; }
+    void operator()(Phased& o) { o = moves_ ? warped(next(), shapes_.object) : shapes_.object; }
+
+  private:
+    Translate next() { return {{0.01f * static_cast<float>(++count_), 0, 0}}; }
+
+    const Shapes& shapes_;
+    bool moves_;
+    int count_ = 0;
+};
+
+/// All that a node is made of becomes `below`. False if it is made of nothing.
+template <class Node>
+bool stand_on(Node& node, const Shapes& below, bool moves) {
+    bool has_children = false;
+    Moved moved(below, moves);
+    for_each_parameter(node, [&](auto& value, const Parameter&) {
+        using T = std::remove_cvref_t<decltype(value)>;
+        if constexpr (std::is_same_v<T, Field> || std::is_same_v<T, Phased>) {
+            moved(value);
+            has_children = true;
+        } else if constexpr (std::is_same_v<T, std::vector<Field>> || std::is_same_v<T, std::vector<Phased>>) {
+            if (value.size() < 2) value.resize(2);
+            for (auto& child : value) moved(child);
+            has_children = true;
+        }
+    });
+    return has_children;
+}
+
+struct Answers {
+    int nodes = 0, refused_nodes = 0, programs = 0, refused_programs = 0, written = 0;
+};
+
+template <class Node>
+void climb(Random& rng, bool moves, Answers& answers) {
+    using Handle = std::conditional_t<IsFieldNode<Node>, Field, Phased>;
+    CAPTURE(Node::info.name);
+    Node node = std::get<Node>(random_rooted<Node>(rng, 3).node()->node);
+    Shapes shapes(Field(Sphere{.radius = 0.5f}));
+    if constexpr (!IsFieldNode<Node>)
+        shapes = Shapes(Under{.of = {Set{.phase = Phase{1}, .of = Sphere{.radius = 0.5f}},
+                                     Set{.phase = Phase{2}, .of = Box{.size = glm::vec3(0.9f)}}}});
+    for (int level = 0; level < levels; ++level) {
+        try {
+            if (!stand_on(node, shapes, moves)) return;
+            shapes = Shapes(Handle(node));
+            ++answers.nodes;
+        } catch (const ModelError&) {
+            ++answers.refused_nodes;  // too large, unbounded, too many phases …
+            break;
+        }
+    }
+    (void)bounds(shapes.object);
+    CHECK(statistics(shapes.object).nodes < 10 * levels * 4);
+    try {
+        (void)record(shapes.object, 50'000);  // a tenth of what is allowed: the test is in a hurry
+        ++answers.programs;
+    } catch (const ModelError&) {
+        ++answers.refused_programs;
+    }
+    try {
+        answers.written += !write_tree({{{"vacuum", "a", "b", "c", "d"}}, shapes.object}).empty();
+    } catch (const ModelError&) {
+    }
+}
+
+}  // namespace
+
+TEST_CASE("of forty levels of any node there is an answer, or it is refused") {
+    Random rng(40);
+    for (const bool moves : {false, true}) {
+        Answers answers;
+        for_each_type(FieldNodes(), [&]<class Node>() { climb<Node>(rng, moves, answers); });
+        for_each_type(PhasedNodes(), [&]<class Node>() { climb<Node>(rng, moves, answers); });
+        MESSAGE(answers.nodes, " nodes, ", answers.refused_nodes, " refused; ", answers.programs, " programs, ",
+                answers.refused_programs, " refused; ", answers.written, " written");
+        CHECK(answers.nodes > 1000);
+        CHECK(answers.programs > 20);
+        CHECK(answers.written > 20);
+        if (moves) CHECK(answers.refused_programs > 10);
+    }
+}
