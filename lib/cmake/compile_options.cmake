@@ -44,3 +44,16 @@ if(PHASETREE_SANITIZE)
     add_compile_options(-fsanitize=${sanitizers} -fno-omit-frame-pointer -fno-sanitize-recover=all)
     add_link_options(-fsanitize=${sanitizers})
 endif()
+
+# Everything is told of to the fuzzers, which alone link libFuzzer: see tests/fuzz.
+option(PHASETREE_FUZZ "Build the libFuzzer programs of tests/fuzz; Clang only" OFF)
+if(PHASETREE_FUZZ)
+    add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
+
+# Which lines run: see tests/coverage.sh.
+option(PHASETREE_COVERAGE "Count how often each line runs, for gcov" OFF)
+if(PHASETREE_COVERAGE)
+    add_compile_options(--coverage -fprofile-update=atomic)
+    add_link_options(--coverage)
+endif()
