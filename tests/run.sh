@@ -2,11 +2,14 @@
 # Builds the project and runs every test. On Debian and Ubuntu it first installs what that needs.
 #
 #   bash tests/run.sh [--long] [--asan] [--tsan] [-- CTEST_ARGUMENT…]
+#   bash tests/run.sh --fuzz MINUTES [TARGET…]
 #
 #   --long   the long forms of the statistical and fuzz tests, minutes instead of seconds (PHASETREE_LONG_TESTS=1)
 #   --asan   build and run with the address and undefined behaviour sanitizers, in build/asan
 #   --tsan   build and run with the thread sanitizer, in build/tsan
 #   --       what follows goes to ctest: -- -R shading runs the tests with "shading" in their name
+#   --fuzz   instead of the tests: build the fuzzers with Clang, in build/fuzz, and let each run for so many minutes, as
+#            many at a time as there are cores; what they find lies in build/fuzz/found (tests/README.md)
 #
 # The exit status is CTest's: 0 when all tests pass. Without --asan and --tsan it is a release build, in build/release.
 set -uo pipefail
@@ -16,11 +19,22 @@ set -uo pipefail
 
 presets=()
 long=
+minutes=
 while [ $# -gt 0 ]; do
     case $1 in
         --long) long=yes ;;
         --asan) presets+=(asan) ;;
         --tsan) presets+=(tsan) ;;
+        --fuzz)
+            shift
+            minutes=${1:-}
+            if ! [[ $minutes =~ ^[1-9][0-9]*$ ]]; then
+                say "tests/run.sh: --fuzz is followed by a number of minutes"
+                exit 2
+            fi
+            shift
+            break
+            ;;
         -h | --help)
             sed -n '2,/^set/{/^#/s/^# \{0,1\}//p}' "${BASH_SOURCE[0]}"
             exit 0
@@ -30,13 +44,57 @@ while [ $# -gt 0 ]; do
             break
             ;;
         *)
-            say "tests/run.sh: unknown argument \"$1\"; it knows --long, --asan, --tsan and, for ctest, -- ARGUMENTS"
+            say "tests/run.sh: unknown argument \"$1\"; it knows --long, --asan, --tsan, --fuzz MINUTES and, for ctest, -- ARGUMENTS"
             exit 2
             ;;
     esac
     shift
 done
 [ ${#presets[@]} -gt 0 ] || presets=(release)
+
+# fuzz_one TARGET LONGEST SEEDS: one fuzzer for so many minutes. Its corpus grows from run to run; a finding ends it.
+fuzz_one() {
+    local target=$1 longest=$2 folders=("$root/tests/fuzz/corpus/$1")
+    [ -z "$3" ] || folders+=("$root/$3")
+    local grown="$root/build/fuzz/corpus/$target" found="$root/build/fuzz/found/$target"
+    mkdir -p "$grown" "$found"
+    # On a busy machine an input may take long by the clock.
+    UBSAN_OPTIONS=print_stacktrace=1 "$root/build/fuzz/tests/fuzz/fuzz" "--target=$target" \
+        -max_total_time=$((60 * minutes)) -max_len="$longest" -timeout=120 -rss_limit_mb=4096 \
+        -dict="$root/build/fuzz/words" -artifact_prefix="$found/" -print_final_stats=1 "$grown" "${folders[@]}" \
+        >"$found/log" 2>&1
+    local status=$?
+    if [ $status -eq 0 ]; then
+        say "$target: nothing found in $(awk '/number_of_executed_units/ { print $2 }' "$found/log") inputs"
+    else
+        say "$target: FOUND something; the input and the log are in $found"
+        grep -aE 'ERROR:|runtime error:|broken promise:' "$found/log" | head -n 5 >&2
+    fi
+    return $status
+}
+
+if [ "$minutes" ]; then
+    install_packages "$root/build/packages.log" "${packages_to_build[@]}" clang libclang-rt-14-dev
+    configure fuzz || exit 1
+    build fuzz fuzz || exit 1
+    fuzzer="$root/build/fuzz/tests/fuzz/fuzz"
+    "$fuzzer" --words >"$root/build/fuzz/words" || exit 1
+    status=0 running=0
+    while read -r target longest seeds <&3; do
+        [ $# -eq 0 ] || [[ " $* " == *" $target "* ]] || continue
+        if [ $running -ge "$(nproc 2>/dev/null || getconf _NPROCESSORS_ONLN)" ]; then
+            wait -n || status=1
+            running=$((running - 1))
+        fi
+        fuzz_one "$target" "$longest" "$seeds" &
+        running=$((running + 1))
+    done 3< <("$fuzzer" --targets)
+    while [ $running -gt 0 ]; do
+        wait -n || status=1
+        running=$((running - 1))
+    done
+    exit $status
+fi
 
 # The presets bound each test's time for the short forms.
 ctest_arguments=(--parallel "$(nproc 2>/dev/null || getconf _NPROCESSORS_ONLN)")

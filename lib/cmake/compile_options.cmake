@@ -44,3 +44,28 @@ if(PHASETREE_SANITIZE)
     add_compile_options(-fsanitize=${sanitizers} -fno-omit-frame-pointer -fno-sanitize-recover=all)
     add_link_options(-fsanitize=${sanitizers})
 endif()
+
+# Everything is told of to the fuzzers, which alone link libFuzzer: see tests/fuzz.
+option(PHASETREE_FUZZ "Build the libFuzzer programs of tests/fuzz; Clang only" OFF)
+if(PHASETREE_FUZZ)
+    add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
+
+# How often each line of these folders runs, for gcov: see tests/coverage.sh. All else is compiled as ever.
+set(PHASETREE_COVERAGE "" CACHE STRING "Folders whose lines are counted: lib/src/reading;tracer/src/scene …")
+if(PHASETREE_COVERAGE)
+    add_link_options(--coverage)
+endif()
+# phasetree_count_lines(TARGET): those of its sources that lie in one of the folders.
+function(phasetree_count_lines target)
+    get_target_property(sources ${target} SOURCES)
+    foreach(folder ${PHASETREE_COVERAGE})
+        foreach(source ${sources})
+            get_filename_component(path ${source} ABSOLUTE)
+            string(FIND "${path}" "${PROJECT_SOURCE_DIR}/${folder}/" place)
+            if(place EQUAL 0)
+                set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS --coverage -fprofile-update=atomic -O0)
+            endif()
+        endforeach()
+    endforeach()
+endfunction()

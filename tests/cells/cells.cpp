@@ -1,19 +1,16 @@
-// Cells against the whole program: the same labels at points, the same interfaces along rays, valid distances. The
-// whole program is itself held to set algebra and analytic roots in tests/lib.
-
-#include "phasetree/cells/cells.hpp"
-#include "source_directory.hpp"
-
+// Cells against the whole program: the same labels at points, valid distances. The whole program is itself held to set
+// algebra and analytic roots in tests/lib.
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <limits>
 
+#include "cells/traceable.hpp"
+#include "phasetree/cells/cells.hpp"
 #include "phasetree/phasetree.hpp"
 #include "phasetree/reading/tree.hpp"
-#include "support/compared_crossings.hpp"
+#include "source_directory.hpp"
 #include "support/compared_labels.hpp"
-#include "support/random_tree.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;
@@ -22,19 +19,6 @@ namespace {
 
 Phased hourglass() {
     return read_tree(Document::from_file(source_directory() + "/scenes/hourglass.json")).object;
-}
-
-Phased cut_to_size(Phased object) {
-    return IntersectShape{.of = std::move(object), .shape = Box{.size = glm::vec3(3)}, .phases_cut = {}};
-}
-
-/// A bounded random object whose bounds are not empty.
-Phased traceable_object(Random& rng, int depth) {
-    for (;;) {
-        Phased object = cut_to_size(random_object(rng, depth));
-        const Bounds b = bounds(object);
-        if (!b.empty() && b.finite()) return object;
-    }
 }
 
 std::vector<std::size_t> cells_at(const InterfaceCells& cells, const glm::vec3& p) {
@@ -62,28 +46,6 @@ TEST_CASE("a cell's program gives the whole object's labels in the cell and on i
     MESSAGE("points in cells of random trees: ", points);
     CHECK(points > 20'000);
     CHECK(wrong == 0);
-}
-
-TEST_CASE("a cell's program gives the whole object's labels with each kind of node at the root") {
-    Random rng(8);
-    const int trees = long_tests() ? 200 : 4;
-    for (const NodeKind& kind : node_kinds()) {
-        CAPTURE(kind.name);
-        std::size_t points = 0;
-        for (int i = 0, attempt = 0; i < trees && attempt < 50 * trees; ++attempt) {
-            CAPTURE(i);
-            const Phased object = cut_to_size(kind.object(rng, 2 + i % 3));
-            // Some draws are empty.
-            if (bounds(object).empty()) continue;
-            const InterfaceCells cells(object);
-            if (cells.size() == 0) continue;
-            ++i;
-            const Disagreements d = compare_labels(cells, 8);
-            REQUIRE(d.wrong == 0);
-            points += d.points;
-        }
-        CHECK(points > 50);
-    }
 }
 
 TEST_CASE("endless copies are pruned as single ones are, away from the faces where space is folded") {
@@ -149,67 +111,6 @@ TEST_CASE("no interface passes outside the cells") {
         }
     }
     CHECK(found > 3000);
-}
-
-TEST_CASE("the nearest crossing over all cells is the whole object's") {
-    Random rng(13);
-    std::vector<Phased> objects{hourglass()};
-    for (int i = 0; i < (long_tests() ? 300 : 12); ++i) objects.push_back(traceable_object(rng, 3));
-    Compared all;
-    for (const Phased& object : objects) compare_crossings(object, {}, 300, rng, all, any_quality(rng));
-    MESSAGE(all.rays, " rays, ", all.crossings, " crossings, ", all.different, " different");
-    CHECK(all.crossings > all.rays);
-    CHECK(all.different == 0);
-}
-
-TEST_CASE("the nearest crossing over all cells is the whole object's with each kind of node at the root") {
-    Random rng(14);
-    const int trees = long_tests() ? 100 : 1;
-    Compared all;
-    int attempt_of_all = 0;
-    for (const NodeKind& kind : node_kinds()) {
-        CAPTURE(kind.name);
-        for (int i = 0, attempt = 0; i < trees && attempt < 50 * trees; ++attempt) {
-            const Phased object = cut_to_size(kind.object(rng, 1 + attempt_of_all++ % 3));
-            if (bounds(object).empty()) continue;
-            ++i;
-            const std::size_t before = all.different;
-            compare_crossings(object, {}, long_tests() ? 400 : 150, rng, all);
-            CHECK(all.different == before);
-        }
-    }
-    MESSAGE(all.rays, " rays, ", all.crossings, " crossings, ", all.different, " different");
-    CHECK(all.crossings > all.rays / 2);
-}
-
-TEST_CASE("with opaque phases rays in the others meet what they met, and where opaque ones meet there are no cells") {
-    Random rng(14);
-    std::vector<Phased> objects{hourglass()};
-    for (int i = 0; i < (long_tests() ? 300 : 12); ++i) objects.push_back(traceable_object(rng, 3));
-    Compared all;
-    std::size_t cells_without = 0, cells_with = 0;
-    for (const Phased& object : objects) {
-        PhaseSet opaque;
-        for_each_phase(phases(object).bits & ~std::uint64_t{1}, [&](int i) {
-            if (rng.chance(0.7)) opaque = opaque | PhaseSet::of(Phase{static_cast<std::uint8_t>(i)});
-        });
-        compare_crossings(object, opaque, 300, rng, all, any_quality(rng));
-        cells_without += InterfaceCells(object).size();
-        cells_with += InterfaceCells(object, {.opaque = opaque}).size();
-    }
-    MESSAGE(all.rays, " rays, ", all.crossings, " crossings, ", all.into_opaque, " into opaque phases, ", all.different,
-            " different; ", cells_with, " cells for ", cells_without);
-    CHECK(all.into_opaque > all.rays / 4);
-    CHECK(all.different == 0);
-
-    // A ball in a ball: of the inner one nothing is left, and of all that is opaque nothing at all.
-    const Phased ball = Over{.of = {Set{.phase = Phase{1}, .of = Sphere{.radius = 0.5f}},
-                                    Set{.phase = Phase{2}, .of = Sphere{.radius = 1}}}};
-    const InterfaceCells outer(ball, {.opaque = {0b110}});
-    REQUIRE(outer.size() > 0);
-    for (std::size_t i = 0; i < outer.size(); ++i) CHECK(outer.bounds(i).contains(glm::vec3(0)) == false);
-    for (const glm::vec3& p : {glm::vec3(0.5f, 0, 0), glm::vec3(0, -0.5f, 0)}) CHECK(cells_at(outer, p).empty());
-    CHECK(InterfaceCells(ball, {.opaque = {0b111}}).size() == 0);
 }
 
 TEST_CASE("cells of a copy are the same, and few") {

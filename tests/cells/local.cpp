@@ -48,7 +48,7 @@ TEST_CASE("rays through cells of Voronoi patterns find what marching through the
     Random rng(218);
     Compared all;
     std::size_t cells = 0, routines = 0;
-    for (int n = 0; n < (long_tests() ? 300 : 9); ++n) {
+    for (int n = 0; n < (long_tests() ? 300 : 6); ++n) {
         const Phased object =
             n % 3 == 0   ? several(rng)
             : n % 3 == 1 ? colours(rng)

@@ -278,7 +278,7 @@ Cost divide(const Share& share, const Division& d, Worker& w) {
         const RangesInBall ranges{centre, slope, radius, d.rounding};
         const auto program = prune(share.program, d.constants, ranges, d.options.opaque, own.programs, own.scratch);
         if (!program) return;
-        Share& part = *std::construct_at(&divided[i], parts.box[i], *program, share.local, share.depth + 1);
+        Share& part = *std::construct_at(&divided[i], Share{parts.box[i], *program, share.local, share.depth + 1});
         if (std::isfinite(share.period)) part.period = finest_jump(part.program, d.constants);
         if (std::isfinite(share.pattern)) part.pattern = finest_pattern(part.program, d.constants);
         is_left[i] = prepare(part, d, own);

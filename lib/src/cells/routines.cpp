@@ -33,11 +33,25 @@ std::uint64_t both(std::uint64_t high, std::uint32_t low) {
 bool is_equal(const ProgramOutput& a, const ProgramOutput& b) {
     return a.phase == b.phase && a.value == b.value && a.negate == b.negate;
 }
-constexpr auto is_leaf = [](const ProofPart& part) { return part.kind == ProofStep::leaf; };
+bool is_leaf(const ProofPart& part) {
+    return part.kind == ProofStep::leaf;
+}
 
-/// What a routine has to know of a proof: which values it speaks of, in which order.
-auto values_of(std::span<const ProofPart> proof) {
-    return proof | std::views::filter(is_leaf) | std::views::transform(&ProofPart::value);
+/// What a routine has to know of a proof: calls f(value) for the values that it speaks of, in its order.
+template <class F>
+void for_each_value(std::span<const ProofPart> proof, F&& f) {
+    for (const ProofPart& part : proof)
+        if (is_leaf(part)) f(part.value);
+}
+
+/// Whether two proofs speak of the same values in the same order.
+bool has_equal_values(std::span<const ProofPart> a, std::span<const ProofPart> b) {
+    for (auto i = a.begin(), j = b.begin();; ++i, ++j) {
+        i = std::find_if(i, a.end(), is_leaf);
+        j = std::find_if(j, b.end(), is_leaf);
+        if (i == a.end() || j == b.end()) return i == a.end() && j == b.end();
+        if (i->value != j->value) return false;
+    }
 }
 
 }  // namespace
@@ -47,7 +61,7 @@ Routines::Key Routines::key_of(const Found& found, const Found::Cell& cell) {
     for (const Instruction& in : found.code_of(cell))
         hash.put(both(static_cast<std::uint32_t>(in.op), in.data), both(in.a, in.b));
     for (const ProgramOutput& o : found.outputs_of(cell)) hash.put(both(o.phase.index, o.value), o.negate);
-    for (const std::uint32_t value : values_of(found.proof_of(cell))) hash.put(value, 1);
+    for_each_value(found.proof_of(cell), [&](std::uint32_t value) { hash.put(value, 1); });
     return {&found, &cell, hash.get()};
 }
 
@@ -58,7 +72,7 @@ bool Routines::Key::operator==(const Key& other) const {
     return hash == other.hash && cell->leading == other.cell->leading &&
            are_equal(found->code_of(*cell), other.found->code_of(*other.cell)) &&
            are_equal(found->outputs_of(*cell), other.found->outputs_of(*other.cell)) &&
-           std::ranges::equal(values_of(found->proof_of(*cell)), values_of(other.found->proof_of(*other.cell)));
+           has_equal_values(found->proof_of(*cell), other.found->proof_of(*other.cell));
 }
 
 void Routines::take_near(Found& found) {
@@ -74,7 +88,7 @@ const Routines::Ready& Routines::add(const Found& found, const Found::Cell& cell
     const Key key = key_of(found, cell);
     if (const auto known = known_.find(key); known != known_.end()) return known->second;
     kept_.clear();
-    for (const std::uint32_t value : values_of(found.proof_of(cell))) kept_.push_back(value);
+    for_each_value(found.proof_of(cell), [&](std::uint32_t value) { kept_.push_back(value); });
     return known_.emplace(key, make(found, cell)).first->second;
 }
 

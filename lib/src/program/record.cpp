@@ -35,36 +35,9 @@ class Recorder {
         program_.lipschitz.push_back(1.f);
     }
 
-    Recorded field(const Field& f, const RecordedPoint& p) {
-        work(1);
-        const Key key{f.node(), p.id};
-        if (const auto found = fields_.find(key); found != fields_.end()) return found->second;
-        const Recorded r = std::visit(
-            [&](const auto& n) {
-                using N = std::remove_cvref_t<decltype(n)>;
-                if constexpr (Primitive<N> || DataPrimitive<N>)
-                    return primitive(n, p);
-                else
-                    return n.evaluate(*this, p);
-            },
-            f.node()->node);
-        fields_.emplace(key, r);
-        return r;
-    }
-
-    Phases<Recorded> phases(const Phased& a, const RecordedPoint& p) {
-        work(1);
-        const Key key{a.node(), p.id};
-        if (const auto found = objects_.find(key); found != objects_.end()) {
-            Phases<Recorded> r;
-            for (const auto& [phase, id] : found->second) r.set(phase, {this, id});
-            return r;
-        }
-        auto r = std::visit([&](const auto& n) { return n.evaluate(*this, p); }, a.node()->node);
-        auto& compact = objects_[key];
-        for_each_phase(r.present, [&](int i) { compact.emplace_back(i, r[i].id); });
-        return r;
-    }
+    // Defined behind the operations of Recorded, which the nodes' equations use.
+    Recorded field(const Field&, const RecordedPoint&);
+    Phases<Recorded> phases(const Phased&, const RecordedPoint&);
 
     template <class P>
     Recorded primitive(const P& primitive, const RecordedPoint& p) {
@@ -222,6 +195,37 @@ Recorded smooth_min(Recorded a, Recorded b, float r) {
 }
 Recorded smooth_max(Recorded a, Recorded b, float r) {
     return -smooth_min(-a, -b, r);
+}
+
+Recorded Recorder::field(const Field& f, const RecordedPoint& p) {
+    work(1);
+    const Key key{f.node(), p.id};
+    if (const auto found = fields_.find(key); found != fields_.end()) return found->second;
+    const Recorded r = std::visit(
+        [&](const auto& n) {
+            using N = std::remove_cvref_t<decltype(n)>;
+            if constexpr (Primitive<N> || DataPrimitive<N>)
+                return primitive(n, p);
+            else
+                return n.evaluate(*this, p);
+        },
+        f.node()->node);
+    fields_.emplace(key, r);
+    return r;
+}
+
+Phases<Recorded> Recorder::phases(const Phased& a, const RecordedPoint& p) {
+    work(1);
+    const Key key{a.node(), p.id};
+    if (const auto found = objects_.find(key); found != objects_.end()) {
+        Phases<Recorded> r;
+        for (const auto& [phase, id] : found->second) r.set(phase, {this, id});
+        return r;
+    }
+    auto r = std::visit([&](const auto& n) { return n.evaluate(*this, p); }, a.node()->node);
+    auto& compact = objects_[key];
+    for_each_phase(r.present, [&](int i) { compact.emplace_back(i, r[i].id); });
+    return r;
 }
 
 /// Deletes what no output needs: operators compute components that a node above may not use.

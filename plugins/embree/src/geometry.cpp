@@ -1,5 +1,6 @@
 #include <cstring>
 #include <limits>
+#include <new>
 #include <utility>
 
 #include "lanes.hpp"
@@ -79,11 +80,22 @@ void write(RTCHitN* hits, unsigned n, unsigned i, const Crossing& c, const glm::
     set_place(hits, n, i, arguments.primID, arguments.geomID, *arguments.context);
 }
 
+/// The same, and nothing where there is no memory for it, which the query then knows.
+template <class Arguments>
+std::optional<Crossing> crossing_if_possible(const Arguments& arguments, Query& query, const RTCRay& ray) noexcept {
+    try {
+        return crossing(arguments, query, ray);
+    } catch (const std::bad_alloc&) {
+        query.is_out_of_memory = true;
+        return std::nullopt;
+    }
+}
+
 void intersect_query(const RTCIntersectFunctionNArguments* arguments) noexcept {
     if (arguments->valid[0] != -1) return;
     Query& query = query_of(arguments->context);
     RTCRay& ray = reinterpret_cast<RTCRayHit*>(arguments->rayhit)->ray;
-    const auto c = crossing(*arguments, query, ray);
+    const auto c = crossing_if_possible(*arguments, query, ray);
     if (!c) return;
     ray.tfar = c->t_in / query.seen.length;
     write(RTCRayHitN_HitN(arguments->rayhit, 1), 1, 0, *c, -query.seen.ray.direction, *arguments);
@@ -93,12 +105,14 @@ void intersect_query(const RTCIntersectFunctionNArguments* arguments) noexcept {
 void occluded_query(const RTCOccludedFunctionNArguments* arguments) noexcept {
     if (arguments->valid[0] != -1) return;
     RTCRay& ray = *reinterpret_cast<RTCRay*>(arguments->ray);
-    if (crossing(*arguments, query_of(arguments->context), ray)) ray.tfar = -std::numeric_limits<float>::infinity();
+    if (crossing_if_possible(*arguments, query_of(arguments->context), ray))
+        ray.tfar = -std::numeric_limits<float>::infinity();
 }
 
-/// Calls hit(lane, crossing, the ray as seen) for the lanes of a packet whose ray crosses an interface in the cell.
+/// Calls hit(lane, crossing, the ray as seen) for the lanes of a packet whose ray crosses an interface in the cell; for
+/// no more of them where memory ends.
 template <class Arguments, class Hit>
-void each_crossing(const Arguments& arguments, RTCRayN* rays, Hit&& hit) {
+void each_crossing(const Arguments& arguments, RTCRayN* rays, Hit&& hit) noexcept try {
     const unsigned n = arguments.N;
     TraceCounters unused;
     for (unsigned i = 0; i < n; ++i) {
@@ -108,6 +122,7 @@ void each_crossing(const Arguments& arguments, RTCRayN* rays, Hit&& hit) {
         const InterfaceCells& object = *data_of(arguments.geometryUserPtr).object;
         if (const auto c = crossing(object, arguments.primID, s, ray, {}, {}, unused)) hit(i, *c, s);
     }
+} catch (const std::bad_alloc&) {
 }
 
 void intersect_lanes(const RTCIntersectFunctionNArguments* arguments) noexcept {
@@ -115,9 +130,9 @@ void intersect_lanes(const RTCIntersectFunctionNArguments* arguments) noexcept {
     RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, n);
     each_crossing(*arguments, rays, [&](unsigned i, const Crossing& c, const Query::Seen& s) {
         const InterfaceCells& object = *data_of(arguments->geometryUserPtr).object;
+        const glm::vec3 normal = -object.normal(arguments->primID, c, s.ray.direction).unit;
         RTCRayN_tfar(rays, n, i) = c.t_in / s.length;
-        write(RTCRayHitN_HitN(arguments->rayhit, n), n, i, c,
-              -object.normal(arguments->primID, c, s.ray.direction).unit, *arguments);
+        write(RTCRayHitN_HitN(arguments->rayhit, n), n, i, c, normal, *arguments);
     });
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <new>
 
 #include "integrator/kept_cells.hpp"
 
@@ -81,6 +82,7 @@ std::optional<Surface> World::intersect(const glm::vec3& origin, const glm::vec3
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     embree::intersect(embree_, query.context, ray);
+    if (query.is_out_of_memory) throw std::bad_alloc();
     ++counters.rays;
     counters.trace.visits += query.counters.visits;
     counters.trace.batches += query.counters.batches;

@@ -27,6 +27,8 @@ struct Query {
     /// normal.
     Crossing crossing;
     TraceCounters counters;
+    /// A cell could not be searched for want of memory, so the hit may be wrong. Embree lets no exception through.
+    bool is_out_of_memory = false;
     /// The last ray that came, as it was given and as cells see it: it stays the same from cell to cell.
     struct Seen {
         glm::vec3 origin{0}, direction{0};

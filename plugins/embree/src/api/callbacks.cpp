@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <new>
 #include <type_traits>
 
 #include "api/geometry_data.hpp"
@@ -79,9 +80,15 @@ class Packet {
         }
     }
 
+    /// A ray for which there is no memory hits nothing: nobody can be told, and Embree lets no exception through.
     void trace() {
-        for (unsigned i = 0; i < n_; ++i)
-            if (arguments_->valid[i] == -1) trace(i);
+        for (unsigned i = 0; i < n_; ++i) {
+            if (arguments_->valid[i] != -1) continue;
+            try {
+                trace(i);
+            } catch (const std::bad_alloc&) {
+            }
+        }
     }
 
   private:

@@ -1,6 +1,7 @@
 #include "object/object.hpp"
 
 #include <cmath>
+#include <new>
 
 namespace phasetree::embree {
 
@@ -85,6 +86,7 @@ std::optional<Object::Found> Object::first_crossing(const ObjectRay& ray, std::o
     query.carried = carried;
     RTCRayHit r = embree_ray(ray);
     intersect(scene_, query.context, r);
+    if (query.is_out_of_memory) throw std::bad_alloc();
     if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     return Found{r.hit.primID, query.crossing};
 }
@@ -94,7 +96,9 @@ bool Object::any_crossing(const ObjectRay& ray, std::optional<Phase> carried) co
     Query query;
     query.carried = carried;
     RTCRayHit r = embree_ray(ray);
-    return occluded(scene_, query.context, r.ray);
+    const bool is_hit = occluded(scene_, query.context, r.ray);
+    if (query.is_out_of_memory && !is_hit) throw std::bad_alloc();
+    return is_hit;
 }
 
 std::optional<Object::Found> Walk::next() {

@@ -1,0 +1,71 @@
+// Rays through cells against rays through the whole program: the same interfaces.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "cells/traceable.hpp"
+#include "phasetree/cells/cells.hpp"
+#include "phasetree/phasetree.hpp"
+#include "phasetree/reading/tree.hpp"
+#include "source_directory.hpp"
+#include "support/compared_crossings.hpp"
+
+using namespace phasetree;
+using namespace phasetree::tests;
+
+namespace {
+
+Phased hourglass() {
+    return read_tree(Document::from_file(source_directory() + "/scenes/hourglass.json")).object;
+}
+
+std::vector<std::size_t> cells_at(const InterfaceCells& cells, const glm::vec3& p) {
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        if (cells.bounds(i).contains(p)) found.push_back(i);
+    return found;
+}
+
+}  // namespace
+
+TEST_CASE("the nearest crossing over all cells is the whole object's") {
+    Random rng(13);
+    std::vector<Phased> objects{hourglass()};
+    for (int i = 0; i < (long_tests() ? 300 : 12); ++i) objects.push_back(traceable_object(rng, 3));
+    Compared all;
+    for (const Phased& object : objects) compare_crossings(object, {}, 300, rng, all, any_quality(rng));
+    MESSAGE(all.rays, " rays, ", all.crossings, " crossings, ", all.different, " different");
+    CHECK(all.crossings > all.rays);
+    CHECK(all.different == 0);
+}
+
+TEST_CASE("with opaque phases rays in the others meet what they met, and where opaque ones meet there are no cells") {
+    Random rng(14);
+    std::vector<Phased> objects{hourglass()};
+    for (int i = 0; i < (long_tests() ? 300 : 12); ++i) objects.push_back(traceable_object(rng, 3));
+    Compared all;
+    std::size_t cells_without = 0, cells_with = 0;
+    for (const Phased& object : objects) {
+        PhaseSet opaque;
+        for_each_phase(phases(object).bits & ~std::uint64_t{1}, [&](int i) {
+            if (rng.chance(0.7)) opaque = opaque | PhaseSet::of(Phase{static_cast<std::uint8_t>(i)});
+        });
+        compare_crossings(object, opaque, 300, rng, all, any_quality(rng));
+        cells_without += InterfaceCells(object).size();
+        cells_with += InterfaceCells(object, {.opaque = opaque}).size();
+    }
+    MESSAGE(all.rays, " rays, ", all.crossings, " crossings, ", all.into_opaque, " into opaque phases, ", all.different,
+            " different; ", cells_with, " cells for ", cells_without);
+    CHECK(all.into_opaque > all.rays / 4);
+    CHECK(all.different == 0);
+
+    // A ball in a ball: of the inner one nothing is left, and of all that is opaque nothing at all.
+    const Phased ball = Over{.of = {Set{.phase = Phase{1}, .of = Sphere{.radius = 0.5f}},
+                                    Set{.phase = Phase{2}, .of = Sphere{.radius = 1}}}};
+    const InterfaceCells outer(ball, {.opaque = {0b110}});
+    REQUIRE(outer.size() > 0);
+    for (std::size_t i = 0; i < outer.size(); ++i) CHECK(outer.bounds(i).contains(glm::vec3(0)) == false);
+    for (const glm::vec3& p : {glm::vec3(0.5f, 0, 0), glm::vec3(0, -0.5f, 0)}) CHECK(cells_at(outer, p).empty());
+    CHECK(InterfaceCells(ball, {.opaque = {0b111}}).size() == 0);
+}

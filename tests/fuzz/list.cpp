@@ -1,0 +1,39 @@
+#include <cstdio>
+#include <cstdlib>
+#include <stdexcept>
+
+#include "fuzz/target.hpp"
+
+namespace phasetree::fuzz {
+
+namespace {
+
+constexpr Target list[] = {
+    {"calls", Inputs::bytes, 1024, 500, "", run_calls},
+    {"color_config", Inputs::lines, 16384, 500, "tracer/color", run_color_config},
+    {"image", Inputs::bytes, 16384, 500, "", run_image},
+    {"lines", Inputs::lines, 1024, 500, "", run_lines},
+    {"obj", Inputs::lines, 4096, 500, "", run_obj},
+    {"scene", Inputs::json, 8192, 500, "scenes", run_scene},
+    {"settings", Inputs::json, 8192, 500, "", run_settings},
+    {"weights", Inputs::json, 8192, 500, "", run_weights},
+};
+
+}  // namespace
+
+std::span<const Target> targets() {
+    return list;
+}
+
+const Target& target(std::string_view name) {
+    for (const Target& t : list)
+        if (t.name == name) return t;
+    throw std::invalid_argument("there is no fuzz target \"" + std::string(name) + "\"");
+}
+
+void broken(const char* promise) {
+    std::fprintf(stderr, "broken promise: %s\n", promise);
+    std::abort();
+}
+
+}  // namespace phasetree::fuzz

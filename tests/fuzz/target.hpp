@@ -1,0 +1,54 @@
+// The ways into the program from outside, each with what it does with an input.
+//
+// A new one is a file of targets/, whose name is the target's, and a line in list.cpp. Its inputs are found by
+// libFuzzer (tests/run.sh --fuzz); the smallest set of them that covers the same code lies in corpus/NAME and is
+// replayed, with mutations, by the ordinary tests.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace phasetree::fuzz {
+
+using Bytes = std::span<const std::uint8_t>;
+
+inline std::string_view text_of(Bytes bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+// What an input is made of, and so how one becomes another.
+enum class Inputs { json, lines, bytes };
+
+struct Target {
+    std::string_view name;
+    Inputs inputs;
+    std::size_t longest;     // bytes of an input
+    std::size_t replayed;    // mutations that the ordinary tests make: some seconds of them
+    std::string_view seeds;  // a folder of the repository whose files are inputs, too; may be empty
+    // Does with the input what a user could, with budgets that keep it to milliseconds, and returns, whatever the input
+    // is. It catches the errors that are documented; anything else that is thrown is a finding, as a crash is.
+    void (*run)(Bytes);
+};
+
+std::span<const Target> targets();
+// std::invalid_argument for a name that is not among them.
+const Target& target(std::string_view name);
+
+// A finding that is no crash: ends the process with what was promised.
+[[noreturn]] void broken(const char* promise);
+inline void promised(bool holds, const char* promise) {
+    if (!holds) broken(promise);
+}
+
+void run_calls(Bytes);
+void run_color_config(Bytes);
+void run_image(Bytes);
+void run_lines(Bytes);
+void run_obj(Bytes);
+void run_scene(Bytes);
+void run_settings(Bytes);
+void run_weights(Bytes);
+
+}  // namespace phasetree::fuzz
