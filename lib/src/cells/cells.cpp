@@ -40,6 +40,7 @@ struct InterfaceCells::Data {
     std::optional<Evaluator> whole;
     Bounds bounds;
     float resolution = 0;
+    std::string warning;
     float reach = 0;
     PhaseSet opaque;
     std::vector<Cell> cells;
@@ -142,6 +143,7 @@ InterfaceCells::InterfaceCells(const Phased& object, const CellOptions& options)
     auto data = std::make_unique<Data>();
     data->bounds = traceable.bounds;
     data->resolution = traceable.resolution;
+    data->warning = traceable.warning;
     data->reach = 4 * traceable.resolution;
     data->opaque = options.opaque;
     data->curvature_code = CurvatureCode(data->bounds.diagonal());
@@ -214,6 +216,9 @@ const Evaluator& InterfaceCells::whole() const {
 }
 float InterfaceCells::resolution() const {
     return data_->resolution;
+}
+const std::string& InterfaceCells::warning() const {
+    return data_->warning;
 }
 float InterfaceCells::reach() const {
     return data_->reach;

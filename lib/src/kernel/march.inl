@@ -317,13 +317,11 @@ bool March::find(RayCrossing& result) {
                                          is_bridged(here_.distance, next.distance, gap));
         const bool is_resolved = is_covered || gap <= resolution || (same && high - low <= resolution);
         if (!is_resolved) {
-            if (depth == deepest) {  // forget what lies ahead
-                depth = 0;
-                continue;
-            }
+            // Where frames are used up, what lies ahead of this gap is forgotten, and not the gap, which would come again.
+            const int deeper = depth < deepest ? depth : 0;
             const Batch t = look_ahead(f, is_aligned ? f.next : -1, next);
-            if (fill(frames[depth], t, here_, next.t, resolution, !same)) {
-                ++depth;
+            if (fill(frames[deeper], t, here_, next.t, resolution, !same)) {
+                depth = deeper + 1;
                 is_aligned = true;
                 continue;
             }
