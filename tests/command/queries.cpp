@@ -62,6 +62,46 @@ TEST_CASE("check says nothing of a good scene") {
     CHECK(shell.directory.size() == 1);
 }
 
+TEST_CASE("an object so far from the origin that few digits are left is warned of, and refused where none are") {
+    const Shell shell;
+    const auto ball_at = [&](const char* x) {
+        SceneText scene;
+        scene.tree = fmt::format(
+            R"({{"translate": {{"by": [{}, 0, 0], "of": {{"set": {{"phase": "glass", "of": {{"sphere": {{"radius": 1}}}}}}}}}}}})",
+            x);
+        return scene.text();
+    };
+    write_text(shell.directory / "near.json", ball_at("100"));
+    write_text(shell.directory / "far.json", ball_at("1e6"));
+    write_text(shell.directory / "lost.json", ball_at("1e8"));
+    const std::vector<std::vector<std::string>> calls{
+        {"check", "SCENE"}, {"info", "SCENE"}, {"trace", "SCENE"}, {"render", "SCENE", "--size", "2x2", "--spp", "1"}};
+    for (std::vector<std::string> call : calls) {
+        CAPTURE(call[0]);
+        const auto run = [&](const char* scene) {
+            call[1] = scene;
+            return shell.run(call);
+        };
+        const Outcome near = run("near.json"), far = run("far.json"), lost = run("lost.json");
+        CHECK(near.code == 0);
+        CHECK(near.err.find("warning") == std::string::npos);
+        CHECK(far.code == 0);
+        CHECK(far.err.find("far.json: warning: the object is 3.46 large and lies up to 1e+06 from the origin") !=
+              std::string::npos);
+        CHECK(lost.code == (call[0] == "info" ? 0 : 2));
+        CHECK(lost.err.find("move it to the origin") != std::string::npos);
+    }
+    const Outcome quiet = shell.run({"render", "far.json", "--size", "2x2", "--spp", "1", "--quiet"});
+    CHECK(quiet.code == 0);
+    CHECK(quiet.err == "");
+    // And it is hit, as finely as may be.
+    const Outcome traced = shell.run({"trace", "far.json"}, "1000000 0 5 0 0 -1\n");
+    const auto rows = rows_of(traced.out);
+    REQUIRE(rows.size() == 3);
+    CHECK(std::abs(std::stof(rows[1][1]) - 4) < 0.5f);
+    CHECK(std::abs(std::stof(rows[2][1]) - 6) < 0.5f);
+}
+
 TEST_CASE("info, for people and as JSON") {
     const Shell shell;
     write_text(shell.directory / "scene.json", half_full().text());

@@ -34,6 +34,7 @@ struct InterfaceCells::Data : CellTables {
         const TraceableObject traceable = prepare_to_trace(object, options.resolution);
         bounds = traceable.bounds;
         resolution = traceable.resolution;
+        warning = traceable.warning;
         reach = 4 * resolution;
         opaque = options.opaque;
         deepest = options.deepest;
@@ -45,6 +46,7 @@ struct InterfaceCells::Data : CellTables {
     std::optional<Evaluator> whole;
     Bounds bounds;
     float resolution = 0;
+    std::string warning;
     float reach = 0;
     PhaseSet opaque;
     int deepest = 0;
@@ -145,7 +147,6 @@ InterfaceCells::InterfaceCells(const Phased& object, const CellOptions& options)
     Arena arena;
     const WorkingProgram rewritten = rewrite(recorded, arena);
     BuildProgress progress(options.progress);
-
     const Division division(options, progress, rewritten, recorded.constants, data->reach, 0.5f * data->resolution,
                             data->bounds.diagonal());
     FoundWithin within = divide_within(data->most_bytes, data->bounds, rewritten, division);
@@ -238,6 +239,9 @@ const Evaluator& InterfaceCells::whole() const {
 }
 float InterfaceCells::resolution() const {
     return data_->resolution;
+}
+const std::string& InterfaceCells::warning() const {
+    return data_->warning;
 }
 float InterfaceCells::reach() const {
     return data_->reach;

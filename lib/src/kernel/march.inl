@@ -317,13 +317,12 @@ bool March::find(RayCrossing& result) {
                                          is_bridged(here_.distance, next.distance, gap));
         const bool is_resolved = is_covered || gap <= resolution || (same && high - low <= resolution);
         if (!is_resolved) {
-            if (depth == deepest) {  // forget what lies ahead
-                depth = 0;
-                continue;
-            }
+            // Where frames are used up, what lies ahead of this gap is forgotten, and not the gap, which would come
+            // again.
+            const int deeper = depth < deepest ? depth : 0;
             const Batch t = look_ahead(f, is_aligned ? f.next : -1, next);
-            if (fill(frames[depth], t, here_, next.t, !same)) {
-                ++depth;
+            if (fill(frames[deeper], t, here_, next.t, !same)) {
+                depth = deeper + 1;
                 is_aligned = true;
                 continue;
             }
@@ -358,7 +357,8 @@ Batch March::look_ahead(const Frame& f, int lane, const Place& next) const {
     const float gap = next.t - here_.t;
     if (const float slope = (next.distance - here_.distance) / gap; slope > 0.02f) {
         // The ray leaves an interface it started on, at a low angle: one frame for many of the gaps ahead.
-        return spread_growing(here_.t, ray_.length, larger(here_.distance, 0.25f * ray_.resolution), smaller(slope, 1.f));
+        return spread_growing(here_.t, ray_.length, larger(here_.distance, 0.25f * ray_.resolution),
+                              smaller(slope, 1.f));
     }
     const float low = past(here_), high = before(next);
     return spread_evenly(smaller(low, high), high);

@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <unordered_map>
 #include <unordered_set>
 
-#include "model/preparation.hpp"
 #include "phasetree/model/walk.hpp"
 
 namespace phasetree {
@@ -25,43 +23,7 @@ std::string describe(const Limits& l) {
 
 }  // namespace detail
 
-struct BoundsQuery::Memory {
-    struct Key {
-        const void* node;
-        float level;
-        bool operator==(const Key&) const = default;
-    };
-    struct Hash {
-        std::size_t operator()(const Key& k) const {
-            return std::hash<const void*>()(k.node) * 31 + std::hash<float>()(k.level);
-        }
-    };
-    std::unordered_map<Key, Bounds, Hash> known;
-    std::unordered_map<const void*, int> levels;  ///< how many each node was asked for
-};
-
-BoundsQuery::BoundsQuery() : memory_(std::make_unique<Memory>()) {}
-BoundsQuery::~BoundsQuery() = default;
-
 namespace {
-
-template <class Handle, class Memory>
-Bounds remembered(const Handle& handle, float level, BoundsQuery& query, Memory& memory) {
-    // Nodes ask when they are made, too, each anew; a question is about so many steps.
-    PreparationTogether::pay("bounds", 60);
-    // A tree of offsets of shared subtrees can ask exponentially many levels. Past some, they are rounded up to a few:
-    // the box of a higher level holds that of a lower one.
-    if (!memory.known.contains({handle.node(), level}) && ++memory.levels[handle.node()] > 16) {
-        int exponent = 0;
-        const float mantissa = std::frexp(level, &exponent);
-        level = std::ldexp(std::ceil(mantissa * 8) / 8, exponent);
-    }
-    const typename Memory::Key key{handle.node(), level};
-    if (const auto found = memory.known.find(key); found != memory.known.end()) return found->second;
-    const Bounds b = std::visit([&](const auto& n) { return n.bounds(query, level); }, handle.node()->node);
-    memory.known.emplace(key, b);
-    return b;
-}
 
 template <class Handle>
 void count(const Handle& handle, std::unordered_set<const void*>& seen, TreeStatistics& s) {
@@ -97,13 +59,6 @@ TreeStatistics statistics_of(const Handle& handle) {
 }
 
 }  // namespace
-
-Bounds BoundsQuery::operator()(const Field& f, float level) {
-    return remembered(f, level, *this, *memory_);
-}
-Bounds BoundsQuery::operator()(const Phased& a, float level) {
-    return remembered(a, level, *this, *memory_);
-}
 
 Bounds bounds(const Field& f) {
     BoundsQuery query;

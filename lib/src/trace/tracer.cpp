@@ -1,32 +1,16 @@
 #include "phasetree/trace/tracer.hpp"
 
-#include <cmath>
-
 #include "program/assemble.hpp"
 #include "trace/march.hpp"
 #include "trace/normal.hpp"
 
 namespace phasetree {
 
-TraceableObject prepare_to_trace(const Phased& object, float resolution) {
-    const Bounds b = phasetree::bounds(object);
-    if (b.empty()) throw ModelError("the object is empty: nothing of it is left");
-    if (!b.finite())
-        throw ModelError(
-            "the object is unbounded: cut it to size with {\"intersect_shape\": {\"of\": …, \"shape\": …}}");
-    // Coordinates are known to half an ulp; a field's value to a few ulps of the coordinates it is made of.
-    const float farthest = std::max({std::abs(b.low.x), std::abs(b.low.y), std::abs(b.low.z), std::abs(b.high.x),
-                                     std::abs(b.high.y), std::abs(b.high.z)});
-    if (!(farthest < 1e15f) || !(b.diagonal() > 1e-15f))
-        throw ModelError("the object's size or place is beyond what 32-bit floats can trace (10⁻¹⁵ to 10¹⁵)");
-    const float r = resolution > 0 ? resolution : std::max(2e-6f * b.diagonal(), 1e-6f * farthest);
-    return {b.inflated(8 * r), r};
-}
-
 InterfaceTracer::InterfaceTracer(const Phased& object, float resolution) {
     const TraceableObject t = prepare_to_trace(object, resolution);
     bounds_ = t.bounds;
     resolution_ = t.resolution;
+    warning_ = t.warning;
     evaluator_ = std::make_shared<const Evaluator>(record(object));
 }
 

@@ -69,6 +69,7 @@ TEST_CASE("null, freed and foreign handles") {
     PhasetreeHit hit;
     PhasetreeClosest closest;
     PhasetreeGeometryStatistics statistics;
+    const char* warning = nullptr;
     const RTCRayHit ray{};
     const float p[3] = {0, 0, 0};
     float phi[PHASETREE_MAX_PHASES];
@@ -85,6 +86,7 @@ TEST_CASE("null, freed and foreign handles") {
         expect(phasetreeSetGeometryShownPhases(bad, 1), invalid, "geometry");
         expect(phasetreeSetGeometryMotion(bad, nullptr, 0, 0, 1), invalid, "geometry");
         expect(phasetreeGetGeometryStatistics(bad, &statistics), invalid, "geometry");
+        expect(phasetreeGetGeometryWarning(bad, &warning), invalid, "geometry");
         expect(phasetreeDecodeHit(bad, &ray, nullptr, &hit), invalid, "geometry");
         expect(phasetreeGetPhase(bad, p, 0, &count, nullptr), invalid, "geometry");
         expect(phasetreeGetDistances(bad, p, 0, phi), invalid, "geometry");

@@ -18,7 +18,7 @@ int check_without_camera(const Document& document, const std::string& shown) {
     std::string rays = "eval, info, trace and programs that trace rays";
     const Bounds b = bounds(tree.object);
     if (b.empty() || b.finite())
-        (void)made_of_tree(document, [&] { return prepare_to_trace(tree.object); });
+        print_warning(shown, made_of_tree(document, [&] { return prepare_to_trace(tree.object); }).warning);
     else
         rays = "eval and info; it is unbounded, so rays cannot be traced";
     if (is_empty(tree.object, evaluator)) say("{}\n", empty_object_warning(document));
@@ -34,14 +34,15 @@ int check(const SceneFile& file) {
     const Scene scene = load_scene(document);
     if (is_empty(scene.object, Evaluator(record_tree(document, scene.object))))
         say("{}\n", empty_object_warning(document));
+    print_warning(file.shown(), prepare_to_trace(scene.object).warning);
     return 0;
 }
 
 }  // namespace
 
 void add_check(CLI::App& app, Run& run) {
-    CLI::App* command =
-        app.add_subcommand("check", "Validate a scene file: silent and 0 if all is well, else the error and 2");
+    CLI::App* command = app.add_subcommand(
+        "check", "Validate a scene file: silent and 0 if all is well, else warnings and 0, or the error and 2");
     command->footer(
         "What render would refuse is an error, and so are mistakes in what render would not look\n"
         "at. A scene without a camera is checked as far as it goes; then what it is good for is\n"

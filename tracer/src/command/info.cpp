@@ -12,6 +12,7 @@
 #include "phasetree/model/handle.hpp"
 #include "phasetree/program/evaluator.hpp"
 #include "phasetree/reading/tree.hpp"
+#include "phasetree/trace/tracer.hpp"
 #include "render/threads.hpp"
 #include "scene/scene.hpp"
 
@@ -33,6 +34,13 @@ int info(const SceneFile& file, bool as_json, bool with_cells, const CellOptions
     const Evaluator evaluator(record_tree(document, tree.object));
     const Program& program = evaluator.program();
     const PhaseSet there = phases(tree.object);
+    if (b.finite() && !b.empty()) {
+        try {
+            print_warning(file.shown(), prepare_to_trace(tree.object).warning);
+        } catch (const ModelError& e) {
+            print_warning(file.shown(), e.what());
+        }
+    }
     std::optional<CellStatistics> cells;
     if (with_cells) {
         CellOptions options = given;

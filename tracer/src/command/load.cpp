@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "command/numbers.hpp"
+#include "command/streams.hpp"
 #include "output/error.hpp"
 #include "phasetree/program/evaluator.hpp"
 #include "phasetree/trace/tracer.hpp"
@@ -33,6 +34,10 @@ DisplayTransform display_of(const Document& document, const RenderSettings& sett
         if (view || display || !settings.view) throw;
         throw document.error(*document.root().find("render")->find("view"), e.what());
     }
+}
+
+void print_warning(const std::string& file, const std::string& warning) {
+    if (!warning.empty()) say("{}: warning: {}\n", file, warning);
 }
 
 Scene load_scene(const Document& document) {

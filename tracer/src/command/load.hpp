@@ -38,6 +38,10 @@ auto made_of_tree(const Document& document, F&& make) {
     }
 }
 
+// Tells people on standard error what makes a scene's object hard to trace (TraceableObject::warning), if anything
+// does.
+void print_warning(const std::string& file, const std::string& warning);
+
 // The object's program. Throws SceneError for one that is too large: a few shapes of shapes can stand for billions.
 Program record_tree(const Document& document, const Phased& object);
 

@@ -196,6 +196,7 @@ int render_scene(const Options& options) {
     if (world.object().size() == 0) say("{}\n", empty_object_warning(document));
     if (!options.quiet && world.object().statistics().is_coarser)
         say("phasetree: the object would take more memory than --max-memory allows: rays are slower\n");
+    if (!options.quiet) print_warning(document.name(), world.object().warning());
     const auto total = static_cast<std::uint64_t>(job.pixels.width()) *
                        static_cast<std::uint64_t>(job.pixels.height()) *
                        static_cast<std::uint64_t>(scene.settings.samples);

@@ -22,6 +22,7 @@ int trace(const SceneFile& file) {
     const SceneTree tree = read_model(document);
     (void)record_tree(document, tree.object);
     const InterfaceTracer tracer = made_of_tree(document, [&] { return InterfaceTracer(tree.object); });
+    print_warning(file.shown(), tracer.warning());
     Evaluator::Workspace workspace;
     const FlushSubnormals flush;
     put("ray,t,from,to,nx,ny,nz\n");

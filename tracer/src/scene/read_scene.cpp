@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "phasetree/trace/tracer.hpp"
 #include "scene/parts.hpp"
 
 namespace phasetree::tracer {
@@ -39,12 +40,11 @@ Scene read_scene(const Document& document) {
     if (const auto settings = root.value("render")) scene.settings = read_settings(document, *settings, scene.camera);
 
     // An object that cannot be traced is found here, and not after the meshes are in memory.
-    const Bounds b = bounds(scene.object);
-    if (b.empty()) throw document.error(*root.value("tree"), "the object is empty: nothing of it is left");
-    if (!b.finite())
-        throw document.error(
-            *root.value("tree"),
-            "the object is unbounded: cut it to size with {\"intersect_shape\": {\"of\": …, \"shape\": …}}");
+    try {
+        (void)prepare_to_trace(scene.object);
+    } catch (const ModelError& e) {
+        throw document.error(*root.value("tree"), e.what());
+    }
     return scene;
 }
 

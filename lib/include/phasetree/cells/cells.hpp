@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "phasetree/program/evaluator.hpp"
@@ -59,7 +60,7 @@ struct CellStatistics {
 /// valid there. Immutable; any thread may read it.
 class InterfaceCells {
   public:
-    /// Throws ModelError if the object is unbounded, empty or too large.
+    /// Throws ModelError if the object is unbounded, empty, too large, or too far from the origin for its size.
     explicit InterfaceCells(const Phased& object, const CellOptions& options = {});
     ~InterfaceCells();
 
@@ -90,6 +91,9 @@ class InterfaceCells {
 
     const Evaluator& whole() const;
     float resolution() const;
+    /// For people: that coordinates leave few digits, or that the resolution is not the one that was asked for. Mostly
+    /// empty.
+    const std::string& warning() const;
     /// How far a cell's box reaches beyond its share of space.
     float reach() const;
     PhaseSet opaque() const;

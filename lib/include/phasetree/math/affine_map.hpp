@@ -1,5 +1,7 @@
 #pragma once
 
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 
@@ -17,6 +19,16 @@ struct AffineMap {
     Vec3<T> operator()(const Vec3<T>& p) const {
         const Vec3<T> q = p - before;
         return Vec3<T>{dot(q, row[0]), dot(q, row[1]), dot(q, row[2])} - after;
+    }
+
+    /// Its inverse, p ↦ M p + v.
+    struct Inverse {
+        glm::dmat3 matrix;
+        glm::dvec3 by;
+    };
+    Inverse inverse() const {
+        const glm::dmat3 m = glm::inverse(glm::transpose(glm::dmat3(row[0], row[1], row[2])));
+        return {m, m * glm::dvec3(after) + glm::dvec3(before)};
     }
 
     bool moves_before() const { return before != glm::vec3(0); }

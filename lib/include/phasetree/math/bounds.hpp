@@ -44,15 +44,13 @@ struct Bounds {
     }
 };
 
+/// An empty one of the two must be Bounds{}.
 inline Bounds unite(const Bounds& a, const Bounds& b) {
-    if (a.empty()) return b;
-    if (b.empty()) return a;
     return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
 }
 
 inline Bounds intersect(const Bounds& a, const Bounds& b) {
-    const Bounds c{glm::max(a.low, b.low), glm::min(a.high, b.high)};
-    return c.empty() ? Bounds{} : c;
+    return {glm::max(a.low, b.low), glm::min(a.high, b.high)};
 }
 
 /// The box of a box under a linear map, with a margin for rounding. A side at infinity makes infinite what the map

@@ -8,6 +8,7 @@
 
 #include "phasetree/math/bounds.hpp"
 #include "phasetree/math/vec3.hpp"
+#include "phasetree/model/bounds_query.hpp"
 #include "phasetree/model/parameter.hpp"
 #include "phasetree/model/phase.hpp"
 
@@ -54,23 +55,6 @@ class Phased {
 
   private:
     std::shared_ptr<const PhasedNode> node_;
-};
-
-/// Asks subtrees for a box around {f ≤ level} (for a multiphase object: around everything within level of a phase).
-/// Answers are remembered, so that shared subtrees are asked once a level.
-class BoundsQuery {
-  public:
-    BoundsQuery();
-    ~BoundsQuery();
-    BoundsQuery(const BoundsQuery&) = delete;
-    BoundsQuery& operator=(const BoundsQuery&) = delete;
-
-    Bounds operator()(const Field&, float level);
-    Bounds operator()(const Phased&, float level);
-
-  private:
-    struct Memory;
-    std::unique_ptr<Memory> memory_;
 };
 
 /// A box around the points where the field is not positive. Infinite where the field is.

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "phasetree/program/evaluator.hpp"
 #include "phasetree/trace/crossing.hpp"
@@ -12,8 +13,12 @@ namespace phasetree {
 struct TraceableObject {
     Bounds bounds;  ///< with a margin of a few resolutions of vacuum
     float resolution = 0;
+    /// For people: that coordinates leave few digits, or that the resolution is not the one that was asked for. Mostly
+    /// empty.
+    std::string warning{};
 };
-/// Throws ModelError if the object is unbounded or empty. For `resolution` see InterfaceTracer.
+/// Throws ModelError if the object is unbounded or empty, or too far from the origin for its size. For `resolution` see
+/// InterfaceTracer.
 TraceableObject prepare_to_trace(const Phased& object, float resolution = 0);
 
 /// Traces rays from phase to phase through one object. Immutable; any thread may use it, each with its own Workspace.
@@ -21,8 +26,10 @@ class InterfaceTracer {
   public:
     /// `resolution`: nothing thinner along a ray is guaranteed to be seen, nor what is up to 2.75 times as thick and
     /// deeper than a sixteenth of it for no longer than it, nor what a ray within a surface is nowhere deeper in than
-    /// that; 0 chooses 2·10⁻⁶ of the object's diagonal or what float coordinates allow far from the origin.
-    /// Throws ModelError if the object is unbounded or empty.
+    /// that; 0 chooses 2·10⁻⁶ of the object's diagonal or what float coordinates allow far from the origin. Any other is
+    /// used as near as possible: no finer than 2.5·10⁻⁷ of the farthest coordinate or the diagonal, no coarser than a
+    /// hundredth of the diagonal; resolution() and warning() tell.
+    /// Throws ModelError if the object is unbounded or empty, or too far from the origin for its size.
     explicit InterfaceTracer(const Phased& object, float resolution = 0);
 
     /// The first change of phase at a distance within [t_min, t_max] of the origin; direction of unit length.
@@ -42,11 +49,14 @@ class InterfaceTracer {
     /// A box around the object with a margin of a few resolutions of vacuum.
     const Bounds& bounds() const { return bounds_; }
     float resolution() const { return resolution_; }
+    /// See TraceableObject.
+    const std::string& warning() const { return warning_; }
 
   private:
     std::shared_ptr<const Evaluator> evaluator_;
     Bounds bounds_;
     float resolution_ = 0;
+    std::string warning_;
 };
 
 }  // namespace phasetree

@@ -177,6 +177,12 @@ class Geometry {
         return statistics;
     }
 
+    std::string warning() const {
+        const char* warning = nullptr;
+        check(phasetreeGetGeometryWarning(get(), &warning));
+        return warning;
+    }
+
     PhasetreeHit decode(const RTCRayHit& rayhit, const float* object_to_world = nullptr) const {
         PhasetreeHit hit{};
         check(phasetreeDecodeHit(get(), &rayhit, object_to_world, &hit));

@@ -304,3 +304,11 @@ PhasetreeError phasetreeGetGeometryStatistics(PhasetreeGeometry geometry, Phaset
                        static_cast<float>(s.build_seconds)};
     });
 }
+
+PhasetreeError phasetreeGetGeometryWarning(PhasetreeGeometry geometry, const char** warning) {
+    return guarded_call(__func__, [&] {
+        const InterfaceCells& cells = api::data_of(geometry).object->cells();
+        require(warning, "warning");
+        *warning = cells.warning().c_str();
+    });
+}

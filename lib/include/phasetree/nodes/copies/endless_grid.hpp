@@ -94,7 +94,7 @@ struct EndlessGrid {
         }
     }
     PhaseSet phases() const { return phasetree::phases(of); }
-    Bounds bounds(BoundsQuery&, float level) const {
+    Bounds bounds(BoundsQuery& q, float level) const {
         const glm::vec3 half = boxes.half + level;
         Bounds all{boxes.fold.centre - half, boxes.fold.centre + half};
         if (all.empty()) return all;
@@ -103,7 +103,7 @@ struct EndlessGrid {
                 all.low[i] = -Bounds::infinity;
                 all.high[i] = Bounds::infinity;
             }
-        return all;
+        return q.placed(all);
     }
 };
 

@@ -73,6 +73,12 @@ struct Placement {
         const glm::mat3& r = *frame;
         return {map.by, {r[0] * map.inverse, r[1] * map.inverse, r[2] * map.inverse}};
     }
+    /// By which a copy's points come from the child's.
+    glm::dmat3 matrix() const {
+        if (frame) return glm::dmat3(*frame) * static_cast<double>(scale);
+        const double s = scale, c = s * s * static_cast<double>(map.cosine), t = s * s * static_cast<double>(map.sine);
+        return {c, t, 0, -t, c, 0, 0, 0, s};
+    }
     bool is_moved_only() const { return map.cosine == 1 && map.sine == 0 && scale == 1; }
     Bounds image(const Bounds& b) const {
         if (b.empty()) return b;
@@ -106,9 +112,19 @@ struct Copies {
     Bounds bounds(BoundsQuery& q, float level) const {
         const Node& node = static_cast<const Node&>(*this);
         Bounds all;
-        for (std::size_t i = 0, n = node.many(); i < n; ++i) {
+        const std::size_t n = node.many();
+        for (std::size_t i = 0; i < n; ++i) {
             const Placement at = node.placement(i);
-            all = unite(all, at.image(q(of, level / at.scale)));
+            if (q.is_by_boxes()) {
+                all = unite(all, at.image(q(of, level / at.scale)));
+                continue;
+            }
+            // Of many copies one is small: its box will do.
+            const auto copy = [&] {
+                return n <= 64 || at.is_moved_only() ? q(of, level / at.scale)
+                                                     : q.placed(q.own_box(of, level / at.scale));
+            };
+            all = unite(all, q.through(at.matrix(), glm::dvec3(at.map.by), copy));
         }
         return all;
     }

@@ -105,13 +105,15 @@ struct Blob {
         Bounds all;
         std::size_t i = 0;
         const auto reached = [&] { return radius_at(reach(i++), level) + at_level; };
-        const auto add = [&](const std::vector<glm::vec3>& some, float by) {
-            Bounds b;
-            for (const glm::vec3& v : some) b = unite(b, Bounds{v, v});
-            if (by >= 0) all = unite(all, b.inflated(by));
+        const auto add = [&](const glm::vec3& v, float by) {
+            if (by >= 0)
+                all = unite(all, q.placed(Bounds{v, v}.inflated(by), [&](const glm::dvec3& d) {
+                    return glm::dot(d, glm::dvec3(v)) + glm::length(d) * static_cast<double>(by);
+                }));
         };
-        for (const glm::vec3& v : points) add({v}, reached());
-        if (!polyline.empty()) add(polyline, reached());
+        for (const glm::vec3& v : points) add(v, reached());
+        if (!polyline.empty())
+            for (const float by = reached(); const glm::vec3& v : polyline) add(v, by);
         for (const Field& f : of) all = unite(all, q(f, reached()));
         return all;
     }

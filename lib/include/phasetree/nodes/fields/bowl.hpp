@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/support.hpp"
 #include "phasetree/nodes/fields/profile.hpp"
 
 namespace phasetree {
@@ -37,6 +38,10 @@ struct Bowl {
         const T from_centre = length(p);
         const T to_rim = length(length(p.x, p.y) - rim, p.z - cut);
         return select(less(from_centre * cut, p.z * radius), to_rim, abs(from_centre - radius)) - thickness * 0.5f;
+    }
+    /// That of the ball.
+    double support(const glm::dvec3& d, float level) const {
+        return glm::length(d) * static_cast<double>(radius + 0.5f * thickness + level);
     }
     Bounds bounds(BoundsQuery&, float level) const {
         if (thickness * 0.5f + level < 0) return {};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/support.hpp"
 #include "phasetree/model/concepts.hpp"
 
 namespace phasetree {
@@ -24,6 +25,9 @@ struct Box {
     template <class T>
     T distance(const Vec3<T>& p) const {
         return box_distance(p, size * 0.5f);
+    }
+    double support(const glm::dvec3& d, float level) const {
+        return detail::box_support(d, glm::dvec3(size) * 0.5) + glm::length(d) * static_cast<double>(level);
     }
     Bounds bounds(BoundsQuery&, float level) const { return Bounds::centred(size * 0.5f + level); }
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/support.hpp"
 #include "phasetree/nodes/fields/profile.hpp"
 
 namespace phasetree {
@@ -44,6 +45,9 @@ struct BoxFrame {
         const T most = max(x, y), least = min(x, y);
         const T a = max(most, z), b = max(least, min(most, z)), c = min(least, z);
         return outside - min(max(thickness - a, zero), length(max(b, zero), max(c, zero)));
+    }
+    double support(const glm::dvec3& d, float level) const {
+        return detail::box_support(d, glm::dvec3(size) * 0.5) + glm::length(d) * static_cast<double>(level);
     }
     Bounds bounds(BoundsQuery&, float level) const {
         // Deepest is where three bars meet, a = b = c = t/(1 + √2).

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "phasetree/math/support.hpp"
 #include "phasetree/model/concepts.hpp"
 
 namespace phasetree {
@@ -54,6 +55,11 @@ struct CappedCone {
                                  certainly(less(zero, s)) && certainly(less(s, T(1.f)));
             return std::pair(is_side, (qx * -ez + qz * ex) * std::sqrt(inverse));
         });
+    }
+    double support(const glm::dvec3& d, float level) const {
+        const double rho = detail::disk_support(d), up = d.z * 0.5 * static_cast<double>(height);
+        return std::max(rho * static_cast<double>(radius_bottom) - up, rho * static_cast<double>(radius_top) + up) +
+               glm::length(d) * static_cast<double>(level);
     }
     Bounds bounds(BoundsQuery&, float level) const {
         const float r = std::max(radius_bottom, radius_top) + level;

@@ -2,6 +2,7 @@
 
 #include <glm/trigonometric.hpp>
 
+#include "phasetree/math/support.hpp"
 #include "phasetree/nodes/fields/profile.hpp"
 
 namespace phasetree {
@@ -41,6 +42,11 @@ struct CappedTorus {
         const T ex = p.x - major * cosine, ey = y - major * sine;
         const T to_end = ex * ex + ey * ey + p.z * p.z;
         return sqrt(select(less(p.x * sine - y * cosine, T(0.f)), to_end, to_arc)) - minor;
+    }
+    /// That of the whole torus.
+    double support(const glm::dvec3& d, float level) const {
+        return detail::disk_support(d) * static_cast<double>(major) +
+               glm::length(d) * static_cast<double>(minor + level);
     }
     Bounds bounds(BoundsQuery&, float level) const {
         const float r = minor + level;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/support.hpp"
 #include "phasetree/model/concepts.hpp"
 
 namespace phasetree {
@@ -26,6 +27,10 @@ struct Capsule {
         return sqrt(squared_distance_to_segment(p - from, axis, squared > 0 ? 1.f / squared : 0.f)) - radius;
     }
     double rolling_radius(const glm::dvec3&, double) const { return static_cast<double>(radius); }
+    double support(const glm::dvec3& d, float level) const {
+        return detail::hull_support(d, {glm::dvec3(from), glm::dvec3(to)}) +
+               glm::length(d) * static_cast<double>(radius + level);
+    }
     Bounds bounds(BoundsQuery&, float level) const {
         if (radius + level < 0) return {};
         return Bounds{glm::min(from, to), glm::max(from, to)}.inflated(radius + level);

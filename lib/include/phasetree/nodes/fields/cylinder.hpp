@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/support.hpp"
 #include "phasetree/model/concepts.hpp"
 
 namespace phasetree {
@@ -20,6 +21,10 @@ struct Cylinder {
     template <class T>
     T distance(const Vec3<T>& p) const {
         return corner(length(p.x, p.y) - radius, abs(p.z) - height * 0.5f);
+    }
+    double support(const glm::dvec3& d, float level) const {
+        return detail::disk_support(d) * static_cast<double>(radius) +
+               std::abs(d.z) * 0.5 * static_cast<double>(height) + glm::length(d) * static_cast<double>(level);
     }
     Bounds bounds(BoundsQuery&, float level) const {
         return Bounds::centred({radius + level, radius + level, height * 0.5f + level});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/support.hpp"
 #include "phasetree/nodes/fields/mirrors.hpp"
 
 namespace phasetree {
@@ -29,6 +30,10 @@ struct Dodecahedron {
         const T b = q.y * 0.525731112f - q.z * 0.850650808f - radius * 0.491123473f;
         const T c = q.x - radius * 0.35682209f;
         return detail::IcosahedralMirrors::to_face(a, b, c);
+    }
+    /// That of the ball through the corners.
+    double support(const glm::dvec3& d, float level) const {
+        return glm::length(d) * static_cast<double>(radius + level);
     }
     /// (1/φ, φ, 0) and its cyclic permutations are corners.
     Bounds bounds(BoundsQuery&, float level) const { return Bounds::centred(glm::vec3(radius * 0.934173293f + level)); }

@@ -21,9 +21,11 @@ inline Bounds united(BoundsQuery& q, const std::vector<Field>& children, float l
     return b;
 }
 inline Bounds intersected(BoundsQuery& q, const std::vector<Field>& children, float level) {
-    Bounds b = Bounds::everything();
-    for (const Field& c : children) b = intersect(b, q(c, level));
-    return b;
+    return q.cut([&] {
+        Bounds b = Bounds::everything();
+        for (const Field& c : children) b = intersect(b, q(c, level));
+        return b;
+    });
 }
 inline constexpr Parameter children{"of", "", "The fields, at least one."};
 inline constexpr Parameter blend{"radius", "m",

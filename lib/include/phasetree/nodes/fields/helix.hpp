@@ -1,6 +1,7 @@
 #pragma once
 
 #include "phasetree/math/arc_tangent.hpp"
+#include "phasetree/math/support.hpp"
 #include "phasetree/nodes/fields/profile.hpp"
 
 namespace phasetree {
@@ -91,6 +92,12 @@ struct Helix {
         const T where = (angle + n) * around + select(less(mean, zero), -x, x);
         const T between = select(less(where, zero), to_ends, select(less(T(turns * around), where), to_ends, to_line));
         return sqrt(min(between, to_ends)) - wire;
+    }
+    /// That of the cylinder that it is wound on.
+    double support(const glm::dvec3& d, float level) const {
+        const double half = 0.5 * static_cast<double>(std::abs(pitch) * turns);
+        return detail::disk_support(d) * static_cast<double>(radius) + std::abs(d.z) * half +
+               glm::length(d) * static_cast<double>(wire + level);
     }
     Bounds bounds(BoundsQuery&, float level) const {
         if (wire + level < 0) return {};

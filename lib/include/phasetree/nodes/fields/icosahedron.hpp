@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/support.hpp"
 #include "phasetree/nodes/fields/mirrors.hpp"
 
 namespace phasetree {
@@ -29,6 +30,10 @@ struct Icosahedron {
         const T b = q.y * 0.35682209f - q.x * 0.934172359f - radius * 0.303530999f;
         const T c = q.z - radius * 0.525731112f;
         return detail::IcosahedralMirrors::to_face(a, b, c);
+    }
+    /// That of the ball through the corners.
+    double support(const glm::dvec3& d, float level) const {
+        return glm::length(d) * static_cast<double>(radius + level);
     }
     /// (0, φ, 1) and its cyclic permutations are corners.
     Bounds bounds(BoundsQuery&, float level) const { return Bounds::centred(glm::vec3(radius * 0.850651659f + level)); }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/support.hpp"
 #include "phasetree/nodes/fields/profile.hpp"
 
 namespace phasetree {
@@ -26,6 +27,10 @@ struct Link {
     T distance(const Vec3<T>& p) const {
         const T y = max(abs(p.y) - length * 0.5f, T(0.f));
         return phasetree::length(phasetree::length(p.x, y) - major, p.z) - minor;
+    }
+    double support(const glm::dvec3& d, float level) const {
+        return detail::disk_support(d) * static_cast<double>(major) +
+               std::abs(d.y) * 0.5 * static_cast<double>(length) + glm::length(d) * static_cast<double>(minor + level);
     }
     Bounds bounds(BoundsQuery&, float level) const {
         const float r = minor + level;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/support.hpp"
 #include "phasetree/nodes/fields/profile.hpp"
 
 namespace phasetree {
@@ -32,6 +33,10 @@ struct Octahedron {
         const T edge = sqrt(t2 * t2 * 2.f + c * c);
         const T corner = length(Vec3<T>{a - radius, b, c});
         return select(less(t3, c), t3 * 1.7320508f, select(less(t2, b), edge, corner));
+    }
+    double support(const glm::dvec3& d, float level) const {
+        return std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) * static_cast<double>(radius) +
+               glm::length(d) * static_cast<double>(level);
     }
     /// Below the surface: |x| + |y| + |z| ≤ r + √3 level.
     Bounds bounds(BoundsQuery&, float level) const {

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "phasetree/math/support.hpp"
 #include "phasetree/nodes/fields/profile.hpp"
 
 namespace phasetree {
@@ -46,6 +47,9 @@ struct Polyline {
             nearest = min(squared_distance_to_segment(q, along, s[6]), nearest);
         }
         return sqrt(nearest) - r;
+    }
+    double support(const glm::dvec3& d, float level) const {
+        return detail::hull_support(d, points) + glm::length(d) * static_cast<double>(radius + level);
     }
     Bounds bounds(BoundsQuery&, float level) const {
         if (radius + level < 0) return {};

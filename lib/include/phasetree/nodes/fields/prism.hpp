@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/support.hpp"
 #include "phasetree/nodes/fields/mirrors.hpp"
 
 namespace phasetree {
@@ -43,6 +44,13 @@ struct Prism {
         const T zero(0.f), side = x - apothem;
         const T polygon = length(max(side, zero), max(y - half_edge, zero)) + min(side, zero);
         return corner(polygon, abs(p.z) - height * 0.5f);
+    }
+    double support(const glm::dvec3& d, float level) const {
+        // The corners are at odd multiples of π/n: from the nearest of them d is at most that far.
+        const double pi = 3.14159265358979323846, step = pi / static_cast<double>(sides);
+        const double off = std::remainder(std::atan2(d.y, d.x) - step, 2 * step);
+        return detail::disk_support(d) * static_cast<double>(radius) * std::cos(off) +
+               std::abs(d.z) * 0.5 * static_cast<double>(height) + glm::length(d) * static_cast<double>(level);
     }
     Bounds bounds(BoundsQuery&, float level) const {
         if (apothem + level < 0) return {};

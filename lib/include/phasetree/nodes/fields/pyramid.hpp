@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/support.hpp"
 #include "phasetree/nodes/fields/profile.hpp"
 
 namespace phasetree {
@@ -54,6 +55,10 @@ struct Pyramid {
         const T in_plane = select(less(v, zero), min(to_side, to_edge), beside);
         const T d = sqrt(min(to_base, in_plane + w * w));
         return select(less(max(w, -z), zero), -d, d);
+    }
+    double support(const glm::dvec3& d, float level) const {
+        const double a = 0.5 * static_cast<double>(base), up = d.z * 0.5 * static_cast<double>(height);
+        return std::max(up, (std::abs(d.x) + std::abs(d.y)) * a - up) + glm::length(d) * static_cast<double>(level);
     }
     Bounds bounds(BoundsQuery&, float level) const {
         const float a = base * 0.5f;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/support.hpp"
 #include "phasetree/nodes/fields/profile.hpp"
 
 namespace phasetree {
@@ -59,6 +60,13 @@ struct RoundCone {
         const double x = glm::dot(p - glm::dvec3(from), glm::dvec3(axis)), s = sine;
         const double least = std::min(radius_from, radius_to);
         return std::max(least, radius_from - s * std::clamp(x, 0.0, double{separation}) - std::abs(s) * reach);
+    }
+    double support(const glm::dvec3& d, float level) const {
+        const auto ball = [&](const glm::vec3& centre, float radius) {
+            return glm::dot(d, glm::dvec3(centre)) +
+                   glm::length(d) * static_cast<double>(radius + std::max(level, -radius));
+        };
+        return std::max(ball(from, radius_from), ball(to, radius_to));
     }
     Bounds bounds(BoundsQuery&, float level) const {
         return unite(Bounds{from, from}.inflated(radius_from + std::max(level, -radius_from)),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/support.hpp"
 #include "phasetree/nodes/fields/box.hpp"
 
 namespace phasetree {
@@ -26,6 +27,10 @@ struct RoundedBox {
     template <class T>
     T distance(const Vec3<T>& p) const {
         return box_distance(p, size * 0.5f - radius) - radius;
+    }
+    double support(const glm::dvec3& d, float level) const {
+        return detail::box_support(d, glm::dvec3(size) * 0.5 - static_cast<double>(radius)) +
+               glm::length(d) * static_cast<double>(radius + level);
     }
     Bounds bounds(BoundsQuery&, float level) const { return Bounds::centred(size * 0.5f + level); }
 };

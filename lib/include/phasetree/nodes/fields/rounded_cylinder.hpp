@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/support.hpp"
 #include "phasetree/nodes/fields/profile.hpp"
 
 namespace phasetree {
@@ -27,6 +28,10 @@ struct RoundedCylinder {
     template <class T>
     T distance(const Vec3<T>& p) const {
         return corner(length(p.x, p.y) - (radius - edge), abs(p.z) - (height * 0.5f - edge)) - edge;
+    }
+    double support(const glm::dvec3& d, float level) const {
+        return detail::disk_support(d) * static_cast<double>(radius) +
+               std::abs(d.z) * 0.5 * static_cast<double>(height) + glm::length(d) * static_cast<double>(level);
     }
     Bounds bounds(BoundsQuery&, float level) const {
         return Bounds::centred(glm::vec3{radius, radius, height * 0.5f} + level);

@@ -104,9 +104,11 @@ struct Siren {
     typename D::Scalar evaluate(D& d, const typename D::Point& p) const {
         return max(d.primitive(Sphere{.radius = file.content->radius}, p), d.primitive(network, p));
     }
-    Bounds bounds(BoundsQuery&, float level) const {
+    Bounds bounds(BoundsQuery& q, float level) const {
         const float r = file.content->radius + level;
-        return r < 0 ? Bounds{} : Bounds::centred(glm::vec3(r));
+        if (r < 0) return {};
+        return q.placed(Bounds::centred(glm::vec3(r)),
+                        [&](const glm::dvec3& d) { return glm::length(d) * static_cast<double>(r); });
     }
 };
 

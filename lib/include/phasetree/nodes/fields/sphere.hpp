@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/support.hpp"
 #include "phasetree/model/concepts.hpp"
 
 namespace phasetree {
@@ -19,6 +20,9 @@ struct Sphere {
         return length(p) - radius;
     }
     double rolling_radius(const glm::dvec3&, double) const { return static_cast<double>(radius); }
+    double support(const glm::dvec3& d, float level) const {
+        return glm::length(d) * static_cast<double>(radius + level);
+    }
     Bounds bounds(BoundsQuery&, float level) const { return Bounds::centred(glm::vec3(radius + level)); }
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/support.hpp"
 #include "phasetree/nodes/fields/profile.hpp"
 
 namespace phasetree {
@@ -36,6 +37,10 @@ struct SphericalCap {
         const T to_arc = select(less(T(0.f), to_ball), to_ball, min(to_disk, -to_ball));
         const T d = select(less(p.z * radius, from_centre * cut), to_disk, to_arc);
         return select(less(max(to_ball, below), T(0.f)), -d, d);
+    }
+    /// That of the ball.
+    double support(const glm::dvec3& d, float level) const {
+        return glm::length(d) * static_cast<double>(radius + level);
     }
     Bounds bounds(BoundsQuery&, float level) const {
         const float side = cut > 0 ? rim : radius;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/support.hpp"
 #include "phasetree/nodes/fields/profile.hpp"
 
 namespace phasetree {
@@ -35,6 +36,11 @@ struct Tetrahedron {
         const T e = ((x - k) * 2.f - y + z) * 0.40824829f;
         const T t = max((y + z) * 0.70710678f - 1.4142136f * k, T(0.f));
         return select(less(T(0.f), e), length(Vec3<T>{m, e, t}), m);
+    }
+    double support(const glm::dvec3& d, float level) const {
+        const double k = 0.57735027 * static_cast<double>(radius);
+        return k * std::max({d.x + d.y + d.z, d.x - d.y - d.z, d.y - d.x - d.z, d.z - d.x - d.y}) +
+               glm::length(d) * static_cast<double>(level);
     }
     /// Below the surface: the tetrahedron whose faces, r/3 from the origin, are that much nearer.
     Bounds bounds(BoundsQuery&, float level) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/support.hpp"
 #include "phasetree/model/concepts.hpp"
 
 namespace phasetree {
@@ -18,6 +19,10 @@ struct Torus {
     template <class T>
     T distance(const Vec3<T>& p) const {
         return length(length(p.x, p.y) - major, p.z) - minor;
+    }
+    double support(const glm::dvec3& d, float level) const {
+        return detail::disk_support(d) * static_cast<double>(major) +
+               glm::length(d) * static_cast<double>(minor + level);
     }
     Bounds bounds(BoundsQuery&, float level) const {
         const float r = minor + level;

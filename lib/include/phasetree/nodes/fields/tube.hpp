@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/support.hpp"
 #include "phasetree/nodes/fields/profile.hpp"
 
 namespace phasetree {
@@ -30,6 +31,10 @@ struct Tube {
     T distance(const Vec3<T>& p) const {
         const float middle = (radius + inner_radius) * 0.5f, half_wall = (radius - inner_radius) * 0.5f;
         return corner(abs(length(p.x, p.y) - middle) - half_wall, abs(p.z) - height * 0.5f);
+    }
+    double support(const glm::dvec3& d, float level) const {
+        return detail::disk_support(d) * static_cast<double>(radius) +
+               std::abs(d.z) * 0.5 * static_cast<double>(height) + glm::length(d) * static_cast<double>(level);
     }
     Bounds bounds(BoundsQuery&, float level) const {
         if ((radius - inner_radius) * 0.5f + level < 0) return {};

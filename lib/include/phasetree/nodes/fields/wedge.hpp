@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/support.hpp"
 #include "phasetree/nodes/fields/profile.hpp"
 
 namespace phasetree {
@@ -48,6 +49,11 @@ struct Wedge {
         const T d = sqrt(before(above, along, before(left, past_left, before(below, past_below, nearest))));
         const T triangle = select(less(max(above, max(left, below)), zero), -d, d);
         return corner(triangle, abs(p.y) - size.y * 0.5f);
+    }
+    double support(const glm::dvec3& d, float level) const {
+        const glm::dvec3 h = glm::dvec3(size) * 0.5;
+        return detail::hull_support(d, {{-h.x, 0, -h.z}, {h.x, 0, -h.z}, {-h.x, 0, h.z}}) + std::abs(d.y) * h.y +
+               glm::length(d) * static_cast<double>(level);
     }
     /// What is level below the surface is a smaller triangle, within the box that is smaller by as much.
     Bounds bounds(BoundsQuery&, float level) const { return Bounds::centred(size * 0.5f + level); }

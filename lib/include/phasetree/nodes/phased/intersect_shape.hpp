@@ -30,7 +30,7 @@ struct IntersectShape {
     PhaseSet phases() const { return detail::phases_after_cut(phasetree::phases(of), phases_cut); }
     Bounds bounds(BoundsQuery& q, float level) const {
         const bool all = phases_cut.empty() || (phasetree::phases(of).bits & ~std::uint64_t{1} & ~phases_cut.bits) == 0;
-        return all ? intersect(q(of, level), q(shape, level)) : q(of, level);
+        return all ? q.cut([&] { return intersect(q(of, level), q(shape, level)); }) : q(of, level);
     }
 };
 

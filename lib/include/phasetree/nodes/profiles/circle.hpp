@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/support.hpp"
 #include "phasetree/model/concepts.hpp"
 
 namespace phasetree {
@@ -18,6 +19,9 @@ struct Circle {
     template <class T>
     T distance(const Vec3<T>& p) const {
         return length(p.x, p.y) - radius;
+    }
+    double support(const glm::dvec3& d, float level) const {
+        return detail::section_support(d, detail::disk_support(d) * static_cast<double>(radius + level));
     }
     Bounds bounds(BoundsQuery&, float level) const {
         return Bounds::centred({radius + level, radius + level, Bounds::infinity});

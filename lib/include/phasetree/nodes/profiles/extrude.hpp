@@ -47,8 +47,13 @@ struct Extrude {
     }
     /// The corner is no less than either of the two.
     Bounds bounds(BoundsQuery& q, float level) const {
-        Bounds b = q(of, level);
         const float half = height * 0.5f + level;
+        if (!q.is_by_boxes())
+            return half < 0 ? Bounds{}
+                            : q.through([](const glm::dvec3& d) { return glm::dvec3(d.x, d.y, 0); },
+                                        [&](const glm::dvec3& d) { return std::abs(d.z) * static_cast<double>(half); },
+                                        [&] { return q(of, level); });
+        Bounds b = q(of, level);
         if (b.empty() || b.low.z > 0 || b.high.z < 0 || half < 0) return {};
         b.low.z = -half;
         b.high.z = half;

@@ -3,6 +3,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
+#include "phasetree/math/support.hpp"
 #include "phasetree/nodes/fields/profile.hpp"
 
 namespace phasetree {
@@ -66,6 +67,12 @@ struct Polygon {
             sign = select(less(p.y, T(low)), sign, select(less(p.y, T(high)), crossed, sign));
         }
         return sqrt(nearest) * sign;
+    }
+    double support(const glm::dvec3& d, float level) const {
+        double most = -std::numeric_limits<double>::infinity();
+        for (const glm::vec2& v : points)
+            most = std::max(most, d.x * static_cast<double>(v.x) + d.y * static_cast<double>(v.y));
+        return detail::section_support(d, most + detail::disk_support(d) * static_cast<double>(level));
     }
     Bounds bounds(BoundsQuery&, float level) const {
         Bounds b;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/support.hpp"
 #include "phasetree/model/concepts.hpp"
 
 namespace phasetree {
@@ -37,6 +38,10 @@ struct Revolve {
         return d.field(of, d.map(IntoHalfPlane{offset}, p, 1.f));
     }
     Bounds bounds(BoundsQuery& q, float level) const {
+        if (!q.is_by_boxes())
+            return q.through([](const glm::dvec3& d) { return glm::dvec3(detail::disk_support(d), d.z, 0); },
+                             [&](const glm::dvec3& d) { return detail::disk_support(d) * static_cast<double>(offset); },
+                             [&] { return q(of, level); });
         const Bounds b = q(of, level);
         const float reach = (b.high.x + offset) * (1 + 1e-6f);
         if (b.empty() || b.low.z > 0 || b.high.z < 0 || reach < 0) return {};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/support.hpp"
 #include "phasetree/nodes/fields/mirrors.hpp"
 
 namespace phasetree {
@@ -45,6 +46,15 @@ struct Star {
         const T along = clamp(x * unit_x + y * unit_y, T(0.f), T(edge_length));
         const T d = length(x - along * unit_x, y - along * unit_y);
         return select(less(x * unit_y, y * unit_x), -d, d);
+    }
+    double support(const glm::dvec3& d, float level) const {
+        const double pi = 3.14159265358979323846, step = pi / static_cast<double>(points);
+        const auto corners = [&](double shift) {
+            return std::cos(std::remainder(std::atan2(d.y, d.x) - shift, 2 * step)) * detail::disk_support(d);
+        };
+        return detail::section_support(
+            d, std::max(corners(0) * static_cast<double>(radius), corners(step) * static_cast<double>(inner_radius)) +
+                   detail::disk_support(d) * static_cast<double>(level));
     }
     Bounds bounds(BoundsQuery&, float level) const {
         Bounds b;

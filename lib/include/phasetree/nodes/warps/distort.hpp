@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/support.hpp"
 #include "phasetree/nodes/fields/fractal_noise.hpp"
 #include "phasetree/nodes/warps/warped.hpp"
 
@@ -47,6 +48,8 @@ struct Distort {
     Map map() const { return {FractalNoise(scale, octaves), amplitude * slope(), 57.3f * scale}; }
     float value_scale() const { return 1 / (1 + 1.7320509f * amplitude * slope()); }
     Bounds image(const Bounds& b) const { return b.inflated(amplitude * (1 + 1e-6f)); }
+    glm::dvec3 towards(const glm::dvec3& d) const { return d; }
+    double beyond(const glm::dvec3& d) const { return detail::box_support(d, glm::dvec3(amplitude)); }
 
   private:
     float slope() const { return FractalNoise::slope(scale, octaves); }

@@ -8,6 +8,8 @@
 ///     Map map() const                 p ↦ ω⁻¹(p), a PointMap: one instruction of the program
 ///     float value_scale() const       1/λ
 ///     Bounds image(Bounds) const      a box around ω(box)
+/// and, if it is neither affine nor local, for bounds by directions (BoundsQuery::through),
+///     dvec3 towards(dvec3 d) const,  double beyond(dvec3 d) const
 /// and serves plain fields and objects alike through Warped<Warp, Child>.
 ///
 /// Where ‖J‖ is bounded only on a part of space (`local`), the warp gets the child's bounds first through
@@ -103,9 +105,17 @@ struct Warped {
         if constexpr (LocalWarp<Warp>) {
             // max(b, ·) ≤ level lies within b ≤ level, and a box's field is exact outside.
             const glm::vec3 half = bound.half + level;
-            return Bounds{bound.centre - half, bound.centre + half};
+            return q.placed(Bounds{bound.centre - half, bound.centre + half});
         } else {
-            return warp.image(q(of, level / warp.value_scale()));
+            const auto of_child = [&] { return q(of, level / warp.value_scale()); };
+            if (q.is_by_boxes()) return warp.image(of_child());
+            if constexpr (AffinePointMap<typename Warp::Map>) {
+                const AffineMap::Inverse map = warp.map().affine().inverse();
+                return q.through(map.matrix, map.by, of_child);
+            } else {
+                return q.through([&](const glm::dvec3& d) { return warp.towards(d); },
+                                 [&](const glm::dvec3& d) { return warp.beyond(d); }, of_child);
+            }
         }
     }
 };

@@ -30,7 +30,9 @@ typedef enum PhasetreeGeometryFlags {
 typedef struct PhasetreeGeometryOptions {
     unsigned int flags; /* PhasetreeGeometryFlags; what phasetreeSetGeometryTree is told of them it does not look at */
     /* A distance: brackets are no longer, and what is thinner along a ray may be passed. 0: 2·10⁻⁶ of the diagonal of
-     * the tree's bounds, or what 32-bit coordinates allow where the tree is far from the origin. */
+     * the tree's bounds, or what 32-bit coordinates allow where the tree is far from the origin. Any other is used as
+     * near as possible: no finer than 2.5·10⁻⁷ of the farthest coordinate or the diagonal, no coarser than a hundredth
+     * of the diagonal. phasetreeGetGeometryStatistics tells which is used, phasetreeGetGeometryWarning why. */
     float resolution;
     /* RTCBuildQuality: how finely the object is cut into cells, the boxes in which rays look for interfaces. LOW builds
      * in a quarter to two thirds of the time, for objects that are edited, and rays are slower; MEDIUM and HIGH are the
@@ -211,6 +213,11 @@ typedef struct PhasetreeGeometryStatistics {
 /* Tells what was built of a geometry, and how long that took. */
 PHASETREE_API PhasetreeError phasetreeGetGeometryStatistics(PhasetreeGeometry geometry,
                                                             PhasetreeGeometryStatistics* statistics);
+
+/* A sentence for people if the tree lies so far from the origin for its size that 32-bit coordinates leave few digits,
+ * or if another resolution is used than the options asked for; else "". UTF-8; belongs to the geometry, until
+ * phasetreeSetGeometryTree. A tree that is too far to be traced at all is refused with PHASETREE_ERROR_INVALID_TREE. */
+PHASETREE_API PhasetreeError phasetreeGetGeometryWarning(PhasetreeGeometry geometry, const char** warning);
 
 #if defined(__cplusplus)
 }

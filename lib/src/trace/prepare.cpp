@@ -1,0 +1,61 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "phasetree/trace/tracer.hpp"
+
+/// How finely an object can be traced. Coordinates are known to half a unit in the last place, 6·10⁻⁸ of the farthest
+/// one's size at most; a field's value to a few such units of the coordinates it is made of.
+namespace phasetree {
+
+namespace {
+
+/// Of the farthest coordinate: two to four units in the last place. Finer than that there are no places to look at.
+constexpr float finest = 2.5e-7f;
+/// Of the farthest coordinate, and of the diagonal: what is chosen, so that values' rounding does not show either.
+constexpr float rounding = 1e-6f, usual = 2e-6f;
+/// Of the diagonal: a coarser resolution would see little of the object.
+constexpr float coarsest = 0.01f;
+/// Of the diagonal: what is chosen is finer unless the object is too far from the origin.
+constexpr float poor = 1e-3f;
+
+}  // namespace
+
+TraceableObject prepare_to_trace(const Phased& object, float wanted) {
+    const Bounds b = phasetree::bounds(object);
+    if (b.empty()) throw ModelError("the object is empty: nothing of it is left");
+    if (!b.finite())
+        throw ModelError(
+            "the object is unbounded: cut it to size with {\"intersect_shape\": {\"of\": …, \"shape\": …}}");
+    const float farthest = std::max({std::abs(b.low.x), std::abs(b.low.y), std::abs(b.low.z), std::abs(b.high.x),
+                                     std::abs(b.high.y), std::abs(b.high.z)});
+    const float size = b.diagonal();
+    if (!(farthest < 1e15f) || !(size > 1e-15f))
+        throw ModelError("the object's size or place is beyond what 32-bit floats can trace (10⁻¹⁵ to 10¹⁵)");
+    const float least = finest * std::max(farthest, size), most = std::max(coarsest * size, least);
+    if (least > size / 8)
+        throw ModelError(
+            fmt::format("the object is {:.3g} large and lies up to {:.3g} from the origin, where 32-bit "
+                        "coordinates are up to {:.2g} apart: move it to the origin",
+                        size, farthest, 0.5f * least));
+    const float chosen = wanted > 0 ? wanted : std::max(usual * size, rounding * farthest);
+    TraceableObject result;
+    result.resolution = std::clamp(chosen, least, most);
+    result.bounds = b.inflated(8 * result.resolution);
+    if (wanted > 0 && result.resolution != wanted)
+        result.warning = fmt::format(
+            "the resolution {:.3g} is {} an object that is {:.3g} large and lies up to {:.3g} "
+            "from the origin: it is traced at {:.3g}",
+            wanted, wanted < least ? "finer than 32-bit coordinates allow for" : "too coarse for", size, farthest,
+            result.resolution);
+    else if (wanted > 0 ? least > poor * size : chosen > poor * size)
+        result.warning = fmt::format(
+            "the object is {:.3g} large and lies up to {:.3g} from the origin, where 32-bit "
+            "coordinates leave few digits: what is thinner than {:.2g} may be missed; "
+            "move it nearer to the origin",
+            size, farthest, result.resolution);
+    return result;
+}
+
+}  // namespace phasetree
