@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <iterator>
 #include <latch>
+#include <new>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
@@ -28,11 +29,14 @@ std::ptrdiff_t running() {
 int startable(int wanted) {
     const std::ptrdiff_t before = running();
     std::vector<std::thread> threads;
+    threads.reserve(static_cast<std::size_t>(std::max(wanted, 0)));
     std::latch all_are_counted(1);
     try {
         while (static_cast<int>(threads.size()) < wanted) threads.emplace_back([&] { all_are_counted.wait(); });
     } catch (const std::system_error&) {
         // Then it is as many as there are.
+    } catch (const std::bad_alloc&) {
+        // Those that wait must be let go and joined in this case, too.
     }
     all_are_counted.count_down();
     for (std::thread& thread : threads) thread.join();
