@@ -3,7 +3,7 @@
 namespace phasetree {
 
 const char* version() {
-    return "0.1.0";
+    return PHASETREE_VERSION;  // the project's, which CMake knows
 }
 
 }  // namespace phasetree
