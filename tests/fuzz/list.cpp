@@ -9,14 +9,14 @@ namespace phasetree::fuzz {
 namespace {
 
 constexpr Target list[] = {
-    {"calls", Inputs::bytes, 1024, 500, "", run_calls},
+    {"calls", Inputs::bytes, 1024, 10000, "", run_calls},
     {"color_config", Inputs::lines, 16384, 500, "tracer/color", run_color_config},
     {"image", Inputs::bytes, 16384, 500, "", run_image},
-    {"lines", Inputs::lines, 1024, 500, "", run_lines},
-    {"obj", Inputs::lines, 4096, 500, "", run_obj},
-    {"scene", Inputs::json, 8192, 500, "scenes", run_scene},
+    {"lines", Inputs::lines, 1024, 10000, "", run_lines},
+    {"obj", Inputs::lines, 4096, 10000, "", run_obj},
+    {"scene", Inputs::json, 8192, 10000, "scenes", run_scene},
     {"settings", Inputs::json, 8192, 500, "", run_settings},
-    {"weights", Inputs::json, 8192, 500, "", run_weights},
+    {"weights", Inputs::json, 8192, 10000, "", run_weights},
 };
 
 }  // namespace
