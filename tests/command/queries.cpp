@@ -97,9 +97,9 @@ TEST_CASE("an object so far from the origin that few digits are left is warned o
     // And it is hit, as finely as may be.
     const Outcome traced = shell.run({"trace", "far.json"}, "1000000 0 5 0 0 -1\n");
     const auto rows = rows_of(traced.out);
-    REQUIRE(rows.size() == 3);
-    CHECK(std::abs(std::stof(rows[1][1]) - 4) < 0.5f);
-    CHECK(std::abs(std::stof(rows[2][1]) - 6) < 0.5f);
+    REQUIRE(rows.size() == 4);  // the names, the start, in and out
+    CHECK(std::abs(std::stof(rows[2][1]) - 4) < 0.5f);
+    CHECK(std::abs(std::stof(rows[3][1]) - 6) < 0.5f);
 }
 
 TEST_CASE("info, for people and as JSON") {
