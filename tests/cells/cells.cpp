@@ -10,6 +10,7 @@
 #include "phasetree/phasetree.hpp"
 #include "phasetree/reading/tree.hpp"
 #include "source_directory.hpp"
+#include "support/compared_crossings.hpp"
 #include "support/compared_labels.hpp"
 
 using namespace phasetree;
