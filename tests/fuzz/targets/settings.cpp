@@ -57,7 +57,7 @@ void render_little(tracer::Scene& scene) {
     scene.settings.samples = 1;
     scene.settings.max_depth = std::min(scene.settings.max_depth, 12);
     try {
-        const tracer::World world(scene, BuildQuality::low, is_enough);
+        const tracer::World world(scene, {.quality = BuildQuality::low, .cancelled = is_enough});
         tracer::RenderJob job;
         job.pixels = {0, 0, scene.camera.width, scene.camera.height};
         job.threads = 1;
