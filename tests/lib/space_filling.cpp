@@ -101,7 +101,8 @@ TEST_CASE("lists that do not fit are refused in words") {
     says(R"({"strata": {"phases": ["a", "b", "c"], "thicknesses": [1, 2, 3]}})", "one thickness less than phases");
     says(R"({"strata": {"phases": ["a", "b"], "thicknesses": [-1]}})", "\"thicknesses\"");
     says(R"({"strata": {"phases": ["a", "d"], "thicknesses": [1]}})", "there is no phase \"d\"");
-    says(R"({"strata": {"phases": ["a", "b"], "thicknesses": 1}})", "\"thicknesses\" must be a list");
+    says(R"({"strata": {"phases": ["a", "b"], "thicknesses": "thin"}})", "\"thicknesses\" must be a number or a list");
+    CHECK(refused(R"({"strata": {"phases": ["a", "b"], "thicknesses": 1}})") == "accepted");  // one stands for all
     says(R"({"checker": {"even": "a", "odd": "a", "size": 1}})", "both phases are the same");
     says(R"({"polar_array": {"count": 0, "of": {"set": {"phase": "a", "of": {"sphere": {"radius": 1}}}}}})",
          "\"count\"");
