@@ -69,3 +69,23 @@ TEST_CASE("with opaque phases rays in the others meet what they met, and where o
     for (const glm::vec3& p : {glm::vec3(0.5f, 0, 0), glm::vec3(0, -0.5f, 0)}) CHECK(cells_at(outer, p).empty());
     CHECK(InterfaceCells(ball, {.opaque = {0b111}}).size() == 0);
 }
+
+TEST_CASE("the nearest crossing over all cells is the whole object's with each kind of node at the root") {
+    Random rng(14);
+    const int trees = long_tests() ? 100 : 1;
+    Compared all;
+    int attempt_of_all = 0;
+    for (const NodeKind& kind : node_kinds()) {
+        CAPTURE(kind.name);
+        for (int i = 0, attempt = 0; i < trees && attempt < 50 * trees; ++attempt) {
+            const Phased object = cut_to_size(kind.object(rng, 1 + attempt_of_all++ % 3));
+            if (bounds(object).empty()) continue;
+            ++i;
+            const std::size_t before = all.different;
+            compare_crossings(object, {}, long_tests() ? 400 : 150, rng, all);
+            CHECK(all.different == before);
+        }
+    }
+    MESSAGE(all.rays, " rays, ", all.crossings, " crossings, ", all.different, " different");
+    CHECK(all.crossings > all.rays / 2);
+}
