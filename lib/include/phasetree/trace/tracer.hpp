@@ -26,10 +26,10 @@ class InterfaceTracer {
   public:
     /// `resolution`: nothing thinner along a ray is guaranteed to be seen, nor what is up to 2.75 times as thick and
     /// deeper than a sixteenth of it for no longer than it, nor what a ray within a surface is nowhere deeper in than
-    /// that; 0 chooses 2·10⁻⁶ of the object's diagonal or what float coordinates allow far from the origin. Any other is
-    /// used as near as possible: no finer than 2.5·10⁻⁷ of the farthest coordinate or the diagonal, no coarser than a
-    /// hundredth of the diagonal; resolution() and warning() tell.
-    /// Throws ModelError if the object is unbounded or empty, or too far from the origin for its size.
+    /// that; 0 chooses 2·10⁻⁶ of the object's diagonal or what float coordinates allow far from the origin. Any other
+    /// is used as near as possible: no finer than 2.5·10⁻⁷ of the farthest coordinate or the diagonal, no coarser than
+    /// a hundredth of the diagonal; resolution() and warning() tell. Throws ModelError if the object is unbounded or
+    /// empty, or too far from the origin for its size.
     explicit InterfaceTracer(const Phased& object, float resolution = 0);
 
     /// The first change of phase at a distance within [t_min, t_max] of the origin; direction of unit length.
