@@ -14,5 +14,6 @@ Report phases(const Settings&);
 Report quality(const Settings&);
 Report simd(const Settings&);
 Report host(const Settings&);
+Report fingerprint(const Settings&);
 
 }  // namespace phasetree::bench

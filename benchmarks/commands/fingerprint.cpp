@@ -1,0 +1,173 @@
+// Fingerprints of all that the project computes, for every scene: a change that should change nothing (new names, other
+// rooms, a faster way to the same bits) leaves every one of them as it was. Two builds are compared by their JSON
+// files.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "commands/commands.hpp"
+#include "measure/fingerprint.hpp"
+#include "objects/scene_file.hpp"
+#include "phasetree/trace/tracer.hpp"
+#include "rays/camera_rays.hpp"
+#include "rays/random.hpp"
+#include "rays/random_rays.hpp"
+#include "render/render.hpp"
+
+namespace phasetree::bench {
+
+namespace {
+
+std::string hexadecimal(const Fingerprint& fingerprint) {
+    return fmt::format("{:016x}", fingerprint.value());
+}
+
+glm::vec3 random_point(Random& random, const Bounds& box) {
+    return box.low + random.in_cube() * box.extent();
+}
+
+// The whole object's phase and interface distance at random points of the bounds.
+Fingerprint labels(const InterfaceCells& cells, std::size_t count, std::uint64_t seed) {
+    Random random(seed);
+    Fingerprint found;
+    Samples samples;
+    BatchOfFloats x, y, z;
+    for (std::size_t i = 0; i < count; i += batch_size) {
+        for (std::size_t lane = 0; lane < batch_size; ++lane) {
+            const glm::vec3 p = random_point(random, cells.bounds());
+            x[lane] = p.x;
+            y[lane] = p.y;
+            z[lane] = p.z;
+        }
+        cells.whole().sample(x, y, z, samples, Evaluator::thread_workspace());
+        found.add(samples);
+    }
+    return found;
+}
+
+// Every cell's box, and its program's phase and distance along a line across it.
+Fingerprint cells_of(const InterfaceCells& cells) {
+    Fingerprint found;
+    const CellStatistics statistics = cells.statistics();
+    found.add(statistics.cells);
+    found.add(statistics.routines);
+    found.add(statistics.bytes);
+    found.add(statistics.most_instructions);
+    Samples samples;
+    for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+        const Bounds box = cells.bounds(cell);
+        found.add(box.low);
+        found.add(box.high);
+        const float length = box.diagonal();
+        BatchOfFloats t;
+        for (std::size_t lane = 0; lane < batch_size; ++lane)
+            t[lane] = length * (static_cast<float>(lane) + 0.5f) / static_cast<float>(batch_size);
+        cells.sample_ray(cell, box.low, box.extent() / length, t, samples, Evaluator::thread_workspace());
+        found.add(samples);
+    }
+    return found;
+}
+
+void add(Fingerprint& found, const std::optional<Crossing>& crossing) {
+    found.add(crossing.has_value());
+    if (!crossing) return;
+    found.add(crossing->t_in);
+    found.add(crossing->t_out);
+    found.add(crossing->p_in);
+    found.add(crossing->p_out);
+    found.add(crossing->from.index);
+    found.add(crossing->to.index);
+}
+
+// Through Embree and the cells, a path from phase to phase of at most eight crossings with their normals for each ray;
+// the rays that leave a crossing say so, as a path tracer's do. Half of the rays start inside, half at the camera.
+Fingerprint crossings(const FieldScene& scene, Rays rays) {
+    Fingerprint found;
+    for (Ray ray : rays) {
+        for (int i = 0; i < 8; ++i) {
+            const auto hit = scene.intersect_with_normal(ray);
+            found.add(hit.has_value());
+            if (!hit) break;
+            add(found, hit->crossing);
+            found.add(hit->cell);
+            found.add(hit->normal.unit);
+            found.add(hit->normal.gradient);
+            ray.origin = hit->crossing.p_out;
+            ray.carried = hit->crossing.to;
+            ray.cell = hit->cell;
+            ray.from = hit->crossing.from;
+            ray.gradient = hit->normal.gradient;
+        }
+    }
+    return found;
+}
+
+// The whole object's program, without cells: much slower, so fewer rays.
+Fingerprint whole_crossings(const Phased& object, std::span<const Ray> rays) {
+    const InterfaceTracer tracer(object);
+    Fingerprint found;
+    for (const Ray& ray : rays) {
+        const auto crossing = tracer.first_crossing(ray.origin, ray.direction, 0, 3 * tracer.bounds().diagonal(),
+                                                    std::nullopt, Evaluator::thread_workspace());
+        add(found, crossing);
+        if (crossing) found.add(tracer.normal(*crossing, ray.direction));
+    }
+    return found;
+}
+
+Fingerprint image(tracer::Scene scene, int width, int height, int samples) {
+    scene.settings.samples = samples;
+    scene.camera.width = width;
+    scene.camera.height = height;
+    const tracer::World world(scene);
+    const tracer::Rendering rendering = tracer::render(world, scene, {.pixels = {0, 0, width, height}});
+    Fingerprint found;
+    found.add_all(std::span<const glm::vec3>(rendering.image.pixels));
+    return found;
+}
+
+std::vector<std::string> all_scenes() {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(PHASETREE_SCENES))
+        if (entry.path().extension() == ".json" && entry.path().stem().extension() != ".schema")
+            names.push_back(entry.path().stem());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+}  // namespace
+
+Report fingerprint(const Settings& settings) {
+    const std::size_t count = settings.quick ? 4096 : 1'000'000;
+    Report report("fingerprint", "what is computed, to the last bit");
+    report.say(
+        fmt::format("{} random points and paths of rays through the cells, and some through the whole program", count));
+    Table table({{"scene", "scene", ""},
+                 {"labels", "labels", ""},
+                 {"cells", "cells", ""},
+                 {"crossings", "crossings", ""},
+                 {"whole", "whole", ""},
+                 {"image", "image", ""}});
+    const FlushSubnormals flush;
+    for (const std::string& name : all_scenes()) {
+        const tracer::Scene scene = scene_file(name);
+        const FieldScene field(scene.object, tracer::opaque_phases(scene.materials));
+        const auto side = static_cast<int>(std::sqrt(static_cast<double>(count) / 2));
+        Rays rays = camera_rays(scene.camera, side, side);
+        // A part of the whole's rays from each end: the camera's first and those from inside last.
+        const Rays inside = rays_from_inside(field, count - rays.size(), settings.seed);
+        rays.insert(rays.end(), inside.begin(), inside.end());
+        Rays few;
+        for (std::size_t i = 0; i < rays.size(); i += settings.quick ? 64 : 1024) few.push_back(rays[i]);
+        table.row({name, hexadecimal(labels(field.cells(), settings.quick ? count : count / 4, settings.seed)),
+                   hexadecimal(cells_of(field.cells())), hexadecimal(crossings(field, rays)),
+                   hexadecimal(whole_crossings(scene.object, few)),
+                   hexadecimal(image(scene, 64, 48, settings.quick ? 1 : 8))});
+    }
+    report.table("scenes", table);
+    return report;
+}
+
+}  // namespace phasetree::bench
