@@ -119,10 +119,10 @@ Fingerprint whole_crossings(const Phased& object, std::span<const Ray> rays) {
 
 Fingerprint image(tracer::Scene scene, int width, int height, int samples) {
     scene.settings.samples = samples;
-    scene.camera.width = width;
-    scene.camera.height = height;
+    scene.film.width = width;
+    scene.film.height = height;
     const tracer::World world(scene);
-    const tracer::Rendering rendering = tracer::render(world, scene, {.pixels = {0, 0, width, height}});
+    const tracer::Rendering rendering = tracer::render(world, scene, {.pixels = scene.film.whole()});
     Fingerprint found;
     found.add_all(std::span<const glm::vec3>(rendering.image.pixels));
     return found;

@@ -18,7 +18,7 @@ Report quality(const Settings& settings) {
     struct Object {
         std::string name;
         Phased object;
-        std::optional<tracer::ThinLensParameters> camera;
+        std::optional<tracer::CameraParameters> camera;
         PhaseSet opaque;
     };
     std::vector<Object> objects;

@@ -3,18 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "film/film.hpp"
+
 namespace phasetree::bench {
 
-Rays camera_rays(tracer::ThinLensParameters camera, int width, int height) {
-    camera.width = width;
-    camera.height = height;
-    camera.lens_radius = 0;
-    const tracer::ThinLens lens(camera);
+Rays camera_rays(tracer::CameraParameters parameters, int width, int height) {
+    if (auto* lens = std::get_if<tracer::ThinLensParameters>(&parameters)) lens->lens_radius = 0;
+    const tracer::FilmSettings settings{.width = width, .height = height};
+    const tracer::Film film(settings, settings.whole());
+    const tracer::Camera camera(parameters, settings.resolution());
     Rays rays;
     rays.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            const tracer::CameraRay ray = lens.generate(x, y, {0.5f, 0.5f}, {0.5f, 0.5f});
+            const tracer::CameraRay ray = camera.generate(film.sample_position(x, y, {0.5f, 0.5f}), {0.5f, 0.5f});
             rays.push_back({ray.origin, ray.direction, vacuum});
         }
     }

@@ -103,6 +103,41 @@ TEST_CASE("EXR keeps every bit of every float") {
     CHECK(count_non_finite(image) == 3);
 }
 
+TEST_CASE("EXR keeps further channels under their names, other formats leave them out") {
+    const OcioVariable none;
+    const TemporaryDirectory folder;
+    const DisplayTransform transform(std::nullopt, std::nullopt, 0.0f);
+    const Image plain = noise(31, 17);
+    Image image = plain;
+    image.further = {{"depth.Z", {}}, {"a.b", {}}};
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        image.further[0].values.push_back(static_cast<float>(i));
+        image.further[1].values.push_back(-1.0f / static_cast<float>(i + 1));
+    }
+    write_image(image, folder / "a.exr", metadata, transform);
+    const auto input = OIIO::ImageInput::open((folder / "a.exr").string());
+    REQUIRE(input);
+    const OIIO::ImageSpec& spec = input->spec();
+    REQUIRE(spec.nchannels == 5);
+    std::vector<float> values(image.pixels.size() * 5);
+    REQUIRE(input->read_image(0, 0, 0, 5, OIIO::TypeDesc::FLOAT, values.data()));
+    int different = 0;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const auto value = [&](const char* name) {
+            return values[i * 5 + static_cast<std::size_t>(spec.channelindex(name))];
+        };
+        different += glm::vec3(value("R"), value("G"), value("B")) != image.pixels[i] ||
+                     value("depth.Z") != image.further[0].values[i] || value("a.b") != image.further[1].values[i];
+    }
+    CHECK(different == 0);
+    for (const Format format : {Format::png, Format::jpeg, Format::tiff}) {
+        const bool same = encode(image, format, metadata, transform) == encode(plain, format, metadata, transform);
+        CHECK(same);
+    }
+    image.further[1].values.pop_back();
+    CHECK_THROWS_AS(encode(image, Format::exr, metadata, transform), std::invalid_argument);
+}
+
 TEST_CASE("equal pictures are equal files, whenever they are written") {
     const OcioVariable none;
     const TemporaryDirectory folder;

@@ -35,7 +35,7 @@ Scene everything() {
 
 Image image_with(const World& world, const Scene& scene, int threads, std::optional<PixelRange> part = {}) {
     RenderJob job;
-    job.pixels = part.value_or(PixelRange{0, 0, scene.camera.width, scene.camera.height});
+    job.pixels = part.value_or(scene.film.whole());
     job.threads = threads;
     return render(world, scene, job).image;
 }

@@ -30,7 +30,7 @@ inline Scene scene_of(const std::string& phases, const std::string& tree, const 
 // The whole picture.
 inline Image image_of(const World& world, const Scene& scene) {
     RenderJob job;
-    job.pixels = {0, 0, scene.camera.width, scene.camera.height};
+    job.pixels = scene.film.whole();
     return render(world, scene, job).image;
 }
 

@@ -52,14 +52,14 @@ void scatter(const tracer::Scene& scene) {
 void render_little(tracer::Scene& scene) {
     int questions = 0;
     const auto is_enough = [&] { return ++questions > 500; };
-    scene.camera.width = std::min(scene.camera.width, 3);
-    scene.camera.height = std::min(scene.camera.height, 2);
+    scene.film.width = std::min(scene.film.width, 3);
+    scene.film.height = std::min(scene.film.height, 2);
     scene.settings.samples = 1;
     scene.settings.max_depth = std::min(scene.settings.max_depth, 12);
     try {
         const tracer::World world(scene, {.quality = BuildQuality::low, .cancelled = is_enough});
         tracer::RenderJob job;
-        job.pixels = {0, 0, scene.camera.width, scene.camera.height};
+        job.pixels = scene.film.whole();
         job.threads = 1;
         (void)render(world, scene, job);
     } catch (const BuildCancelled&) {
@@ -73,12 +73,12 @@ void run_settings(Bytes input) {
         tracer::Scene scene = tracer::read_scene(
             Document::from_text(std::string(text_of(input)), source_directory() + "/tests/fuzz/assets/input.json"));
         const FlushSubnormals flush;
-        const tracer::ThinLens lens(scene.camera);
-        const tracer::CameraRay ray = lens.generate(0, 0, {0.5f, 0.5f}, {0.25f, 0.75f});
+        const tracer::Camera camera(scene.camera, scene.film.resolution());
+        const tracer::CameraRay ray = camera.generate({0.5, 0.5}, {0.25f, 0.75f});
         promised(!is_finite(ray.direction) || std::abs(glm::length(ray.direction) - 1) < 1e-3f,
                  "a camera ray's direction has unit length");
         shine(scene.lights, {0, 0, 0});
-        shine(scene.lights, scene.camera.look_at);
+        shine(scene.lights, look_at_of(scene.camera));
         scatter(scene);
         std::size_t corners = 0;
         for (const tracer::Mesh& mesh : scene.meshes) corners += mesh.vertices.size();

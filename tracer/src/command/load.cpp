@@ -45,8 +45,9 @@ Scene load_scene(const Document& document) {
     (void)made_of_tree(document, [&] { return prepare_to_trace(scene.object); });
     // By the program, in which a shared shape counts once a place: a walk through the tree might never end.
     const Evaluator evaluator(record_tree(document, scene.object));
-    const Phase phase = bounds(scene.object).contains(scene.camera.position)
-                            ? evaluator.label(scene.camera.position, Evaluator::thread_workspace())
+    const glm::vec3 position = position_of(scene.camera);
+    const Phase phase = bounds(scene.object).contains(position)
+                            ? evaluator.label(position, Evaluator::thread_workspace())
                             : phasetree::vacuum;
     if (!is_clear(scene.materials[phase.index]))
         throw document.error(*document.root().find("camera"),

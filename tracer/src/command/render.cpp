@@ -58,14 +58,14 @@ std::vector<int> integers(const std::string& text, char separator, std::size_t c
 }
 
 PixelRange pixels(const Options& options, const Scene& scene) {
-    PixelRange range{0, 0, scene.camera.width, scene.camera.height};
+    PixelRange range = scene.film.whole();
     if (!options.crop) return range;
     const std::vector<int> c = integers(*options.crop, ',', 4, "--crop", "X0,Y0,X1,Y1 in pixels");
     range = {c[0], c[1], c[2], c[3]};
-    if (range.x0 < 0 || range.y0 < 0 || range.x1 > scene.camera.width || range.y1 > scene.camera.height ||
+    if (range.x0 < 0 || range.y0 < 0 || range.x1 > scene.film.width || range.y1 > scene.film.height ||
         range.x0 >= range.x1 || range.y0 >= range.y1)
-        throw OutputError(fmt::format("--crop {} is not a part of the {}x{} image", *options.crop, scene.camera.width,
-                                      scene.camera.height));
+        throw OutputError(fmt::format("--crop {} is not a part of the {}x{} image", *options.crop, scene.film.width,
+                                      scene.film.height));
     return range;
 }
 
@@ -102,8 +102,8 @@ void apply(const Options& options, Scene& scene) {
         for (const int n : size)
             if (n < 1 || n > 32768)
                 throw OutputError(fmt::format("--size {}: a side is 1 to 32768 pixels", *options.size));
-        scene.camera.width = size[0];
-        scene.camera.height = size[1];
+        scene.film.width = size[0];
+        scene.film.height = size[1];
     }
 }
 

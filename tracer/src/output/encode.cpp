@@ -41,6 +41,9 @@ void check(const Image& image) {
         image.pixels.size() != static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height)) {
         throw std::invalid_argument("an image must have width × height pixels, and at least one");
     }
+    for (const Channel& channel : image.further)
+        if (channel.values.size() != image.pixels.size())
+            throw std::invalid_argument("a channel must have a value for each pixel of its image");
     if (const auto& crop = image.crop;
         crop && (crop->x0 < 0 || crop->y0 < 0 || crop->display_width < image.width ||
                  crop->x0 > crop->display_width - image.width || crop->display_height < image.height ||
@@ -66,6 +69,8 @@ OIIO::ImageSpec spec_for(const Image& image, Format format, const Metadata& meta
             spec.full_width = image.crop->display_width;
             spec.full_height = image.crop->display_height;
         }
+        for (const Channel& channel : image.further) spec.channelnames.push_back(channel.name);
+        spec.nchannels = static_cast<int>(spec.channelnames.size());
         spec.attribute("compression", "zip");
         spec.attribute("oiio:ColorSpace", "Linear");
         spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), rec709_chromaticities.data());
@@ -102,6 +107,18 @@ std::vector<unsigned char> encoded(const OIIO::ImageSpec& spec, const char* name
     return bytes;
 }
 
+// All channels of an image, pixel by pixel.
+std::vector<float> interleaved(const Image& image) {
+    std::vector<float> values;
+    values.reserve(image.pixels.size() * (3 + image.further.size()));
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const glm::vec3& colour = image.pixels[i];
+        values.insert(values.end(), {colour.r, colour.g, colour.b});
+        for (const Channel& channel : image.further) values.push_back(channel.values[i]);
+    }
+    return values;
+}
+
 }  // namespace
 
 Format format_of(const std::filesystem::path& path) {
@@ -124,7 +141,8 @@ std::vector<unsigned char> encode(const Image& image, Format format, const Metad
     const char* name = name_for_format(format);
     if (format == Format::exr) {
         static_assert(sizeof(glm::vec3) == 3 * sizeof(float), "pixels are handed to OpenImageIO as packed floats");
-        return encoded(spec, name, image.pixels.data());
+        if (image.further.empty()) return encoded(spec, name, image.pixels.data());
+        return encoded(spec, name, interleaved(image).data());
     }
     std::vector<glm::vec3> shown = image.pixels;
     transform.apply(shown);

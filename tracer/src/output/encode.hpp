@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "film/image.hpp"
 #include "output/display.hpp"
-#include "output/image.hpp"
 
 namespace phasetree::tracer {
 
@@ -26,7 +26,8 @@ enum class Format { exr, png, jpeg, tiff };
 Format format_of(const std::filesystem::path& path);
 
 /// The file's bytes; equal arguments give equal bytes.
-///   EXR   scene-linear 32-bit float RGB, ZIP; the transform is not applied. Attributes phasetree:scene,
+///   EXR   scene-linear 32-bit float RGB, and the further channels under their names, ZIP; the transform is not
+///   applied. Attributes phasetree:scene,
 ///         phasetree:samplesPerPixel, phasetree:seed (as text: EXR has no 64-bit integers), Software, chromaticities.
 ///   PNG   8 bits, dithered (quantise.hpp), tagged sRGB where the display is
 ///   JPEG  the same 8 bits and tag, quality 95, chroma not subsampled

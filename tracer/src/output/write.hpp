@@ -2,10 +2,10 @@
 
 #include <filesystem>
 
+#include "film/image.hpp"
 #include "output/display.hpp"
 #include "output/encode.hpp"
 #include "output/error.hpp"
-#include "output/image.hpp"
 
 namespace phasetree::tracer {
 

@@ -6,94 +6,141 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <utility>
 
+#include "camera/camera.hpp"
 #include "phasetree/math/float_mode.hpp"
 
 namespace phasetree::tracer {
 
-Rendering render(const World& world, const Scene& scene, const RenderJob& job) {
-    const auto start = std::chrono::steady_clock::now();
-    const ThinLens camera(scene.camera);
-    const PixelRange range = job.pixels;
-    const int samples = scene.settings.samples;
-    Rendering result;
-    result.threads = job.threads > 0 ? job.threads : tbb::this_task_arena::max_concurrency();
+namespace {
 
-    std::vector<glm::dvec3> sum(static_cast<std::size_t>(range.width()) * static_cast<std::size_t>(range.height()),
-                                glm::dvec3(0.0));
-    tbb::enumerable_thread_specific<PathCounters> counters;
-    std::atomic<bool> stopped{false};
+constexpr int tile_side = 8;  // in pixels
 
-    // A pinhole in one place sees one phase; the label is asked for once.
-    const bool pinhole = scene.camera.lens_radius == 0;
-    const Phase camera_phase = world.geometry().label(scene.camera.position);
-    const bool near_object =
-        world.geometry().object().bounds().inflated(scene.camera.lens_radius).contains(scene.camera.position);
+// The phases in which camera rays start.
+class StartingPhases {
+  public:
+    StartingPhases(const TracedGeometry& geometry, const Camera& camera) : geometry_(geometry) {
+        if (const auto origin = camera.single_origin()) single_ = geometry.label(*origin);
+    }
+    Phase at(const glm::vec3& origin) const {
+        if (single_) return *single_;
+        return geometry_.object().bounds().contains(origin) ? geometry_.label(origin) : phasetree::vacuum;
+    }
 
-    const auto add_samples = [&](int x, int y, int first, int last, PathCounters& counter) {
-        glm::dvec3& pixel = sum[static_cast<std::size_t>(y - range.y0) * static_cast<std::size_t>(range.width()) +
-                                static_cast<std::size_t>(x - range.x0)];
-        for (int s = first; s < last; ++s) {
-            Sampler sampler(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), static_cast<std::uint32_t>(s),
-                            scene.settings.seed);
-            const glm::vec2 on_pixel = sampler.next2();
-            const CameraRay ray = camera.generate(x, y, on_pixel, sampler.next2());
-            const Phase phase = pinhole       ? camera_phase
-                                : near_object ? world.geometry().label(ray.origin)
-                                              : phasetree::vacuum;
-            pixel += glm::dvec3(trace_path(world, scene, {ray.origin, ray.direction, phase, {}}, sampler, counter));
-        }
-    };
+  private:
+    const TracedGeometry& geometry_;
+    std::optional<Phase> single_;  // of a camera whose rays all start at one point, asked for once
+};
 
-    const auto run_passes = [&] {
-        // The first pass is one sample, so that even an early Ctrl-C leaves a picture; later ones are larger.
-        for (int first = 0; first < samples && !stopped;) {
-            const int last = std::min(samples, first == 0 ? 1 : first + std::clamp(first, 1, 16));
-            const tbb::blocked_range2d<int> tiles(range.y0, range.y1, 8, range.x0, range.x1, 8);
-            std::vector<glm::dvec3> before;
-            if (first > 0) before = sum;
-            tbb::parallel_for(
-                tiles,
-                [&](const tbb::blocked_range2d<int>& tile) {
-                    if (stopped || job.cancelled()) {
-                        stopped = true;
-                        return;
-                    }
-                    const FlushSubnormals flush;
-                    PathCounters& counter = counters.local();
-                    for (int y = tile.rows().begin(); y < tile.rows().end(); ++y)
-                        for (int x = tile.cols().begin(); x < tile.cols().end(); ++x)
-                            add_samples(x, y, first, last, counter);
-                    job.advance(tile.rows().size() * tile.cols().size() * static_cast<std::size_t>(last - first));
-                },
-                tbb::simple_partitioner());
-            // A pass that was cut off is dropped, so that every pixel has as many samples; but something beats nothing.
-            if (stopped && first > 0) {
-                sum = std::move(before);
+// The numbers of a pixel's samples that one pass over the picture adds: [first, last).
+struct Pass {
+    int first, last;
+
+    // The first pass is one sample, so that even an early Ctrl-C leaves a picture; later ones are larger.
+    static Pass from(int first, int samples) {
+        return {first, std::min(samples, first == 0 ? 1 : first + std::clamp(first, 1, 16))};
+    }
+};
+
+class Renderer {
+  public:
+    Renderer(const World& world, const Scene& scene, const RenderJob& job)
+        : world_(world),
+          scene_(scene),
+          job_(job),
+          camera_(scene.camera, scene.film.resolution()),
+          phases_(world.geometry(), camera_),
+          film_(scene.film, job.pixels) {}
+
+    // Returns how many samples each pixel has in the end.
+    int run() {
+        int done = 0;
+        while (done < scene_.settings.samples && !stopped_) {
+            const Pass pass = Pass::from(done, scene_.settings.samples);
+            std::optional<Film> before;
+            if (pass.first > 0) before = film_;
+            run(pass);
+            // A pass that was cut off is dropped, so that every pixel has as many samples. But of the first pass what
+            // there is is kept: something beats nothing.
+            if (stopped_ && before) {
+                film_ = *std::move(before);
                 break;
             }
-            first = last;
-            result.samples = last;
+            done = pass.last;
         }
-    };
+        return done;
+    }
+    const Film& film() const { return film_; }
+    bool stopped() const { return stopped_; }
+    PathCounters counters() const {
+        PathCounters sum;
+        for (const PathCounters& thread : counters_) sum += thread;
+        return sum;
+    }
+
+  private:
+    void run(const Pass& pass) {
+        const PixelRange& area = film_.area();
+        tbb::parallel_for(
+            tbb::blocked_range2d<int>(area.y0, area.y1, tile_side, area.x0, area.x1, tile_side),
+            [&](const tbb::blocked_range2d<int>& tile) {
+                if (stopped_ || job_.cancelled()) {
+                    stopped_ = true;
+                    return;
+                }
+                const PixelRange part{tile.cols().begin(), tile.rows().begin(), tile.cols().end(), tile.rows().end()};
+                run(part, pass);
+                job_.advance(part.size() * static_cast<std::size_t>(pass.last - pass.first));
+            },
+            tbb::simple_partitioner());
+    }
+    void run(const PixelRange& part, const Pass& pass) {
+        const FlushSubnormals flush;
+        PathCounters& counters = counters_.local();
+        FilmTile tile = film_.tile(part);
+        for (int y = part.y0; y < part.y1; ++y)
+            for (int x = part.x0; x < part.x1; ++x)
+                for (int s = pass.first; s < pass.last; ++s) tile.add(x, y, sample(x, y, s, counters));
+        film_.merge(tile);
+    }
+    FilmSample sample(int x, int y, int number, PathCounters& counters) const {
+        Sampler sampler(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
+                        static_cast<std::uint32_t>(number), scene_.settings.seed);
+        const glm::dvec2 on_film = film_.sample_position(x, y, sampler.next2());
+        const CameraRay ray = camera_.generate(on_film, sampler.next2());
+        return {trace_path(world_, scene_, {ray.origin, ray.direction, phases_.at(ray.origin), {}}, sampler, counters)};
+    }
+
+    const World& world_;
+    const Scene& scene_;
+    const RenderJob& job_;
+    Camera camera_;
+    StartingPhases phases_;
+    Film film_;
+    tbb::enumerable_thread_specific<PathCounters> counters_;
+    std::atomic<bool> stopped_{false};
+};
+
+}  // namespace
+
+Rendering render(const World& world, const Scene& scene, const RenderJob& job) {
+    const auto start = std::chrono::steady_clock::now();
+    Rendering result;
+    result.threads = job.threads > 0 ? job.threads : tbb::this_task_arena::max_concurrency();
+    Renderer renderer(world, scene, job);
     {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                         static_cast<std::size_t>(result.threads));
         tbb::task_arena arena(result.threads);
-        arena.execute(run_passes);
+        arena.execute([&] { result.samples = renderer.run(); });
     }
-
-    result.cancelled = stopped;
-    result.image.width = range.width();
-    result.image.height = range.height();
-    result.image.pixels.reserve(sum.size());
-    for (const glm::dvec3& s : sum)
-        result.image.pixels.emplace_back(s / static_cast<double>(std::max(result.samples, 1)));
-    if (range.width() != scene.camera.width || range.height() != scene.camera.height)
-        result.image.crop = Crop{range.x0, range.y0, scene.camera.width, scene.camera.height};
-    for (const PathCounters& c : counters) result.counters += c;
+    result.cancelled = renderer.stopped();
+    result.image = renderer.film().image();
+    result.counters = renderer.counters();
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
 }

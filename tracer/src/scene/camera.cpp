@@ -2,12 +2,22 @@
 
 namespace phasetree::tracer {
 
-ThinLensParameters read_camera(const Document& document, Value value) {
-    ObjectReader reader(document, value, "the camera");
-    ThinLensParameters p;
+namespace {
+
+constexpr std::string_view kinds[] = {"thin_lens", "orthographic"};
+
+// What all kinds have.
+template <class Parameters>
+void read_view(ObjectReader& reader, Parameters& p) {
     p.position = reader.required<glm::vec3>("position", coordinate);
     p.look_at = reader.required<glm::vec3>("look_at", coordinate);
     p.up = reader.optional("up", p.up);
+}
+
+ThinLensParameters read_thin_lens(ObjectReader& reader) {
+    const Document& document = reader.document();
+    ThinLensParameters p;
+    read_view(reader, p);
     p.vertical_fov_degrees = reader.optional("fov", p.vertical_fov_degrees,
                                              Range{.min = 0, .max = 180, .min_is_open = true, .max_is_open = true});
     p.lens_radius = reader.optional("lens_radius", p.lens_radius,
@@ -21,18 +31,54 @@ ThinLensParameters read_camera(const Document& document, Value value) {
         if (!(*p.focus_distance > 0))
             throw document.error(*reader.value("focus_at"), "\"focus_at\" is behind the camera");
     }
+    return p;
+}
+
+OrthographicParameters read_orthographic(ObjectReader& reader) {
+    OrthographicParameters p;
+    read_view(reader, p);
+    p.height = reader.required<float>("height", size_of_thing);
+    return p;
+}
+
+PixelFilter read_filter(ObjectReader& reader) {
     const std::string filter = reader.optional<std::string>("filter", "blackman_harris");
-    if (filter == "box")
-        p.filter = PixelFilter(PixelFilter::Shape::box, 0.5f);
-    else if (filter != "blackman_harris")
-        throw document.error(*reader.value("filter"), "\"filter\" must be \"blackman_harris\" or \"box\"");
+    if (filter == "box") return {PixelFilter::Shape::box, 0.5f};
+    if (filter != "blackman_harris")
+        throw reader.document().error(*reader.value("filter"), "\"filter\" must be \"blackman_harris\" or \"box\"");
+    return {};
+}
+
+// A camera of no kind, as most scenes have it, has the thin lens's members and at least two of them.
+bool names_its_kind(Value value) {
+    return value.is_object() && value.size() == 1 && value[0].is_object();
+}
+
+}  // namespace
+
+CameraParameters read_camera(const Document& document, Value value, FilmSettings& film) {
+    std::string_view kind = "thin_lens";
+    std::string what = "the camera";
+    Value members = value;
+    if (names_its_kind(value)) {
+        members = chosen(document, value, "a camera", kinds);
+        kind = members.key();
+        what = "the " + std::string(kind) + " camera";
+    }
+    ObjectReader reader(document, members, what);
+    CameraParameters parameters;
+    if (kind == "orthographic")
+        parameters = read_orthographic(reader);
+    else
+        parameters = read_thin_lens(reader);
+    film.filter = read_filter(reader);
     reader.finish();
     try {
-        (void)ThinLens(p);
+        (void)Camera(parameters, film.resolution());
     } catch (const std::invalid_argument& e) {
-        throw document.error(value, e.what());
+        throw document.error(members, e.what());
     }
-    return p;
+    return parameters;
 }
 
 }  // namespace phasetree::tracer

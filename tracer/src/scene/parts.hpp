@@ -26,10 +26,11 @@ Material read_material(const Document& document, Value value);
 Material read_opaque_material(const Document& document, Value value);
 Texture read_texture(const Document& document, Value value);
 Lights read_lights(const Document& document, Value root);
-ThinLensParameters read_camera(const Document& document, Value value);
+// Sets the pixel filter of the film, too.
+CameraParameters read_camera(const Document& document, Value value, FilmSettings& film);
 std::vector<Mesh> read_meshes(const Document& document, Value list);
-// Image size, in the camera's parameters, and all else.
-RenderSettings read_settings(const Document& document, Value value, ThinLensParameters& camera);
+// Sets the size of the film, too.
+RenderSettings read_settings(const Document& document, Value value, FilmSettings& film);
 
 // The first channel of an image, as stored: integers of any width from 0 to 1, without a transfer function. Throws
 // std::runtime_error.

@@ -34,10 +34,8 @@ Scene read_scene(const Document& document) {
     for (const Value phase : root.required_value("phases")) scene.materials.push_back(read_material(document, phase));
     scene.lights = read_lights(document, document.root());
     if (const auto meshes = root.value("meshes")) scene.meshes = read_meshes(document, *meshes);
-    scene.camera = read_camera(document, root.required_value("camera"));
-    scene.camera.width = 1024;
-    scene.camera.height = 768;
-    if (const auto settings = root.value("render")) scene.settings = read_settings(document, *settings, scene.camera);
+    scene.camera = read_camera(document, root.required_value("camera"), scene.film);
+    if (const auto settings = root.value("render")) scene.settings = read_settings(document, *settings, scene.film);
 
     // An object that cannot be traced is found here, and not after the meshes are in memory.
     try {
@@ -55,7 +53,7 @@ SceneTree read_scene_without_camera(const Document& document) {
     (void)opaque_phases(document);
     (void)read_lights(document, document.root());
     if (const auto meshes = root.value("meshes")) (void)read_meshes(document, *meshes);
-    ThinLensParameters unused;
+    FilmSettings unused;
     if (const auto settings = root.value("render")) (void)read_settings(document, *settings, unused);
     return tree;
 }

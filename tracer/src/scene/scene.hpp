@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "camera/thin_lens.hpp"
+#include "camera/camera.hpp"
+#include "film/film.hpp"
 #include "lights/lights.hpp"
 #include "phasetree/reading/tree.hpp"
 #include "shading/material.hpp"
@@ -39,7 +40,8 @@ struct Scene {
     std::vector<Material> materials;  // by phase; [0] is the vacuum
     std::vector<Mesh> meshes;
     Lights lights;
-    ThinLensParameters camera;
+    CameraParameters camera;
+    FilmSettings film;
     RenderSettings settings;
 };
 

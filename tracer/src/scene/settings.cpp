@@ -2,11 +2,11 @@
 
 namespace phasetree::tracer {
 
-RenderSettings read_settings(const Document& document, Value value, ThinLensParameters& camera) {
+RenderSettings read_settings(const Document& document, Value value, FilmSettings& film) {
     ObjectReader reader(document, value, "\"render\"");
     RenderSettings s;
-    camera.width = reader.optional("width", camera.width, Range::between(1, 32768));
-    camera.height = reader.optional("height", camera.height, Range::between(1, 32768));
+    film.width = reader.optional("width", film.width, Range::between(1, 32768));
+    film.height = reader.optional("height", film.height, Range::between(1, 32768));
     s.samples = reader.optional("samples", s.samples, Range::between(1, 1 << 24));
     s.seed = reader.optional("seed", s.seed);
     s.max_depth = reader.optional("max_depth", s.max_depth, Range::between(1, 1 << 20));

@@ -18,14 +18,14 @@ class PixelFilter {
   public:
     enum class Shape { box, blackman_harris };
 
-    // Blackman–Harris of radius 1.5 pixels.
+    /// Blackman–Harris of radius 1.5 pixels.
     PixelFilter() : PixelFilter(Shape::blackman_harris, 1.5f) {}
     PixelFilter(Shape shape, float radius);
 
-    // The displacement from the pixel's centre, in pixels, for u in [0, 1)².
+    /// The displacement from the pixel's centre, in pixels, for u in [0, 1)².
     glm::vec2 sample(const glm::vec2& u) const { return {sample(u.x), sample(u.y)}; }
     float sample(float u) const;
-    // The density of either component of sample().
+    /// The density of either component of sample().
     float pdf(float x) const;
 
     Shape shape() const { return shape_; }

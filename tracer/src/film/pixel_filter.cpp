@@ -1,4 +1,4 @@
-#include "camera/pixel_filter.hpp"
+#include "film/pixel_filter.hpp"
 
 #include <array>
 #include <cmath>

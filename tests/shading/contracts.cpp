@@ -1,0 +1,60 @@
+// The contracts of lights, BSDFs, textures, media and cameras: that they are asked of every kind, and refuse what is
+// none.
+#include <doctest/doctest.h>
+
+#include "camera/camera.hpp"
+#include "lights/kinds.hpp"
+#include "media/medium.hpp"
+#include "shading/bsdf.hpp"
+#include "shading/texture/texture.hpp"
+
+using namespace phasetree::tracer;
+
+namespace {
+
+// A kind of each sort with one member that is not as it should be.
+struct InfiniteWithoutCentre {
+    glm::vec3 radiance(const glm::vec3&) const;
+    std::optional<DirectionSample> sample(const glm::vec2&) const;
+    float pdf(const glm::vec3&) const;
+    float fluence() const;
+};
+struct TextureOfFloats {
+    float at(const glm::vec3&) const;
+};
+struct MediumThatChanges {
+    glm::vec3 transmittance(float);
+};
+
+static_assert(InfiniteLightKind<Sun> && !InfiniteLightKind<RectangleLight>);
+static_assert(!InfiniteLightKind<InfiniteWithoutCentre>);
+static_assert(AreaLightKind<SphereLight> && !AreaLightKind<Sun>);
+static_assert(BsdfKind<CoatedDiffuseBsdf> && BsdfKind<Bsdf> && !BsdfKind<ConstantTexture>);
+static_assert(TextureKind<WoodTexture> && !TextureKind<TextureOfFloats>);
+static_assert(MediumKind<AbsorbingMedium> && !MediumKind<MediumThatChanges>);
+static_assert(CameraKind<ThinLens> && CameraKind<Orthographic> && !CameraKind<Camera>);
+
+// The lists ask for them.
+template <class Kind>
+concept InfiniteLists = requires {
+    typename InfiniteLightOf<Kind>;
+};
+template <class Kind>
+concept TextureLists = requires {
+    typename TextureOf<Kind>;
+};
+template <class Kind>
+concept MediumLists = requires {
+    typename MediumOf<Kind>;
+};
+static_assert(InfiniteLists<Sun> && !InfiniteLists<InfiniteWithoutCentre>);
+static_assert(TextureLists<WoodTexture> && !TextureLists<TextureOfFloats>);
+static_assert(MediumLists<AbsorbingMedium> && !MediumLists<MediumThatChanges>);
+
+}  // namespace
+
+TEST_CASE("a medium by its kind and by any kind lets the same through") {
+    const AbsorbingMedium medium{{0.5f, 0, 3}};
+    CHECK(transmittance(Medium(medium), 0.7f) == medium.transmittance(0.7f));
+    CHECK(transmittance(Medium(), std::numeric_limits<float>::infinity()) == glm::vec3(1));
+}

@@ -1,0 +1,43 @@
+// The list of all cameras, and a camera of any kind by value.
+#pragma once
+
+#include <variant>
+
+#include "camera/contract.hpp"
+#include "camera/orthographic.hpp"
+#include "camera/thin_lens.hpp"
+
+namespace phasetree::tracer {
+
+template <CameraKind... Kinds>
+struct CameraList {
+    using Any = std::variant<Kinds...>;
+    using AnyParameters = std::variant<typename Kinds::Parameters...>;
+};
+
+/// Every kind of camera.
+using Cameras = CameraList<ThinLens, Orthographic>;
+
+/// What a scene says of its camera.
+using CameraParameters = Cameras::AnyParameters;
+
+glm::vec3 position_of(const CameraParameters& parameters);
+glm::vec3 look_at_of(const CameraParameters& parameters);
+
+/// The members mean what CameraKind says.
+class Camera {
+  public:
+    Camera(const CameraParameters& parameters, const glm::ivec2& resolution);
+
+    CameraRay generate(const glm::dvec2& film, const glm::vec2& lens) const {
+        return std::visit([&](const auto& kind) { return kind.generate(film, lens); }, kind_);
+    }
+    std::optional<glm::vec3> single_origin() const {
+        return std::visit([](const auto& kind) { return kind.single_origin(); }, kind_);
+    }
+
+  private:
+    Cameras::Any kind_;
+};
+
+}  // namespace phasetree::tracer
