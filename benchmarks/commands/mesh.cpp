@@ -86,7 +86,7 @@ Report mesh(const Settings& settings) {
     struct Scene {
         std::string name;
         Phased object;
-        std::optional<tracer::CameraParameters> camera;
+        std::optional<tracer::AnyCameraParameters> camera;
     };
     std::vector<Scene> scenes;
     for (const std::string name : {"hourglass", "cable", "cake"}) {

@@ -56,7 +56,7 @@ Report naive(const Settings& settings) {
     struct Scene {
         std::string name;
         Phased object;
-        std::optional<tracer::CameraParameters> camera;
+        std::optional<tracer::AnyCameraParameters> camera;
         std::size_t rays;
         double wanted;
     };

@@ -18,7 +18,7 @@ Report quality(const Settings& settings) {
     struct Object {
         std::string name;
         Phased object;
-        std::optional<tracer::CameraParameters> camera;
+        std::optional<tracer::AnyCameraParameters> camera;
         PhaseSet opaque;
     };
     std::vector<Object> objects;

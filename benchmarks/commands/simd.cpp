@@ -43,7 +43,7 @@ Report simd(const Settings& settings) {
     };
     std::vector<Scene> scenes;
     const auto add = [&](const std::string& name, const Phased& object,
-                         const std::optional<tracer::CameraParameters>& camera) {
+                         const std::optional<tracer::AnyCameraParameters>& camera) {
         Scene scene{name, std::make_unique<FieldScene>(object), {}, {}};
         const InterfaceCells& cells = scene.cells->cells();
         scene.primary = camera_rays(camera ? *camera : camera_for(cells.bounds()), settings.width, settings.height);

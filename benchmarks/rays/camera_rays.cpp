@@ -7,7 +7,7 @@
 
 namespace phasetree::bench {
 
-Rays camera_rays(tracer::CameraParameters parameters, int width, int height) {
+Rays camera_rays(tracer::AnyCameraParameters parameters, int width, int height) {
     if (auto* lens = std::get_if<tracer::ThinLensParameters>(&parameters)) lens->lens_radius = 0;
     const tracer::FilmSettings settings{.width = width, .height = height};
     const tracer::Film film(settings, settings.whole());

@@ -90,8 +90,8 @@ TEST_CASE("directions bent at two planes have the density that is said of them")
     lights.add(InfiniteLight(ConstantEnvironment(glm::vec3(1))));
     const auto proposal_of = [&](float eta) {
         LightProposal proposal({0.1f, 0.2f, 0.3f}, normal, eta);
-        proposal.also(normal);  // which changes nothing
-        proposal.also(other);
+        proposal.add_plane(normal);  // which changes nothing
+        proposal.add_plane(other);
         return proposal;
     };
     const auto least_p_value = [&](float eta, float said_eta) {

@@ -235,7 +235,7 @@ std::string scene_json_schema() {
     p["lights"] = {{"type", "array"},
                    {"items", one_kind({"constant", "gradient", "image", "sky", "sun", "rectangle", "sphere"})}};
     p["background"] = reference_to("colour");
-    p["camera"] = {{"type", "object"}};
+    p["camera"] = {{"type", "object"}, {"required", {"position", "look_at"}}};
     p["render"] = {{"type", "object"}};
     Json& d = schema["definitions"];
     d["colour"] = {{"anyOf",

@@ -19,15 +19,15 @@ struct CameraList {
 using Cameras = CameraList<ThinLens, Orthographic>;
 
 /// What a scene says of its camera.
-using CameraParameters = Cameras::AnyParameters;
+using AnyCameraParameters = Cameras::AnyParameters;
 
-glm::vec3 position_of(const CameraParameters& parameters);
-glm::vec3 look_at_of(const CameraParameters& parameters);
+glm::vec3 position_of(const AnyCameraParameters& parameters);
+glm::vec3 look_at_of(const AnyCameraParameters& parameters);
 
 /// The members mean what CameraKind says.
 class Camera {
   public:
-    Camera(const CameraParameters& parameters, const glm::ivec2& resolution);
+    Camera(const AnyCameraParameters& parameters, const glm::ivec2& resolution);
 
     CameraRay generate(const glm::dvec2& film, const glm::vec2& lens) const {
         return std::visit([&](const auto& kind) { return kind.generate(film, lens); }, kind_);

@@ -33,8 +33,8 @@ class Orthographic {
 
   private:
     ViewFrame frame_;
-    glm::dvec2 centre_;  // of the picture, in pixels
-    double pixel_size_;  // in the scene's unit of length
+    glm::dvec2 centre_;  ///< of the picture, in pixels
+    double pixel_size_;  ///< in the scene's unit of length
 };
 
 }  // namespace phasetree::tracer

@@ -43,8 +43,8 @@ class ThinLens {
 
   private:
     ViewFrame frame_;
-    double pixel_size_;                // on the plane at distance 1
-    double half_width_, half_height_;  // of the image in pixels
+    double pixel_size_;                ///< on the plane at distance 1
+    double half_width_, half_height_;  ///< of the image in pixels
     double lens_radius_;
     double focus_distance_;
 };

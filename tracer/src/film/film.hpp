@@ -48,7 +48,7 @@ class FilmTile {
     void copy(const FilmTile& from, const PixelRange& part);
 
     PixelRange area_;
-    std::vector<Pixel> pixels_;  // row by row
+    std::vector<Pixel> pixels_;  ///< row by row
 };
 
 class Film {

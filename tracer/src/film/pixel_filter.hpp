@@ -34,7 +34,7 @@ class PixelFilter {
   private:
     Shape shape_;
     float radius_;
-    std::vector<float> cumulative_;  // at equally spaced t, from 0 to 1; empty for the box
+    std::vector<float> cumulative_;  ///< at equally spaced t, from 0 to 1; empty for the box
 };
 
 }  // namespace phasetree::tracer

@@ -11,10 +11,10 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// Nearer to grazing next to no light comes in, and densities are endless.
+// Nearer to grazing next to no light comes in, and densities have no bound.
 constexpr float least_cosine = 1e-4f;
 
-// A direction outside, as it goes on inside. The normal is on its side.
+// Refracts a direction outside into the medium. The normal is on the outer side.
 std::optional<glm::vec3> bent_inward(const glm::vec3& outside, const glm::vec3& normal, float eta) {
     const float cosine = glm::dot(normal, outside);
     const float squared = 1.0f - (1.0f - cosine * cosine) / (eta * eta);
@@ -22,7 +22,7 @@ std::optional<glm::vec3> bent_inward(const glm::vec3& outside, const glm::vec3& 
     return glm::normalize((outside - normal * cosine) / eta + normal * std::sqrt(squared));
 }
 
-// And back, with dω'/dω.
+// Refracts a direction inside out of the medium, and says dω'/dω.
 struct Outside {
     glm::vec3 direction;
     float widening;
@@ -71,12 +71,12 @@ LightProposal LightProposal::at(const Surface& surface, const World& world, cons
     for (const FlatBoundary& flat : world.flat_boundaries()) {
         const std::optional<glm::vec3> by = bent_inward(lamp, flat.normal, eta);
         const float away = by ? glm::dot(flat.lit.centre() - p, flat.normal) / glm::dot(*by, flat.normal) : 0.0f;
-        if (away > 0.0f && flat.lit.contains(p + away * *by)) proposal.also(flat.normal);
+        if (away > 0.0f && flat.lit.contains(p + away * *by)) proposal.add_plane(flat.normal);
     }
     return proposal;
 }
 
-void LightProposal::also(const glm::vec3& outward) {
+void LightProposal::add_plane(const glm::vec3& outward) {
     const auto at = static_cast<std::size_t>(planes_);
     const auto is_like = [&](const glm::vec3& plane) { return glm::dot(plane, outward) > same_normal_cosine; };
     if (at == outward_.size() || std::ranges::any_of(std::span(outward_).first(at), is_like)) return;

@@ -24,21 +24,22 @@ namespace phasetree::tracer {
 class LightProposal {
   public:
     LightProposal() = default;
-    /// At p, where light comes in through a plane of this unit normal, pointing outward, from a medium whose index is
-    /// 1/eta of that around p. If that is 1, straight towards the lights.
+    /// For a point p to which light comes in through a plane of this unit normal, which points outward, from a medium
+    /// whose index is 1/eta of that around p. If eta is 1, all directions go straight towards the lights.
     LightProposal(const glm::vec3& p, const glm::vec3& outward, float eta)
         : p_(p), outward_{outward}, planes_(eta == 1.0f ? 0 : 1), eta_(eta) {}
     /// Adds another plane through which light comes in.
-    void also(const glm::vec3& outward);
+    void add_plane(const glm::vec3& outward);
     /// For a surface without a far side. Lights are taken to be in vacuum.
     static LightProposal at(const Surface& surface, const World& world, const Scene& scene, PathCounters& counters);
 
+    /// A direction from p, and the light that is seen in it; `u` is in [0, 1)².
     std::optional<LightSample> sample(const Lights& lights, glm::vec2 u) const;
     /// The density of sample(), per steradian.
     float pdf(const Lights& lights, const glm::vec3& direction) const;
 
   private:
-    // Of a direction whose density straight to the lights is known.
+    /// The same of a direction whose density straight to the lights is known.
     float pdf(const Lights& lights, const glm::vec3& direction, float straight) const;
 
     glm::vec3 p_{0};

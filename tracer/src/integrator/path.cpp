@@ -12,7 +12,7 @@ namespace phasetree::tracer {
 namespace {
 
 float power_heuristic(float a, float b) {
-    // By the quotient, whose square cannot overflow where a² could.
+    // The square of the quotient does not overflow where a² could.
     const float q = b / a;
     return 1.0f / (1.0f + q * q);
 }
@@ -71,10 +71,11 @@ glm::vec3 emission_through_chain(const World& world, const Scene& scene, Ray ray
     }
 }
 
-// What the last place where light was sampled leaves to its path: what the weight of emission found at the end of a
-// chain depends on.
+// What a path remembers of the last place where light was sampled. The weight of emission that it finds at the end of a
+// chain depends on it.
 struct Chain {
-    std::optional<float> pdf;  // of the BSDF, for the direction with which the chain began; none: no light was sampled
+    std::optional<float>
+        pdf;  // of the BSDF, for the direction with which the chain began; none if no light was sampled
     LightProposal proposal{};
     glm::vec3 direction{0};
     int length = 0;

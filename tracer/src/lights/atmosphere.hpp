@@ -23,36 +23,36 @@ namespace phasetree::tracer {
 
 class Atmosphere {
   public:
-    // Turbidity: 2 is very clear, 3 clear, 6 hazy, 10 thick haze; 1 is air without aerosol. The ground is diffuse.
+    /// Turbidity: 2 is very clear, 3 clear, 6 hazy, 10 thick haze; 1 is air without aerosol. The ground is diffuse.
     Atmosphere(double turbidity, const glm::dvec3& ground_albedo);
 
-    // A piece of a ray from an observer near the ground: where it is, and what it scatters into the ray of light that
-    // arrives there, on its way to the observer included.
+    /// A piece of a ray from an observer near the ground: where it is, and what it scatters into the ray of light that
+    /// arrives there, on its way to the observer included.
     struct Step {
         double distance;
-        double radius;  // from the Earth's centre
+        double radius;  ///< from the Earth's centre
         glm::dvec3 air;
         glm::dvec3 aerosol;
     };
 
-    // The ray at the given sine of its elevation, not negative. All azimuths share it.
+    /// The ray at the given sine of its elevation, not negative. All azimuths share it.
     std::vector<Step> path(double sin_elevation) const;
 
-    // The radiance of the sky along a path. `view` and `to_sun` are unit vectors, z up.
+    /// The radiance of the sky along a path. `view` and `to_sun` are unit vectors, z up.
     glm::dvec3 sky(std::span<const Step> path, const glm::dvec3& view, const glm::dvec3& to_sun) const;
 
-    // The share of the sun's light that reaches the observer, for a sun at the given sine of its elevation.
+    /// The share of the sun's light that reaches the observer, for a sun at the given sine of its elevation.
     glm::dvec3 sun_transmittance(double sin_elevation) const;
 
   private:
     struct Medium {
-        glm::dvec3 air;         // scattering by molecules
-        glm::dvec3 aerosol;     // scattering by aerosol
-        glm::dvec3 extinction;  // all scattering and absorption
+        glm::dvec3 air;         ///< scattering by molecules
+        glm::dvec3 aerosol;     ///< scattering by aerosol
+        glm::dvec3 extinction;  ///< all scattering and absorption
     };
     struct Scattered {
         glm::dvec3 radiance;
-        glm::dvec3 again;  // the share of light scattered once along the ray
+        glm::dvec3 again;  ///< the share of light scattered once along the ray
     };
 
     Medium medium(double radius) const;

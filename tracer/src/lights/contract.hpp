@@ -1,5 +1,10 @@
 // What a light must provide. There are two sorts: infinite lights, which are the same from everywhere, and area lights,
 // which have a place and hide what is behind them. kinds.hpp has the list of all kinds.
+//
+// Of both sorts: radiance is linear Rec.709 in W/(sr m²), up to one factor that is the same for a whole scene.
+// Directions are of unit length and point from the place that is lit towards the light. Densities are per steradian,
+// and those of a light over all directions integrate to 1. `u` is in [0, 1)²; points that are stratified in the square
+// should give stratified directions.
 #pragma once
 
 #include <concepts>
@@ -10,11 +15,6 @@
 #include "lights/direction_sample.hpp"
 
 namespace phasetree::tracer {
-
-// Of both sorts: radiance is linear Rec.709 in W/(sr m²), up to one factor that is the same for a whole scene.
-// Directions are of unit length and point from the place that is lit towards the light. Densities are per steradian,
-// and those of a light over all directions integrate to 1. `u` is in [0, 1)²; points that are stratified in the square
-// should give stratified directions.
 
 /// * radiance(w): what arrives from the direction w.
 /// * sample(u): a direction, best in proportion to the luminance of radiance(); nothing if the light is black.

@@ -17,17 +17,17 @@
 namespace phasetree::tracer {
 
 struct DaylightParameters {
-    float sun_elevation_degrees = 45.0f;  // above the horizon, -90 to 90; down to about -8 there is twilight
-    float sun_azimuth_degrees = 0.0f;     // clockwise from +y, see lat_long.hpp
+    float sun_elevation_degrees = 45.0f;  ///< above the horizon, -90 to 90; down to about -8 there is twilight
+    float sun_azimuth_degrees = 0.0f;     ///< clockwise from +y, see lat_long.hpp
     float sun_angular_diameter_degrees = Sun::real_angular_diameter_degrees;
-    float turbidity = 3.0f;  // 1 to 10: 2 very clear, 3 clear, 6 hazy
+    float turbidity = 3.0f;  ///< 1 to 10: 2 very clear, 3 clear, 6 hazy
     glm::vec3 ground_albedo{0.3f};
     float intensity = 1.0f;
 };
 
 struct Daylight {
     ImageEnvironment sky;
-    Sun sun;  // black when it is below the horizon
+    Sun sun;  ///< black when it is below the horizon
 };
 
 Daylight make_daylight(const DaylightParameters& parameters);

@@ -6,8 +6,8 @@
 namespace phasetree::tracer {
 
 struct DirectionSample {
-    glm::vec3 direction;  // unit length, towards the light
-    float pdf;            // per steradian
+    glm::vec3 direction;  ///< unit length, towards the light
+    float pdf;            ///< per steradian
 };
 
 }  // namespace phasetree::tracer

@@ -13,7 +13,7 @@
 
 namespace phasetree::tracer {
 
-// (u, v) in [0, 1]² of a direction of any length.
+/// (u, v) in [0, 1]² of a direction of any length.
 inline glm::vec2 lat_long_of(const glm::vec3& direction) {
     constexpr float half_turn = std::numbers::pi_v<float>;
     const float azimuth = std::atan2(direction.x, direction.y);
@@ -21,13 +21,13 @@ inline glm::vec2 lat_long_of(const glm::vec3& direction) {
     return {0.5f + azimuth / (2.0f * half_turn), theta / half_turn};
 }
 
-// The unit direction of an azimuth (radians) and the cosine of the angle from +z.
+/// The unit direction of an azimuth (radians) and the cosine of the angle from +z.
 inline glm::vec3 direction_of(double azimuth, double cos_theta) {
     const double sin_theta = std::sqrt(std::max(0.0, (1.0 - cos_theta) * (1.0 + cos_theta)));
     return {sin_theta * std::sin(azimuth), sin_theta * std::cos(azimuth), cos_theta};
 }
 
-// The unit direction of an azimuth and an elevation above the horizon, both in degrees.
+/// The unit direction of an azimuth and an elevation above the horizon, both in degrees.
 inline glm::vec3 direction_of_degrees(float azimuth, float elevation) {
     constexpr double radians = std::numbers::pi / 180.0;
     return direction_of(azimuth * radians, std::sin(elevation * radians));

@@ -17,17 +17,17 @@ namespace phasetree::tracer {
 
 class LatLongDistribution {
   public:
-    // `means` holds, row by row from the zenith down, a non-negative importance for each cell: the mean over the cell
-    // of the function to be sampled. Where the function is not zero its mean must not be zero either.
+    /// `means` holds, row by row from the zenith down, a non-negative importance for each cell: the mean over the cell
+    /// of the function to be sampled. Where the function is not zero its mean must not be zero either.
     LatLongDistribution(int width, int height, std::span<const float> means);
 
-    // Nothing when every importance is zero.
+    /// Nothing when every importance is zero.
     std::optional<DirectionSample> sample(const glm::vec2& u) const;
 
-    // The density of `direction` per steradian; the one sample() reports.
+    /// The density of `direction` per steradian; the one sample() reports.
     float pdf(const glm::vec3& direction) const;
 
-    // The integral over the sphere of the tabulated importance.
+    /// The integral over the sphere of the tabulated importance.
     float integral() const { return integral_; }
 
   private:
@@ -37,9 +37,9 @@ class LatLongDistribution {
     int width_;
     int height_;
     float integral_ = 0.0f;
-    std::vector<float> rows_;        // cumulative, height + 1
-    std::vector<float> columns_;     // cumulative within each row, height × (width + 1)
-    std::vector<double> cos_theta_;  // of the row boundaries, height + 1
+    std::vector<float> rows_;        ///< cumulative, height + 1
+    std::vector<float> columns_;     ///< cumulative within each row, height × (width + 1)
+    std::vector<double> cos_theta_;  ///< of the row boundaries, height + 1
 };
 
 }  // namespace phasetree::tracer

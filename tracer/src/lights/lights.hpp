@@ -27,41 +27,41 @@
 namespace phasetree::tracer {
 
 struct LightSample {
-    glm::vec3 wi;        // unit, from the point towards the light
-    float distance;      // to the light; infinity for infinite lights
-    glm::vec3 radiance;  // that arrives from there if no geometry is in between
-    float pdf;           // per steradian, of the whole mixture
+    glm::vec3 wi;        ///< unit, from the point towards the light
+    float distance;      ///< to the light; infinity for infinite lights
+    glm::vec3 radiance;  ///< that arrives from there if no geometry is in between
+    float pdf;           ///< per steradian, of the whole mixture
 };
 
 class Lights {
   public:
     struct Emission {
-        float distance;  // infinity for infinite lights
+        float distance;  ///< infinity for infinite lights
         glm::vec3 radiance;
     };
 
     void add(InfiniteLight light) { infinite_.push_back(std::move(light)); }
     void add(AreaLight light) { area_.push_back(std::move(light)); }
-    // What camera rays see instead of the infinite lights.
+    /// What camera rays see instead of the infinite lights.
     void set_background(const std::optional<glm::vec3>& radiance);
 
     bool empty() const { return infinite_.empty() && area_.empty(); }
 
-    // `u` in [0, 1)². Its x chooses the light, and what is left of it, stretched to [0, 1) again, is the x that the
-    // light's own sampling gets: points that are stratified in the square are so for each light. Nothing when no light
-    // reaches p.
+    /// `u` in [0, 1)². Its x chooses the light, and what is left of it, stretched to [0, 1) again, is the x that the
+    /// light's own sampling gets: points that are stratified in the square are so for each light. Nothing when no light
+    /// reaches p.
     std::optional<LightSample> sample(const glm::vec3& p, glm::vec2 u) const;
 
-    // What a ray sees that meets geometry at that distance, infinity for none: the nearest area light before it or, if
-    // nothing is in the way, the infinite lights. Camera rays pass through lights that are not visible to the camera.
+    /// What a ray sees that meets geometry at that distance, infinity for none: the nearest area light before it or, if
+    /// nothing is in the way, the infinite lights. Camera rays pass through lights that are not visible to the camera.
     std::optional<Emission> seen(const glm::vec3& origin, const glm::vec3& direction, float geometry,
                                  bool camera_ray) const;
 
-    // The density of sample() at p per steradian.
+    /// The density of sample() at p per steradian.
     float pdf(const glm::vec3& p, const glm::vec3& direction) const;
 
-    // Towards the brightest light that has a place, of those on the side of p that the normal points to; the normal if
-    // there is none.
+    /// Towards the brightest light that has a place, of those on the side of p that the normal points to; the normal if
+    /// there is none.
     glm::vec3 towards_brightest(const glm::vec3& p, const glm::vec3& normal) const;
 
   private:

@@ -2,9 +2,10 @@
 
 namespace phasetree::tracer {
 
-// Character for character the file tracer/color/phasetree.ocio, which a test compares with it.
-std::string_view default_color_config() {
-    return R"ocio(ocio_profile_version: 2
+namespace {
+
+// This is the file tracer/color/phasetree.ocio, character for character; a test compares the two.
+constexpr std::string_view text = R"ocio(ocio_profile_version: 2
 
 # The colours of phasetree, for OpenColorIO 2.1 and later. The path tracer has the same text built in; install this
 # file for the other tools in a pipeline (export OCIO=/path/to/phasetree.ocio) and they show its images alike.
@@ -141,6 +142,11 @@ colorspaces:
     description: Numbers that are no colours, such as depth and normals.
     isdata: true
 )ocio";
+
+}  // namespace
+
+std::string_view default_color_config() {
+    return text;
 }
 
 }  // namespace phasetree::tracer

@@ -1,3 +1,4 @@
+// The built-in OpenColorIO configuration.
 #pragma once
 
 #include <string_view>

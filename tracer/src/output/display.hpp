@@ -1,5 +1,3 @@
-#pragma once
-
 // What a picture looks like on a display: exposure, then OpenColorIO's transform of a display and a view.
 //
 // $OCIO names the configuration; unset or empty, the built-in one (tracer/color/phasetree.ocio) is used. Its views, all
@@ -9,6 +7,7 @@
 //   ACES 1.0 SDR   the ACES output transform as it is (18 % grey is code 91)
 //   Standard       the sRGB curve alone; what exceeds 1 clips
 //   Raw            the linear values themselves
+#pragma once
 
 #include <glm/vec3.hpp>
 #include <memory>
@@ -37,7 +36,7 @@ class DisplayTransform {
     bool is_srgb() const;
 
   private:
-    struct Processor;  // keeps OpenColorIO out of this header
+    struct Processor;  ///< keeps OpenColorIO out of this header
     std::shared_ptr<const Processor> processor_;
     std::string display_;
     std::string view_;

@@ -1,7 +1,6 @@
-#pragma once
-
 // Image files as bytes in memory, by OpenImageIO. In memory, because a full disk then shows where we write the bytes
 // ourselves; some of the libraries beneath OpenImageIO end the program there.
+#pragma once
 
 #include <cstdint>
 #include <filesystem>
@@ -15,7 +14,7 @@ namespace phasetree::tracer {
 
 /// How a picture was made. Equal pictures must be equal files: times, dates and thread counts have no place here.
 struct Metadata {
-    std::string scene;  // the scene's file name; its folder is left out
+    std::string scene;  ///< the scene's file name; its folder is left out
     int samples_per_pixel = 0;
     std::uint64_t seed = 0;
 };

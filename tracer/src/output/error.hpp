@@ -1,3 +1,4 @@
+// What output can fail with.
 #pragma once
 
 #include <stdexcept>

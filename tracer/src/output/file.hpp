@@ -1,3 +1,4 @@
+// Files that appear complete or not at all.
 #pragma once
 
 #include <filesystem>
@@ -7,9 +8,8 @@
 namespace phasetree::tracer {
 
 /// Writes a file that appears complete or not at all: it is written under a temporary name in the same directory and
-/// renamed. A symbolic link stays one, and what it points at is replaced or, if it is not
-/// there, made; a device or a pipe never is. Throws
-/// OutputError; then an existing file is untouched and no temporary is left.
+/// renamed. A symbolic link stays one, and what it points at is replaced or, if it is not there, made; a device or a
+/// pipe is never replaced. Throws OutputError; then an existing file is untouched and no temporary is left.
 void write_file(std::span<const unsigned char> bytes, const std::filesystem::path& path);
 inline void write_file(std::string_view text, const std::filesystem::path& path) {
     write_file(std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()), path);

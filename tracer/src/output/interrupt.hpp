@@ -1,6 +1,5 @@
-#pragma once
-
 // Ctrl-C, SIGTERM and a terminal that goes away (SIGHUP), turned into a question a render loop can ask.
+#pragma once
 
 #include <array>
 #include <csignal>

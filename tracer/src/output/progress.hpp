@@ -1,7 +1,6 @@
-#pragma once
-
 // How far the rendering is, on standard error: a bar on a terminal, otherwise (a log, a pipe) lines
 // "Progress: 15%, 0:12 elapsed, ETA 1:07".
+#pragma once
 
 #include <atomic>
 #include <chrono>
@@ -15,12 +14,12 @@ namespace phasetree::tracer {
 
 /// Where and how progress is shown.
 struct ProgressOutput {
-    using Clock = std::chrono::steady_clock;  // monotonic: setting the computer's time must not move the estimate
+    using Clock = std::chrono::steady_clock;  ///< monotonic: setting the computer's time must not move the estimate
 
-    std::ostream* stream = nullptr;  // null: silence
+    std::ostream* stream = nullptr;  ///< null: silence
     bool terminal = false;
     std::function<int()> columns = [] { return 80; };
-    std::function<Clock::time_point()> now = [] { return Clock::now(); };  // called from every thread
+    std::function<Clock::time_point()> now = [] { return Clock::now(); };  ///< called from every thread
 
     /// Standard error; a bar where it is a terminal that can erase a line. Silent if quiet.
     static ProgressOutput standard_error(bool quiet);
@@ -57,11 +56,11 @@ class Progress {
     std::atomic<std::uint64_t> done_{0};
     std::atomic<TimePoint::rep> next_draw_;
     std::atomic<int> shown_twentieths_{-1};
-    std::mutex drawing_;  // guards all below, and the stream
+    std::mutex drawing_;  ///< guards all below, and the stream
     bool finished_ = false;
     TimePoint last_draw_;
     std::uint64_t last_done_ = 0;
-    double recent_samples_ = 0.0;  // both with exponentially fading weight; their quotient is the rate
+    double recent_samples_ = 0.0;  ///< both with exponentially fading weight; their quotient is the rate
     double recent_seconds_ = 0.0;
 };
 

@@ -1,5 +1,3 @@
-#pragma once
-
 // From display values in [0, 1] to the integers of a file.
 //
 // Eight bits are too few for a smooth sky: without help its gradient falls into bands. quantise8 therefore rounds up or
@@ -8,6 +6,7 @@
 // codes already (black, white, a flat graphic) stay clean. u is the additive recurrence of the plastic number,
 // M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences" (2018), in integers, hence the same bits
 // everywhere. All three channels share it: a neutral pixel stays neutral. Sixteen bits need no such help.
+#pragma once
 
 #include <cstdint>
 #include <glm/vec3.hpp>

@@ -1,3 +1,4 @@
+// Image files on disk.
 #pragma once
 
 #include <filesystem>

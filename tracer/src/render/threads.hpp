@@ -8,9 +8,9 @@
 
 namespace phasetree::tracer {
 
-// While it lives, no more threads work than can be started, and `wanted` at most; 0 wants one a core. To find out it
-// starts as many and lets them go. To be made before anything reads or writes an image. Throws std::runtime_error where
-// there can be none.
+/// While it lives, no more threads work than can be started, and `wanted` at most; 0 wants one a core. To find out it
+/// starts as many and lets them go. To be made before anything reads or writes an image. Throws std::runtime_error
+/// where there can be none.
 class AvailableThreads {
   public:
     explicit AvailableThreads(int wanted = 0);

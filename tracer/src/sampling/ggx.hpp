@@ -35,18 +35,18 @@ class Ggx {
 
     float masking(const glm::vec3& w) const { return 2.0f * std::abs(w.z) / (std::abs(w.z) + slope_term(w)); }
 
-    // G₂ / (|o.z| |i.z|) for reflection; finite at grazing angles.
+    /// G₂ / (|o.z| |i.z|) for reflection; finite at grazing angles.
     float reflection_visibility(const glm::vec3& o, const glm::vec3& i) const {
         return 2.0f / (std::abs(i.z) * slope_term(o) + std::abs(o.z) * slope_term(i));
     }
 
-    // G₂ / (|o.z| |i.z|) for transmission.
+    /// G₂ / (|o.z| |i.z|) for transmission.
     float transmission_visibility(const glm::vec3& o, const glm::vec3& i) const {
         return 4.0f / ((std::abs(o.z) + slope_term(o)) * (std::abs(i.z) + slope_term(i)));
     }
 
-    // A normal that `o` sees. The normals seen on the stretched, hemispherical surface are halfway between `o` and a
-    // direction uniform on a spherical cap.
+    /// A normal that `o` sees. The normals seen on the stretched, hemispherical surface are halfway between `o` and a
+    /// direction uniform on a spherical cap.
     glm::vec3 sample_visible_normal(const glm::vec3& o, const glm::vec2& u) const {
         const glm::vec3 stretched = glm::normalize(glm::vec3{alpha_ * o.x, alpha_ * o.y, o.z});
         const glm::vec3 cap = square_to_uniform_cone({u.y, u.x}, 1.0f + stretched.z);
@@ -55,7 +55,7 @@ class Ggx {
         return glm::normalize(normal);
     }
 
-    // D_o(m), per solid angle of m.
+    /// D_o(m), per solid angle of m.
     float visible_normal_pdf(const glm::vec3& o, const glm::vec3& m) const {
         return 2.0f * std::max(0.0f, glm::dot(o, m)) * distribution(m) / (o.z + slope_term(o));
     }

@@ -26,7 +26,7 @@ constexpr std::uint32_t hash(std::uint32_t first, Words... rest) {
     return state;
 }
 
-// In [0, 1).
+/// In [0, 1).
 constexpr float hash_to_unit(std::uint32_t bits) {
     return static_cast<float>(bits >> 8) * 0x1p-24f;
 }

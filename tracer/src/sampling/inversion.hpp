@@ -7,8 +7,8 @@
 
 namespace phasetree::tracer {
 
-// Writes the running sums of `weights`, one more than those, scaled to end at exactly 1 (all zero if there is nothing
-// to sum); returns the sum.
+/// Writes the running sums of `weights`, one more than those, scaled to end at exactly 1 (all zero if there is nothing
+/// to sum); returns the sum.
 inline double accumulate(std::span<const double> weights, std::span<float> cumulative) {
     double sum = 0.0;
     for (const double weight : weights) sum += weight;
@@ -21,14 +21,14 @@ inline double accumulate(std::span<const double> weights, std::span<float> cumul
     return sum;
 }
 
-// The interval that u falls into, and where in it.
+/// The interval that u falls into, and where in it.
 struct Inverse {
     std::size_t index;
-    float position;  // in [0, 1)
+    float position;  ///< in [0, 1)
 };
 
-// `cumulative` rises from 0 to 1; intervals in which it does not rise are skipped. The search halves without branches,
-// which a random u would make impossible to guess.
+/// `cumulative` rises from 0 to 1; intervals in which it does not rise are skipped. The search halves without branches,
+/// which a random u would make impossible to guess.
 inline Inverse invert(std::span<const float> cumulative, float u) {
     constexpr float below_one = 0x1.fffffep-1f;
     const float inside = std::clamp(u, 0.0f, below_one);

@@ -20,30 +20,30 @@ namespace phasetree::tracer {
 
 class Sampler {
   public:
-    // `sample` is the absolute number of the sample in its pixel: 0, 1, 2 …
+    /// `sample` is the absolute number of the sample in its pixel: 0, 1, 2 …
     Sampler(std::uint32_t x, std::uint32_t y, std::uint32_t sample, std::uint32_t seed);
 
-    // In [0, 1): a multiple of 2⁻²⁴, never 1.
+    /// In [0, 1): a multiple of 2⁻²⁴, never 1.
     float next();
     glm::vec2 next2();
 
   private:
     struct Group {
-        std::uint32_t index;  // shuffled sample index
+        std::uint32_t index;  ///< shuffled sample index
         std::uint32_t scramble;
     };
     Group next_group();
 
     std::uint32_t reversed_sample_;
-    std::uint32_t pixel_;      // hash of pixel and seed
-    std::uint32_t group_ = 0;  // groups drawn so far
+    std::uint32_t pixel_;      ///< hash of pixel and seed
+    std::uint32_t group_ = 0;  ///< groups drawn so far
 };
 
-// The sequence itself, as 32-bit fractions, before any scrambling.
+/// The sequence itself, as 32-bit fractions, before any scrambling.
 std::uint32_t sobol_first(std::uint32_t index);
 std::uint32_t sobol_second(std::uint32_t index);
 
-// Owen's nested uniform scramble: every bit is flipped or not depending on all higher bits and the seed.
+/// Owen's nested uniform scramble: every bit is flipped or not depending on all higher bits and the seed.
 std::uint32_t nested_uniform_scramble(std::uint32_t fraction, std::uint32_t seed);
 
 }  // namespace phasetree::tracer

@@ -56,7 +56,7 @@ bool names_its_kind(Value value) {
 
 }  // namespace
 
-CameraParameters read_camera(const Document& document, Value value, FilmSettings& film) {
+AnyCameraParameters read_camera(const Document& document, Value value, FilmSettings& film) {
     std::string_view kind = "thin_lens";
     std::string what = "the camera";
     Value members = value;
@@ -66,7 +66,7 @@ CameraParameters read_camera(const Document& document, Value value, FilmSettings
         what = "the " + std::string(kind) + " camera";
     }
     ObjectReader reader(document, members, what);
-    CameraParameters parameters;
+    AnyCameraParameters parameters;
     if (kind == "orthographic")
         parameters = read_orthographic(reader);
     else

@@ -27,7 +27,7 @@ Material read_opaque_material(const Document& document, Value value);
 Texture read_texture(const Document& document, Value value);
 Lights read_lights(const Document& document, Value root);
 // Sets the pixel filter of the film, too.
-CameraParameters read_camera(const Document& document, Value value, FilmSettings& film);
+AnyCameraParameters read_camera(const Document& document, Value value, FilmSettings& film);
 std::vector<Mesh> read_meshes(const Document& document, Value list);
 // Sets the size of the film, too.
 RenderSettings read_settings(const Document& document, Value value, FilmSettings& film);

@@ -40,7 +40,7 @@ struct Scene {
     std::vector<Material> materials;  // by phase; [0] is the vacuum
     std::vector<Mesh> meshes;
     Lights lights;
-    CameraParameters camera;
+    AnyCameraParameters camera;
     FilmSettings film;
     RenderSettings settings;
 };

@@ -15,11 +15,11 @@
 namespace phasetree::tracer {
 
 struct DielectricFresnel {
-    float reflectance;      // exactly 1 in total internal reflection
-    float cos_transmitted;  // ≥ 0; 0 in total internal reflection
+    float reflectance;      ///< exactly 1 in total internal reflection
+    float cos_transmitted;  ///< ≥ 0; 0 in total internal reflection
 };
 
-// `cos_theta` in [0, 1].
+/// `cos_theta` in [0, 1].
 DielectricFresnel fresnel_dielectric(float cos_theta, float eta);
 
 float fresnel_conductor(float cos_theta, float eta, float k);

@@ -17,10 +17,10 @@ struct Metal {
     glm::vec3 k;
 };
 
-// All of them, in alphabetical order.
+/// All of them, in alphabetical order.
 std::span<const Metal> metals();
 
-// "aluminium" and "aluminum" are both understood.
+/// "aluminium" and "aluminum" are both understood.
 std::optional<Metal> find_metal(std::string_view name);
 
 }  // namespace phasetree::tracer

@@ -52,8 +52,8 @@ class TracedGeometry {
     embree::TreeGeometry tree_;
     SceneHandle embree_;
     InterfaceTable interfaces_;
-    std::vector<Interface> mesh_interfaces_;  // [mesh · phases + phase the ray is in]
-    float surface_epsilon_;                   // least distance by which rays that leave a mesh are moved off it
+    std::vector<Interface> mesh_interfaces_;  ///< [mesh · phases + phase the ray is in]
+    float surface_epsilon_;                   ///< least distance by which rays that leave a mesh are moved off it
 };
 
 }  // namespace phasetree::tracer

@@ -22,7 +22,7 @@ namespace phasetree::tracer {
 
 class CoatedDiffuseBsdf {
   public:
-    // The coating's albedo is shared by all points of an interface and must outlive the BSDF.
+    /// The coating's albedo is shared by all points of an interface and must outlive the BSDF.
     CoatedDiffuseBsdf(const CoatingAlbedo& coating, const glm::vec3& base_albedo);
 
     std::optional<BsdfSample> sample(const glm::vec3& wo, float u_lobe, const glm::vec2& u) const;
@@ -37,7 +37,7 @@ class CoatedDiffuseBsdf {
     glm::vec3 evaluate_base(float transmitted, const glm::vec3& wi) const;
 
     const CoatingAlbedo* coating_;
-    glm::vec3 base_;  // ρ′/(1 − E_avg)
+    glm::vec3 base_;  ///< ρ′/(1 − E_avg)
     float base_brightness_;
     Ggx ggx_;
 };

@@ -18,17 +18,17 @@ namespace phasetree::tracer {
 
 class CoatingAlbedo {
   public:
-    // `roughness` is GGX's α; 0 is smooth.
+    /// `roughness` is GGX's α; 0 is smooth.
     CoatingAlbedo(float eta, float roughness);
 
     float eta() const { return eta_; }
     float roughness() const { return roughness_; }
-    float directional(float cos_theta) const;  // E(μ)
+    float directional(float cos_theta) const;  ///< E(μ)
     float average() const { return average_; }
     float internal() const { return internal_; }
 
   private:
-    static constexpr std::size_t nodes = 64;  // at μ = (i / (nodes − 1))², dense where E is steep
+    static constexpr std::size_t nodes = 64;  ///< at μ = (i / (nodes − 1))², dense where E is steep
 
     float eta_;
     float roughness_;

@@ -15,7 +15,7 @@ namespace phasetree::tracer {
 
 class RoughConductorBsdf {
   public:
-    // Index relative to the medium in front.
+    /// Index relative to the medium in front.
     RoughConductorBsdf(const glm::vec3& eta, const glm::vec3& k, float roughness) : eta_(eta), k_(k), ggx_(roughness) {}
 
     std::optional<BsdfSample> sample(const glm::vec3& wo, float u_lobe, const glm::vec2& u) const;

@@ -32,7 +32,7 @@ class RoughDielectricBsdf {
     bool passes_through() const { return eta_ == 1.0f; }
 
   private:
-    // The microfacet normal that takes wo to wi, on the side of wo; nothing if no microfacet does.
+    /// The microfacet normal that takes wo to wi, on the side of wo; nothing if no microfacet does.
     std::optional<glm::vec3> microfacet(const glm::vec3& wo, const glm::vec3& wi) const;
 
     Ggx ggx_;

@@ -14,8 +14,8 @@ namespace phasetree::tracer {
 
 struct BsdfSample {
     glm::vec3 wi;
-    glm::vec3 weight;  // f |cos θi| / pdf
-    float pdf;         // per solid angle; of a delta lobe, the probability with which it was chosen
+    glm::vec3 weight;  ///< f |cos θi| / pdf
+    float pdf;         ///< per solid angle; of a delta lobe, the probability with which it was chosen
     bool delta;
     bool transmitted;
 };

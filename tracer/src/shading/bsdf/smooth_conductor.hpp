@@ -13,7 +13,7 @@ namespace phasetree::tracer {
 
 class SmoothConductorBsdf {
   public:
-    // Relative to the medium in front.
+    /// Relative to the medium in front.
     SmoothConductorBsdf(const glm::vec3& eta, const glm::vec3& k) : eta_(eta), k_(k) {}
 
     std::optional<BsdfSample> sample(const glm::vec3& wo, float /*u_lobe*/, const glm::vec2& /*u*/) const {

@@ -15,7 +15,7 @@
 
 namespace phasetree::tracer {
 
-// (η_from/η_to)²
+/// (η_from/η_to)²
 float radiance_factor(float ior_from, float ior_to);
 
 class SmoothDielectricBsdf {
