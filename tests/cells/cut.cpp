@@ -3,8 +3,8 @@
 #include <doctest/doctest.h>
 
 #include "phasetree/cells/cells.hpp"
+#include "phasetree/io/tree.hpp"
 #include "phasetree/phasetree.hpp"
-#include "phasetree/reading/tree.hpp"
 #include "source_directory.hpp"
 #include "support/random_tree.hpp"
 

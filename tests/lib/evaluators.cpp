@@ -5,8 +5,8 @@
 #include <bit>
 
 #include "phasetree/math/dual.hpp"
-#include "phasetree/model/walk.hpp"
 #include "phasetree/phasetree.hpp"
+#include "phasetree/tree/walk.hpp"
 #include "support/random_tree.hpp"
 #include "support/set_algebra.hpp"
 

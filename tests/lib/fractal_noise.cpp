@@ -2,8 +2,8 @@
 #include <doctest/doctest.h>
 
 #include "phasetree/math/dual.hpp"
-#include "phasetree/model/walk.hpp"
 #include "phasetree/phasetree.hpp"
+#include "phasetree/tree/walk.hpp"
 #include "support/random_tree.hpp"
 #include "support/set_algebra/textures.hpp"
 

@@ -3,10 +3,10 @@
 
 #include <limits>
 
+#include "phasetree/io/write.hpp"
 #include "phasetree/math/dual.hpp"
-#include "phasetree/model/walk.hpp"
 #include "phasetree/phasetree.hpp"
-#include "phasetree/reading/write.hpp"
+#include "phasetree/tree/walk.hpp"
 #include "support/random_node.hpp"
 
 using namespace phasetree;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "phasetree/io/write.hpp"
 #include "phasetree/program/program.hpp"
-#include "phasetree/reading/write.hpp"
 #include "support/random_tree.hpp"
 
 using namespace phasetree;

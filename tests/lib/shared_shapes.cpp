@@ -3,8 +3,8 @@
 // not end tells of one that does neither.
 #include <doctest/doctest.h>
 
+#include "phasetree/io/write.hpp"
 #include "phasetree/program/program.hpp"
-#include "phasetree/reading/write.hpp"
 #include "support/random_node.hpp"
 
 using namespace phasetree;

@@ -4,8 +4,8 @@
 
 #include <tuple>
 
+#include "phasetree/io/tree.hpp"
 #include "phasetree/phasetree.hpp"
-#include "phasetree/reading/tree.hpp"
 
 using namespace phasetree;
 

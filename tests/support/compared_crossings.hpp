@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "phasetree/cells/cells.hpp"
-#include "phasetree/model/walk.hpp"
 #include "phasetree/trace/tracer.hpp"
+#include "phasetree/tree/walk.hpp"
 #include "support/random_tree.hpp"
 #include "support/set_algebra.hpp"
 

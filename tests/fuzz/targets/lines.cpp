@@ -8,8 +8,8 @@
 #include "command/commands.hpp"
 #include "command/numbers.hpp"
 #include "fuzz/input_file.hpp"
+#include "phasetree/io/error.hpp"
 #include "phasetree/model/handle.hpp"
-#include "phasetree/reading/error.hpp"
 
 namespace phasetree::fuzz {
 

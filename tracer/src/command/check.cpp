@@ -2,8 +2,8 @@
 #include "command/empty_object.hpp"
 #include "command/load.hpp"
 #include "command/streams.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/model/handle.hpp"
-#include "phasetree/program/evaluator.hpp"
 #include "phasetree/trace/tracer.hpp"
 #include "render/threads.hpp"
 

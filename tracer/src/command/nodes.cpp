@@ -1,6 +1,6 @@
 #include "command/commands.hpp"
 #include "command/streams.hpp"
-#include "phasetree/reading/reference.hpp"
+#include "phasetree/io/reference.hpp"
 
 namespace phasetree::tracer {
 
