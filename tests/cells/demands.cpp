@@ -8,8 +8,10 @@
 #include <cstring>
 
 #include "cells/prune.hpp"
+#include "phasetree/model/handle.hpp"
 #include "phasetree/nodes/list.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/program/evaluator.hpp"
+#include "phasetree/program/program.hpp"
 #include "support/random_tree.hpp"
 
 using namespace phasetree;

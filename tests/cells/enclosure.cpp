@@ -7,9 +7,11 @@
 #include "phasetree/math/dual.hpp"
 #include "phasetree/math/enclosure/convex_in_box.hpp"
 #include "phasetree/math/enclosure/difference.hpp"
+#include "phasetree/model/concepts.hpp"
+#include "phasetree/model/handle.hpp"
 #include "phasetree/model/walk.hpp"
 #include "phasetree/nodes/copies/endless_grid.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/nodes/node.hpp"
 #include "support/random_tree.hpp"
 
 using namespace phasetree;

@@ -9,6 +9,7 @@
 
 #include "phasetree/math/dual.hpp"
 #include "phasetree/math/enclosure/value_noise.hpp"
+#include "phasetree/model/handle.hpp"
 #include "phasetree/nodes/fields/fractal_noise.hpp"
 #include "support/compared_crossings.hpp"
 

@@ -1,5 +1,16 @@
 // Files of cells: what is read is what was built, and whatever is done to a file is refused or harmless.
+#include "cells/file_header.hpp"
+#include "cells/sound.hpp"
+#include "phasetree/cells/cells.hpp"
 #include "phasetree/cells/file.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/list.hpp"
+#include "phasetree/program/evaluator.hpp"
+#include "phasetree/program/program.hpp"
+#include "phasetree/reading/tree.hpp"
+#include "phasetree/trace/crossing.hpp"
+#include "phasetree/trace/ray.hpp"
+#include "support/random_tree.hpp"
 
 #include <doctest/doctest.h>
 #include <sys/resource.h>
@@ -10,13 +21,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-
-#include "cells/file_header.hpp"
-#include "cells/sound.hpp"
-#include "phasetree/nodes/list.hpp"
-#include "phasetree/phasetree.hpp"
-#include "phasetree/reading/tree.hpp"
-#include "support/random_tree.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;

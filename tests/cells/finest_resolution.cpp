@@ -3,7 +3,13 @@
 #include <doctest/doctest.h>
 
 #include "cells/linear_bound.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/program/evaluator.hpp"
+#include "phasetree/program/program.hpp"
+#include "phasetree/trace/crossing.hpp"
+#include "phasetree/trace/ray.hpp"
 #include "program/assemble.hpp"
 #include "support/random_tree.hpp"
 #include "trace/march.hpp"

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 
+#include "phasetree/cells/cells.hpp"
+#include "phasetree/model/handle.hpp"
 #include "phasetree/reading/tree.hpp"
 #include "source_directory.hpp"
 #include "support/compared_crossings.hpp"

@@ -6,7 +6,10 @@
 #include <string>
 
 #include "phasetree/cells/cells.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/program/evaluator.hpp"
 #include "phasetree/reading/tree.hpp"
+#include "phasetree/trace/crossing.hpp"
 #include "source_directory.hpp"
 #include "support/compared_crossings.hpp"
 

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "command.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/model/handle.hpp"
 #include "phasetree/reading/tree.hpp"
 
 using namespace phasetree::tests;

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "phasetree/embree_version.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/model/handle.hpp"
 #include "phasetree/reading/tree.hpp"
 
 namespace phasetree::tests {

@@ -2,6 +2,11 @@
 // support/creeping_rays.hpp.
 #include "support/creeping_rays.hpp"
 
+#include "phasetree/model/handle.hpp"
+#include "phasetree/program/evaluator.hpp"
+#include "phasetree/trace/crossing.hpp"
+#include "phasetree/trace/tracer.hpp"
+
 using namespace phasetree;
 using namespace phasetree::tests;
 

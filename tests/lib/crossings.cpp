@@ -1,4 +1,8 @@
 // Tracing of whole programs against analytic roots: see support/crossing_checks.hpp.
+#include "phasetree/model/handle.hpp"
+#include "phasetree/program/evaluator.hpp"
+#include "phasetree/trace/crossing.hpp"
+#include "phasetree/trace/tracer.hpp"
 #include "support/crossing_checks.hpp"
 
 using namespace phasetree;

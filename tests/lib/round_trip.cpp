@@ -2,6 +2,10 @@
 
 #include <algorithm>
 
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/nodes/phased/under.hpp"
 #include "phasetree/program/program.hpp"
 #include "phasetree/reading/write.hpp"
 #include "support/random_tree.hpp"

@@ -3,6 +3,8 @@
 // not end tells of one that does neither.
 #include <doctest/doctest.h>
 
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/node.hpp"
 #include "phasetree/program/program.hpp"
 #include "phasetree/reading/write.hpp"
 #include "support/random_node.hpp"

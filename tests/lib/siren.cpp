@@ -2,7 +2,9 @@
 
 #include <cmath>
 
-#include "phasetree/nodes/node.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/siren.hpp"
+#include "phasetree/nodes/fields/siren_network.hpp"
 #include "phasetree/reading/tree.hpp"
 #include "source_directory.hpp"
 

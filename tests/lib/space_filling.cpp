@@ -4,7 +4,8 @@
 
 #include <tuple>
 
-#include "phasetree/phasetree.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/phased/checker.hpp"
 #include "phasetree/reading/tree.hpp"
 
 using namespace phasetree;

@@ -2,14 +2,14 @@
 //     phasetree nodes --markdown > scenes/nodes.md; phasetree nodes --json-schema > scenes/scene.schema.json
 
 #include "phasetree/reading/reference.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/node.hpp"
 #include "source_directory.hpp"
 
 #include <doctest/doctest.h>
 
 #include <fstream>
 #include <sstream>
-
-#include "phasetree/nodes/node.hpp"
 
 using namespace phasetree;
 

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "phasetree/nodes/node.hpp"
+#include "phasetree/model/handle.hpp"
 
 using namespace phasetree;
 
