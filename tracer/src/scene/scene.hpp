@@ -10,7 +10,7 @@
 #include "camera/camera.hpp"
 #include "film/film.hpp"
 #include "lights/lights.hpp"
-#include "phasetree/reading/tree.hpp"
+#include "phasetree/io/tree.hpp"
 #include "shading/material.hpp"
 
 namespace phasetree::tracer {
