@@ -184,6 +184,11 @@ std::vector<Case> wrong_scenes() {
     camera("camera that sees all", "fov", R"({"position": [0, -5, 0], "look_at": [0, 0, 0], "fov": 180})");
     camera("camera that sees nothing", "fov", R"({"position": [0, -5, 0], "look_at": [0, 0, 0], "fov": 0})");
     camera("camera as text", "camera", R"("front")");
+    camera("camera of no kind that there is", "orthographic", R"({"fisheye": {"position": [0, -5, 0]}})");
+    camera("orthographic camera as wide as the world", "height",
+           R"({"orthographic": {"position": [0, -5, 0], "look_at": [0, 0, 0], "height": 2e18}})");
+    camera("orthographic camera of no height", "height",
+           R"({"orthographic": {"position": [0, -5, 0], "look_at": [0, 0, 0], "height": -1}})");
     // Farther than rays can come from.
     camera("camera at the end of the world", "position", R"({"position": [0, -2e18, 0], "look_at": [0, 0, 0]})");
     camera("camera of a boundless lens", "lens_radius",

@@ -64,6 +64,7 @@ TEST_CASE("an orthographic camera, and what is none") {
     CHECK(says(R"({"orthografic": {}})", "did you mean \"orthographic\"?"));
     CHECK(says(R"({"orthographic": {"position": [0, -5, 0], "look_at": [0, 0, 0]}})", "height"));
     CHECK(says(R"({"orthographic": {"position": [0, -5, 0], "look_at": [0, 0, 0], "height": 0}})", "height"));
+    CHECK(says(R"({"orthographic": {"position": [0, -5, 0], "look_at": [0, 0, 0], "height": 1.1e10}})", "1e10"));
     CHECK(says(R"({"orthographic": {"position": [0, -5, 0], "look_at": [0, 0, 0], "height": 1, "fov": 3}})", "fov"));
     CHECK(says(R"({"orthographic": {"position": [0, 0, 0], "look_at": [0, 0, 0], "height": 1}})", "are the same"));
     CHECK(says(R"({"orthographic": 5})", "look_at") == false);
@@ -104,6 +105,16 @@ TEST_CASE("in an orthographic picture a ball is a disk of its own radius, from n
                     crop.pixels[job.pixels.index(x, y)] != image.pixels[static_cast<std::size_t>(y * width + x)];
         CHECK(different == 0);
     }
+}
+
+TEST_CASE("the largest orthographic picture has no ray that Embree cannot bear") {
+    const Scene scene =
+        scene_with(R"({"orthographic": {"position": [0, -1e15, 0], "look_at": [0, 0, 0], "height": 1e10}})",
+                   R"(, "render": {"width": 32768, "height": 1, "samples": 1})");
+    const World world(scene);
+    RenderJob job;
+    job.pixels = {0, 0, 2, 1};
+    CHECK(render(world, scene, job).image.pixels[0] == glm::vec3(1));
 }
 
 TEST_CASE("orthographic rays start in the phase at their own origins") {

@@ -37,7 +37,9 @@ ThinLensParameters read_thin_lens(ObjectReader& reader) {
 OrthographicParameters read_orthographic(ObjectReader& reader) {
     OrthographicParameters p;
     read_view(reader, p);
-    p.height = reader.required<float>("height", size_of_thing);
+    // The widest picture is 32,768 times as wide as it is high, and rays start no farther away than `farthest`.
+    p.height = reader.required<float>(
+        "height", Range{.min = 0, .max = 1e10, .min_is_open = true, .description = "positive and at most 1e10"});
     return p;
 }
 
