@@ -7,7 +7,7 @@
 #include "phasetree/model/phase.hpp"
 #include "phasetree/model/ray.hpp"
 
-namespace phasetree {
+namespace phasetree::kernel {
 
 /// A certificate is no longer than this.
 inline constexpr std::size_t most_certificate_steps = 32;
@@ -127,4 +127,4 @@ extern const Kernel kernel_avx2;
 extern const Kernel kernel_avx512;
 #endif
 
-}  // namespace phasetree
+}  // namespace phasetree::kernel

@@ -4,7 +4,7 @@
 
 #include "phasetree/math/bounds.hpp"
 
-namespace phasetree {
+namespace phasetree::kernel {
 
 /// What is known of a cell's field f: nearly linear. Where two phases meet, f < 0 in one and f > 0 in the other; where
 /// more do, f is the first component, but for its sign, and concerns rays in its phase.
@@ -31,4 +31,4 @@ struct Curvature {
     bool is_by_first = false;  ///< the first component tells s on both sides
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::kernel

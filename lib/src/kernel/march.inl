@@ -12,7 +12,7 @@
 /// A hit is a change of label, never a small distance: phantom zeros, where components vanish without a change, cost
 /// samples but are never hits.
 
-namespace phasetree::HWY_NAMESPACE {
+namespace phasetree::kernel::HWY_NAMESPACE {
 namespace {
 
 /// Eight samples in rising order, and the place that the frame starts from.
@@ -425,4 +425,4 @@ bool March::is_entered_late(RayCrossing& result) {
 }
 
 }  // namespace
-}  // namespace phasetree::HWY_NAMESPACE
+}  // namespace phasetree::kernel::HWY_NAMESPACE

@@ -14,7 +14,7 @@
 ///    fall by p and rise by q leave no place for a zero if a/p + b/q ≥ h. Where nothing is known p and q are 1, and
 ///    that is what balls cover.
 
-namespace phasetree::HWY_NAMESPACE {
+namespace phasetree::kernel::HWY_NAMESPACE {
 namespace {
 
 HWY_INLINE float float_of_half(std::uint16_t upper) {
@@ -85,4 +85,4 @@ std::uint32_t proven(const Routine& routine, bool is_turned, const float* regist
 }
 
 }  // namespace
-}  // namespace phasetree::HWY_NAMESPACE
+}  // namespace phasetree::kernel::HWY_NAMESPACE

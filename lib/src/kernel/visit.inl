@@ -1,7 +1,7 @@
 /// A ray's visit to a cell: where it is inside, what the field's linear bound leaves of that, and the search there.
 /// Included by kernel.inl: what comes before a search takes as long as the search.
 
-namespace phasetree::HWY_NAMESPACE {
+namespace phasetree::kernel::HWY_NAMESPACE {
 namespace {
 
 constexpr double endless = 1.7976931348623157e308;
@@ -127,4 +127,4 @@ bool visit(const Visit& v, RayCrossing& result) {
 }
 
 }  // namespace
-}  // namespace phasetree::HWY_NAMESPACE
+}  // namespace phasetree::kernel::HWY_NAMESPACE

@@ -10,6 +10,10 @@
 
 namespace phasetree {
 
+namespace cells {
+struct CellsFile;
+}
+
 /// An object cut into boxes around its interfaces, each with the few instructions that matter there. A ray meets a
 /// change of phase only inside a cell; in which order cells are tried is the caller's business (Embree's, for one).
 ///
@@ -57,7 +61,7 @@ class InterfaceCells {
     CellStatistics statistics() const;
 
   private:
-    friend struct CellsFile;  // cells/file.hpp
+    friend struct cells::CellsFile;
     struct Data;
     explicit InterfaceCells(std::unique_ptr<const Data>);
     std::unique_ptr<const Data> data_;

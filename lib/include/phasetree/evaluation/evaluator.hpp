@@ -11,6 +11,10 @@
 
 namespace phasetree {
 
+namespace evaluation {
+struct Assembly;
+}
+
 /// A program made ready to run: registers assigned, operations resolved. Immutable; any thread may run it, each with
 /// its own Workspace.
 class Evaluator {
@@ -55,7 +59,7 @@ class Evaluator {
   private:
     friend class InterfaceTracer;
     Program program_;
-    std::shared_ptr<const struct Assembly> assembly_;
+    std::shared_ptr<const evaluation::Assembly> assembly_;
 };
 
 /// The SIMD instruction sets that this build and this machine share, best first: "AVX-512", "AVX2", "SSE4", "SSE2".
