@@ -12,20 +12,6 @@ namespace {
 
 constexpr unsigned tree_id = 0;
 
-RTCRay ray_of(const glm::vec3& origin, const glm::vec3& direction, float far) {
-    RTCRay ray{};
-    ray.org_x = origin.x;
-    ray.org_y = origin.y;
-    ray.org_z = origin.z;
-    ray.tnear = 0;
-    ray.dir_x = direction.x;
-    ray.dir_y = direction.y;
-    ray.dir_z = direction.z;
-    ray.tfar = far;
-    ray.mask = ~0u;
-    return ray;
-}
-
 }  // namespace
 
 World::World(const Scene& scene, const WorldOptions& wanted) : scene_(scene), interfaces_(scene.materials) {
@@ -42,7 +28,7 @@ World::World(const Scene& scene, const WorldOptions& wanted) : scene_(scene), in
     embree_ = rtcNewScene(device_);
     // The nearest hit of everything, whatever the order of a million small triangles: exactness before speed.
     rtcSetSceneFlags(embree_, RTC_SCENE_FLAG_ROBUST);
-    tree_.emplace(device_, object_, embree::Options{.rays_carry_phases = true});
+    tree_.emplace(device_, object_, embree::CellGeometry::Options{.rays_carry_phases = true});
     rtcCommitGeometry(tree_->handle());
     rtcAttachGeometryByID(embree_, tree_->handle(), tree_id);
     hair_ = 1e-5f * object_->bounds().diagonal();
@@ -75,19 +61,16 @@ void World::add_mesh(const Mesh& mesh) {
 std::optional<Surface> World::intersect(const glm::vec3& origin, const glm::vec3& direction, float far, Phase carried,
                                         const Start& start, Purpose purpose, PathCounters& counters) const {
     embree::Query query;
-    query.carried = carried;
+    query.phases.set(embree::ObjectInstance{tree_id}, carried);
     query.start = start;
-    RTCRayHit ray{};
-    ray.ray = ray_of(origin, direction, far);
-    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    RTCRayHit ray = embree::rayhit_of(origin, direction, 0, far);
     embree::intersect(embree_, query.context, ray);
     if (query.is_out_of_memory) throw std::bad_alloc();
     ++counters.rays;
     counters.trace.visits += query.counters.visits;
     counters.trace.batches += query.counters.batches;
     counters.trace.phantoms += query.counters.phantoms;
-    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    if (!embree::is_hit(ray)) return std::nullopt;
     const bool is_on_tree = ray.hit.geomID == tree_id;
     const Crossing& c = query.crossing;
     Surface s;
@@ -103,7 +86,7 @@ std::optional<Surface> World::intersect(const glm::vec3& origin, const glm::vec3
     s.near_phase = c.from;
     s.far_phase = c.to;
     s.optics = &interfaces_.between(c.from.index, c.to.index);
-    s.start = {tree_id, ray.hit.primID, ray.hit.instID[0], c.from, normal.gradient};
+    s.start = {embree::ObjectInstance::of(ray.hit), ray.hit.primID, c.from, normal.gradient};
     return s;
 }
 

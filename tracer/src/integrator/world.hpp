@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "embree_core/cell_geometry.hpp"
 #include "integrator/flat_boundaries.hpp"
-#include "phasetree/embree.hpp"
 #include "scene/scene.hpp"
 #include "shading/interface.hpp"
 
@@ -22,7 +22,7 @@ struct PathCounters {
 };
 
 // Where a ray that leaves a surface starts, for the cell that it starts in.
-using Start = embree::Query::Start;
+using Start = embree::StartHint;
 
 // A place where a path is changed: an interface between two phases, or a mesh.
 struct Surface {
@@ -79,7 +79,7 @@ class World {
     std::shared_ptr<const InterfaceCells> object_;
     RTCDevice device_ = nullptr;
     RTCScene embree_ = nullptr;
-    std::optional<embree::TreeGeometry> tree_;
+    std::optional<embree::CellGeometry> tree_;
     InterfaceTable interfaces_;
     std::vector<Interface> mesh_interfaces_;  // [mesh · phases + phase the ray is in]
     float hair_ = 0;

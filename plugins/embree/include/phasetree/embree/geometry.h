@@ -23,7 +23,13 @@ typedef enum PhasetreeGeometryFlags {
     PHASETREE_GEOMETRY_FLAG_NO_FILTERS = 1 << 1,
     /* Registers phasetreePointQueryFunction with the geometry. Every rtcPointQuery that can reach it must then be given
      * a PhasetreePointQuery as its user pointer. */
-    PHASETREE_GEOMETRY_FLAG_POINT_QUERY = 1 << 2
+    PHASETREE_GEOMETRY_FLAG_POINT_QUERY = 1 << 2,
+    /* The RTCGeometry has one primitive for each cell, which Embree's own tree over your scene then finds, instead of
+     * one primitive that traces a scene of its own: rays that carry phases or not, in packets or not, hit the same, and
+     * sooner (README.md has numbers). What it takes: NO_FILTERS must be set, because a filter function would see some
+     * crossings twice; all phases are shown; the geometry does not move but by instances; POINT_QUERY is not set; and
+     * your scene has as many primitives more as there are cells, other ones after phasetreeSetGeometryTree. */
+    PHASETREE_GEOMETRY_FLAG_CELL_PRIMITIVES = 1 << 3
 } PhasetreeGeometryFlags;
 
 /* What phasetreeNewGeometry and phasetreeSetGeometryTree may be told; start from phasetreeInitGeometryOptions. */
@@ -120,7 +126,8 @@ PHASETREE_API PhasetreeError phasetreeNewGeometry(unsigned int apiVersion, RTCDe
 PHASETREE_API PhasetreeError phasetreeRetainGeometry(PhasetreeGeometry geometry);
 PHASETREE_API PhasetreeError phasetreeReleaseGeometry(PhasetreeGeometry geometry);
 
-/* The RTCGeometry: of type RTC_GEOMETRY_TYPE_USER, with one primitive, and not committed. It belongs to the handle;
+/* The RTCGeometry: of type RTC_GEOMETRY_TYPE_USER, not committed, and with one primitive (or one for each cell:
+ * PHASETREE_GEOMETRY_FLAG_CELL_PRIMITIVES). It belongs to the handle;
  * attach it (scenes add a reference), rtcRetainGeometry it if it shall outlive the handle. Everything may be called on
  * it but what would replace the library's own settings: rtcSetGeometryUserData (use phasetreeSetGeometryUserData),
  * rtcSetGeometryUserPrimitiveCount, TimeStepCount, TimeRange (use phasetreeSetGeometryMotion), BoundsFunction,
