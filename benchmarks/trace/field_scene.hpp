@@ -14,7 +14,7 @@ class FieldScene {
     // The same cells, beside two large triangles at a height.
     FieldScene(const FieldScene& object, float ground);
 
-    // The nearest change of phase, of a scene without ground; as tracer/src/integrator/world.cpp asks for it.
+    // The nearest change of phase, of a scene without ground; as tracer/src/world/traced_geometry.cpp asks for it.
     std::optional<Crossing> intersect(const Ray& ray) const {
         embree::Query query;
         const RTCRayHit hit = nearest(ray, query);

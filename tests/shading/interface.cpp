@@ -13,9 +13,9 @@ using phasetree::tests::direction;
 
 namespace {
 
-const Material glass = Clear{1.5f, glm::vec3{0.0f}, 0.0f};
-const Material ground_glass = Clear{1.5f, glm::vec3{0.0f}, 0.2f};
-const Material water = Clear{1.33f, glm::vec3{0.0f}, 0.0f};
+const Material glass = Clear{1.5f, Medium{}, 0.0f};
+const Material ground_glass = Clear{1.5f, Medium{}, 0.2f};
+const Material water = Clear{1.33f, Medium{}, 0.0f};
 const Material sand = Diffuse{ConstantTexture{{0.5f, 0.4f, 0.3f}}};
 const Material varnish = Coated{ConstantTexture{{0.5f, 0.4f, 0.3f}}, 1.5f, 0.0f};
 

@@ -272,13 +272,14 @@ TEST_CASE("rectangle light: the rough solid angle is never far off, and zero whe
     for (const float x : {0.0f, 0.5f, 2.0f, 10.0f, 100.0f}) {
         for (const float height : {0.02f, 0.2f, 1.0f, 5.0f, 50.0f}) {
             const glm::vec3 p(x, 0.3f * x, 1 + height);
-            const double ratio = light.rough_solid_angle(p) / light.solid_angle(p);
+            const double ratio = light.approximate_solid_angle(p) / light.solid_angle(p);
             CHECK(ratio > 0.2);
             // At grazing angles, where the solid angle goes to zero, it is generous: as if seen from r higher up.
             const double generous = (static_cast<double>(height) + 0.8) / static_cast<double>(height);
             CHECK(ratio < 1.5 * generous);
         }
     }
-    CHECK(light.rough_solid_angle({0, 0, 0.5f}) == 0.0);
-    CHECK(light.rough_solid_angle({100, 0, 201}) == doctest::Approx(light.solid_angle({100, 0, 201})).epsilon(1e-2));
+    CHECK(light.approximate_solid_angle({0, 0, 0.5f}) == 0.0);
+    CHECK(light.approximate_solid_angle({100, 0, 201}) ==
+          doctest::Approx(light.solid_angle({100, 0, 201})).epsilon(1e-2));
 }

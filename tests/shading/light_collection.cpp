@@ -107,7 +107,7 @@ TEST_CASE("lights: a direction that several lights can propose counts all of the
     const double sun_angle = 2.0 * half_turn * (1.0 - std::cos(sun_radius));
     const double environment = 0.5 * 4.0 * half_turn;
     const double sun = sun_angle / (half_turn * std::pow(std::sin(sun_radius), 2.0));
-    const double rectangle = 3.0 * lamp.rough_solid_angle(p);
+    const double rectangle = 3.0 * lamp.approximate_solid_angle(p);
     const double sphere = 2.0 * sphere_angle;
     const double total = environment + sun + rectangle + sphere;
 

@@ -41,11 +41,10 @@ inline std::array<Moments, 3> radiance_along(const World& world, const Scene& sc
     const FlushSubnormals flush;
     std::array<Moments, 3> moments;
     PathCounters counters;
-    const CameraRay ray{origin, glm::normalize(direction)};
-    const Phase phase = world.label(origin);
+    const Ray ray{origin, glm::normalize(direction), world.geometry().label(origin), {}};
     for (std::uint32_t i = 0; i < count; ++i) {
         Sampler sampler(i & 0xffffu, i >> 16, 0, seed);
-        const glm::vec3 radiance = trace_path(world, scene, ray, phase, sampler, counters);
+        const glm::vec3 radiance = trace_path(world, scene, ray, sampler, counters);
         for (int c = 0; c < 3; ++c) moments[static_cast<std::size_t>(c)].add(static_cast<double>(radiance[c]));
     }
     return moments;

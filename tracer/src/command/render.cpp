@@ -88,8 +88,8 @@ void write_stats(const std::string& path, const Options& options, const World& w
     json["batches_per_ray"] = per_ray(r.counters.trace.batches);
     json["samples_per_ray"] = static_cast<double>(batch_size) * per_ray(r.counters.trace.batches);
     json["phantom_steps_per_ray"] = per_ray(r.counters.trace.phantoms);
-    const CellStatistics cells = world.object().statistics();
-    json["instructions"] = world.object().whole().program().instructions.size();
+    const CellStatistics cells = world.geometry().object().statistics();
+    json["instructions"] = world.geometry().object().whole().program().instructions.size();
     add_cells(json, cells);
     write_file(json.dump(2) + "\n", path);
 }
@@ -193,10 +193,10 @@ int render_scene(const Options& options) {
         throw OutputError(e.what());
     }
     const World& world = *prepared;
-    if (world.object().size() == 0) say("{}\n", empty_object_warning(document));
-    if (!options.quiet && world.object().statistics().is_coarser)
+    if (world.geometry().object().size() == 0) say("{}\n", empty_object_warning(document));
+    if (!options.quiet && world.geometry().object().statistics().is_coarser)
         say("phasetree: the object would take more memory than --max-memory allows: rays are slower\n");
-    if (!options.quiet) print_warning(document.name(), world.object().warning());
+    if (!options.quiet) print_warning(document.name(), world.geometry().object().warning());
     const auto total = static_cast<std::uint64_t>(job.pixels.width()) *
                        static_cast<std::uint64_t>(job.pixels.height()) *
                        static_cast<std::uint64_t>(scene.settings.samples);

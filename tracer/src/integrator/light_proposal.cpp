@@ -44,17 +44,14 @@ float bent_pdf(const Lights& lights, const glm::vec3& p, const glm::vec3& inside
 // The normal, on the outer side, of where a line leaves the last medium that bends light.
 std::optional<glm::vec3> boundary_along(const glm::vec3& line, const Surface& surface, const World& world,
                                         const Scene& scene, PathCounters& counters) {
-    constexpr int most_interfaces = 8;
-    glm::vec3 origin = surface.near_origin;
-    Phase phase = surface.near_phase;
-    Start start = surface.start;
-    for (int i = 0; i < most_interfaces; ++i) {
-        const auto met = world.intersect(origin, line, infinity, phase, start, Purpose::light, counters);
-        if (!met || !met->optics) break;
-        phase = met->far_phase;
-        if (std::get<Clear>(scene.materials[phase.index]).ior == 1.0f) return -met->normal;
-        origin = met->far_origin;
-        start = met->start;
+    constexpr int max_interfaces = 8;
+    Ray ray = surface.reflected(line);
+    for (int i = 0; i < max_interfaces; ++i) {
+        const Visibility met = world.geometry().visibility(ray, infinity, counters);
+        const Surface* interface = std::get_if<Surface>(&met);
+        if (!interface) break;
+        ray = interface->transmitted(line);
+        if (std::get<Clear>(scene.materials[ray.phase.index]).ior == 1.0f) return -interface->normal;
     }
     return std::nullopt;
 }
@@ -63,8 +60,8 @@ std::optional<glm::vec3> boundary_along(const glm::vec3& line, const Surface& su
 
 LightProposal LightProposal::at(const Surface& surface, const World& world, const Scene& scene,
                                 PathCounters& counters) {
-    const glm::vec3& p = surface.near_origin;
-    const float eta = std::get<Clear>(scene.materials[surface.near_phase.index]).ior;
+    const glm::vec3& p = surface.near_side.origin;
+    const float eta = std::get<Clear>(scene.materials[surface.near_side.phase.index]).ior;
     if (eta == 1.0f) return {p, surface.normal, eta};
     // The line to look along is bent as by a plane parallel to the surface.
     const glm::vec3 lamp = scene.lights.towards_brightest(p, surface.normal);
@@ -81,7 +78,7 @@ LightProposal LightProposal::at(const Surface& surface, const World& world, cons
 
 void LightProposal::also(const glm::vec3& outward) {
     const auto at = static_cast<std::size_t>(planes_);
-    const auto is_like = [&](const glm::vec3& plane) { return glm::dot(plane, outward) > one_direction; };
+    const auto is_like = [&](const glm::vec3& plane) { return glm::dot(plane, outward) > same_normal_cosine; };
     if (at == outward_.size() || std::ranges::any_of(std::span(outward_).first(at), is_like)) return;
     outward_[at] = outward;
     ++planes_;

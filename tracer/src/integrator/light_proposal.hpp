@@ -16,25 +16,25 @@
 
 #include <array>
 
-#include "integrator/world.hpp"
 #include "lights/lights.hpp"
+#include "world/world.hpp"
 
 namespace phasetree::tracer {
 
 class LightProposal {
   public:
     LightProposal() = default;
-    // At p, where light comes in through a plane of this unit normal, pointing outward, from a medium whose index is
-    // 1/eta of that around p. If that is 1, straight towards the lights.
+    /// At p, where light comes in through a plane of this unit normal, pointing outward, from a medium whose index is
+    /// 1/eta of that around p. If that is 1, straight towards the lights.
     LightProposal(const glm::vec3& p, const glm::vec3& outward, float eta)
         : p_(p), outward_{outward}, planes_(eta == 1.0f ? 0 : 1), eta_(eta) {}
-    // Through another one, too.
+    /// Adds another plane through which light comes in.
     void also(const glm::vec3& outward);
-    // For a surface that is not clear. Lamps are taken to be in vacuum.
+    /// For a surface without a far side. Lights are taken to be in vacuum.
     static LightProposal at(const Surface& surface, const World& world, const Scene& scene, PathCounters& counters);
 
     std::optional<LightSample> sample(const Lights& lights, glm::vec2 u) const;
-    // Of sample(), per steradian.
+    /// The density of sample(), per steradian.
     float pdf(const Lights& lights, const glm::vec3& direction) const;
 
   private:
@@ -42,7 +42,7 @@ class LightProposal {
     float pdf(const Lights& lights, const glm::vec3& direction, float straight) const;
 
     glm::vec3 p_{0};
-    std::array<glm::vec3, 1 + most_flat_boundaries> outward_{};
+    std::array<glm::vec3, 1 + max_flat_boundaries> outward_{};
     int planes_ = 0;
     float eta_ = 1;
 };

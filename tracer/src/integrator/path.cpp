@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "integrator/light_proposal.hpp"
-#include "shading/beer_lambert.hpp"
 #include "shading/frame.hpp"
 
 namespace phasetree::tracer {
@@ -23,44 +22,52 @@ constexpr int longest_chain = 128;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
+// Rays travel in clear phases only.
+const Clear& clear_at(const Scene& scene, Phase phase) {
+    return std::get<Clear>(scene.materials[phase.index]);
+}
+
 // Whether a surface is a link of a chain: smooth, and clear on both sides. A mirror is none: shadow rays end there.
-bool links(const Scene& scene, const Bsdf& bsdf, const Surface& surface) {
-    return bsdf.is_delta() && surface.near_phase != surface.far_phase &&
-           is_clear(scene.materials[surface.far_phase.index]);
+bool is_link(const Bsdf& bsdf, const Surface& surface) {
+    return bsdf.is_delta() && surface.far_side;
+}
+
+// The ray on which a sampled direction goes on.
+Ray continued(const Surface& surface, const Frame& frame, const BsdfSample& sample) {
+    const glm::vec3 direction = glm::normalize(frame.to_world(sample.wi));
+    return sample.transmitted ? surface.transmitted(direction) : surface.reflected(direction);
 }
 
 // E of path.hpp along a ray that was sampled: the emission at the end of one chain of smooth clear interfaces, times
 // what the media and refraction leave of it.
-glm::vec3 emission_through_chain(const World& world, const Scene& scene, CameraRay ray, const LightSample& sampled,
-                                 Phase phase, Start start, Sampler& sampler, PathCounters& counters) {
+glm::vec3 emission_through_chain(const World& world, const Scene& scene, Ray ray, const LightSample& sampled,
+                                 Sampler& sampler, PathCounters& counters) {
     glm::vec3 throughput(1.0f);
     for (int length = 0, segment = 0;; ++segment) {
         const float far = segment == 0 ? sampled.distance : infinity;
-        const std::optional<Surface> surface =
-            world.intersect(ray.origin, ray.direction, far, phase, start, Purpose::light, counters);
-        const float distance = surface ? surface->distance : infinity;
-        const glm::vec3& absorption = std::get<Clear>(scene.materials[phase.index]).absorption;
+        const Visibility met = world.geometry().visibility(ray, far, counters);
+        const Surface* surface = std::get_if<Surface>(&met);
+        const Blocked* blocked = std::get_if<Blocked>(&met);
+        const bool escaped = !surface && !blocked;
+        const float distance = surface ? surface->distance : blocked ? blocked->distance : infinity;
+        const Medium& medium = clear_at(scene, ray.phase).interior;
         const auto light = segment > 0 ? scene.lights.seen(ray.origin, ray.direction, distance, false)
-                           : surface   ? std::nullopt
-                                       : std::optional(Lights::Emission{sampled.distance, sampled.radiance});
-        if (light) return throughput * transmittance(absorption, light->distance) * light->radiance;
-        if (!surface->optics) return glm::vec3(0.0f);  // opaque
-        throughput *= transmittance(absorption, distance);
-        start = surface->start;
-        const Bsdf bsdf = surface->optics->at(surface->near_origin);
+                           : escaped   ? std::optional(Lights::Emission{sampled.distance, sampled.radiance})
+                                       : std::nullopt;
+        if (light) return throughput * transmittance(medium, light->distance) * light->radiance;
+        if (!surface) return glm::vec3(0.0f);
+        throughput *= transmittance(medium, distance);
+        const Bsdf bsdf = surface->bsdf();
         if (bsdf.passes_through()) {
-            ray.origin = surface->far_origin;
-            phase = surface->far_phase;
+            ray = surface->transmitted(ray.direction);
             continue;
         }
-        if (!links(scene, bsdf, *surface) || ++length > longest_chain) return glm::vec3(0.0f);
+        if (!is_link(bsdf, *surface) || ++length > longest_chain) return glm::vec3(0.0f);
         const Frame frame(surface->normal);
         const auto next = bsdf.sample(frame.to_local(-ray.direction), sampler.next(), glm::vec2(0.0f));
         if (!next) return glm::vec3(0.0f);
         throughput *= next->weight;
-        ray.direction = glm::normalize(frame.to_world(next->wi));
-        ray.origin = next->transmitted ? surface->far_origin : surface->near_origin;
-        phase = next->transmitted ? surface->far_phase : surface->near_phase;
+        ray = continued(*surface, frame, *next);
     }
 }
 
@@ -78,91 +85,114 @@ struct Chain {
     }
 };
 
-}  // namespace
+// One path, and what it needs at every step.
+class Path {
+  public:
+    Path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters)
+        : world_(world),
+          scene_(scene),
+          sampler_(sampler),
+          counters_(counters),
+          ray_(ray),
+          camera_ior_(clear_at(scene, ray.phase).ior) {}
 
-glm::vec3 trace_path(const World& world, const Scene& scene, CameraRay ray, Phase phase, Sampler& sampler,
-                     PathCounters& counters) {
-    ++counters.paths;
-    const auto medium = [&](Phase p) { return std::get_if<Clear>(&scene.materials[p.index]); };
-    if (!medium(phase)) return glm::vec3(0.0f);
-    const float camera_ior = medium(phase)->ior;
-
-    glm::vec3 radiance(0.0f), throughput(1.0f);
-    Start start;
-    Chain chain;
-    bool camera_ray = true;
-
-    for (int depth = 0; depth < scene.settings.max_depth;) {
-        const std::optional<Surface> surface =
-            world.intersect(ray.origin, ray.direction, infinity, phase, start, Purpose::path, counters);
-        const float distance = surface ? surface->distance : infinity;
-        const glm::vec3& absorption = medium(phase)->absorption;
-
-        if (const auto light = scene.lights.seen(ray.origin, ray.direction, distance, camera_ray)) {
-            radiance +=
-                throughput * chain.weight(scene.lights) * transmittance(absorption, light->distance) * light->radiance;
-            break;
-        }
-        throughput *= transmittance(absorption, distance);
-        start = surface->start;
-
-        const Bsdf bsdf = surface->optics->at(surface->near_origin);
-        if (bsdf.passes_through()) {  // equal indices: no event at all
+    glm::vec3 trace() {
+        for (int depth = 0; depth < scene_.settings.max_depth;) {
+            const Hit hit = world_.geometry().intersect(ray_, counters_);
+            const Surface* surface = std::get_if<Surface>(&hit);
+            const float distance = surface ? surface->distance : infinity;
+            if (sees_light(distance) || !surface) break;
+            throughput_ *= transmittance(clear_at(scene_, ray_.phase).interior, distance);
             ++depth;
-            ray.origin = surface->far_origin;
-            phase = surface->far_phase;
-            continue;
-        }
-        ++depth;
-        ++counters.interactions;
-        camera_ray = false;
-
-        const Frame frame(surface->normal);
-        const glm::vec3 wo = frame.to_local(-ray.direction);
-        LightProposal proposal(surface->near_origin, surface->normal, 1);
-        if (!bsdf.is_delta()) {
-            const bool is_clear_behind = surface->near_phase != surface->far_phase && medium(surface->far_phase);
-            if (!is_clear_behind) proposal = LightProposal::at(*surface, world, scene, counters);
-            if (const auto light = proposal.sample(scene.lights, sampler.next2())) {
-                const glm::vec3 wi = frame.to_local(light->wi);
-                const glm::vec3 f = bsdf.evaluate(wo, wi);
-                if (f != glm::vec3(0.0f)) {
-                    const bool through = wi.z < 0;
-                    const CameraRay shadow{through ? surface->far_origin : surface->near_origin, light->wi};
-                    const glm::vec3 arrives = emission_through_chain(world, scene, shadow, *light,
-                                                                     through ? surface->far_phase : surface->near_phase,
-                                                                     start, sampler, counters);
-                    radiance += throughput * f * arrives * (power_heuristic(light->pdf, bsdf.pdf(wo, wi)) / light->pdf);
-                }
+            const Bsdf bsdf = surface->bsdf();
+            if (bsdf.passes_through()) {  // equal indices are no event at all
+                ray_ = surface->transmitted(ray_.direction);
+                continue;
             }
+            if (!scatter(*surface, bsdf) || !survives(depth)) break;
         }
+        return radiance_;
+    }
 
-        const float lobe = sampler.next();
-        const auto next = bsdf.sample(wo, lobe, sampler.next2());
-        if (!next) break;
-        throughput *= next->weight;
-        ray.direction = glm::normalize(frame.to_world(next->wi));
-        ray.origin = next->transmitted ? surface->far_origin : surface->near_origin;
-        phase = next->transmitted ? surface->far_phase : surface->near_phase;
-        if (!medium(phase)) break;
+  private:
+    // Adds what the ray sees of lights in front of the distance. Then the path is at its end.
+    bool sees_light(float distance) {
+        const auto light = scene_.lights.seen(ray_.origin, ray_.direction, distance, is_camera_ray_);
+        if (!light) return false;
+        const Medium& medium = clear_at(scene_, ray_.phase).interior;
+        radiance_ +=
+            throughput_ * chain_.weight(scene_.lights) * transmittance(medium, light->distance) * light->radiance;
+        return true;
+    }
+
+    // Light from the lights, and the path's next ray. Whether there is one.
+    bool scatter(const Surface& surface, const Bsdf& bsdf) {
+        ++counters_.interactions;
+        is_camera_ray_ = false;
+        const Frame frame(surface.normal);
+        const glm::vec3 wo = frame.to_local(-ray_.direction);
+        LightProposal proposal(surface.near_side.origin, surface.normal, 1);
+        if (!bsdf.is_delta()) {
+            if (!surface.far_side) proposal = LightProposal::at(surface, world_, scene_, counters_);
+            add_direct_light(surface, bsdf, frame, wo, proposal);
+        }
+        const float lobe = sampler_.next();
+        const auto next = bsdf.sample(wo, lobe, sampler_.next2());
+        if (!next) return false;
+        throughput_ *= next->weight;
+        ray_ = continued(surface, frame, *next);
         if (!next->delta)
-            chain = {next->pdf, proposal, ray.direction, 0};
-        else if (links(scene, bsdf, *surface))
-            ++chain.length;
+            chain_ = {next->pdf, proposal, ray_.direction, 0};
+        else if (is_link(bsdf, surface))
+            ++chain_.length;
         else
-            chain = {};  // a mirror: no light was sampled
+            chain_ = {};  // a mirror, where no light was sampled
+        return true;
+    }
 
-        // Roulette on what the path can still bring to the camera: radiance over η² is what refraction preserves.
-        const float ior = medium(phase)->ior / camera_ior;
-        const float worth = std::max({throughput.x, throughput.y, throughput.z}) * ior * ior;
-        if (!(worth > 0)) break;
+    // Next-event estimation: what arrives from the lights by a shadow ray, and is scattered into the path.
+    void add_direct_light(const Surface& surface, const Bsdf& bsdf, const Frame& frame, const glm::vec3& wo,
+                          const LightProposal& proposal) {
+        const auto light = proposal.sample(scene_.lights, sampler_.next2());
+        if (!light) return;
+        const glm::vec3 wi = frame.to_local(light->wi);
+        const glm::vec3 f = bsdf.evaluate(wo, wi);
+        if (f == glm::vec3(0.0f)) return;
+        const Ray shadow = wi.z < 0 ? surface.transmitted(light->wi) : surface.reflected(light->wi);
+        const glm::vec3 arrives = emission_through_chain(world_, scene_, shadow, *light, sampler_, counters_);
+        radiance_ += throughput_ * f * arrives * (power_heuristic(light->pdf, bsdf.pdf(wo, wi)) / light->pdf);
+    }
+
+    // Russian roulette on what the path can still bring to the camera: radiance over η² is what refraction preserves.
+    bool survives(int depth) {
+        const float ior = clear_at(scene_, ray_.phase).ior / camera_ior_;
+        const float worth = std::max({throughput_.x, throughput_.y, throughput_.z}) * ior * ior;
+        if (!(worth > 0)) return false;
         if (depth > 3 && worth < 0.95f) {
             const float survival = std::max(worth, 0.05f);
-            if (sampler.next() >= survival) break;
-            throughput /= survival;
+            if (sampler_.next() >= survival) return false;
+            throughput_ /= survival;
         }
+        return true;
     }
-    return radiance;
+
+    const World& world_;
+    const Scene& scene_;
+    Sampler& sampler_;
+    PathCounters& counters_;
+    Ray ray_;
+    float camera_ior_;
+    glm::vec3 radiance_{0.0f}, throughput_{1.0f};
+    Chain chain_;
+    bool is_camera_ray_ = true;
+};
+
+}  // namespace
+
+glm::vec3 trace_path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters) {
+    ++counters.paths;
+    if (!is_clear(scene.materials[ray.phase.index])) return glm::vec3(0.0f);
+    return Path(world, scene, ray, sampler, counters).trace();
 }
 
 }  // namespace phasetree::tracer

@@ -2,23 +2,21 @@
 // estimation, multiple importance sampling by the power heuristic (Veach & Guibas, SIGGRAPH 1995) and Russian roulette.
 #pragma once
 
-#include "camera/thin_lens.hpp"
-#include "integrator/world.hpp"
 #include "sampling/sobol.hpp"
+#include "world/world.hpp"
 
 namespace phasetree::tracer {
 
-// An unbiased estimate of the radiance that arrives along a ray that starts in the phase.
-//
-// Light through clear interfaces. A shadow ray that meets a smooth interface of two clear phases is not lost: it goes
-// on as a path would, reflected or refracted by Fresnel's odds, and what it finds in the end is the light that arrives
-// from its first direction ω. A thin wall hardly bends it, so a lamp behind glass is found about as often as one in
-// plain sight. Both techniques thus estimate the same integral over ω,
-//     ∫ f(ω) E(ω) dω,   E: emission at the end of a chain of smooth clear interfaces, of any length from 0,
-// and combine by the power heuristic of their densities *of ω*: of the light sampling, and of the BSDF. A path keeps
-// these two through the chain. Nothing is counted twice and nothing is lost, whatever the light is seen through. In
-// which directions shadow rays start is for light_proposal.hpp.
-glm::vec3 trace_path(const World& world, const Scene& scene, CameraRay ray, Phase phase, Sampler& sampler,
-                     PathCounters& counters);
+/// An unbiased estimate of the radiance that arrives along a ray. It is black for a ray that starts in an opaque phase.
+///
+/// Light through clear interfaces. A shadow ray that meets a smooth interface of two clear phases is not lost: it goes
+/// on as a path would, reflected or refracted by Fresnel's odds, and what it finds in the end is the light that arrives
+/// from its first direction ω. A thin wall hardly bends it, so a lamp behind glass is found about as often as one in
+/// plain sight. Both techniques thus estimate the same integral over ω,
+///     ∫ f(ω) E(ω) dω,   E: emission at the end of a chain of smooth clear interfaces, of any length from 0,
+/// and combine by the power heuristic of their densities *of ω*: of the light sampling, and of the BSDF. A path keeps
+/// these two through the chain. Nothing is counted twice and nothing is lost, whatever the light is seen through. In
+/// which directions shadow rays start is for light_proposal.hpp.
+glm::vec3 trace_path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters);
 
 }  // namespace phasetree::tracer

@@ -18,6 +18,8 @@ class ConstantEnvironment {
     float pdf(const glm::vec3& direction) const;
     // Luminance of the radiance integrated over all directions.
     float fluence() const;
+    /// None: it is all around.
+    std::optional<glm::vec3> centre_direction() const { return std::nullopt; }
 
   private:
     glm::vec3 radiance_;

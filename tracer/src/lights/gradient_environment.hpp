@@ -23,6 +23,8 @@ class GradientEnvironment {
     float pdf(const glm::vec3& direction) const;
     // Luminance of the radiance integrated over all directions.
     float fluence() const { return distribution_.integral(); }
+    /// None: it is all around.
+    std::optional<glm::vec3> centre_direction() const { return std::nullopt; }
 
   private:
     glm::vec3 zenith_;

@@ -47,6 +47,8 @@ class ImageEnvironment {
     float pdf(const glm::vec3& direction) const;
     // Luminance of the radiance integrated over all directions.
     float fluence() const { return intensity_ * image_->distribution.integral(); }
+    /// None: it is all around.
+    std::optional<glm::vec3> centre_direction() const { return std::nullopt; }
 
   private:
     glm::vec3 to_image(const glm::vec3& direction) const;

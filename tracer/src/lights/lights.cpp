@@ -45,12 +45,8 @@ float Lights::fluences(const glm::vec3& p, std::span<float> fluence) const {
     for (const AreaLight& any : area_) {
         fluence[index] = std::visit(
             [&](const auto& light) {
-                double seen = 0;
-                if constexpr (requires { light.rough_solid_angle(p); })
-                    seen = light.rough_solid_angle(p);
-                else
-                    seen = light.solid_angle(p);
-                return static_cast<float>(static_cast<double>(luminance(light.radiance())) * seen);
+                return static_cast<float>(static_cast<double>(luminance(light.radiance())) *
+                                          light.approximate_solid_angle(p));
             },
             any);
         total += fluence[index++];
@@ -152,10 +148,7 @@ glm::vec3 Lights::towards_brightest(const glm::vec3& p, const glm::vec3& normal)
         brightest = *direction;
     };
     for (const InfiniteLight& any : infinite_)
-        consider([&] {
-            const Sun* sun = std::get_if<Sun>(&any);
-            return sun ? std::optional(sun->direction()) : std::nullopt;
-        });
+        consider([&] { return std::visit([](const auto& light) { return light.centre_direction(); }, any); });
     for (const AreaLight& any : area_)
         consider([&] {
             const glm::vec2 middle(0.5f);

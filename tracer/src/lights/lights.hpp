@@ -20,20 +20,11 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
-#include <variant>
 #include <vector>
 
-#include "lights/constant_environment.hpp"
-#include "lights/gradient_environment.hpp"
-#include "lights/image_environment.hpp"
-#include "lights/rectangle_light.hpp"
-#include "lights/sphere_light.hpp"
-#include "lights/sun.hpp"
+#include "lights/kinds.hpp"
 
 namespace phasetree::tracer {
-
-using InfiniteLight = std::variant<ConstantEnvironment, GradientEnvironment, ImageEnvironment, Sun>;
-using AreaLight = std::variant<RectangleLight, SphereLight>;
 
 struct LightSample {
     glm::vec3 wi;        // unit, from the point towards the light

@@ -128,7 +128,7 @@ double RectangleLight::solid_angle(const glm::vec3& p) const {
 }
 
 // A cos θ/d² far away, 2π close by; r, the radius of a disk as large, tells the one from the other.
-double RectangleLight::rough_solid_angle(const glm::vec3& p) const {
+double RectangleLight::approximate_solid_angle(const glm::vec3& p) const {
     const glm::dvec3 offset = centre_ - glm::dvec3(p);
     const double depth = -glm::dot(offset, axis_n_);
     if (!(depth > 0.0)) return 0.0;

@@ -31,7 +31,7 @@ class RectangleLight {
     // Steradians seen from p; 0 from behind.
     double solid_angle(const glm::vec3& p) const;
     // About as much, without a trigonometric function: what a choice among lights needs. 0 where solid_angle() is 0.
-    double rough_solid_angle(const glm::vec3& p) const;
+    double approximate_solid_angle(const glm::vec3& p) const;
     // A direction from p towards the light; p must see it.
     DirectionSample sample(const glm::vec3& p, const glm::vec2& u) const;
     // The density of sample() per steradian, for a direction in which the light is met at that distance.

@@ -21,6 +21,7 @@ class SphereLight {
 
     // Steradians seen from p.
     double solid_angle(const glm::vec3& p) const;
+    double approximate_solid_angle(const glm::vec3& p) const { return solid_angle(p); }
     // A direction from p towards the light.
     DirectionSample sample(const glm::vec3& p, const glm::vec2& u) const;
     // The density of sample() per steradian, for a direction in which the light is met, at that distance.

@@ -4,10 +4,10 @@
 // shadows and caustics and leaves the exposure as it is. Sampled uniformly in its cone, p = 1/(2π(1 − cos α)); a
 // surface whose whole upper half-space holds the disk receives E = Lπ sin²α cos θ.
 //
-// Directions are floats, so one that was sampled in the disk may lie a hair outside of it. The disk therefore reaches
-// that much farther for who asks what is seen in a direction: else the light of what was sampled there would be lost,
-// of a small sun all of it. Suns below 0.01 degrees are taken for ones of that size, of the same irradiance: the
-// hair would be as large as they are, and nobody sees the difference.
+// Directions are floats, so one that was sampled in the disk may lie outside of it by a rounding error. The disk
+// therefore reaches that much farther where it is asked what is seen in a direction: otherwise the light of what was
+// sampled there would be lost, and of a small sun all of it. Suns below 0.01 degrees are taken for ones of that size,
+// of the same irradiance: the rounding error would be as large as they are, and nobody sees the difference.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -33,6 +33,7 @@ class Sun {
     float fluence() const;
 
     const glm::vec3& direction() const { return direction_; }
+    std::optional<glm::vec3> centre_direction() const { return direction_; }
 
   private:
     bool in_disk(const glm::vec3& direction) const;

@@ -28,8 +28,9 @@ Rendering render(const World& world, const Scene& scene, const RenderJob& job) {
 
     // A pinhole in one place sees one phase; the label is asked for once.
     const bool pinhole = scene.camera.lens_radius == 0;
-    const Phase camera_phase = world.label(scene.camera.position);
-    const bool near_object = world.object().bounds().inflated(scene.camera.lens_radius).contains(scene.camera.position);
+    const Phase camera_phase = world.geometry().label(scene.camera.position);
+    const bool near_object =
+        world.geometry().object().bounds().inflated(scene.camera.lens_radius).contains(scene.camera.position);
 
     const auto add_samples = [&](int x, int y, int first, int last, PathCounters& counter) {
         glm::dvec3& pixel = sum[static_cast<std::size_t>(y - range.y0) * static_cast<std::size_t>(range.width()) +
@@ -39,8 +40,10 @@ Rendering render(const World& world, const Scene& scene, const RenderJob& job) {
                             scene.settings.seed);
             const glm::vec2 on_pixel = sampler.next2();
             const CameraRay ray = camera.generate(x, y, on_pixel, sampler.next2());
-            const Phase phase = pinhole ? camera_phase : near_object ? world.label(ray.origin) : phasetree::vacuum;
-            pixel += glm::dvec3(trace_path(world, scene, ray, phase, sampler, counter));
+            const Phase phase = pinhole       ? camera_phase
+                                : near_object ? world.geometry().label(ray.origin)
+                                              : phasetree::vacuum;
+            pixel += glm::dvec3(trace_path(world, scene, {ray.origin, ray.direction, phase, {}}, sampler, counter));
         }
     };
 
@@ -90,14 +93,7 @@ Rendering render(const World& world, const Scene& scene, const RenderJob& job) {
         result.image.pixels.emplace_back(s / static_cast<double>(std::max(result.samples, 1)));
     if (range.width() != scene.camera.width || range.height() != scene.camera.height)
         result.image.crop = Crop{range.x0, range.y0, scene.camera.width, scene.camera.height};
-    for (const PathCounters& c : counters) {
-        result.counters.rays += c.rays;
-        result.counters.paths += c.paths;
-        result.counters.interactions += c.interactions;
-        result.counters.trace.visits += c.trace.visits;
-        result.counters.trace.batches += c.trace.batches;
-        result.counters.trace.phantoms += c.trace.phantoms;
-    }
+    for (const PathCounters& c : counters) result.counters += c;
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
 }

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "camera/thin_lens.hpp"
 #include "integrator/path.hpp"
 #include "output/image.hpp"
 

@@ -20,7 +20,8 @@ float roughness(ObjectReader& reader) {
 Clear read_clear(ObjectReader& reader) {
     Clear clear;
     clear.ior = reader.required<float>("ior", Range::between(0.1, 10));
-    clear.absorption = reader.optional("absorption", clear.absorption, Range::not_negative());
+    AbsorbingMedium medium;
+    medium.absorption = reader.optional("absorption", medium.absorption, Range::not_negative());
     const std::optional<Value> color = reader.value("color");
     const float distance = reader.optional("color_distance", 1.0f, Range::positive());
     if (color) {
@@ -29,8 +30,9 @@ Clear read_clear(ObjectReader& reader) {
                                           "\"color\" and \"absorption\" say the same; give one of them");
         const glm::vec3 c =
             as_colour(reader.document(), *color, "\"color\"", Range{.min = 0, .max = 1, .min_is_open = true});
-        for (int i = 0; i < 3; ++i) clear.absorption[i] = std::max(0.0f, -std::log(c[i]) / distance);
+        for (int i = 0; i < 3; ++i) medium.absorption[i] = std::max(0.0f, -std::log(c[i]) / distance);
     }
+    clear.interior = medium;
     clear.roughness = roughness(reader);
     return clear;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <type_traits>
 
 namespace phasetree::tracer {
 
@@ -14,17 +13,29 @@ bool is_smooth(float roughness) {
     return !(roughness >= least_roughness);
 }
 
-Bsdf dielectric(const Clear& from, const Clear& to) {
+// optics_of() gives the optics of each kind of material, seen from within a clear one.
+
+Bsdf optics_of(const Clear& from, const Clear& to) {
     const float roughness = std::max(from.roughness, to.roughness);
     if (from.ior == to.ior || is_smooth(roughness)) return Bsdf(SmoothDielectricBsdf(from.ior, to.ior));
     return Bsdf(RoughDielectricBsdf(from.ior, to.ior, std::min(roughness, 1.0f)));
 }
 
-Bsdf metal(const Clear& from, const Conductor& to) {
+Bsdf optics_of(const Clear& from, const Conductor& to) {
     const glm::vec3 eta = to.eta / from.ior;
     const glm::vec3 k = to.k / from.ior;
     if (is_smooth(to.roughness)) return Bsdf(SmoothConductorBsdf(eta, k));
     return Bsdf(RoughConductorBsdf(eta, k, std::min(to.roughness, 1.0f)));
+}
+
+TexturedOptics optics_of(const Clear&, const Diffuse& to) {
+    return {std::make_shared<const Texture>(to.color), nullptr};
+}
+
+TexturedOptics optics_of(const Clear& from, const Coated& to) {
+    const float roughness = is_smooth(to.roughness) ? 0.0f : std::min(to.roughness, 1.0f);
+    return {std::make_shared<const Texture>(to.color),
+            std::make_shared<const CoatingAlbedo>(to.ior / from.ior, roughness)};
 }
 
 }  // namespace
@@ -32,27 +43,12 @@ Bsdf metal(const Clear& from, const Conductor& to) {
 Interface Interface::between(const Material& from, const Material& to) {
     const Clear* clear = std::get_if<Clear>(&from);
     if (clear == nullptr) return Interface(Bsdf(DiffuseBsdf(glm::vec3{0.0f})));
-    return std::visit(
-        [&](const auto& material) -> Interface {
-            using Kind = std::decay_t<decltype(material)>;
-            if constexpr (std::is_same_v<Kind, Clear>) {
-                return Interface(dielectric(*clear, material));
-            } else if constexpr (std::is_same_v<Kind, Conductor>) {
-                return Interface(metal(*clear, material));
-            } else if constexpr (std::is_same_v<Kind, Coated>) {
-                const float roughness = is_smooth(material.roughness) ? 0.0f : std::min(material.roughness, 1.0f);
-                return Interface(Textured{std::make_shared<const Texture>(material.color),
-                                          std::make_shared<const CoatingAlbedo>(material.ior / clear->ior, roughness)});
-            } else {
-                return Interface(Textured{std::make_shared<const Texture>(material.color), nullptr});
-            }
-        },
-        to);
+    return std::visit([&](const auto& material) { return Interface(optics_of(*clear, material)); }, to);
 }
 
 Bsdf Interface::at(const glm::vec3& position) const& {
     if (const Bsdf* bsdf = std::get_if<Bsdf>(&optics_)) return *bsdf;
-    const Textured& textured = std::get<Textured>(optics_);
+    const TexturedOptics& textured = std::get<TexturedOptics>(optics_);
     const glm::vec3 color = color_at(*textured.color, position);
     if (textured.coating == nullptr) return Bsdf(DiffuseBsdf(color));
     return Bsdf(CoatedDiffuseBsdf(*textured.coating, color));

@@ -21,33 +21,34 @@
 
 namespace phasetree::tracer {
 
+/// Optics that depend on the place by the colour of the diffuse part.
+struct TexturedOptics {
+    std::shared_ptr<const Texture> color;
+    std::shared_ptr<const CoatingAlbedo> coating;  ///< none for a plain diffuse surface
+};
+
 class Interface {
   public:
-    // `from` is the material the ray is in, `to` the one it meets.
+    /// `from` is the material the ray is in, `to` the one it meets.
     static Interface between(const Material& from, const Material& to);
 
-    // The BSDF at a point; `position` is in the space textures are defined in. It refers to data of this interface and
-    // must not outlive it.
+    /// The BSDF at a point; `position` is in the space textures are defined in. It refers to data of this interface and
+    /// must not outlive it.
     Bsdf at(const glm::vec3& position) const&;
     Bsdf at(const glm::vec3& position) && = delete;
 
   private:
-    struct Textured {
-        std::shared_ptr<const Texture> color;
-        std::shared_ptr<const CoatingAlbedo> coating;  // none for a plain diffuse surface
-    };
+    explicit Interface(std::variant<Bsdf, TexturedOptics> optics) : optics_(std::move(optics)) {}
 
-    explicit Interface(std::variant<Bsdf, Textured> optics) : optics_(std::move(optics)) {}
-
-    std::variant<Bsdf, Textured> optics_;
+    std::variant<Bsdf, TexturedOptics> optics_;
 };
 
-// The interfaces of every ordered pair of materials, built once.
+/// The interfaces of every ordered pair of materials, built once.
 class InterfaceTable {
   public:
     explicit InterfaceTable(std::span<const Material> materials);
 
-    // std::out_of_range for the number of no material.
+    /// Throws std::out_of_range for the number of no material.
     const Interface& between(std::size_t from, std::size_t to) const;
 
   private:

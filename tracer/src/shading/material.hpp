@@ -1,20 +1,22 @@
-// What a scene says of a phase or a mesh: plain values, no behaviour.
+// What a scene says of a phase or a mesh, as plain values. A material is the optics of a surface, and of a clear one
+// also the medium inside: light travels in phases of clear materials, and ends at the surface of all others.
 //
-// Clear materials carry light inside; the others are opaque and show a surface only. `roughness` is the α of GGX: 0 is
-// polished, 0.1 satin, 0.5 matt. Below 0.001 a surface is treated as perfectly smooth, which no eye tells apart.
+// `roughness` is the α of GGX: 0 is polished, 0.1 satin, 0.5 matt. Below 0.001 a surface is treated as perfectly
+// smooth, which no eye tells apart. What the surface between two materials does is in interface.hpp.
 #pragma once
 
 #include <glm/vec3.hpp>
 #include <variant>
 
+#include "media/medium.hpp"
 #include "shading/texture/texture.hpp"
 
 namespace phasetree::tracer {
 
-// Vacuum, air, water, glass.
+/// Vacuum, air, water, glass.
 struct Clear {
-    float ior = 1.0f;            // refractive index against vacuum, greater than 0
-    glm::vec3 absorption{0.0f};  // a in the transmittance exp(−a d), per unit length of the scene
+    float ior = 1.0f;   ///< the refractive index against vacuum, greater than 0
+    Medium interior{};  ///< what rays travel through inside
     float roughness = 0.0f;
 };
 
@@ -22,20 +24,21 @@ struct Diffuse {
     Texture color = ConstantTexture{};
 };
 
-// Metal, with the complex index against vacuum; metals.hpp has measured ones.
+/// Metal, with the complex index against vacuum; metals.hpp has measured ones.
 struct Conductor {
     glm::vec3 eta{1.0f};
     glm::vec3 k{0.0f};
     float roughness = 0.0f;
 };
 
-// Varnished or glazed: a clear coat over a diffuse base.
+/// A diffuse base under a clear coat: varnished or glazed.
 struct Coated {
     Texture color = ConstantTexture{};
-    float ior = 1.5f;  // of the coat, against vacuum
+    float ior = 1.5f;  ///< of the coat, against vacuum
     float roughness = 0.0f;
 };
 
+/// Every kind of material.
 using Material = std::variant<Clear, Diffuse, Conductor, Coated>;
 
 inline Material vacuum() {

@@ -1,4 +1,4 @@
-// A colour at every point of space: linear Rec.709 reflectance, from one of the kinds of this folder.
+// The list of all textures, and a texture of any kind by value.
 #pragma once
 
 #include <cmath>
@@ -7,17 +7,22 @@
 
 #include "shading/texture/checker.hpp"
 #include "shading/texture/constant.hpp"
+#include "shading/texture/contract.hpp"
 #include "shading/texture/marble.hpp"
 #include "shading/texture/speckle.hpp"
 #include "shading/texture/wood.hpp"
 
 namespace phasetree::tracer {
 
-using Texture = std::variant<ConstantTexture, CheckerTexture, MarbleTexture, SpeckleTexture, WoodTexture>;
+template <TextureKind... Kinds>
+using TextureOf = std::variant<Kinds...>;
 
-// `position` is in the object's own space, in the scene's unit of length.
+/// Every kind of texture.
+using Texture = TextureOf<ConstantTexture, CheckerTexture, MarbleTexture, SpeckleTexture, WoodTexture>;
+
+/// The texture's colour at a point, for any point whatever: TextureKind's at() is asked within its limits only.
 inline glm::vec3 color_at(const Texture& texture, const glm::vec3& position) {
-    // Where floats resolve no texture any more, and for what is no position, the colour of the origin.
+    // Where floats resolve no texture any more, and for what is no position, it is the colour of the origin.
     const bool near = std::abs(position.x) < 1e9f && std::abs(position.y) < 1e9f && std::abs(position.z) < 1e9f;
     return std::visit([&](const auto& kind) { return kind.at(near ? position : glm::vec3{0.0f}); }, texture);
 }

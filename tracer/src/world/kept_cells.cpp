@@ -1,4 +1,4 @@
-#include "integrator/kept_cells.hpp"
+#include "world/kept_cells.hpp"
 
 #include "phasetree/cells/file.hpp"
 

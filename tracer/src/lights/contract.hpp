@@ -1,0 +1,51 @@
+// What a light must provide. There are two sorts: infinite lights, which are the same from everywhere, and area lights,
+// which have a place and hide what is behind them. kinds.hpp has the list of all kinds.
+#pragma once
+
+#include <concepts>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "lights/direction_sample.hpp"
+
+namespace phasetree::tracer {
+
+// Of both sorts: radiance is linear Rec.709 in W/(sr m²), up to one factor that is the same for a whole scene.
+// Directions are of unit length and point from the place that is lit towards the light. Densities are per steradian,
+// and those of a light over all directions integrate to 1. `u` is in [0, 1)²; points that are stratified in the square
+// should give stratified directions.
+
+/// * radiance(w): what arrives from the direction w.
+/// * sample(u): a direction, best in proportion to the luminance of radiance(); nothing if the light is black.
+/// * pdf(w): the density of sample(). It is greater than 0 wherever radiance() is not black.
+/// * fluence(): the luminance of the radiance, integrated over all directions.
+/// * centre_direction(): the middle of a light that is small in the sky, and nothing for one that is all around.
+template <class L>
+concept InfiniteLightKind = std::copyable<L> && requires(const L& light, const glm::vec3& w, const glm::vec2& u) {
+    { light.radiance(w) } -> std::same_as<glm::vec3>;
+    { light.sample(u) } -> std::same_as<std::optional<DirectionSample>>;
+    { light.pdf(w) } -> std::same_as<float>;
+    { light.fluence() } -> std::same_as<float>;
+    { light.centre_direction() } -> std::same_as<std::optional<glm::vec3>>;
+};
+
+/// * radiance(): what is emitted, the same from every point to every direction.
+/// * visible_to_camera(): whether camera rays meet the light; otherwise they pass through.
+/// * approximate_solid_angle(p): the solid angle in steradians that the light fills as seen from p, roughly, which is
+///   all that a choice among lights needs. It is 0 exactly where nothing of the light is seen.
+/// * sample(p, u): a direction from p towards the light; asked only where approximate_solid_angle(p) is not 0.
+/// * pdf_at(p, w, d): the density of sample(), for a direction w in which the light is met at the distance d.
+/// * intersect(p, w): the distance at which a ray from p first meets the light's emitting side, if it does.
+template <class L>
+concept AreaLightKind = std::copyable<L> &&
+    requires(const L& light, const glm::vec3& p, const glm::vec3& w, const glm::vec2& u, float d) {
+    { light.radiance() } -> std::convertible_to<glm::vec3>;
+    { light.visible_to_camera() } -> std::same_as<bool>;
+    { light.approximate_solid_angle(p) } -> std::same_as<double>;
+    { light.sample(p, u) } -> std::same_as<DirectionSample>;
+    { light.pdf_at(p, w, d) } -> std::same_as<float>;
+    { light.intersect(p, w) } -> std::same_as<std::optional<float>>;
+};
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,20 @@
+// A medium that absorbs and does not scatter. The Beer-Lambert law gives the part of the radiance that is left after a
+// distance d, T = exp(−a d) with the absorption a in each colour channel.
+#pragma once
+
+#include <cmath>
+#include <glm/vec3.hpp>
+
+namespace phasetree::tracer {
+
+struct AbsorbingMedium {
+    glm::vec3 absorption{0.0f};  ///< a, per unit of length of the scene; not negative
+
+    glm::vec3 transmittance(float distance) const {
+        // A medium that does not absorb passes everything, also over an infinite distance, where 0·∞ is not a number.
+        const auto channel = [distance](float a) { return a > 0.0f ? std::exp(-a * distance) : 1.0f; };
+        return {channel(absorption.x), channel(absorption.y), channel(absorption.z)};
+    }
+};
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,56 @@
+// What a ray meets. An answer holds only what its case has: nothing has to be recognised by a value that stands for
+// something else. A point in a scattering medium will be one more case of Hit.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <variant>
+
+#include "shading/interface.hpp"
+#include "world/ray.hpp"
+
+namespace phasetree::tracer {
+
+/// The ray left the scene without meeting anything.
+struct Escaped {};
+
+/// The ray met a surface: an interface between two phases of the object, or a mesh.
+struct Surface {
+    /// Where a ray starts that leaves the surface to one of its sides, and the phase that it is in then. The two
+    /// origins of an interface are the ends of the bracket in which the phase changes, so each lies in its phase.
+    struct Side {
+        glm::vec3 origin;
+        Phase phase;
+    };
+
+    float distance;                ///< from the ray's origin
+    glm::vec3 normal;              ///< of unit length, on the side the ray came from; the shading normal of a mesh
+    Side near_side;                ///< the one the ray came from; its phase is clear
+    std::optional<Side> far_side;  ///< the other; none where light does not travel there: opaque phases and meshes
+    std::reference_wrapper<const Interface> optics;  ///< seen from the near side
+    StartHint hint;                                  ///< for a ray from either side
+
+    Bsdf bsdf() const { return optics.get().at(near_side.origin); }
+    /// A ray that leaves the surface to the side from which it was met.
+    Ray reflected(const glm::vec3& direction) const { return leaving(near_side, direction); }
+    /// A ray that leaves the surface to its far side. Throws std::bad_optional_access if light does not travel there.
+    Ray transmitted(const glm::vec3& direction) const { return leaving(far_side.value(), direction); }
+
+  private:
+    Ray leaving(const Side& side, const glm::vec3& direction) const {
+        return {side.origin, direction, side.phase, hint};
+    }
+};
+
+using Hit = std::variant<Escaped, Surface>;
+
+/// The ray met something that light does not pass: a mesh or an opaque phase. Of that only the distance is known.
+struct Blocked {
+    float distance;
+};
+
+/// What stands between a point and a light: nothing, something opaque, or an interface of two clear phases, beyond
+/// which the light may still be seen (path.hpp). Such a surface always has a far side.
+using Visibility = std::variant<Escaped, Blocked, Surface>;
+
+}  // namespace phasetree::tracer

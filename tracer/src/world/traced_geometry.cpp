@@ -1,0 +1,161 @@
+#include "world/traced_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <new>
+#include <span>
+#include <stdexcept>
+
+#include "world/kept_cells.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+// The geometries of the Embree scene: the object, then the meshes in their order.
+constexpr unsigned object_id = 0;
+constexpr unsigned first_mesh_id = object_id + 1;
+
+// Relative to the object's size, and to the coordinates of the point.
+constexpr float relative_surface_epsilon = 1e-5f;
+
+std::shared_ptr<const InterfaceCells> prepared(const Scene& scene, const WorldOptions& wanted) {
+    CellOptions options;
+    options.quality = wanted.quality;
+    options.cancelled = wanted.cancelled;
+    options.progress = wanted.progress;
+    options.most_bytes = wanted.most_bytes;
+    options.opaque = opaque_phases(scene.materials);
+    return wanted.kept_cells ? kept_cells(*wanted.kept_cells, scene.object, options)
+                             : std::make_shared<const InterfaceCells>(scene.object, options);
+}
+
+void attach(RTCScene embree, RTCDevice device, const Mesh& mesh, unsigned id) {
+    const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3),
+                                             mesh.vertices.size());
+    void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3),
+                                              mesh.triangles.size());
+    std::memcpy(vertices, mesh.vertices.data(), mesh.vertices.size() * sizeof(glm::vec3));
+    std::memcpy(triangles, mesh.triangles.data(), mesh.triangles.size() * sizeof(glm::uvec3));
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(embree, geometry, id);
+    rtcReleaseGeometry(geometry);
+}
+
+std::vector<Interface> interfaces_of(std::span<const Mesh> meshes, std::span<const Material> phases) {
+    std::vector<Interface> interfaces;
+    interfaces.reserve(meshes.size() * phases.size());
+    for (const Mesh& mesh : meshes)
+        for (const Material& from : phases) interfaces.push_back(Interface::between(from, mesh.material));
+    return interfaces;
+}
+
+}  // namespace
+
+TracedGeometry::DeviceHandle TracedGeometry::start_embree() {
+    DeviceHandle device(rtcNewDevice(nullptr));
+    if (!device) throw std::runtime_error("Embree cannot be started");
+    return device;
+}
+
+TracedGeometry::SceneHandle TracedGeometry::embree_scene(RTCDevice device, const embree::CellGeometry& tree,
+                                                         const std::vector<Mesh>& meshes) {
+    SceneHandle scene(rtcNewScene(device));
+    // Of many small triangles the nearest is found, whatever their order: exactness comes before speed.
+    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcCommitGeometry(tree.handle());
+    rtcAttachGeometryByID(scene.get(), tree.handle(), object_id);
+    unsigned id = first_mesh_id;
+    for (const Mesh& mesh : meshes) attach(scene.get(), device, mesh, id++);
+    rtcCommitScene(scene.get());
+    return scene;
+}
+
+TracedGeometry::TracedGeometry(const Scene& scene, const WorldOptions& options)
+    : scene_(scene),
+      object_(prepared(scene, options)),
+      device_(start_embree()),
+      tree_(device_.get(), object_, embree::CellGeometry::Options{.rays_carry_phases = true}),
+      embree_(embree_scene(device_.get(), tree_, scene.meshes)),
+      interfaces_(scene.materials),
+      mesh_interfaces_(interfaces_of(scene.meshes, scene.materials)),
+      surface_epsilon_(relative_surface_epsilon * object_->bounds().diagonal()) {}
+
+// Whether the ray meets anything.
+bool TracedGeometry::trace(const Ray& ray, float far, embree::Query& query, RTCRayHit& hit,
+                           PathCounters& counters) const {
+    query.phases.set(embree::ObjectInstance{object_id}, ray.phase);
+    query.start = ray.hint;
+    hit = embree::rayhit_of(ray.origin, ray.direction, 0, far);
+    embree::intersect(embree_.get(), query.context, hit);
+    if (query.is_out_of_memory) throw std::bad_alloc();
+    ++counters.rays;
+    counters.trace.visits += query.counters.visits;
+    counters.trace.batches += query.counters.batches;
+    counters.trace.phantoms += query.counters.phantoms;
+    return embree::is_hit(hit);
+}
+
+Hit TracedGeometry::intersect(const Ray& ray, PathCounters& counters) const {
+    embree::Query query;
+    RTCRayHit hit;
+    if (!trace(ray, std::numeric_limits<float>::infinity(), query, hit, counters)) return Escaped{};
+    if (hit.hit.geomID == object_id) return surface_of_object(ray, query, hit);
+    return surface_of_mesh(ray, hit);
+}
+
+Visibility TracedGeometry::visibility(const Ray& ray, float far, PathCounters& counters) const {
+    embree::Query query;
+    RTCRayHit hit;
+    if (!trace(ray, far, query, hit, counters)) return Escaped{};
+    if (hit.hit.geomID != object_id) return Blocked{hit.ray.tfar};
+    if (!is_clear(scene_.materials[query.crossing.to.index])) return Blocked{query.crossing.t_in};
+    return surface_of_object(ray, query, hit);
+}
+
+Surface TracedGeometry::surface_of_object(const Ray& ray, const embree::Query& query, const RTCRayHit& hit) const {
+    const Crossing& c = query.crossing;
+    const CrossingNormal normal = object_->normal(hit.hit.primID, c, ray.direction);
+    Surface surface{.distance = c.t_in,
+                    .normal = -normal.unit,
+                    .near_side = {c.p_in, c.from},
+                    .far_side = std::nullopt,
+                    .optics = interfaces_.between(c.from.index, c.to.index),
+                    .hint = {embree::ObjectInstance::of(hit.hit), hit.hit.primID, c.from, normal.gradient}};
+    if (is_clear(scene_.materials[c.to.index])) surface.far_side = {c.p_out, c.to};
+    return surface;
+}
+
+Surface TracedGeometry::surface_of_mesh(const Ray& ray, const RTCRayHit& hit) const {
+    const std::size_t index = hit.hit.geomID - first_mesh_id;
+    const Mesh& mesh = scene_.meshes[index];
+    const glm::uvec3& t = mesh.triangles[hit.hit.primID];
+    const float u = hit.hit.u, v = hit.hit.v;
+    // The point by the triangle's own coordinates is exact to an ulp of those, however far the ray has come.
+    const glm::vec3 p = (1 - u - v) * mesh.vertices[t.x] + u * mesh.vertices[t.y] + v * mesh.vertices[t.z];
+    glm::vec3 flat = glm::normalize(glm::vec3(hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z));
+    if (glm::dot(flat, ray.direction) > 0) flat = -flat;
+    glm::vec3 shading = flat;
+    if (!mesh.normals.empty()) {
+        glm::vec3 n = glm::normalize((1 - u - v) * mesh.normals[t.x] + u * mesh.normals[t.y] + v * mesh.normals[t.z]);
+        if (glm::dot(n, flat) < 0) n = -n;
+        // Where the ray grazes, the shading normal may face away from it, and the flat one is kept.
+        if (glm::dot(n, ray.direction) < 0) shading = n;
+    }
+    const float size = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), 1.0f});
+    return {.distance = hit.ray.tfar,
+            .normal = shading,
+            .near_side = {p + flat * std::max(surface_epsilon_, relative_surface_epsilon * size), ray.phase},
+            .far_side = std::nullopt,
+            .optics = mesh_interfaces_[index * scene_.materials.size() + ray.phase.index],
+            .hint = {}};
+}
+
+Phase TracedGeometry::label(const glm::vec3& p) const {
+    return object_->label(p, Evaluator::thread_workspace());
+}
+
+}  // namespace phasetree::tracer

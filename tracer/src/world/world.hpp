@@ -1,0 +1,29 @@
+// All that paths are traced in: the geometry, and what was found out about it with rays beforehand. It is complete once
+// it is constructed, and does not change, so that any number of threads may use it.
+#pragma once
+
+#include <vector>
+
+#include "world/flat_boundaries.hpp"
+#include "world/traced_geometry.hpp"
+
+namespace phasetree::tracer {
+
+class World {
+  public:
+    /// Refers to the scene, which must outlive it. Throws as TracedGeometry's constructor does.
+    explicit World(const Scene& scene, const WorldOptions& options = {})
+        : geometry_(scene, options), flat_boundaries_(tracer::flat_boundaries(geometry_, scene)) {}
+    World(const World&) = delete;
+    World& operator=(const World&) = delete;
+
+    const TracedGeometry& geometry() const { return geometry_; }
+    /// The flat sides by which lights shine into the object.
+    const std::vector<FlatBoundary>& flat_boundaries() const { return flat_boundaries_; }
+
+  private:
+    TracedGeometry geometry_;
+    std::vector<FlatBoundary> flat_boundaries_;
+};
+
+}  // namespace phasetree::tracer
