@@ -127,7 +127,7 @@ TEST_CASE("carried phases go from hit to hit as with one primitive") {
             REQUIRE(glm::distance(a[i].at, b[i].at) < 4 * pair.resolution);
         }
     }
-    CHECK(crossings > 2000);
+    CHECK(crossings > 1500);
 }
 
 TEST_CASE("points are answered, and edits change the number of primitives") {
@@ -184,7 +184,8 @@ TEST_CASE("what the flag excludes is refused, and says why") {
         options.shownPhases = PHASETREE_ALL_PHASES & ~PhasetreePhaseSet{1};
         return options;
     }());
-    expect_error(phasetreeSetGeometryShownPhases(geometry.get(), 6), PHASETREE_ERROR_INVALID_ARGUMENT, "phase 3");
+    expect_error(phasetreeSetGeometryShownPhases(geometry.get(), 6), PHASETREE_ERROR_INVALID_OPERATION,
+                 "shows all phases");
     const float identity[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
     expect_error(phasetreeSetGeometryMotion(geometry.get(), identity, 1, 0, 1), PHASETREE_ERROR_INVALID_OPERATION,
                  "instance");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstring>
 #include <optional>
 
@@ -32,7 +33,7 @@ struct SeenRay {
 inline std::optional<Crossing> search_cell(const InterfaceCells& cells, unsigned cell, const SeenRay& seen,
                                            const RTCRay& ray, std::optional<Phase> carried,
                                            const std::optional<Departure>& departure, TraceCounters& counters) {
-    const float near = ray.tnear * seen.length, far = ray.tfar * seen.length;
+    const float near = std::max(ray.tnear * seen.length, 0.0f), far = ray.tfar * seen.length;
     std::optional<Crossing> crossing;
     if (!(near <= far)) return crossing;
     crossing = cells.first_crossing(cell, seen.traced, near, far, carried, departure, counters);

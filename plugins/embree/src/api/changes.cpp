@@ -58,7 +58,8 @@ PhasetreeError phasetreeSetGeometryShownPhases(PhasetreeGeometry geometry, Phase
     return guarded_call(__func__, [&] {
         GeometryData& data = api::data_of(geometry);
         require_shown(data.object->cells().opaque().bits, shown);
-        if (data.has_cell_primitives()) require_all_shown(shown);
+        if (data.has_cell_primitives() && !shows_all({shown}))
+            throw not_now("a geometry with PHASETREE_GEOMETRY_FLAG_CELL_PRIMITIVES shows all phases");
         data.shown = {shown};
     });
 }
