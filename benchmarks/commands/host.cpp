@@ -55,17 +55,13 @@ class Host {
     RTCScene scene_;
 };
 
-bool is_hit(const RTCRayHit& ray) {
-    return ray.hit.geomID != RTC_INVALID_GEOMETRY_ID;
-}
-
 // Tracing the rays that hit, and decoding what they hit.
 Turns decoding(const Host& host, const Rays& camera, const Settings& settings) {
     Rays hitting;
     std::vector<RTCRayHit> hits;
     for (const Ray& ray : camera) {
         const RTCRayHit hit = host.intersect(ray);
-        if (!is_hit(hit)) continue;
+        if (!embree::is_hit(hit)) continue;
         hitting.push_back(ray);
         hits.push_back(hit);
     }

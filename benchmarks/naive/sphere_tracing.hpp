@@ -28,7 +28,7 @@ class NaiveScene {
         embree::Context context;
         embree::initialise(context);
         embree::intersect(scene_.handle(), context, hit);
-        if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+        if (!embree::is_hit(hit)) return std::nullopt;
         return Hit{hit.ray.tfar, Phase{static_cast<std::uint8_t>(hit.hit.u)}};
     }
     Checksum trace(std::span<const Ray> rays, int threads) const {

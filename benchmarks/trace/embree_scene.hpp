@@ -5,8 +5,8 @@
 #include <memory>
 #include <span>
 
+#include "embree_core/embree.hpp"
 #include "measure/checksum.hpp"
-#include "phasetree/embree.hpp"
 #include "rays/ray.hpp"
 
 namespace phasetree::bench {

@@ -11,7 +11,7 @@ FieldScene::FieldScene(const FieldScene& object, float ground)
 
 FieldScene::FieldScene(std::shared_ptr<const InterfaceCells> cells, std::optional<float> ground)
     : cells_(std::move(cells)), scene_(RTC_SCENE_FLAG_ROBUST) {
-    geometry_.emplace(scene_.device(), cells_, embree::Options{.rays_carry_phases = true});
+    geometry_.emplace(scene_.device(), cells_, embree::CellGeometry::Options{.rays_carry_phases = true});
     rtcCommitGeometry(geometry_->handle());
     rtcAttachGeometryByID(scene_.handle(), geometry_->handle(), object_id);
     if (ground) add_ground(*ground);
@@ -38,7 +38,7 @@ void FieldScene::add_ground(float height) {
 std::optional<FieldScene::Surface> FieldScene::surface(const Ray& ray) const {
     embree::Query query;
     const RTCRayHit hit = nearest(ray, query);
-    if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    if (!embree::is_hit(hit)) return std::nullopt;
     if (hit.hit.geomID == object_id) {
         const Crossing& c = query.crossing;
         const CrossingNormal normal = cells_->normal(hit.hit.primID, c, ray.direction);

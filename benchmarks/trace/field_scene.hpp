@@ -1,6 +1,7 @@
 // An object as the path tracer has it: interface cells as one user geometry of an Embree scene, rays that carry phases.
 #pragma once
 
+#include "embree_core/cell_geometry.hpp"
 #include "trace/embree_scene.hpp"
 #include "trace/many.hpp"
 
@@ -17,7 +18,7 @@ class FieldScene {
     std::optional<Crossing> intersect(const Ray& ray) const {
         embree::Query query;
         const RTCRayHit hit = nearest(ray, query);
-        if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+        if (!embree::is_hit(hit)) return std::nullopt;
         return query.crossing;
     }
     struct HitWithNormal {
@@ -28,7 +29,7 @@ class FieldScene {
     std::optional<HitWithNormal> intersect_with_normal(const Ray& ray) const {
         embree::Query query;
         const RTCRayHit hit = nearest(ray, query);
-        if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+        if (!embree::is_hit(hit)) return std::nullopt;
         return HitWithNormal{query.crossing, cells_->normal(hit.hit.primID, query.crossing, ray.direction),
                              hit.hit.primID};
     }
@@ -62,14 +63,14 @@ class FieldScene {
     void add_ground(float height);
     RTCRayHit nearest(const Ray& ray, embree::Query& query) const {
         RTCRayHit hit = rayhit_of(ray);
-        query.carried = ray.carried;
-        if (ray.cell) query.start = {object_id, *ray.cell, RTC_INVALID_GEOMETRY_ID, ray.from, ray.gradient};
+        query.phases = embree::RayPhases(ray.carried);
+        if (ray.cell) query.start = {embree::ObjectInstance{object_id}, *ray.cell, ray.from, ray.gradient};
         embree::intersect(scene_.handle(), query.context, hit);
         return hit;
     }
 
     std::shared_ptr<const InterfaceCells> cells_;
-    std::optional<embree::TreeGeometry> geometry_;  // made with the scene's device, and outlives the scene
+    std::optional<embree::CellGeometry> geometry_;  // made with the scene's device, and outlives the scene
     EmbreeScene scene_;
 };
 

@@ -4,31 +4,19 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "embree_core/rays.hpp"
 #include "measure/checksum.hpp"
-#include "phasetree/embree_version.hpp"
 #include "phasetree/math/float_mode.hpp"
 #include "rays/ray.hpp"
 
 namespace phasetree::bench {
 
 inline RTCRayHit rayhit_of(const Ray& ray) {
-    RTCRayHit r{};
-    r.ray.org_x = ray.origin.x;
-    r.ray.org_y = ray.origin.y;
-    r.ray.org_z = ray.origin.z;
-    r.ray.dir_x = ray.direction.x;
-    r.ray.dir_y = ray.direction.y;
-    r.ray.dir_z = ray.direction.z;
-    r.ray.tfar = std::numeric_limits<float>::infinity();
-    r.ray.mask = ~0u;
-    r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    return r;
+    return embree::rayhit_of(ray.origin, ray.direction);
 }
 
 // Traces all rays with trace(ray), which gives the distance of a hit or nothing. The sum is the same for any number of

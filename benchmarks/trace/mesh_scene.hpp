@@ -20,7 +20,7 @@ class MeshScene {
         embree::Context context;
         embree::initialise(context);
         embree::intersect(scene_.handle(), context, hit);
-        if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+        if (!embree::is_hit(hit)) return std::nullopt;
         return Hit{hit.ray.tfar, {hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z}};
     }
     Checksum trace(std::span<const Ray> rays, int threads) const {

@@ -2,18 +2,18 @@
 #pragma once
 
 #include "embree/embree.hpp"
-#include "phasetree/embree.hpp"
+#include "embree_core/cell_geometry.hpp"
 
 namespace phasetree::tests {
 
 struct Alone {
-    explicit Alone(const embree::Options& options = {})
+    explicit Alone(const embree::CellGeometry::Options& options = {})
         : tree(device, std::make_shared<const InterfaceCells>(object()), options), scene(device) {
         id = scene.add(tree.handle());
         scene.commit();
     }
     Device device;
-    embree::TreeGeometry tree;
+    embree::CellGeometry tree;
     EmbreeScene scene;
     unsigned id = 0;
 };

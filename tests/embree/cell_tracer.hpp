@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "phasetree/embree.hpp"
+#include "embree_core/cell_geometry.hpp"
 
 namespace phasetree::tests {
 
@@ -34,21 +34,12 @@ class CellTracer {
     std::optional<Hit> first_crossing(const glm::vec3& o, const glm::vec3& d, float length, Phase carried,
                                       const Hit* start, TraceCounters& counters) const {
         embree::Query query;
-        query.carried = carried;
-        if (start) query.start = {0, start->cell, RTC_INVALID_GEOMETRY_ID, start->from, start->normal.gradient};
-        RTCRayHit ray{};
-        ray.ray.org_x = o.x;
-        ray.ray.org_y = o.y;
-        ray.ray.org_z = o.z;
-        ray.ray.dir_x = d.x;
-        ray.ray.dir_y = d.y;
-        ray.ray.dir_z = d.z;
-        ray.ray.tfar = length;
-        ray.ray.mask = ~0u;
-        ray.hit.geomID = ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+        query.phases = embree::RayPhases(carried);
+        if (start) query.start = {embree::ObjectInstance{0}, start->cell, start->from, start->normal.gradient};
+        RTCRayHit ray = embree::rayhit_of(o, d, 0, length);
         embree::intersect(scene_.get(), query.context, ray);
         counters = query.counters;
-        if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+        if (!embree::is_hit(ray)) return std::nullopt;
         return Hit{query.crossing, ray.hit.primID, cells_->normal(ray.hit.primID, query.crossing, d)};
     }
     glm::vec3 normal(const Hit& hit, const glm::vec3& d) const { return cells_->normal(hit.cell, hit, d).unit; }
@@ -59,7 +50,7 @@ class CellTracer {
 
   private:
     std::shared_ptr<const InterfaceCells> cells_;
-    embree::TreeGeometry geometry_;
+    embree::CellGeometry geometry_;
     std::unique_ptr<std::remove_pointer_t<RTCScene>, Release> scene_;
 };
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "phasetree/embree_version.hpp"
+#include "embree_core/rays.hpp"
 #include "phasetree/io/tree.hpp"
 #include "phasetree/model/handle.hpp"
 
@@ -63,15 +63,7 @@ struct Ray {
 };
 
 inline RTCRayHit rayhit(const Ray& ray, float near = 0, float far = infinity) {
-    RTCRayHit r{};
-    r.ray.org_x = ray.origin.x, r.ray.org_y = ray.origin.y, r.ray.org_z = ray.origin.z;
-    r.ray.dir_x = ray.direction.x, r.ray.dir_y = ray.direction.y, r.ray.dir_z = ray.direction.z;
-    r.ray.tnear = near, r.ray.tfar = far;
-    r.ray.mask = ~0u;
-    r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    r.hit.primID = RTC_INVALID_GEOMETRY_ID;
-    r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    return r;
+    return embree::rayhit_of(ray.origin, ray.direction, near, far);
 }
 
 inline RTCRayHit intersect(RTCScene scene, RTCRayHit ray) {
@@ -107,7 +99,7 @@ inline std::vector<Ray> rays(int count, unsigned seed) {
 }
 
 inline bool hits(const RTCRayHit& ray) {
-    return ray.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+    return embree::is_hit(ray);
 }
 
 // Two places on a ray are one where they are within brackets of each other; the width of a bracket is what tracing

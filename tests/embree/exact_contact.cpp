@@ -10,8 +10,8 @@
 #include <map>
 
 #include "embree/embree.hpp"
+#include "embree_core/cell_geometry.hpp"
 #include "phasetree/cells/cells.hpp"
-#include "phasetree/embree.hpp"
 #include "phasetree/model/crossing.hpp"
 #include "phasetree/model/handle.hpp"
 #include "source_directory.hpp"
@@ -71,7 +71,7 @@ std::vector<Step> crossings(RTCScene scene, const InterfaceCells& cells, const R
     Phase carried = vacuum;
     for (int i = 0; i < 1000; ++i) {
         embree::Query query;
-        query.carried = carried;
+        query.phases = embree::RayPhases(carried);
         RTCRayHit hit = rayhit({origin, ray.direction});
         embree::intersect(scene, query.context, hit);
         if (!hits(hit)) return all;
@@ -85,7 +85,7 @@ std::vector<Step> crossings(RTCScene scene, const InterfaceCells& cells, const R
 
 std::map<Film, Found> films(RTCDevice device, const SceneTree& tree, int count) {
     const auto cells = std::make_shared<const InterfaceCells>(tree.object);
-    embree::TreeGeometry geometry(device, cells, {.rays_carry_phases = true});
+    embree::CellGeometry geometry(device, cells, {.rays_carry_phases = true});
     EmbreeScene scene(device);
     scene.add(geometry.handle());
     scene.commit();

@@ -30,7 +30,7 @@ TEST_CASE("a stock context: hits are the tracer's first crossings") {
         CHECK(r.hit.u == expected->from.index);
         CHECK(r.hit.v == expected->to.index);
         CHECK(r.hit.geomID == alone.id);
-        CHECK(r.hit.primID < alone.tree.object().size());
+        CHECK(r.hit.primID < alone.tree.cells().size());
         const glm::vec3 normal(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z);
         CHECK(glm::length(normal) == doctest::Approx(1).epsilon(1e-5));
         CHECK(glm::dot(normal, ray.direction) < 0);
@@ -41,7 +41,7 @@ TEST_CASE("a stock context: hits are the tracer's first crossings") {
 TEST_CASE("normals are the surface's, on the side the ray came from") {
     Device device;
     const Phased ball = Set{.phase = Phase{1}, .of = Sphere{.radius = 2}};
-    const embree::TreeGeometry tree(device, std::make_shared<const InterfaceCells>(ball));
+    const embree::CellGeometry tree(device, std::make_shared<const InterfaceCells>(ball));
     EmbreeScene scene(device);
     scene.add(tree.handle());
     scene.commit();
@@ -70,7 +70,7 @@ bool untouched(const RTCRayHit& a, const RTCRayHit& b) {
 template <int N, class Packet, class Trace>
 void check_packets(const Alone& alone, Trace&& trace) {
     CAPTURE(N);
-    const float resolution = alone.tree.object().resolution();
+    const float resolution = alone.tree.cells().resolution();
     const std::vector<Ray> all = rays(100 * N, 3);
     for (std::size_t first = 0; first < all.size(); first += N) {
         alignas(64) int valid[N];
@@ -138,7 +138,7 @@ TEST_CASE("packets of 4, 8 and 16") {
 TEST_CASE("occluded agrees with intersect, whatever the segment") {
     const Alone alone;
     std::mt19937 random(4);
-    const float resolution = alone.tree.object().resolution();
+    const float resolution = alone.tree.cells().resolution();
     for (const Ray& ray : rays(2000, 5)) {
         const RTCRayHit r = intersect(alone.scene, rayhit(ray));
         CHECK(occluded(alone.scene, rayhit(ray)) == hits(r));
@@ -157,7 +157,7 @@ TEST_CASE("occluded agrees with intersect, whatever the segment") {
 
 TEST_CASE("the length of the direction is the unit of distance and nothing else") {
     const Alone alone;
-    const float resolution = alone.tree.object().resolution();
+    const float resolution = alone.tree.cells().resolution();
     for (const Ray& ray : rays(1000, 6)) {
         const RTCRayHit unit = intersect(alone.scene, rayhit(ray));
         for (const float length : {1e-3f, 1e3f}) {
@@ -173,7 +173,7 @@ TEST_CASE("the length of the direction is the unit of distance and nothing else"
 
 TEST_CASE("instances: moved, turned and scaled") {
     Device device;
-    const embree::TreeGeometry tree(device, std::make_shared<const InterfaceCells>(object()));
+    const embree::CellGeometry tree(device, std::make_shared<const InterfaceCells>(object()));
     EmbreeScene inner(device), outer(device);
     inner.add(tree.handle());
     inner.commit();
@@ -192,7 +192,7 @@ TEST_CASE("instances: moved, turned and scaled") {
             intersect(outer, rayhit({moved(ray.origin) + glm::vec3(1, 2, 3), moved(ray.direction) / 3.0f}));
         REQUIRE(hits(there) == hits(here));
         if (!hits(here)) continue;
-        CHECK(same_place(there.ray.tfar / 3, here.ray.tfar, tree.object().resolution()));
+        CHECK(same_place(there.ray.tfar / 3, here.ray.tfar, tree.cells().resolution()));
         CHECK(there.hit.instID[0] == id);
         CHECK(there.hit.u == here.hit.u);
         CHECK(there.hit.v == here.hit.v);
@@ -204,7 +204,7 @@ TEST_CASE("beside a triangle mesh the nearest wins, whichever came first") {
     for (const bool mesh_first : {true, false}) {
         for (const float x : walls) {
             Device device;
-            const embree::TreeGeometry tree(device, std::make_shared<const InterfaceCells>(object()));
+            const embree::CellGeometry tree(device, std::make_shared<const InterfaceCells>(object()));
             EmbreeScene scene(device);
             const RTCGeometry mesh = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
             auto* const v = static_cast<float*>(
@@ -243,14 +243,14 @@ TEST_CASE("beside a triangle mesh the nearest wins, whichever came first") {
 
 TEST_CASE("geometries move; Embree calls go on") {
     Device device;
-    embree::TreeGeometry first(device, std::make_shared<const InterfaceCells>(object()));
-    embree::TreeGeometry second(
+    embree::CellGeometry first(device, std::make_shared<const InterfaceCells>(object()));
+    embree::CellGeometry second(
         device, std::make_shared<const InterfaceCells>(Phased(Set{.phase = Phase{1}, .of = Sphere{.radius = 0.1f}})));
-    embree::TreeGeometry moved(std::move(first));
+    embree::CellGeometry moved(std::move(first));
     second = std::move(moved);
     EmbreeScene scene(device);
     scene.add(second.handle());
     scene.commit();
     CHECK(hits(intersect(scene, rayhit({{0, -3, 0}, {0, 1, 0}}))));
-    CHECK(second.object().size() > 0);
+    CHECK(second.cells().size() > 0);
 }

@@ -4,10 +4,12 @@
 #include <limits>
 #include <thread>
 
+#include "embree_core/rays.hpp"
 #include "faults/support/child.hpp"
 #include "faults/support/faults.hpp"
 #include "phasetree/phasetree_embree.h"
 
+using namespace phasetree;
 using namespace phasetree::tests;
 
 namespace {
@@ -140,11 +142,7 @@ TEST_CASE("a thread that traces for the first time has no memory") {
     std::thread([&] {
         PhasetreeRayContext context;
         phasetreeInitRayContext(&context);
-        RTCRayHit ray{};
-        ray.ray.org_z = 5, ray.ray.dir_z = -1, ray.ray.org_x = 0.5f;
-        ray.ray.tfar = std::numeric_limits<float>::infinity();
-        ray.ray.mask = ~0u;
-        ray.hit.geomID = ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+        RTCRayHit ray = embree::rayhit_of({0.5f, 0, 5}, {0, 0, -1});
         faults::fail_allocation(1, true);
 #if RTC_VERSION_MAJOR >= 4
         RTCIntersectArguments arguments;

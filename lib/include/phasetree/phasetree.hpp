@@ -1,7 +1,7 @@
 #pragma once
 
 /// PhaseTree: multiphase signed distance fields. This header is the model, its program and tracing; scene files are in
-/// phasetree/io, Embree geometry in phasetree/embree.hpp.
+/// phasetree/io, Embree geometry in phasetree/phasetree_embree.hpp.
 
 #include "phasetree/cells/cells.hpp"
 #include "phasetree/evaluation/evaluator.hpp"

@@ -236,7 +236,7 @@ class Calls {
     PhasetreeGeometryOptions options() {
         PhasetreeGeometryOptions o;
         phasetreeInitGeometryOptions(&o);
-        o.flags = c_.rarely() ? c_.byte() : c_.below(8);
+        o.flags = c_.rarely() ? c_.byte() : c_.below(16);
         constexpr float resolutions[] = {0, 0, 1e-3f, 0.02f, -1, 1e10f};
         o.resolution = c_.of(resolutions);
         o.buildQuality = c_.rarely() ? c_.byte() : static_cast<unsigned>(RTC_BUILD_QUALITY_LOW);

@@ -4,13 +4,13 @@
 
 #include <glm/vec3.hpp>
 
-#include "phasetree/embree.hpp"
+#include "embree_core/query.hpp"
 
 namespace phasetree::tracer {
 
 /// The cell in which a ray that leaves a surface starts, and what that cell knows of the place. It saves time and
 /// changes no result; the default is that nothing is known.
-using StartHint = embree::Query::Start;
+using StartHint = embree::StartHint;
 
 struct Ray {
     glm::vec3 origin{0};

@@ -21,20 +21,6 @@ constexpr unsigned first_mesh_id = object_id + 1;
 // Relative to the object's size, and to the coordinates of the point.
 constexpr float relative_surface_epsilon = 1e-5f;
 
-RTCRay ray_of(const Ray& from, float far) {
-    RTCRay ray{};
-    ray.org_x = from.origin.x;
-    ray.org_y = from.origin.y;
-    ray.org_z = from.origin.z;
-    ray.tnear = 0;
-    ray.dir_x = from.direction.x;
-    ray.dir_y = from.direction.y;
-    ray.dir_z = from.direction.z;
-    ray.tfar = far;
-    ray.mask = ~0u;
-    return ray;
-}
-
 std::shared_ptr<const InterfaceCells> prepared(const Scene& scene, const WorldOptions& wanted) {
     CellOptions options;
     options.quality = wanted.quality;
@@ -75,7 +61,7 @@ TracedGeometry::DeviceHandle TracedGeometry::start_embree() {
     return device;
 }
 
-TracedGeometry::SceneHandle TracedGeometry::embree_scene(RTCDevice device, const embree::TreeGeometry& tree,
+TracedGeometry::SceneHandle TracedGeometry::embree_scene(RTCDevice device, const embree::CellGeometry& tree,
                                                          const std::vector<Mesh>& meshes) {
     SceneHandle scene(rtcNewScene(device));
     // Of many small triangles the nearest is found, whatever their order: exactness comes before speed.
@@ -92,7 +78,7 @@ TracedGeometry::TracedGeometry(const Scene& scene, const WorldOptions& options)
     : scene_(scene),
       object_(prepared(scene, options)),
       device_(start_embree()),
-      tree_(device_.get(), object_, embree::Options{.rays_carry_phases = true}),
+      tree_(device_.get(), object_, embree::CellGeometry::Options{.rays_carry_phases = true}),
       embree_(embree_scene(device_.get(), tree_, scene.meshes)),
       interfaces_(scene.materials),
       mesh_interfaces_(interfaces_of(scene.meshes, scene.materials)),
@@ -101,23 +87,21 @@ TracedGeometry::TracedGeometry(const Scene& scene, const WorldOptions& options)
 // Whether the ray meets anything.
 bool TracedGeometry::trace(const Ray& ray, float far, embree::Query& query, RTCRayHit& hit,
                            PathCounters& counters) const {
-    query.carried = ray.phase;
+    query.phases.set(embree::ObjectInstance{object_id}, ray.phase);
     query.start = ray.hint;
-    hit.ray = ray_of(ray, far);
-    hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    hit = embree::rayhit_of(ray.origin, ray.direction, 0, far);
     embree::intersect(embree_.get(), query.context, hit);
     if (query.is_out_of_memory) throw std::bad_alloc();
     ++counters.rays;
     counters.trace.visits += query.counters.visits;
     counters.trace.batches += query.counters.batches;
     counters.trace.phantoms += query.counters.phantoms;
-    return hit.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+    return embree::is_hit(hit);
 }
 
 Hit TracedGeometry::intersect(const Ray& ray, PathCounters& counters) const {
     embree::Query query;
-    RTCRayHit hit{};
+    RTCRayHit hit;
     if (!trace(ray, std::numeric_limits<float>::infinity(), query, hit, counters)) return Escaped{};
     if (hit.hit.geomID == object_id) return surface_of_object(ray, query, hit);
     return surface_of_mesh(ray, hit);
@@ -125,7 +109,7 @@ Hit TracedGeometry::intersect(const Ray& ray, PathCounters& counters) const {
 
 Visibility TracedGeometry::visibility(const Ray& ray, float far, PathCounters& counters) const {
     embree::Query query;
-    RTCRayHit hit{};
+    RTCRayHit hit;
     if (!trace(ray, far, query, hit, counters)) return Escaped{};
     if (hit.hit.geomID != object_id) return Blocked{hit.ray.tfar};
     if (!is_clear(scene_.materials[query.crossing.to.index])) return Blocked{query.crossing.t_in};
@@ -140,7 +124,7 @@ Surface TracedGeometry::surface_of_object(const Ray& ray, const embree::Query& q
                     .near_side = {c.p_in, c.from},
                     .far_side = std::nullopt,
                     .optics = interfaces_.between(c.from.index, c.to.index),
-                    .hint = {object_id, hit.hit.primID, hit.hit.instID[0], c.from, normal.gradient}};
+                    .hint = {embree::ObjectInstance::of(hit.hit), hit.hit.primID, c.from, normal.gradient}};
     if (is_clear(scene_.materials[c.to.index])) surface.far_side = {c.p_out, c.to};
     return surface;
 }

@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "phasetree/embree.hpp"
+#include "embree_core/cell_geometry.hpp"
 #include "scene/scene.hpp"
 #include "shading/interface.hpp"
 #include "world/counters.hpp"
@@ -39,7 +39,7 @@ class TracedGeometry {
     using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, Release>;
 
     static DeviceHandle start_embree();
-    static SceneHandle embree_scene(RTCDevice device, const embree::TreeGeometry& tree,
+    static SceneHandle embree_scene(RTCDevice device, const embree::CellGeometry& tree,
                                     const std::vector<Mesh>& meshes);
 
     bool trace(const Ray& ray, float far, embree::Query& query, RTCRayHit& hit, PathCounters& counters) const;
@@ -49,7 +49,7 @@ class TracedGeometry {
     const Scene& scene_;
     std::shared_ptr<const InterfaceCells> object_;
     DeviceHandle device_;
-    embree::TreeGeometry tree_;
+    embree::CellGeometry tree_;
     SceneHandle embree_;
     InterfaceTable interfaces_;
     std::vector<Interface> mesh_interfaces_;  ///< [mesh · phases + phase the ray is in]

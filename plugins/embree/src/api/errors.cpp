@@ -2,6 +2,7 @@
 
 #include <new>
 
+#include "embree_core/error.hpp"
 #include "phasetree/cells/cells.hpp"
 #include "phasetree/cells/file.hpp"
 #include "phasetree/io/error.hpp"
@@ -13,6 +14,17 @@ namespace {
 std::string& message() {
     thread_local std::string text;
     return text;
+}
+
+PhasetreeError code_of(const EmbreeError& e) {
+    switch (e.code()) {
+        case RTC_ERROR_CANCELLED:
+            return PHASETREE_ERROR_CANCELLED;
+        case RTC_ERROR_OUT_OF_MEMORY:
+            return PHASETREE_ERROR_OUT_OF_MEMORY;
+        default:
+            return PHASETREE_ERROR_EMBREE;
+    }
 }
 
 }  // namespace
@@ -44,6 +56,8 @@ PhasetreeError report_exception(const char* call) noexcept {
         throw;
     } catch (const ApiError& e) {
         return report(e.code(), e.what());
+    } catch (const EmbreeError& e) {
+        return report(code_of(e), e.what());
     } catch (const SceneError& e) {
         return report(PHASETREE_ERROR_INVALID_TREE, e.what());
     } catch (const ModelError& e) {

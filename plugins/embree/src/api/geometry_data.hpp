@@ -9,6 +9,11 @@
 
 namespace phasetree::embree::api {
 
+/// Whether a set has every phase but perhaps the vacuum, which never counts as shown.
+inline bool shows_all(PhaseSet shown) {
+    return (shown.bits | 1) == PHASETREE_ALL_PHASES;
+}
+
 /// What is behind a PhasetreeGeometry.
 struct GeometryData {
     GeometryData(RTCDevice device, unsigned flags);
@@ -30,6 +35,9 @@ struct GeometryData {
     std::unique_ptr<const Object> object;
 
     bool has(PhasetreeGeometryFlags flag) const { return (flags & static_cast<unsigned>(flag)) != 0; }
+    bool has_cell_primitives() const { return has(PHASETREE_GEOMETRY_FLAG_CELL_PRIMITIVES); }
+    /// Gives the geometry an object, and the RTCGeometry its number of primitives.
+    void set_object(std::unique_ptr<const Object>);
     /// Whether a crossing is to be reported. The vacuum never counts as shown.
     bool shows(const Crossing& c) const {
         const PhaseSet materials{shown.bits & ~std::uint64_t{1}};
@@ -48,11 +56,20 @@ inline ApiError not_now(const std::string& why) {
 }
 /// Where the object is at a time. Throws ApiError if the motion has no inverse there.
 Placement placement_at(const GeometryData&, float time);
-/// The radius of a ball in geometry space that has no interface, about a point of the tree's space where the sampled
-/// distance to one is known.
-float radius_without_interface(const GeometryData&, const glm::vec3& p, float sampled, const Placement&);
 
 /// Throws for a handle that is none.
 GeometryData& data_of(PhasetreeGeometry handle);
+
+/// Three floats of the application's.
+inline void write_point(float* out, const glm::vec3& v) {
+    for (int i = 0; i < 3; ++i) out[i] = v[i];
+}
+/// Throws ApiError unless they are a point.
+inline glm::vec3 read_point(const float* p) {
+    require(p, "point");
+    for (int i = 0; i < 3; ++i)
+        if (!std::isfinite(p[i])) throw invalid("point has an entry that is no finite number");
+    return {p[0], p[1], p[2]};
+}
 
 }  // namespace phasetree::embree::api

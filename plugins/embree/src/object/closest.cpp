@@ -59,7 +59,7 @@ struct Candidate {
 
 }  // namespace
 
-Closest find_closest(const Object& object, const glm::vec3& point, const glm::dmat3& to_world, float radius,
+Closest find_closest(const CellScene& object, const glm::vec3& point, const glm::dmat3& to_world, float radius,
                      float tolerance) {
     const InterfaceCells& cells = object.cells();
     const Evaluator& whole = cells.whole();
@@ -84,7 +84,7 @@ Closest find_closest(const Object& object, const glm::vec3& point, const glm::dm
         const glm::dvec3 way = glm::dvec3(towards) - glm::dvec3(point);
         const double length = glm::length(way);
         if (!(length > 0)) return;
-        ObjectRay ray{point, glm::vec3(way / length), 0, static_cast<float>(length) + beyond};
+        const UnitRay ray{point, glm::vec3(way / length), 0, static_cast<float>(length) + beyond};
         const auto found = object.first_crossing(ray, std::nullopt);
         if (!found || (opaque.contains(found->crossing.from) && opaque.contains(found->crossing.to))) return;
         const double distance = metric.distance(found->crossing.p_in);

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "embree_core/cell_scene.hpp"
 #include "object/motion.hpp"
-#include "object/object.hpp"
 
 namespace phasetree::embree {
 
@@ -16,6 +16,7 @@ struct Closest {
 /// The closest interface to a point of the object's space, where distances are measured behind a linear map (that of an
 /// instance or a placement). Ends when the empty radius is within the share `tolerance` of the distance, or within four
 /// resolutions, or after some thousand evaluations.
-Closest find_closest(const Object&, const glm::vec3& point, const glm::dmat3& to_world, float radius, float tolerance);
+Closest find_closest(const CellScene&, const glm::vec3& point, const glm::dmat3& to_world, float radius,
+                     float tolerance);
 
 }  // namespace phasetree::embree

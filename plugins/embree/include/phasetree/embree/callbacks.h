@@ -16,8 +16,9 @@ PHASETREE_API void phasetreeOccludedFunction(const struct RTCOccludedFunctionNAr
 
 /* Callbacks for a primitive of an RTCGeometry that is the application's own: from its callbacks it calls these with the
  * handle, and the arguments just as Embree gave them (Embree keeps more behind them than it tells; a copy will not do).
- * primID is not looked at. Filters are those of the application's RTCGeometry. Handles without references: nothing is
- * hit, and the bounds are empty. */
+ * primID is not looked at, unless the handle has PHASETREE_GEOMETRY_FLAG_CELL_PRIMITIVES: then it is the cell, below
+ * PhasetreeGeometryStatistics.cells, and for any other nothing is hit and the bounds are empty. Filters are those of
+ * the application's RTCGeometry. Handles without references: nothing is hit, and the bounds are empty. */
 PHASETREE_API void phasetreeGetPrimitiveBounds(PhasetreeGeometry geometry,
                                                const struct RTCBoundsFunctionArguments* args);
 PHASETREE_API void phasetreeIntersectPrimitive(PhasetreeGeometry geometry,

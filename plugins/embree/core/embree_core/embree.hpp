@@ -1,6 +1,6 @@
 #pragma once
 
-/// What differs between Embree 3 and Embree 4, in one place.
+/// Embree's own header, and what differs between Embree 3 and Embree 4, in one place.
 
 #if PHASETREE_EMBREE_MAJOR == 4
 #include <embree4/rtcore.h>

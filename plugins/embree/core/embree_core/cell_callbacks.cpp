@@ -1,0 +1,57 @@
+#include "embree_core/cell_callbacks.hpp"
+
+namespace phasetree::embree {
+
+namespace {
+
+Query& query_of(Context* context) {
+    return *reinterpret_cast<Query*>(context);
+}
+
+/// What the query knows of how its ray leaves this cell.
+template <class Arguments>
+std::optional<LeavingHint> departure_of(const Arguments& arguments, const Query& query, const ObjectInstance& object,
+                                        const RTCRay& ray, std::optional<Phase> carried) {
+    const StartHint& start = query.start;
+    if (start.cell != arguments.primID || ray.tnear != 0 || !(start.object == object)) return std::nullopt;
+    const float along = glm::dot(start.gradient, query.seen.traced.direction);
+    return LeavingHint{carried == start.from ? -along : along};
+}
+
+/// The first crossing in the cell; nothing where there is no memory for it, which the query then knows.
+template <class Arguments>
+std::optional<Crossing> search(const InterfaceCells& cells, const Arguments& arguments, Query& query,
+                               const RTCRay& ray) noexcept {
+    try {
+        if (!query.seen.is(ray)) query.seen = SeenRay::of(ray);
+        const ObjectInstance object = ObjectInstance::of(*arguments.context, arguments.geomID);
+        const std::optional<Phase> carried = query.phases.of(object);
+        return search_cell(cells, arguments.primID, query.seen, ray, carried,
+                           departure_of(arguments, query, object, ray, carried), query.counters);
+    } catch (const std::bad_alloc&) {
+        query.is_out_of_memory = true;
+        return std::nullopt;
+    }
+}
+
+}  // namespace
+
+void intersect_cell(const InterfaceCells& cells, const RTCIntersectFunctionNArguments* arguments) noexcept {
+    if (arguments->valid[0] != -1) return;
+    Query& query = query_of(arguments->context);
+    RTCRay& ray = reinterpret_cast<RTCRayHit*>(arguments->rayhit)->ray;
+    const auto crossing = search(cells, *arguments, query, ray);
+    if (!crossing) return;
+    ray.tfar = crossing->t_in / query.seen.length;
+    write_hit(RTCRayHitN_HitN(arguments->rayhit, 1), 1, 0, *crossing, -query.seen.traced.direction, arguments->primID,
+              arguments->geomID, *arguments->context);
+    query.crossing = *crossing;
+}
+
+void occluded_cell(const InterfaceCells& cells, const RTCOccludedFunctionNArguments* arguments) noexcept {
+    if (arguments->valid[0] != -1) return;
+    const RTCRay& ray = *reinterpret_cast<const RTCRay*>(arguments->ray);
+    if (search(cells, *arguments, query_of(arguments->context), ray)) write_occlusion(arguments->ray, 1, 0);
+}
+
+}  // namespace phasetree::embree

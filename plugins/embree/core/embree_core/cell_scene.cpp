@@ -1,0 +1,70 @@
+#include "embree_core/cell_scene.hpp"
+
+#include <cmath>
+#include <new>
+#include <type_traits>
+
+#include "embree_core/error.hpp"
+
+namespace phasetree::embree {
+
+namespace {
+
+RTCDevice without_error(RTCDevice device) {
+    rtcGetDeviceError(device);
+    return device;
+}
+
+/// What Embree takes for a ray: with asserts it ends the program otherwise.
+bool is_within_range(const UnitRay& ray) {
+    for (int i = 0; i < 3; ++i)
+        if (!(std::abs(ray.origin[i]) < 1e18f)) return false;
+    return ray.near >= 0 && ray.near < 1e18f && ray.near <= ray.far;
+}
+
+/// The scene has one object, so what a ray carries is its phase.
+void carry(Query& query, std::optional<Phase> phase) {
+    query.phases = RayPhases(phase);
+}
+
+}  // namespace
+
+CellScene::CellScene(RTCDevice device, std::shared_ptr<const InterfaceCells> cells)
+    : geometry_(without_error(device), std::move(cells), {.rays_carry_phases = true}) {
+    throw_device_error(device, "Embree makes no geometry");
+    const auto close = [](RTCScene s) { rtcReleaseScene(s); };
+    std::unique_ptr<std::remove_pointer_t<RTCScene>, decltype(close)> scene(rtcNewScene(device), close);
+    throw_device_error(device, "Embree makes no scene");
+    rtcCommitGeometry(geometry_.handle());
+    rtcAttachGeometryByID(scene.get(), geometry_.handle(), 0);
+    rtcCommitScene(scene.get());
+    throw_device_error(device, "Embree could not build");
+    scene_ = scene.release();
+}
+
+CellScene::~CellScene() {
+    rtcReleaseScene(scene_);
+}
+
+std::optional<CellScene::Hit> CellScene::first_crossing(const UnitRay& ray, std::optional<Phase> carried) const {
+    if (!is_within_range(ray)) return std::nullopt;
+    Query query;
+    carry(query, carried);
+    RTCRayHit rayhit = rayhit_of(ray.origin, ray.direction, ray.near, ray.far);
+    intersect(scene_, query.context, rayhit);
+    if (query.is_out_of_memory) throw std::bad_alloc();
+    if (!is_hit(rayhit)) return std::nullopt;
+    return Hit{rayhit.hit.primID, query.crossing};
+}
+
+bool CellScene::any_crossing(const UnitRay& ray, std::optional<Phase> carried) const {
+    if (!is_within_range(ray)) return false;
+    Query query;
+    carry(query, carried);
+    RTCRay embree_ray = ray_of(ray.origin, ray.direction, ray.near, ray.far);
+    const bool is_occluded = occluded(scene_, query.context, embree_ray);
+    if (query.is_out_of_memory && !is_occluded) throw std::bad_alloc();
+    return is_occluded;
+}
+
+}  // namespace phasetree::embree

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+
+#include "embree_core/rays.hpp"
+#include "phasetree/cells/cells.hpp"
+
+namespace phasetree::embree {
+
+/// A ray as cells see it. Embree brings the same one from cell to cell, so it is made ready once.
+struct SeenRay {
+    glm::vec3 origin{0}, direction{0};  ///< as they were given
+    float length = 0;                   ///< of the direction; 0 if the ray cannot hit anything
+    TracedRay traced;
+
+    static SeenRay of(const RTCRay& given) {
+        SeenRay seen{{given.org_x, given.org_y, given.org_z}, {given.dir_x, given.dir_y, given.dir_z}, 0, {}};
+        seen.length = usable_length(seen.origin, seen.direction);
+        if (seen.length > 0) seen.traced = TracedRay(seen.origin, unit_direction(seen.direction, seen.length));
+        return seen;
+    }
+    /// Whether it is this ray to the last bit.
+    bool is(const RTCRay& given) const {
+        return std::memcmp(&origin, &given.org_x, sizeof origin) == 0 &&
+               std::memcmp(&direction, &given.dir_x, sizeof direction) == 0;
+    }
+};
+
+/// The first crossing of a ray within a cell, no farther than the ray's tfar. Everything that traces an object through
+/// Embree comes here.
+inline std::optional<Crossing> search_cell(const InterfaceCells& cells, unsigned cell, const SeenRay& seen,
+                                           const RTCRay& ray, std::optional<Phase> carried,
+                                           const std::optional<LeavingHint>& leaving_hint, TraceCounters& counters) {
+    const float near = std::max(ray.tnear * seen.length, 0.0f), far = ray.tfar * seen.length;
+    std::optional<Crossing> crossing;
+    if (!(near <= far)) return crossing;
+    crossing = cells.first_crossing(cell, seen.traced, near, far, carried, leaving_hint, counters);
+    if (crossing && !(crossing->t_in <= far)) crossing.reset();  // it was so but for rounding
+    return crossing;
+}
+
+}  // namespace phasetree::embree

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "embree_core/cell_search.hpp"
+#include "embree_core/ray_phases.hpp"
+
+namespace phasetree::embree {
+
+/// What a ray may say that starts at p_in or p_out of a crossing that was hit, in the phase there. It saves the hit's
+/// cell from finding out that the ray leaves: most that are reflected or refracted do, and never come back.
+struct StartHint {
+    ObjectInstance object;
+    unsigned cell = 0;      ///< the hit's primID
+    Phase from{};           ///< the phase that the crossing ends
+    glm::vec3 gradient{0};  ///< CrossingNormal::gradient of the crossing
+};
+
+/// One ray's state on its way through Embree to the callbacks of CellGeometry and back. Embree's own context comes
+/// first, so that its address is the context's. A geometry reads the rest only if it was made with
+/// CellGeometry::Options::rays_carry_phases.
+struct Query {
+    Context context;
+    /// In: the phases that the ray is in, and how it starts.
+    RayPhases phases;
+    StartHint start;
+    /// Out: the crossing behind the last hit that an object reported, in that object's own space. If the ray's final
+    /// hit is an object's, this is that hit's; the hit's primID is the cell, whose InterfaceCells::normal gives the
+    /// normal, and ObjectInstance::of(hit) is the object whose phase changes.
+    Crossing crossing;
+    TraceCounters counters;
+    /// A cell could not be searched for want of memory, so the hit may be wrong. Embree lets no exception through.
+    bool is_out_of_memory = false;
+    /// The last ray that came, which stays the same from cell to cell of one object.
+    SeenRay seen;
+
+    Query() { initialise(context); }
+};
+
+}  // namespace phasetree::embree

@@ -1,0 +1,83 @@
+#pragma once
+
+/// Rays as Embree has them, and rays as tracing wants them.
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <optional>
+
+#include "embree_core/embree.hpp"
+
+namespace phasetree::embree {
+
+/// A ray for Embree: at time 0, with every bit of its mask set.
+inline RTCRay ray_of(const glm::vec3& origin, const glm::vec3& direction, float near = 0,
+                     float far = std::numeric_limits<float>::infinity()) {
+    RTCRay ray{};
+    ray.org_x = origin.x;
+    ray.org_y = origin.y;
+    ray.org_z = origin.z;
+    ray.tnear = near;
+    ray.dir_x = direction.x;
+    ray.dir_y = direction.y;
+    ray.dir_z = direction.z;
+    ray.tfar = far;
+    ray.mask = ~0u;
+    return ray;
+}
+
+/// The same with a hit that has found nothing yet.
+inline RTCRayHit rayhit_of(const glm::vec3& origin, const glm::vec3& direction, float near = 0,
+                           float far = std::numeric_limits<float>::infinity()) {
+    RTCRayHit rayhit{};
+    rayhit.ray = ray_of(origin, direction, near, far);
+    rayhit.hit.primID = rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    for (unsigned& id : rayhit.hit.instID) id = RTC_INVALID_GEOMETRY_ID;
+#if defined(RTC_GEOMETRY_INSTANCE_ARRAY)
+    for (unsigned& id : rayhit.hit.instPrimID) id = RTC_INVALID_GEOMETRY_ID;
+#endif
+    return rayhit;
+}
+
+/// Whether a ray has hit anything.
+inline bool is_hit(const RTCRayHit& rayhit) {
+    return rayhit.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+}
+
+/// The length of a ray's direction, or 0 if the ray cannot hit anything: its numbers are not finite, or it has no
+/// direction.
+inline float usable_length(const glm::vec3& origin, const glm::vec3& direction) {
+    const float length = glm::length(direction);
+    const bool is_finite = std::isfinite(origin.x) && std::isfinite(origin.y) && std::isfinite(origin.z);
+    return is_finite && std::isfinite(length) ? length : 0.f;
+}
+
+/// A direction of that length as a unit vector. One that is a unit vector but for rounding stays as it is: to divide it
+/// by its rounded length would move the samples of a ray that starts at a crossing off the crossing's bracket.
+inline glm::vec3 unit_direction(const glm::vec3& direction, float length) {
+    return std::abs(length - 1) < 1e-6f ? direction : direction / length;
+}
+
+/// A ray whose direction is a unit vector, so that its ends are distances.
+struct UnitRay {
+    glm::vec3 origin{0}, direction{0};
+    float near = 0, far = 0;
+    float length = 1;  ///< of the direction as it was given: a distance divided by it is in the units of that ray
+
+    /// Nothing for a ray that cannot hit anything: also for one that ends before it begins.
+    static std::optional<UnitRay> of(const glm::vec3& origin, const glm::vec3& direction, float t_near, float t_far) {
+        UnitRay ray;
+        ray.origin = origin;
+        ray.length = usable_length(origin, direction);
+        if (ray.length == 0) return std::nullopt;
+        ray.direction = unit_direction(direction, ray.length);
+        ray.near = t_near * ray.length;
+        ray.far = t_far * ray.length;
+        if (!(ray.near <= ray.far)) return std::nullopt;
+        return ray;
+    }
+};
+
+}  // namespace phasetree::embree

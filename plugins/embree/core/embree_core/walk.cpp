@@ -1,0 +1,32 @@
+#include "embree_core/walk.hpp"
+
+namespace phasetree::embree {
+
+std::optional<CellScene::Hit> Walk::next() {
+    auto found = scene_.first_crossing(rest_, carried_);
+    if (!found) {
+        rest_.far = -1;
+        return std::nullopt;
+    }
+    Crossing& c = found->crossing;
+    const double t_in = base_ + static_cast<double>(c.t_in), t_out = base_ + static_cast<double>(c.t_out);
+    rest_.origin = c.p_out;
+    rest_.near = 0;
+    base_ = t_out;
+    carried_ = c.to;
+    // Where phases flicker within rounding, crossings may follow each other without end: after some, step on.
+    const double resolution = static_cast<double>(scene_.cells().resolution());
+    if (base_ - anchor_ > resolution) {
+        anchor_ = base_;
+        stuck_ = 0;
+    } else if (++stuck_ > 32) {
+        rest_.origin += scene_.cells().resolution() * rest_.direction;
+        base_ += resolution;
+    }
+    rest_.far = static_cast<float>(far_ - base_);
+    c.t_in = static_cast<float>(t_in);
+    c.t_out = static_cast<float>(t_out);
+    return found;
+}
+
+}  // namespace phasetree::embree

@@ -1,0 +1,78 @@
+/// What may change of a geometry: its tree, which phases show, and where it is.
+
+#include <algorithm>
+#include <cmath>
+
+#include "api/build.hpp"
+#include "api/tree_data.hpp"
+
+namespace phasetree::embree::api {
+
+namespace {
+
+Motion motion_of(const float* transforms, unsigned count, float start, float end) {
+    if (count == 0) return {};
+    require(transforms, "transforms");
+    if (count > RTC_MAX_TIME_STEP_COUNT)
+        throw invalid("timeStepCount is {}; Embree takes at most {}", count, RTC_MAX_TIME_STEP_COUNT);
+    if (count > 1 && !(std::isfinite(start) && std::isfinite(end) && start < end))
+        throw invalid("startTime {} must be before endTime {}", start, end);
+    std::vector<Motion::Step> steps;
+    for (unsigned i = 0; i < count; ++i) {
+        const float* m = transforms + 12 * i;
+        if (!std::all_of(m, m + 12, [](float v) { return std::isfinite(v); }))
+            throw invalid("the transform of time step {} has an entry that is no finite number", i);
+        const auto placement = Placement::of(m);
+        if (!placement) throw invalid("the transform of time step {} has no inverse", i);
+        steps.push_back({placement->linear, placement->translation});
+    }
+    return {std::move(steps), start, end};
+}
+
+}  // namespace
+
+Placement placement_at(const GeometryData& data, float time) {
+    const auto placement = data.motion.at(time);
+    if (!placement) throw not_now(fmt::format("at time {} the motion's transform has no inverse", time));
+    return *placement;
+}
+
+}  // namespace phasetree::embree::api
+
+using namespace phasetree;
+using namespace phasetree::embree;
+using namespace phasetree::embree::api;
+
+PhasetreeError phasetreeSetGeometryTree(PhasetreeGeometry geometry, PhasetreeTree tree,
+                                        const PhasetreeGeometryOptions* options) {
+    return guarded_call(__func__, [&] {
+        GeometryData& data = api::data_of(geometry);
+        const PhasetreeGeometryOptions o = checked(options);
+        if (data.has_cell_primitives()) require_all_shown(o.shownPhases);
+        data.set_object(build_object(data.device, api::data_of(tree).tree.object, o, data.flags));
+        data.shown = {o.shownPhases};
+    });
+}
+
+PhasetreeError phasetreeSetGeometryShownPhases(PhasetreeGeometry geometry, PhasetreePhaseSet shown) {
+    return guarded_call(__func__, [&] {
+        GeometryData& data = api::data_of(geometry);
+        require_shown(data.object->cells().opaque().bits, shown);
+        if (data.has_cell_primitives() && !shows_all({shown}))
+            throw not_now("a geometry with PHASETREE_GEOMETRY_FLAG_CELL_PRIMITIVES shows all phases");
+        data.shown = {shown};
+    });
+}
+
+PhasetreeError phasetreeSetGeometryMotion(PhasetreeGeometry geometry, const float* transforms, unsigned int count,
+                                          float start, float end) {
+    return guarded_call(__func__, [&] {
+        GeometryData& data = api::data_of(geometry);
+        if (data.has_cell_primitives())
+            throw not_now(
+                "a geometry with PHASETREE_GEOMETRY_FLAG_CELL_PRIMITIVES does not move; put it in an instance");
+        data.motion = motion_of(transforms, count, start, end);
+        rtcSetGeometryTimeStepCount(data.handle, data.motion.steps());
+        rtcSetGeometryTimeRange(data.handle, count > 1 ? start : 0.0f, count > 1 ? end : 1.0f);
+    });
+}

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "api/geometry_data.hpp"
+#include "embree_core/embree.hpp"
+
+namespace phasetree::embree::api {
+
+/// The extended context of a query, if the application says that it has one; else NULL.
+inline const PhasetreeRayContext* extended(const GeometryData& data, const Context* context) {
+    if (!data.has(PHASETREE_GEOMETRY_FLAG_EXTENDED_CONTEXT)) return nullptr;
+    const auto* extended = reinterpret_cast<const PhasetreeRayContext*>(context);
+    return extended->apiVersion == PHASETREE_API_VERSION ? extended : nullptr;
+}
+
+/// What the context has for a ray's id, or NULL.
+inline PhasetreeRay* ray_of(const PhasetreeRayContext* context, unsigned id) {
+    return context && id < context->rayCount ? context->rays + id : nullptr;
+}
+
+/// The phase that the application says a ray is in, of the object that a callback is asked for. The interface knows an
+/// instance by its innermost ID alone (PhasetreeMedium).
+inline std::optional<Phase> carried(const PhasetreeRay* ray, unsigned geometry, const Context& context) {
+    if (!ray) return std::nullopt;
+    unsigned level = 0;
+#if RTC_MAX_INSTANCE_LEVEL_COUNT > 1
+    if (context.instStackSize > 0) level = context.instStackSize - 1;
+#endif
+    for (unsigned i = 0; i < ray->mediumCount; ++i) {
+        const PhasetreeMedium& medium = ray->media[i];
+        if (medium.geomID != geometry || medium.instID != context.instID[level]) continue;
+#if defined(RTC_GEOMETRY_INSTANCE_ARRAY)
+        if (medium.instPrimID != context.instPrimID[level]) continue;
+#endif
+        if (medium.phase >= PHASETREE_MAX_PHASES) return std::nullopt;
+        return Phase{static_cast<std::uint8_t>(medium.phase)};
+    }
+    return std::nullopt;
+}
+
+/// Tells the application of a crossing, where it is known in geometry space; `length` is that of the ray's direction.
+inline void write_crossing(PhasetreeHit& hit, const Crossing& crossing, unsigned cell, float length) {
+    hit.phaseLeft = crossing.from.index;
+    hit.phaseEntered = crossing.to.index;
+    hit.cell = cell;
+    hit.tIn = crossing.t_in / length;
+    hit.tOut = crossing.t_out / length;
+    write_point(hit.pointIn, crossing.p_in);
+    write_point(hit.pointOut, crossing.p_out);
+}
+
+}  // namespace phasetree::embree::api
