@@ -44,6 +44,8 @@ run("${WORK}/examples/phases" "${prefix}/share/phasetree/scenes/hourglass.json" 
 expect("${output}" "vacuum -> wood" "vacuum -> sand" "wood -> vacuum")
 run("${WORK}/examples/built")
 expect("${output}" "from water, glass is 0.450 away")
+run("${WORK}/examples/tree")
+expect("${output}" "z =  0.200: from phase 0 to phase 2")
 foreach(name renderer stock)
     run("${WORK}/examples/${name}" "${WORK}/${name}.ppm")
     file(SIZE "${WORK}/${name}.ppm" size)

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -119,6 +120,14 @@ std::vector<Chapter> chapters() {
              pages_of(detail::Map<WarpedPhased, Warps>::type())}};
 }
 
+/// The picture of a node, rendered from the example beside it: chapters have a folder each.
+std::string picture_of(const Chapter& chapter, const NodePage& page) {
+    std::string folder = chapter.title;
+    folder.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(folder.front())));
+    const std::string file = fmt::format("nodes/{}/{}", folder, page.info.name);
+    return fmt::format("[![An example of {}]({}.jpg)]({}.json)\n", page.info.name, file, file);
+}
+
 std::string limits_of(const Described& d) {
     std::string text;
     if (d.parameter.limits != limits::any) text += detail::describe(d.parameter.limits);
@@ -202,14 +211,17 @@ std::string node_reference_text() {
 std::string node_reference_markdown() {
     std::string text =
         "# Nodes\n\nWritten by `phasetree nodes --markdown` from the nodes' own definitions. Sections are the "
-        "paper's.\n";
+        "paper's.\nA picture leads to the tree that it shows; [nodes/studio.json](nodes/studio.json) is the scene "
+        "around "
+        "it, and [nodes/render.sh](nodes/render.sh) takes the pictures.\n";
     for (const Chapter& chapter : chapters()) {
         text += fmt::format("\n## {}\n\n{}\n", chapter.title, chapter.text);
         for (const NodePage& page : chapter.pages) {
             text += fmt::format(
-                "\n### {}\n\n{}{}\n\n`{}`\n\n| parameter | type | unit | | limits |\n|---|---|---|---|---|\n",
+                "\n### {}\n\n{}{}\n\n{}\n`{}`\n\n| parameter | type | unit | | limits |\n|---|---|---|---|---|\n",
                 page.info.name, page.info.summary,
-                page.info.section.empty() ? "" : fmt::format(" Section {}.", page.info.section), page.info.equation);
+                page.info.section.empty() ? "" : fmt::format(" Section {}.", page.info.section),
+                picture_of(chapter, page), page.info.equation);
             for (const Described& d : page.parameters)
                 text += fmt::format("| `{}` | {} | {} | {} | {} |\n", d.parameter.name, d.type.name, d.parameter.unit,
                                     d.parameter.description, limits_of(d));

@@ -1,0 +1,27 @@
+// A bottle of water, built and traced with the C++ library alone; prints the phases along a ray.
+#include <cstdio>
+#include <optional>
+#include <phasetree/phasetree.hpp>
+
+int main() {
+    using namespace phasetree;
+    const Phase glass{1}, water{2};
+    const Field bottle = SmoothUnion{
+        .of = {Sphere{.radius = 1}, Capsule{.from = {0, 0, 0}, .to = {0, 0, 1.5f}, .radius = 0.3f}}, .radius = 0.4f};
+    const Phased filled = ThinShell{.of = bottle, .shell = glass, .inside = water, .half_thickness = 0.03f};
+    // The water ends at z = 0.2; the glass is as it was.
+    const Phased object =
+        IntersectShape{.of = filled, .shape = Plane{.offset = 0.2f}, .phases_cut = PhaseSet::of(water)};
+
+    const InterfaceTracer tracer(object);
+    Evaluator::Workspace workspace;
+    const glm::vec3 origin(0, 0, 3), direction(0, 0, -1);
+    std::optional<Phase> phase;  // at first, that at the origin
+    float t = 0;
+    while (const auto crossing = tracer.first_crossing(origin, direction, t, 100, phase, workspace)) {
+        std::printf("z = %6.3f: from phase %d to phase %d\n", static_cast<double>(crossing->p_in.z),
+                    crossing->from.index, crossing->to.index);
+        phase = crossing->to;
+        t = crossing->t_out;
+    }
+}
