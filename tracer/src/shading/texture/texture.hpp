@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <variant>
 
+#include "phasetree/model/concepts.hpp"
 #include "shading/texture/checker.hpp"
 #include "shading/texture/constant.hpp"
 #include "shading/texture/marble.hpp"
@@ -13,7 +14,13 @@
 
 namespace phasetree::tracer {
 
-using Texture = std::variant<ConstantTexture, CheckerTexture, MarbleTexture, SpeckleTexture, WoodTexture>;
+// Those that a scene file names, with their parameters: one list, from which the reader, the reference and the schema
+// follow. A colour by itself is the constant one.
+using SolidTextures = TypeList<WoodTexture, SpeckleTexture, MarbleTexture, CheckerTexture>;
+
+template <class... Solids>
+std::variant<ConstantTexture, Solids...> variant_of_textures(TypeList<Solids...>);
+using Texture = decltype(variant_of_textures(SolidTextures()));
 
 // `position` is in the object's own space, in the scene's unit of length.
 inline glm::vec3 color_at(const Texture& texture, const glm::vec3& position) {
