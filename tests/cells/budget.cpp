@@ -6,7 +6,7 @@
 #include <atomic>
 #include <memory>
 
-#include "phasetree/nodes/node.hpp"
+#include "phasetree/tree/node.hpp"
 #include "support/compared_crossings.hpp"
 #include "support/compared_labels.hpp"
 

@@ -8,7 +8,7 @@
 #include "cells/traceable.hpp"
 #include "phasetree/cells/cells.hpp"
 #include "phasetree/phasetree.hpp"
-#include "phasetree/reading/tree.hpp"
+#include "phasetree/io/tree.hpp"
 #include "source_directory.hpp"
 #include "support/compared_crossings.hpp"
 #include "support/compared_labels.hpp"

@@ -4,7 +4,7 @@
 
 #include "phasetree/cells/cells.hpp"
 #include "phasetree/phasetree.hpp"
-#include "phasetree/reading/tree.hpp"
+#include "phasetree/io/tree.hpp"
 #include "source_directory.hpp"
 #include "support/random_tree.hpp"
 

@@ -2,9 +2,9 @@
 // given (TraceableObject); below 10⁻²⁰ of the ray even the coarsening of creeping rays comes to its end.
 #include <doctest/doctest.h>
 
-#include "cells/linear_bound.hpp"
+#include "kernel/linear_bound.hpp"
 #include "phasetree/phasetree.hpp"
-#include "program/assemble.hpp"
+#include "evaluation/assemble.hpp"
 #include "support/random_tree.hpp"
 #include "trace/march.hpp"
 
@@ -39,7 +39,7 @@ TEST_CASE("a search ends at any resolution") {
                                              .t_max = 100,
                                              .resolution = resolution,
                                              .carried = 0,
-                                             .rise = Visit::no_departure},
+                                             .rise = Visit::no_leaving_hint},
                                             counters);
             most = std::max<std::uint64_t>(most, counters.batches);
             if (resolution > 0.01f) continue;  // nothing need be seen

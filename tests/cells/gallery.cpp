@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "phasetree/reading/tree.hpp"
+#include "phasetree/io/tree.hpp"
 #include "source_directory.hpp"
 #include "support/compared_crossings.hpp"
 

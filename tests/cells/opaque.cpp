@@ -6,7 +6,7 @@
 #include <string>
 
 #include "phasetree/cells/cells.hpp"
-#include "phasetree/reading/tree.hpp"
+#include "phasetree/io/tree.hpp"
 #include "source_directory.hpp"
 #include "support/compared_crossings.hpp"
 

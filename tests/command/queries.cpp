@@ -9,7 +9,7 @@
 
 #include "command.hpp"
 #include "phasetree/phasetree.hpp"
-#include "phasetree/reading/tree.hpp"
+#include "phasetree/io/tree.hpp"
 
 using namespace phasetree::tests;
 

@@ -9,7 +9,7 @@
 
 #include "phasetree/embree_version.hpp"
 #include "phasetree/phasetree.hpp"
-#include "phasetree/reading/tree.hpp"
+#include "phasetree/io/tree.hpp"
 
 namespace phasetree::tests {
 

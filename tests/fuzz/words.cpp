@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "phasetree/reading/document.hpp"
+#include "phasetree/io/document.hpp"
 #include "scene/reference.hpp"
 
 namespace phasetree::fuzz {

@@ -2,7 +2,7 @@
 // which is searched for by membership alone.
 #include <doctest/doctest.h>
 
-#include "phasetree/model/walk.hpp"
+#include "phasetree/tree/walk.hpp"
 #include "phasetree/phasetree.hpp"
 #include "support/random_tree.hpp"
 #include "support/set_algebra.hpp"

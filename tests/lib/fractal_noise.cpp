@@ -2,7 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "phasetree/math/dual.hpp"
-#include "phasetree/model/walk.hpp"
+#include "phasetree/tree/walk.hpp"
 #include "phasetree/phasetree.hpp"
 #include "support/random_tree.hpp"
 #include "support/set_algebra/textures.hpp"

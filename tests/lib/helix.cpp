@@ -2,7 +2,7 @@
 // for tight and steep coils, few turns and many, near and far.
 #include <doctest/doctest.h>
 
-#include "phasetree/model/walk.hpp"
+#include "phasetree/tree/walk.hpp"
 #include "phasetree/phasetree.hpp"
 #include "support/random_tree.hpp"
 #include "support/set_algebra.hpp"

@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "phasetree/math/dual.hpp"
-#include "phasetree/model/walk.hpp"
+#include "phasetree/tree/walk.hpp"
 #include "phasetree/phasetree.hpp"
-#include "phasetree/reading/write.hpp"
+#include "phasetree/io/write.hpp"
 #include "support/random_node.hpp"
 
 using namespace phasetree;

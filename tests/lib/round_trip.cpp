@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "phasetree/program/program.hpp"
-#include "phasetree/reading/write.hpp"
+#include "phasetree/io/write.hpp"
 #include "support/random_tree.hpp"
 
 using namespace phasetree;

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "phasetree/nodes/node.hpp"
+#include "phasetree/tree/node.hpp"
 
 using namespace phasetree;
 

@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "phasetree/program/program.hpp"
-#include "phasetree/reading/write.hpp"
+#include "phasetree/io/write.hpp"
 #include "support/random_node.hpp"
 
 using namespace phasetree;

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "phasetree/nodes/node.hpp"
-#include "phasetree/reading/tree.hpp"
+#include "phasetree/tree/node.hpp"
+#include "phasetree/io/tree.hpp"
 #include "source_directory.hpp"
 
 using namespace phasetree;

@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "phasetree/phasetree.hpp"
-#include "phasetree/reading/tree.hpp"
+#include "phasetree/io/tree.hpp"
 
 using namespace phasetree;
 

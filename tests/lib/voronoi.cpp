@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "phasetree/nodes/node.hpp"
+#include "phasetree/tree/node.hpp"
 #include "support/random_tree.hpp"
 #include "support/set_algebra/patterns.hpp"
 

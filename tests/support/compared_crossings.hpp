@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "phasetree/cells/cells.hpp"
-#include "phasetree/model/walk.hpp"
+#include "phasetree/tree/walk.hpp"
 #include "phasetree/trace/tracer.hpp"
 #include "support/random_tree.hpp"
 #include "support/set_algebra.hpp"

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "phasetree/reading/document.hpp"
+#include "phasetree/io/document.hpp"
 
 namespace phasetree::tests {
 

@@ -13,7 +13,7 @@
 #include <span>
 #include <string_view>
 
-#include "phasetree/nodes/node.hpp"
+#include "phasetree/tree/node.hpp"
 
 namespace phasetree::tests {
 

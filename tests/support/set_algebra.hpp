@@ -15,7 +15,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "phasetree/nodes/node.hpp"
+#include "phasetree/tree/node.hpp"
 
 namespace phasetree::tests {
 

@@ -6,7 +6,7 @@
 
 #include "integrator/path.hpp"
 #include "phasetree/math/float_mode.hpp"
-#include "phasetree/reading/document.hpp"
+#include "phasetree/io/document.hpp"
 #include "render/render.hpp"
 #include "scene/scene.hpp"
 #include "support/statistics.hpp"

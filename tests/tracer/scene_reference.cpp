@@ -15,7 +15,7 @@
 
 #include "lights/light_kinds.hpp"
 #include "output/temporary_directory.hpp"
-#include "phasetree/reading/suggest.hpp"
+#include "phasetree/io/suggest.hpp"
 #include "scene/camera_parameters.hpp"
 #include "scene/image_parameters.hpp"
 #include "scene/material_kinds.hpp"

@@ -5,8 +5,8 @@
 
 #include "phasetree/cells/cells.hpp"
 #include "phasetree/model/handle.hpp"
-#include "phasetree/nodes/node.hpp"
-#include "phasetree/program/evaluator.hpp"
+#include "phasetree/tree/node.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/program/program.hpp"
 #include "phasetree/trace/tracer.hpp"
 #include "phasetree/version.hpp"

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <phasetree/phasetree.hpp>
 #include <phasetree/phasetree_embree.hpp>
-#include <phasetree/reading/write.hpp>
+#include <phasetree/io/write.hpp>
 
 int main() {
     using namespace phasetree;

@@ -39,12 +39,12 @@ Query::Seen seen_as(const RTCRay& ray) {
 
 /// The first crossing in a cell, no farther than tfar.
 std::optional<Crossing> crossing(const InterfaceCells& object, unsigned cell, const Query::Seen& s, const RTCRay& ray,
-                                 std::optional<Phase> carried, const std::optional<Departure>& departure,
+                                 std::optional<Phase> carried, const std::optional<LeavingHint>& leaving_hint,
                                  TraceCounters& counters) {
     const float near = ray.tnear * s.length, far = ray.tfar * s.length;
     std::optional<Crossing> c;
     if (!(near <= far)) return c;
-    c = object.first_crossing(cell, s.ray, near, far, carried, departure, counters);
+    c = object.first_crossing(cell, s.ray, near, far, carried, leaving_hint, counters);
     if (c && !(c->t_in <= far)) c.reset();  // it was so but for rounding
     return c;
 }
@@ -56,14 +56,14 @@ std::optional<Crossing> crossing(const Arguments& arguments, Query& query, const
     if (std::memcmp(&s.origin, &ray.org_x, sizeof s.origin) != 0 ||
         std::memcmp(&s.direction, &ray.dir_x, sizeof s.direction) != 0)
         s = seen_as(ray);
-    std::optional<Departure> departure;
+    std::optional<LeavingHint> leaving_hint;
     const Query::Start& start = query.start;
     if (start.cell == arguments.primID && start.geometry == arguments.geomID &&
         start.instance == arguments.context->instID[0] && ray.tnear == 0) {
         const float along = glm::dot(start.gradient, s.ray.direction);
-        departure = Departure{query.carried == start.from ? -along : along};
+        leaving_hint = LeavingHint{query.carried == start.from ? -along : along};
     }
-    return crossing(*data_of(arguments.geometryUserPtr).object, arguments.primID, s, ray, query.carried, departure,
+    return crossing(*data_of(arguments.geometryUserPtr).object, arguments.primID, s, ray, query.carried, leaving_hint,
                     query.counters);
 }
 Query& query_of(Context* context) {

@@ -9,7 +9,7 @@
 #include "command/numbers.hpp"
 #include "fuzz/input_file.hpp"
 #include "phasetree/model/handle.hpp"
-#include "phasetree/reading/error.hpp"
+#include "phasetree/io/error.hpp"
 
 namespace phasetree::fuzz {
 

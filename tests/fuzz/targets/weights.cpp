@@ -2,8 +2,8 @@
 #include "fuzz/input_file.hpp"
 #include "phasetree/math/float_mode.hpp"
 #include "phasetree/phasetree.hpp"
-#include "phasetree/program/evaluator.hpp"
-#include "phasetree/reading/tree.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/io/tree.hpp"
 
 namespace phasetree::fuzz {
 

@@ -3,7 +3,7 @@
 #include "command/load.hpp"
 #include "command/streams.hpp"
 #include "phasetree/model/handle.hpp"
-#include "phasetree/program/evaluator.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/trace/tracer.hpp"
 #include "render/threads.hpp"
 

@@ -5,8 +5,8 @@
 #include "command/numbers.hpp"
 #include "command/streams.hpp"
 #include "phasetree/math/float_mode.hpp"
-#include "phasetree/program/evaluator.hpp"
-#include "phasetree/reading/tree.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/io/tree.hpp"
 
 namespace phasetree::tracer {
 

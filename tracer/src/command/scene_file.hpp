@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "phasetree/reading/document.hpp"
+#include "phasetree/io/document.hpp"
 
 namespace phasetree::tracer {
 

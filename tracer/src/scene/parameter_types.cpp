@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "phasetree/reading/read_kind.hpp"
-#include "phasetree/reading/reference.hpp"
+#include "phasetree/io/reference.hpp"
 #include "scene/read_parts.hpp"
 
 namespace phasetree {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "phasetree/reading/document.hpp"
+#include "phasetree/io/document.hpp"
 #include "scene/scene.hpp"
 
 namespace phasetree::tracer {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "phasetree/reading/reference.hpp"
+#include "phasetree/io/reference.hpp"
 
 namespace phasetree::tracer {
 

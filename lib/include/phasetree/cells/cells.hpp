@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "phasetree/program/evaluator.hpp"
-#include "phasetree/trace/crossing.hpp"
-#include "phasetree/trace/ray.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/model/crossing.hpp"
+#include "phasetree/model/ray.hpp"
 
 namespace phasetree {
 
@@ -72,7 +72,7 @@ class InterfaceCells {
 
     /// As InterfaceTracer::first_crossing, within one cell.
     std::optional<Crossing> first_crossing(std::size_t cell, const TracedRay&, float t_min, float t_max,
-                                           std::optional<Phase> carried, const std::optional<Departure>&,
+                                           std::optional<Phase> carried, const std::optional<LeavingHint>&,
                                            TraceCounters&) const;
     std::optional<Crossing> first_crossing(std::size_t cell, const glm::vec3& origin, const glm::vec3& direction,
                                            float t_min, float t_max, std::optional<Phase> carried,

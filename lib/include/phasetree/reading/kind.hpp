@@ -18,7 +18,7 @@
 ///     };
 ///
 /// From this list follow the reader with its checks (reading/read_kind.hpp), the reference page and the schema
-/// (reading/reference.hpp). The members' initialisers are the defaults of what is optional.
+/// (io/reference.hpp). The members' initialisers are the defaults of what is optional.
 
 #include <optional>
 #include <stdexcept>

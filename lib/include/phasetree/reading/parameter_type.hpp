@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "phasetree/reading/kind.hpp"
-#include "phasetree/reading/object_reader.hpp"
+#include "phasetree/io/object_reader.hpp"
 
 namespace phasetree {
 

@@ -4,7 +4,7 @@
 
 #include "phasetree/cells/cells.hpp"
 #include "phasetree/cells/file.hpp"
-#include "phasetree/reading/error.hpp"
+#include "phasetree/io/error.hpp"
 
 namespace phasetree::embree::api {
 
