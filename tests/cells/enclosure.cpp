@@ -4,12 +4,14 @@
 
 #include <doctest/doctest.h>
 
-#include "phasetree/math/dual.hpp"
 #include "bounding/convex_in_box.hpp"
 #include "enclosure/difference.hpp"
-#include "phasetree/tree/walk.hpp"
+#include "phasetree/math/dual.hpp"
+#include "phasetree/model/concepts.hpp"
+#include "phasetree/model/handle.hpp"
 #include "phasetree/nodes/copies/endless_grid.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/tree/node.hpp"
+#include "phasetree/tree/walk.hpp"
 #include "support/random_tree.hpp"
 
 using namespace phasetree;

@@ -7,8 +7,9 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "phasetree/math/dual.hpp"
 #include "enclosure/value_noise.hpp"
+#include "phasetree/math/dual.hpp"
+#include "phasetree/model/handle.hpp"
 #include "phasetree/nodes/fields/fractal_noise.hpp"
 #include "support/compared_crossings.hpp"
 

@@ -2,9 +2,15 @@
 // given (TraceableObject); below 10⁻²⁰ of the ray even the coarsening of creeping rays comes to its end.
 #include <doctest/doctest.h>
 
-#include "kernel/linear_bound.hpp"
-#include "phasetree/phasetree.hpp"
 #include "evaluation/assemble.hpp"
+#include "kernel/linear_bound.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/model/crossing.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/model/ray.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/program/program.hpp"
 #include "support/random_tree.hpp"
 #include "trace/march.hpp"
 

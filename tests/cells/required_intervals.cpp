@@ -7,9 +7,11 @@
 #include <bit>
 #include <cstring>
 
-#include "pruning/prune.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/model/handle.hpp"
 #include "phasetree/nodes/list.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/program/program.hpp"
+#include "pruning/prune.hpp"
 #include "support/random_tree.hpp"
 
 using namespace phasetree;

@@ -8,8 +8,8 @@
 #include <random>
 
 #include "phasetree/embree_version.hpp"
-#include "phasetree/phasetree.hpp"
 #include "phasetree/io/tree.hpp"
+#include "phasetree/model/handle.hpp"
 
 namespace phasetree::tests {
 

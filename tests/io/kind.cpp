@@ -5,7 +5,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 
-#include "phasetree/reading/read_kind.hpp"
+#include "phasetree/io/read_kind.hpp"
 #include "phasetree/io/reference.hpp"
 
 using namespace phasetree;

@@ -5,8 +5,8 @@
 
 #include <doctest/doctest.h>
 
-#include "phasetree/tree/node.hpp"
 #include "phasetree/io/document.hpp"
+#include "phasetree/tree/node.hpp"
 
 using namespace phasetree;
 

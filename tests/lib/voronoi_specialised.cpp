@@ -3,7 +3,9 @@
 
 #include <cstring>
 
-#include "phasetree/phasetree.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/voronoi_cells.hpp"
+#include "phasetree/nodes/phased/voronoi.hpp"
 #include "support/random_tree.hpp"
 
 using namespace phasetree;
@@ -39,7 +41,7 @@ void look(const P& primitive, float size, float far, Random& rng, Found& found) 
         for (double& c : box.centre) c = std::round(c / static_cast<double>(size)) * static_cast<double>(size);
     std::vector<float> around, near;
     ++found.boxes;
-    if (!primitive.near(box, {}, around)) {
+    if (!primitive.specialise(box, {}, around)) {
         ++found.refused;
         return;
     }
@@ -49,7 +51,7 @@ void look(const P& primitive, float size, float far, Random& rng, Found& found) 
         part.reach[i] *= static_cast<double>(rng.uniform(0.1f, 0.9f));
         part.centre[i] += (box.reach[i] - part.reach[i]) * static_cast<double>(rng.uniform(-1, 1));
     }
-    REQUIRE(primitive.near(part, around, near));
+    REQUIRE(primitive.specialise(part, around, near));
     found.sites += P::Specialised::sites(near.data());
     for (int k = 0; k < 24; ++k) {
         const glm::vec3 p = within(rng, box, 1), q = within(rng, part, 1), r = within(rng, box, 4);

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <optional>
 
-#include "phasetree/math/dual.hpp"
 #include "enclosure/length.hpp"
+#include "phasetree/math/dual.hpp"
 #include "phasetree/model/concepts.hpp"
 
 namespace phasetree {

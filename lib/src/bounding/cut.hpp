@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pruning/prune.hpp"
 #include "phasetree/math/bounds.hpp"
+#include "rewriting/working_program.hpp"
 
 namespace phasetree {
 

@@ -7,8 +7,8 @@
 #include "bounding/enclose_primitive.hpp"
 #include "bounding/nearly_linear.hpp"
 #include "bounding/plane_cut.hpp"
-#include "rewriting/readable_steps.hpp"
 #include "evaluation/interpret.hpp"
+#include "rewriting/readable_steps.hpp"
 
 namespace phasetree {
 
@@ -32,8 +32,8 @@ struct StepsToTake {
 
 }  // namespace
 
-Encloser::Encloser(const BuildContext& division, const Bounds& box, std::span<const LocalValue> around, Arena& scratch)
-    : division_(division), box_(box), scratch_(scratch), middle_(box.centre()), around_(around) {
+Encloser::Encloser(const ProgramContext& context, const Bounds& box, std::span<const LocalValue> around, Arena& scratch)
+    : context_(context), box_(box), scratch_(scratch), middle_(box.centre()), around_(around) {
     const glm::vec3 extent = box.extent();
     half_ = detail::each_number([&](std::size_t i) { return 0.5 * double{extent[static_cast<int>(i)]} * (1 + 1e-6); });
     input_ = std::construct_at(scratch.take<AffinePoint>(1).data(), AffinePoint::of_box(middle_, half_));
@@ -59,8 +59,7 @@ std::span<const std::uint32_t> Encloser::known_of(const WorkingProgram& program)
 
 void Encloser::compute(const WorkingProgram& program) {
     const std::span<const std::uint32_t> known = known_of(program);
-    const StepsToTake steps{program.code, known, division_.constants.data(),
-                            scratch_.take<std::uint32_t>(known.size())};
+    const StepsToTake steps{program.code, known, context_.constants.data(), scratch_.take<std::uint32_t>(known.size())};
     const std::span<Enclosure> registers = scratch_.take<Enclosure>(give_slots(program, steps.slot));
     for (int i = 0; i < 3; ++i) {
         const auto k = static_cast<std::size_t>(i);
@@ -72,7 +71,7 @@ void Encloser::compute(const WorkingProgram& program) {
                         registers.data() + steps.slot[i]);
     // What local primitives become: known of the last program, or found now, in their order.
     std::span<LocalValue> local{};
-    if (division_.has_local_primitives && has_local_primitive(program)) {
+    if (context_.has_local_primitives && has_local_primitive(program)) {
         local = scratch_.take<LocalValue>(known.size());
         std::ranges::fill(local, LocalValue{});
         for (const LocalValue& v : local_)
@@ -101,7 +100,7 @@ void Encloser::compute(const WorkingProgram& program) {
                 if constexpr (LocalPrimitive<P>) {
                     do ++at;
                     while (known[at] != 0 || !traits(program.code[at].op).is_local);
-                    const auto source = static_cast<std::uint32_t>(c - division_.constants.data());
+                    const auto source = static_cast<std::uint32_t>(c - context_.constants.data());
                     for (const LocalValue& v : around_)
                         if (v.source == source) of = v.data;
                 }
@@ -140,13 +139,13 @@ Enclosure Encloser::component(const ProgramOutput& o) const {
 std::optional<ValueRanges> Encloser::ranges(const WorkingProgram& program) {
     const std::size_t size = program.code.size();
     // A fold of space may jump, and then it has no gradient.
-    if (division_.has_folds && std::ranges::any_of(program.code, [](const Instruction& in) { return is_fold(in.op); }))
+    if (context_.has_folds && std::ranges::any_of(program.code, [](const Instruction& in) { return is_fold(in.op); }))
         return std::nullopt;
     if (size > longest_enclosed && (size > 4 * longest_enclosed || !has_local_primitive(program))) return std::nullopt;
     compute(program);
 
     // Of a value, and of what is known at the centre.
-    const double margin = 2 * static_cast<double>(division_.rounding);
+    const double margin = 2 * static_cast<double>(context_.rounding);
     const std::span<float> low = scratch_.take<float>(size), high = scratch_.take<float>(size);
     const auto set = [&](std::size_t i, const Range& v) {
         low[i] = static_cast<float>(std::max(v.low - margin, -1e30));
@@ -183,7 +182,7 @@ BoxKnowledge Encloser::rest(const WorkingProgram& program) const {
     result.curvature.is_by_own = by_own[0] + by_own[1] < by_others[0] + by_others[1];
     for (std::size_t i = 0; i < 2; ++i)
         result.curvature.bound[i] = known(result.curvature.is_by_own ? by_own[i] : by_others[i]);
-    const auto is_clear = [&](const ProgramOutput& o) { return !division_.options.opaque.contains(o.phase); };
+    const auto is_clear = [&](const ProgramOutput& o) { return !context_.opaque.contains(o.phase); };
     result.curvature.is_by_first = is_shared || std::ranges::none_of(program.outputs.subspan(1), is_clear);
     if (!is_shared) result.curvature.bound[0] = known(by_own[0]);  // the first component is known by itself
     if (result.curvature.is_by_first) result.curvature.bound[1] = known(of_first);
@@ -198,24 +197,23 @@ BoxKnowledge Encloser::rest(const WorkingProgram& program) const {
             static_cast<float>(linear.at_centre - glm::dot(glm::dvec3(result.bound.normal), glm::dvec3(box_.centre())));
         // What the linear part's own floats lose.
         result.bound.slack =
-            static_cast<float>(linear.slack) * (1 + 1e-6f) + 3 * division_.rounding + 1e-6f * size_of_numbers;
+            static_cast<float>(linear.slack) * (1 + 1e-6f) + 3 * context_.rounding + 1e-6f * size_of_numbers;
         result.bound.spread =
             static_cast<float>(linear.spread(f, half_)) * (1 + 1e-3f) + 1e-5f;  // directions are that near unit length
     }
     // Where the other phases are opaque, rays meet no interface but the first component's.
     if (result.curvature.is_by_first) {
         const LinearBound& bound = result.bound;
-        result.box =
-            PlaneCut(linear, box_.centre(), cut_margin(box_, division_.rounding)).at(0, LaneBox(box_)).bounds();
+        result.box = PlaneCut(linear, box_.centre(), cut_margin(box_, context_.rounding)).at(0, LaneBox(box_)).bounds();
         if (!(bound.slack < 0.15f * glm::dot(glm::abs(bound.normal), box_.extent())))
-            result.box = cut_to_zero(program.outputs[0].value, result.box, box_, program, division_.constants,
-                                     registers_, slot_, division_.rounding, scratch_);
+            result.box = cut_to_zero(program.outputs[0].value, result.box, box_, program, context_.constants,
+                                     registers_, slot_, context_.rounding, scratch_);
         if (result.box.empty()) return result;
     }
 
     const auto is_blind = [&](std::size_t side) { return !(result.curvature.bound[side] < Curvature::unknown); };
     if ((is_blind(0) && is_clear(program.outputs[0])) || (is_shared && is_blind(1) && is_clear(program.outputs[1])))
-        result.certificate = certify_sign(program, division_.constants, registers_, slot_, scratch_);
+        result.certificate = certify_sign(program, context_.constants, registers_, slot_, scratch_);
 
     return result;
 }

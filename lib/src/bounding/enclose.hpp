@@ -2,10 +2,11 @@
 
 #include <array>
 
-#include "building/build_context.hpp"
-#include "kernel/linear_bound.hpp"
 #include "bounding/sign_certificate.hpp"
+#include "bounding/value_ranges.hpp"
+#include "kernel/linear_bound.hpp"
 #include "phasetree/math/bounds.hpp"
+#include "rewriting/program_context.hpp"
 
 namespace phasetree {
 
@@ -16,7 +17,7 @@ struct AffinePoint;
 struct BoxKnowledge {
     LinearBound bound;
     Curvature curvature;
-    Bounds box;                        ///< around the interface in the box; empty if no ray can meet one
+    Bounds box;                                    ///< around the interface in the box; empty if no ray can meet one
     std::span<const CertificateStep> certificate;  ///< where a ray may be in a phase whose curvature is unknown
     std::span<const LocalValue> local;
 };
@@ -31,7 +32,7 @@ class Encloser {
   public:
     /// What is taken of `scratch` stays until the last enclosing. `around` is what local primitives are in a box around
     /// this one, in a program of which pruning has left those to come.
-    Encloser(const BuildContext&, const Bounds& box, std::span<const LocalValue> around, Arena& scratch);
+    Encloser(const ProgramContext&, const Bounds& box, std::span<const LocalValue> around, Arena& scratch);
 
     /// Ranges of its values; nothing for a program that is too long, or that folds space.
     std::optional<ValueRanges> ranges(const WorkingProgram&);
@@ -43,7 +44,7 @@ class Encloser {
     std::span<const std::uint32_t> known_of(const WorkingProgram&) const;
     Enclosure component(const ProgramOutput&) const;
 
-    const BuildContext& division_;
+    const ProgramContext& context_;
     Bounds box_;
     std::array<double, 3> half_;
     Arena& scratch_;

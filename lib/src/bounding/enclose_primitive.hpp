@@ -3,11 +3,11 @@
 #include <cmath>
 #include <cstring>
 
-#include "rewriting/specialise.hpp"
-#include "enclosure/enclosure.hpp"
 #include "bounding/convex_in_box.hpp"
 #include "bounding/network_in_box.hpp"
+#include "enclosure/enclosure.hpp"
 #include "evaluation/interpret.hpp"
+#include "rewriting/specialise.hpp"
 
 namespace phasetree {
 

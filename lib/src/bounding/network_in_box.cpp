@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "phasetree/nodes/fields/siren_network.hpp"
 #include "evaluation/target.hpp"
+#include "phasetree/nodes/fields/siren_network.hpp"
 
 namespace phasetree {
 

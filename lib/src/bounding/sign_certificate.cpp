@@ -3,8 +3,8 @@
 #include <bit>
 #include <cmath>
 
-#include "rewriting/threshold.hpp"
 #include "enclosure/enclosure.hpp"
+#include "rewriting/threshold.hpp"
 
 namespace phasetree {
 
@@ -23,7 +23,7 @@ std::uint16_t half_at_most(float x) {
 class Certifier {
   public:
     Certifier(const WorkingProgram& program, std::span<const float> constants, const Enclosure* registers,
-           std::span<const std::uint32_t> slot, std::span<CertificateStep> room)
+              std::span<const std::uint32_t> slot, std::span<CertificateStep> room)
         : program_(program), constants_(constants), registers_(registers), slot_(slot), room_(room) {}
 
     /// That sign · (v − τ) > 0. False if that takes too many steps.
@@ -43,7 +43,8 @@ class Certifier {
                 return both(in, sign, tau, is_above ? PackedCertificateStep::either : PackedCertificateStep::both);
             case Op::corner:
                 // Up to 0 it is the maximum; above, no less than each.
-                if (tau <= 0) return both(in, sign, tau, is_above ? PackedCertificateStep::either : PackedCertificateStep::both);
+                if (tau <= 0)
+                    return both(in, sign, tau, is_above ? PackedCertificateStep::either : PackedCertificateStep::both);
                 return is_above ? both(in, sign, tau, PackedCertificateStep::either_one_way) : leaf(v, sign, tau);
             case Op::smooth_minimum:
                 // No more than each.
@@ -100,7 +101,8 @@ PackedCertificateStep CertificateStep::step(std::uint32_t slot) const {
 }
 
 std::span<const CertificateStep> certify_sign(const WorkingProgram& program, std::span<const float> constants,
-                                 const Enclosure* registers, std::span<const std::uint32_t> slot, Arena& scratch) {
+                                              const Enclosure* registers, std::span<const std::uint32_t> slot,
+                                              Arena& scratch) {
     Certifier prover(program, constants, registers, slot, scratch.take<CertificateStep>(most_certificate_steps));
     const ProgramOutput& first = program.outputs[0];
     return prover.add(first.value, first.negate ? 1 : -1, 0) ? prover.result() : std::span<const CertificateStep>();

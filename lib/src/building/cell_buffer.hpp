@@ -3,9 +3,9 @@
 #include <utility>
 #include <vector>
 
-#include "kernel/linear_bound.hpp"
 #include "bounding/sign_certificate.hpp"
-#include "pruning/prune.hpp"
+#include "kernel/linear_bound.hpp"
+#include "rewriting/working_program.hpp"
 
 namespace phasetree {
 
@@ -15,25 +15,29 @@ struct CellBuffer {
         Bounds box;
         LinearBound bound;
         Curvature curvature;
-        std::uint32_t first_instruction, instructions, leading, first_output, outputs, first_certificate, certificate_parts;
+        std::uint32_t first_instruction, instructions, leading, first_output, outputs, first_certificate,
+            certificate_parts;
     };
     std::vector<Cell> cells;
     std::vector<Instruction> code;
     std::vector<ProgramOutput> outputs;
     std::vector<CertificateStep> certificates;
-    std::vector<float> near;  ///< the data of localised instructions
+    std::vector<float> specialised_data;  ///< the data of specialised instructions
 
     struct Mark {
-        std::size_t cells, code, outputs, certificates, near;
+        std::size_t cells, code, outputs, certificates, specialised_data;
     };
     /// About what a cell of so much takes as long as it exists, and Embree's tree over it: as it was found, its box and
     /// bound again, its routine or that which it shares, and what vectors and tables have to spare.
     static std::size_t bytes(const Mark& from, const Mark& to) {
         return per_cell * (to.cells - from.cells) + per_instruction * (to.code - from.code) +
                2 * sizeof(ProgramOutput) * (to.outputs - from.outputs) +
-               2 * sizeof(CertificateStep) * (to.certificates - from.certificates) + 3 * sizeof(float) * (to.near - from.near);
+               2 * sizeof(CertificateStep) * (to.certificates - from.certificates) +
+               3 * sizeof(float) * (to.specialised_data - from.specialised_data);
     }
-    Mark mark() const { return {cells.size(), code.size(), outputs.size(), certificates.size(), near.size()}; }
+    Mark mark() const {
+        return {cells.size(), code.size(), outputs.size(), certificates.size(), specialised_data.size()};
+    }
     void forget_from(const Mark& m) {
         each(m, [](auto& of, std::size_t count) { of.resize(count); });
     }
@@ -70,7 +74,7 @@ struct CellBuffer {
         f(code, m.code);
         f(outputs, m.outputs);
         f(certificates, m.certificates);
-        f(near, m.near);
+        f(specialised_data, m.specialised_data);
     }
     template <class T, class From>
     static void append(std::vector<T>& to, const From& from) {

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "kernel/linear_bound.hpp"
-#include "rewriting/specialise.hpp"
-#include "rewriting/live_set.hpp"
 #include "phasetree/nodes/fields/siren.hpp"
+#include "rewriting/live_set.hpp"
+#include "rewriting/specialise.hpp"
 
 namespace phasetree {
 
@@ -71,9 +71,9 @@ inline float batches(const Bounds& box, const LinearBound& bound, float curvatur
     }
     const bool is_blind = !(curvature_bound < Curvature::unknown);
     return cost_model::certain + cost_model::unknown * unknown + cost_model::uneven * spread +
-           (!is_blind   ? 0.f
+           (!is_blind         ? 0.f
             : has_certificate ? cost_model::proven
-                        : cost_model::blind);
+                              : cost_model::blind);
 }
 /// Half of the rays are taken to be in the first phase, if that is the vacuum; all, if the others are opaque. Where
 /// more than two phases meet they need its component alone, and the rest where they leave it.
@@ -83,12 +83,15 @@ inline float cost(const Bounds& box, const LinearBound& bound, const Curvature& 
     const auto is_opaque = [&](const ProgramOutput& o) { return opaque.contains(o.phase); };
     const bool is_one_clear = std::ranges::all_of(program.outputs.subspan(1), is_opaque);
     const bool has_two = program.outputs.size() == 2;
-    const float others = batches(box, has_two ? bound : LinearBound{}, curvature.bound[1], has_two && has_certificate) * all;
+    const float others =
+        batches(box, has_two ? bound : LinearBound{}, curvature.bound[1], has_two && has_certificate) * all;
     float first = batches(box, bound, curvature.bound[0], has_certificate) * all;
     if (!has_two) {
         first = others;
         if (program.outputs[0].phase == vacuum || is_one_clear)
-            first = batches(box, bound, curvature.bound[0], has_certificate) * (cost_model::batch + cost_model::step * work.first) + all;
+            first = batches(box, bound, curvature.bound[0], has_certificate) *
+                        (cost_model::batch + cost_model::step * work.first) +
+                    all;
     }
     const float in_first = is_one_clear ? 1.f : is_opaque(program.outputs[0]) ? 0.f : 0.5f;
     return surface(box) * (cost_model::visit + in_first * first + (1 - in_first) * others);

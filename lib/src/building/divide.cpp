@@ -6,13 +6,13 @@
 #include <cmath>
 
 #include "bounding/enclose.hpp"
-#include "rewriting/first_component.hpp"
-#include "pruning/jumps.hpp"
 #include "building/cost_model.hpp"
 #include "building/quality.hpp"
-#include "rewriting/readable_steps.hpp"
 #include "building/workers.hpp"
 #include "evaluation/target.hpp"
+#include "pruning/jumps.hpp"
+#include "rewriting/first_component.hpp"
+#include "rewriting/readable_steps.hpp"
 
 namespace phasetree {
 
@@ -106,7 +106,7 @@ std::optional<Candidate> candidate(const Share& share, const Bounds& all, const 
     for (int rounds = 0;; ++rounds) {
         const std::optional<ValueRanges> ranges = enclose->ranges(cell.program);
         if (!ranges) break;
-        const auto pruned = prune(cell.program, d.constants, *ranges, d.options.opaque, w.programs, w.scratch);
+        const auto pruned = prune(cell.program, d.program.constants, *ranges, d.program.opaque, w.programs, w.scratch);
         if (!pruned) return std::nullopt;
         const bool is_all_left =
             pruned->code.size() == cell.program.code.size() && pruned->outputs.size() == cell.program.outputs.size();
@@ -127,10 +127,11 @@ std::optional<Candidate> candidate(const Share& share, const Bounds& all, const 
         // Lists of local primitives must be those of the whole share, for its parts. What is left of the program is
         // right as far around the box as its parts must be.
         const bool is_narrower = surface(cell.box) < 0.7f * surface(around) &&
-                                 !(d.has_local_primitives && has_local_primitive(cell.program));
+                                 !(d.program.has_local_primitives && has_local_primitive(cell.program));
         if (rounds >= most_rounds || !is_narrower) break;
-        enclose = std::construct_at(w.scratch.take<Encloser>(1).data(), d, intersect(all, cell.box.inflated(d.reach)),
-                                    std::span<const LocalValue>(), w.scratch);
+        enclose =
+            std::construct_at(w.scratch.take<Encloser>(1).data(), d.program, intersect(all, cell.box.inflated(d.reach)),
+                              std::span<const LocalValue>(), w.scratch);
     }
     // Through copies without end a ray goes on and on, and, where nothing is known, from block to block of a pattern.
     const float size = share.box.diagonal();
@@ -138,9 +139,9 @@ std::optional<Candidate> candidate(const Share& share, const Bounds& all, const 
         std::isfinite(share.pattern) && !(cell.bound.spread < 1) && has_local_primitive(cell.program);
     const float blocks = has_blocks ? std::max(1.f, size / share.pattern) : 1.f;
     const float copies = (1 + 4 * size / share.period) * blocks;
-    cell.work = work(cell.program, d.constants, cell.local, w.scratch);
+    cell.work = work(cell.program, d.program.constants, cell.local, w.scratch);
     cell.cost = copies * cost(cell.box, cell.bound, cell.curvature, cell.program, cell.work, !cell.certificate.empty(),
-                              d.options.opaque);
+                              d.program.opaque);
     return cell;
 }
 
@@ -148,7 +149,7 @@ std::optional<Candidate> candidate(const Share& share, const Bounds& all, const 
 bool prepare(Share& share, const BuildContext& d, Worker& w) {
     const ArenaScope scratch(w.scratch);
     const Bounds all = share.box.inflated(d.reach);
-    Encloser encloser(d, all, share.local, w.scratch);
+    Encloser encloser(d.program, all, share.local, w.scratch);
     const auto whole = candidate(share, all, share.program, encloser, d, w);
     if (!whole) return false;
     share.program = whole->program;
@@ -157,9 +158,10 @@ bool prepare(Share& share, const BuildContext& d, Worker& w) {
     share.cell = *whole;
     share.box = intersect(share.box, whole->box);
     if (share.box.empty()) return false;
-    if (!d.has_far_bounds) return true;
+    if (!d.program.has_far_bounds) return true;
     // Its parts may want what tells more far away.
-    if (const auto near = without_far_bounds(share.program, d.constants, d.options.opaque, w.programs, w.scratch)) {
+    if (const auto near =
+            without_far_bounds(share.program, d.program.constants, d.program.opaque, w.programs, w.scratch)) {
         const auto other = candidate(share, all, *near, encloser, d, w);
         if (!other) return false;
         if (other->cost < share.cell.cost) share.cell = *other;
@@ -230,9 +232,9 @@ Cost find_cells(const Share& share, const BuildContext& d, Worker& w) {
 /// The values of a program's instructions at the centres of parts of a box, one a lane: ValuesAtPoint for each.
 ValuesAtPoint values_at_centres(const Share& share, const Parts& parts, const BuildContext& d, Worker& w) {
     Arena& scratch = w.scratch;
-    if (w.constants.empty()) w.constants.assign(d.constants.begin(), d.constants.end());
+    if (w.constants.empty()) w.constants.assign(d.program.constants.begin(), d.program.constants.end());
     const WorkingProgram program = specialised(share.program, share.local, w.constants, scratch);
-    const Steps steps = readable_steps(program, scratch);
+    const ReadableSteps steps = readable_steps(program, scratch);
     static_assert(batch_size >= Parts::most, "each part has a lane of its own");
     BatchOfFloats x, y, z;
     for (std::size_t i = 0; i < batch_size; ++i) {
@@ -244,7 +246,7 @@ ValuesAtPoint values_at_centres(const Share& share, const Parts& parts, const Bu
     const std::span<BatchOfFloats> registers = scratch.take<BatchOfFloats>(steps.slots);
     active_kernel().evaluate(steps.routine(w.constants.data()), x.lane.data(), y.lane.data(), z.lane.data(),
                              registers.data()->lane.data(), nullptr);
-    w.constants.resize(d.constants.size());
+    w.constants.resize(d.program.constants.size());
     return {registers.data(), steps.slot, 0};
 }
 
@@ -253,7 +255,7 @@ Cost divide(const Share& share, const BuildContext& d, Worker& w) {
     const ArenaScope programs(w.programs), scratch(w.scratch);
     const Parts parts(share.box);
     const ValuesAtPoint values = values_at_centres(share, parts, d, w);
-    const bool has_jumps = d.has_folds && may_jump(share.program);
+    const bool has_jumps = d.program.has_folds && may_jump(share.program);
 
     // High up the parts are divided by as many threads, each with memory of its own; the order of the cells is that of
     // the parts, whichever thread finds them.
@@ -272,15 +274,16 @@ Cost divide(const Share& share, const BuildContext& d, Worker& w) {
         const ArenaScope scope(own.scratch);
         const float radius = 0.5f * parts.box[i].inflated(d.reach).diagonal() * (1 + 1e-5f);
         const ValuesAtPoint centre{values.registers, values.slot, i};
-        const std::span<const float> slope =
-            has_jumps ? slopes_in_ball(share.program, d.constants, centre, radius, d.rounding, own.scratch)
-                      : share.program.lipschitz;
-        const RangesInBall ranges{centre, slope, radius, d.rounding};
-        const auto program = prune(share.program, d.constants, ranges, d.options.opaque, own.programs, own.scratch);
+        const std::span<const float> slope = has_jumps ? slopes_in_ball(share.program, d.program.constants, centre,
+                                                                        radius, d.program.rounding, own.scratch)
+                                                       : share.program.lipschitz;
+        const RangesInBall ranges{centre, slope, radius, d.program.rounding};
+        const auto program =
+            prune(share.program, d.program.constants, ranges, d.program.opaque, own.programs, own.scratch);
         if (!program) return;
         Share& part = *std::construct_at(&divided[i], Share{parts.box[i], *program, share.local, share.depth + 1});
-        if (std::isfinite(share.period)) part.period = finest_jump(part.program, d.constants);
-        if (std::isfinite(share.pattern)) part.pattern = finest_pattern(part.program, d.constants);
+        if (std::isfinite(share.period)) part.period = finest_jump(part.program, d.program.constants);
+        if (std::isfinite(share.pattern)) part.pattern = finest_pattern(part.program, d.program.constants);
         is_left[i] = prepare(part, d, own);
     });
     const auto left_count = std::ranges::count(is_left, true);
@@ -324,10 +327,11 @@ Cost divide(const Share& share, const BuildContext& d, Worker& w) {
 
 }  // namespace
 
-CellBuffers divide_into_cells(const Bounds& box, const WorkingProgram& program, const BuildContext& d, CellBudget& budget) {
+CellBuffers divide_into_cells(const Bounds& box, const WorkingProgram& program, const BuildContext& d,
+                              CellBudget& budget) {
     Share root{box, program};
-    root.period = finest_jump(program, d.constants);
-    root.pattern = finest_pattern(program, d.constants);
+    root.period = finest_jump(program, d.program.constants);
+    root.pattern = finest_pattern(program, d.program.constants);
     Workers workers(budget);
     Worker worker{workers};
     if (!prepare(root, d, worker)) return {};

@@ -36,7 +36,8 @@ class Finer {
 
 }  // namespace
 
-CellsWithinBudget divide_within(std::size_t bytes, const Bounds& box, const WorkingProgram& program, const BuildContext& d) {
+CellsWithinBudget divide_within(std::size_t bytes, const Bounds& box, const WorkingProgram& program,
+                                const BuildContext& d) {
     try {
         CellBudget budget(bytes);
         return {divide_into_cells(box, program, d, budget)};

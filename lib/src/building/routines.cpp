@@ -77,7 +77,7 @@ bool Routines::Key::operator==(const Key& other) const {
 
 void Routines::take_specialised_data(CellBuffer& found) {
     for (Instruction& in : found.code) {
-        if (!traits(in.op).is_near) continue;
+        if (!traits(in.op).is_specialised) continue;
         const auto data = data_of_specialised(in.op, std::span(found.specialised_data).subspan(in.data));
         in.data = fuse_.constant(data.data(), data.size());
     }
@@ -123,16 +123,17 @@ std::uint32_t Routines::shape_of(const Assembly& assembly, std::uint32_t leading
     for (auto known = first; known != end; ++known)
         if (is_it(tables.shapes[known->second])) return known->second;
     const std::uint32_t shape = CellBuffer::narrow(tables.shapes.size());
-    tables.shapes.push_back({CellBuffer::narrow(tables.steps.size()), CellBuffer::narrow(assembly.steps.size()), leading,
-                             CellBuffer::narrow(tables.outputs.size()), CellBuffer::narrow(assembly.outputs.size()),
-                             assembly.slots});
+    tables.shapes.push_back({CellBuffer::narrow(tables.steps.size()), CellBuffer::narrow(assembly.steps.size()),
+                             leading, CellBuffer::narrow(tables.outputs.size()),
+                             CellBuffer::narrow(assembly.outputs.size()), assembly.slots});
     tables.steps.insert(tables.steps.end(), assembly.steps.begin(), assembly.steps.end());
     tables.outputs.insert(tables.outputs.end(), assembly.outputs.begin(), assembly.outputs.end());
     shapes_.emplace(hash.get(), shape);
     return shape;
 }
 
-void Routines::add_certificate(const Ready& ready, std::span<const CertificateStep> certificate, std::vector<PackedCertificateStep>& certificates) const {
+void Routines::add_certificate(const Ready& ready, std::span<const CertificateStep> certificate,
+                               std::vector<PackedCertificateStep>& certificates) const {
     std::size_t at = ready.first_kept;
     for (const CertificateStep& part : certificate)
         certificates.push_back(part.step(part.kind == PackedCertificateStep::leaf ? kept_slots_[at++] : 0));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "building/cell_buffer.hpp"
+#include "evaluation/assemble.hpp"
 #include "rewriting/fuse.hpp"
 
 namespace phasetree {

@@ -5,13 +5,13 @@
 #include <optional>
 #include <utility>
 
-#include "cells/curvature_code.hpp"
 #include "building/divide_within.hpp"
+#include "cells/curvature_code.hpp"
 #include "cells/file.hpp"
-#include "rewriting/rewrite.hpp"
+#include "evaluation/target.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/trace/tracer.hpp"
-#include "evaluation/target.hpp"
+#include "rewriting/rewrite.hpp"
 #include "trace/march.hpp"
 #include "trace/normal.hpp"
 
@@ -147,9 +147,10 @@ InterfaceCells::InterfaceCells(const Phased& object, const CellOptions& options)
     Arena arena;
     const WorkingProgram rewritten = rewrite(recorded, arena);
     BuildProgress progress(options.progress);
-    const BuildContext division(options, progress, rewritten, recorded.constants, data->reach, 0.5f * data->resolution,
-                            data->bounds.diagonal());
-    CellsWithinBudget within = divide_within(data->most_bytes, data->bounds, rewritten, division);
+    const BuildContext context{options, progress,
+                               ProgramContext(rewritten, recorded.constants, options.opaque, 0.5f * data->resolution),
+                               data->reach, data->bounds.diagonal()};
+    CellsWithinBudget within = divide_within(data->most_bytes, data->bounds, rewritten, context);
     data->is_coarser = within.is_coarser;
     data->add(std::move(within.found), Routines(recorded.constants), options.cancelled);
     data->whole.emplace(std::move(recorded));
@@ -256,8 +257,8 @@ CellStatistics InterfaceCells::statistics() const {
     s.cells = data_->cells.size();
     s.routines = data_->routine_count;
     s.bytes = data_->cells.size() * sizeof(Data::Cell) + data_->routines.bytes() +
-              data_->certificates.size() * sizeof(PackedCertificateStep) + data_->first_certificate.size() * sizeof(data_->first_certificate[0]) +
-              data_->whole->bytes();
+              data_->certificates.size() * sizeof(PackedCertificateStep) +
+              data_->first_certificate.size() * sizeof(data_->first_certificate[0]) + data_->whole->bytes();
     s.build_seconds = data_->build_seconds;
     s.is_coarser = data_->is_coarser;
     if (data_->cells.empty()) return s;

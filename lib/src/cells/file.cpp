@@ -63,11 +63,11 @@ struct StoredCell {
                 (flags & by_first) != 0};
     }
 };
-static_assert(sizeof(StoredCell) == 64 && sizeof(Step) == 16 && sizeof(OutputSlot) == 12 && sizeof(PackedCertificateStep) == 16 &&
-              sizeof(RoutineTables::Shape) == 24);
+static_assert(sizeof(StoredCell) == 64 && sizeof(Step) == 16 && sizeof(OutputSlot) == 12 &&
+              sizeof(PackedCertificateStep) == 16 && sizeof(RoutineTables::Shape) == 24);
 constexpr std::array<std::uint64_t, section_count> item_bytes{
-    sizeof(StoredCell), sizeof(RoutineTables::Shape), sizeof(Step), sizeof(OutputSlot), sizeof(std::uint32_t),
-    sizeof(PackedCertificateStep),  sizeof(std::uint32_t),        sizeof(float)};
+    sizeof(StoredCell),    sizeof(RoutineTables::Shape),  sizeof(Step),          sizeof(OutputSlot),
+    sizeof(std::uint32_t), sizeof(PackedCertificateStep), sizeof(std::uint32_t), sizeof(float)};
 
 std::array<char, 24> as_chars(std::string_view text) {
     std::array<char, 24> chars{};
@@ -285,11 +285,14 @@ void write_cells(const fs::path& path, const InterfaceCells& cells) {
     Header h = header_of(program, t.recorded_constants, made);
     h.is_coarser = t.is_coarser;
     h.routines = t.routine_count;
-    const std::array<std::span<const std::byte>, section_count> parts{
-        bytes_of(stored),           bytes_of(t.routines.shapes),
-        bytes_of(t.routines.steps), bytes_of(t.routines.outputs),
-        bytes_of(t.routines.data),  bytes_of(t.certificates),
-        bytes_of(t.first_certificate),    more};
+    const std::array<std::span<const std::byte>, section_count> parts{bytes_of(stored),
+                                                                      bytes_of(t.routines.shapes),
+                                                                      bytes_of(t.routines.steps),
+                                                                      bytes_of(t.routines.outputs),
+                                                                      bytes_of(t.routines.data),
+                                                                      bytes_of(t.certificates),
+                                                                      bytes_of(t.first_certificate),
+                                                                      more};
     Checksum sum;
     for (std::size_t i = 0; i < section_count; ++i) {
         h.counts[i] = parts[i].size() / item_bytes[i];

@@ -120,7 +120,7 @@ class Check {
         static const auto floats = all_floats();
         if (!fits(at, floats[op], constants_.size())) return false;
         if (!has_data(op)) return true;
-        if (traits(static_cast<Op>(op)).is_near) return is_list_of_sites(at);
+        if (traits(static_cast<Op>(op)).is_specialised) return is_list_of_sites(at);
         return std::ranges::binary_search(of_object_, std::pair{op, at});
     }
     bool is_list_of_sites(std::uint32_t at) const {

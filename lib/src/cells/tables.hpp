@@ -21,8 +21,8 @@ struct CellTables {
     RoutineTables routines;
     std::vector<PackedCertificateStep> certificates;
     std::vector<std::uint32_t> first_certificate;  ///< of each cell, and the end
-    std::size_t recorded_constants = 0;      ///< of the program's: those behind them are the cells'
-    bool is_coarser = false;                 ///< for want of memory
+    std::size_t recorded_constants = 0;            ///< of the program's: those behind them are the cells'
+    bool is_coarser = false;                       ///< for want of memory
 };
 
 }  // namespace phasetree

@@ -1,6 +1,7 @@
 #include "phasetree/evaluation/evaluator.hpp"
 
 #include "evaluation/assemble.hpp"
+#include "evaluation/component.hpp"
 #include "evaluation/target.hpp"
 
 namespace phasetree {

@@ -1,5 +1,6 @@
-#include "phasetree/math/dual.hpp"
+#include "evaluation/component.hpp"
 #include "evaluation/interpret.hpp"
+#include "phasetree/math/dual.hpp"
 
 namespace phasetree {
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <string>
 
-#include "phasetree/io/suggest.hpp"
 #include "io/lexis.hpp"
 #include "io/utf8.hpp"
+#include "phasetree/io/suggest.hpp"
 
 namespace phasetree::reading {
 

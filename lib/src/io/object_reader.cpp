@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <glm/glm.hpp>
 
-#include "phasetree/io/suggest.hpp"
 #include "io/utf8.hpp"
+#include "phasetree/io/suggest.hpp"
 
 namespace phasetree {
 

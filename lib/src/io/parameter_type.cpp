@@ -1,4 +1,4 @@
-#include "phasetree/reading/parameter_type.hpp"
+#include "phasetree/io/parameter_type.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "phasetree/io/suggest.hpp"
 #include "io/utf8.hpp"
+#include "phasetree/io/suggest.hpp"
 
 namespace phasetree {
 

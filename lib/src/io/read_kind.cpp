@@ -1,4 +1,4 @@
-#include "phasetree/reading/read_kind.hpp"
+#include "phasetree/io/read_kind.hpp"
 
 #include <fmt/format.h>
 

@@ -5,9 +5,9 @@
 #include <map>
 
 #include "model/preparation.hpp"
-#include "phasetree/tree/node.hpp"
 #include "phasetree/io/object_reader.hpp"
 #include "phasetree/io/suggest.hpp"
+#include "phasetree/tree/node.hpp"
 
 namespace phasetree {
 

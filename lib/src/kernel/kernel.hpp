@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "kernel/linear_bound.hpp"
-#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/model/phase.hpp"
 #include "phasetree/model/ray.hpp"
 
 namespace phasetree {
@@ -32,7 +32,8 @@ struct OutputSlot {
     bool operator==(const OutputSlot&) const = default;
 };
 
-/// A step of a certificate, on a stack, that a field keeps its sign between samples: see certificate.inl. A leaf speaks of
+/// A step of a certificate, on a stack, that a field keeps its sign between samples: see certificate.inl. A leaf speaks
+/// of
 ///     g = factor · (the slot's value − threshold),
 /// which is 1-Lipschitz; 16-bit numbers are the upper halves of floats.
 struct PackedCertificateStep {

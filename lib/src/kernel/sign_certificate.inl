@@ -2,9 +2,9 @@
 /// the fields that it is the minimum or maximum of. Included by kernel.inl.
 ///
 /// A minimum is positive where both operands are; a maximum is, for one, between two samples between which one of its
-/// operands is. So a certificate is a tree of such choices, in the order of a stack, over leaves; what is passed around is a
-/// mask of gaps. The same certificate, with signs and choices turned, is that of the other side; but for a step that implies
-/// what it stands for and is not implied by it.
+/// operands is. So a certificate is a tree of such choices, in the order of a stack, over leaves; what is passed around
+/// is a mask of gaps. The same certificate, with signs and choices turned, is that of the other side; but for a step
+/// that implies what it stands for and is not implied by it.
 ///
 /// A leaf g, 1-Lipschitz, is known at the samples. It is positive in a gap of length h between a and b
 ///  * if g″ ≤ K and √a + √b ≥ h √(K/2): see March::is_bridged;
@@ -37,7 +37,8 @@ HWY_INLINE Gaps gaps_between(const Batch& t, float rounding) {
 }
 
 /// Bit i: the leaf is positive in the gap that ends at lane i; never for the first, where a is 0.
-HWY_INLINE std::uint32_t proven_by_leaf(const PackedCertificateStep& s, bool is_turned, const float* registers, const Gaps& gaps) {
+HWY_INLINE std::uint32_t proven_by_leaf(const PackedCertificateStep& s, bool is_turned, const float* registers,
+                                        const Gaps& gaps) {
     const float factor = float_of_half(s.factor);
     const float up = float_of_half(is_turned ? s.down : s.up), down = float_of_half(is_turned ? s.up : s.down);
     const Batch zero(0.f), one(1.f), unknown(1e30f);

@@ -132,7 +132,8 @@ bool VoronoiCells::specialise(const PointRange& range, std::span<const float> of
     return append(found, {size, gap, rounding, jitter, seed}, floats);
 }
 
-bool Voronoi::Nearest::specialise(const PointRange& range, std::span<const float> of, std::vector<float>& floats) const {
+bool Voronoi::Nearest::specialise(const PointRange& range, std::span<const float> of,
+                                  std::vector<float>& floats) const {
     const PointRange box = in_cubes(range, size);
     if (!is_small(box)) return false;
     const VoronoiSites sites{jitter, seed};

@@ -6,8 +6,8 @@
 #include <queue>
 #include <span>
 
-#include "preparation/prepared_field.hpp"
 #include "phasetree/tree/node.hpp"
+#include "preparation/prepared_field.hpp"
 
 namespace phasetree {
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "phasetree/nodes/list.hpp"
-#include "evaluation/assemble.hpp"
+#include "program/op_traits.hpp"
 
 namespace phasetree {
 

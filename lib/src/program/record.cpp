@@ -4,9 +4,9 @@
 #include <cstring>
 #include <unordered_map>
 
-#include "phasetree/tree/node.hpp"
 #include "phasetree/program/program.hpp"
-#include "evaluation/assemble.hpp"
+#include "phasetree/tree/node.hpp"
+#include "program/op_traits.hpp"
 
 namespace phasetree {
 

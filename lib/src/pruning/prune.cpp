@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "enclosure/difference.hpp"
 #include "pruning/required_interval.hpp"
 #include "rewriting/live_set.hpp"
 #include "rewriting/rewrite.hpp"
-#include "enclosure/difference.hpp"
 
 /// Two kinds of pruning, in one backward sweep over the program.
 ///
@@ -124,7 +124,8 @@ class Pruner {
                 continue;
             }
             const Instruction& in = code[i];
-            written[i] = rewriter.write(op_[i], written[in.a], written[in.b], in.data, slope[i], required_[i].is_sign());
+            written[i] =
+                rewriter.write(op_[i], written[in.a], written[in.b], in.data, slope[i], required_[i].is_sign());
         }
         const std::span<ProgramOutput> ends = scratch_.take<ProgramOutput>(outputs.size());
         std::size_t count = 0;
@@ -269,7 +270,8 @@ class Pruner {
 
     /// One of its operands in its place, a if both may be, or nothing. Here, where every other comparison surprises the
     /// processor, without a branch: what is demanded twice in the same way is demanded once.
-    void take(std::uint32_t i, bool is_a, bool is_b, const RequiredInterval& d, const RequiredInterval& of_a, const RequiredInterval& of_b) {
+    void take(std::uint32_t i, bool is_a, bool is_b, const RequiredInterval& d, const RequiredInterval& of_a,
+              const RequiredInterval& of_b) {
         const Instruction& in = program_.code[i];
         const std::uint32_t first = (is_b & (!is_a)) ? in.b : in.a, second = is_a ? in.a : in.b;
         const bool is_one = is_a | is_b;

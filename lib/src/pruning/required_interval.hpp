@@ -30,7 +30,9 @@ class RequiredInterval {
     }
     /// No more of it than is below or above a number.
     RequiredInterval below(float most) const { return between(least_, std::max(least_, most < most_ ? most : most_)); }
-    RequiredInterval above(float least) const { return between(std::min(most_, least > least_ ? least : least_), most_); }
+    RequiredInterval above(float least) const {
+        return between(std::min(most_, least > least_ ? least : least_), most_);
+    }
     RequiredInterval negated() const { return between(-most_, -least_); }
 
   private:

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pruning/prune.hpp"
+#include "rewriting/working_program.hpp"
 
 namespace phasetree {
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "program/fused.hpp"
+#include "program/op_traits.hpp"
 
 namespace phasetree {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "phasetree/math/affine_map.hpp"
-#include "evaluation/assemble.hpp"
+#include "program/program_output.hpp"
 
 namespace phasetree {
 

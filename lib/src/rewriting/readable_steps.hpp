@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pruning/prune.hpp"
+#include "rewriting/working_program.hpp"
 
 namespace phasetree {
 
@@ -15,7 +15,7 @@ inline std::uint32_t give_slots(const WorkingProgram& program, std::span<std::ui
 }
 
 /// A working program's steps, whose values can all be read afterwards.
-struct Steps {
+struct ReadableSteps {
     std::span<const Step> steps;
     std::span<const std::uint32_t> data;  ///< for each step where its constants are
     std::span<const std::uint32_t> slot;  ///< of each instruction's value

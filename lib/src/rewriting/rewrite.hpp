@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pruning/prune.hpp"
 #include "phasetree/program/program.hpp"
+#include "rewriting/working_program.hpp"
 
 namespace phasetree {
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cstring>
 
-#include "evaluation/interpret.hpp"
+#include "program/dispatch.hpp"
 
 namespace phasetree {
 
-WorkingProgram specialised(const WorkingProgram& program, std::span<const LocalValue> values, std::vector<float>& floats,
-                         Arena& scratch) {
+WorkingProgram specialised(const WorkingProgram& program, std::span<const LocalValue> values,
+                           std::vector<float>& floats, Arena& scratch) {
     if (values.empty()) return program;
     const std::span<Instruction> code = scratch.copy(program.code);
     for (const LocalValue& v : values) {

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include "pruning/prune.hpp"
 #include "phasetree/nodes/list.hpp"
-#include "evaluation/assemble.hpp"
+#include "rewriting/working_program.hpp"
 
 namespace phasetree {
 
@@ -34,7 +33,7 @@ inline bool has_local_primitive(const WorkingProgram& program) {
 
 /// The program with them in their places, and their data appended to `floats`: there such an instruction's data start.
 WorkingProgram specialised(const WorkingProgram&, std::span<const LocalValue>, std::vector<float>& floats,
-                         Arena& scratch);
+                           Arena& scratch);
 
 /// How large the features of a program's patterns are, at the least; endless if it has none.
 float finest_pattern(const WorkingProgram&, std::span<const float> constants);

@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-#include "pruning/prune.hpp"
+#include "rewriting/working_program.hpp"
 
 namespace phasetree {
 

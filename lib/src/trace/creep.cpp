@@ -6,6 +6,7 @@
 
 #include "bounding/enclose_primitive.hpp"
 #include "evaluation/target.hpp"
+#include "phasetree/program/batch.hpp"
 
 namespace phasetree {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "evaluation/component.hpp"
 #include "phasetree/model/crossing.hpp"
-#include "evaluation/assemble.hpp"
 
 namespace phasetree {
 

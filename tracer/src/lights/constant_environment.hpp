@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "lights/direction_sample.hpp"
-#include "phasetree/reading/kind.hpp"
+#include "phasetree/io/kind.hpp"
 
 namespace phasetree::tracer {
 

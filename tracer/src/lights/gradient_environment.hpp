@@ -8,7 +8,7 @@
 
 #include "lights/direction_sample.hpp"
 #include "lights/zonal_distribution.hpp"
-#include "phasetree/reading/kind.hpp"
+#include "phasetree/io/kind.hpp"
 
 namespace phasetree::tracer {
 

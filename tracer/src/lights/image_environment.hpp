@@ -18,7 +18,7 @@
 
 #include "lights/direction_sample.hpp"
 #include "lights/lat_long_distribution.hpp"
-#include "phasetree/reading/kind.hpp"
+#include "phasetree/io/kind.hpp"
 
 namespace phasetree::tracer {
 

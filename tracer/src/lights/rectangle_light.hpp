@@ -12,7 +12,7 @@
 
 #include "lights/direction_sample.hpp"
 #include "parameters/world_limits.hpp"
-#include "phasetree/reading/kind.hpp"
+#include "phasetree/io/kind.hpp"
 
 namespace phasetree::tracer {
 

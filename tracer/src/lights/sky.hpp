@@ -5,7 +5,7 @@
 
 #include "lights/daylight.hpp"
 #include "lights/lights.hpp"
-#include "phasetree/reading/kind.hpp"
+#include "phasetree/io/kind.hpp"
 
 namespace phasetree::tracer {
 

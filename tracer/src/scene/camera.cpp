@@ -1,6 +1,6 @@
 #include <array>
 
-#include "phasetree/reading/read_kind.hpp"
+#include "phasetree/io/read_kind.hpp"
 #include "scene/camera_parameters.hpp"
 #include "scene/read_parts.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "camera/thin_lens.hpp"
 #include "parameters/world_limits.hpp"
-#include "phasetree/reading/kind.hpp"
+#include "phasetree/io/kind.hpp"
 
 namespace phasetree::tracer {
 

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "phasetree/reading/read_kind.hpp"
+#include "phasetree/io/read_kind.hpp"
 #include "scene/parameter_types.hpp"
 
 namespace phasetree::tracer {

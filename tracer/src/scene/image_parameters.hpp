@@ -1,7 +1,7 @@
 // "render" as a scene file says it: how large the image is, and how it is made.
 #pragma once
 
-#include "phasetree/reading/kind.hpp"
+#include "phasetree/io/kind.hpp"
 #include "scene/scene.hpp"
 
 namespace phasetree::tracer {

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "lights/light_kinds.hpp"
-#include "phasetree/reading/read_kind.hpp"
+#include "phasetree/io/read_kind.hpp"
 #include "scene/read_parts.hpp"
 
 namespace phasetree::tracer {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "phasetree/reading/read_kind.hpp"
+#include "phasetree/io/read_kind.hpp"
 #include "scene/material_kinds.hpp"
 #include "scene/read_parts.hpp"
 #include "shading/metals.hpp"

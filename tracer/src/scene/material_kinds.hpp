@@ -6,8 +6,8 @@
 #include <string>
 #include <variant>
 
+#include "phasetree/io/kind.hpp"
 #include "phasetree/model/concepts.hpp"
-#include "phasetree/reading/kind.hpp"
 #include "scene/parameter_types.hpp"
 #include "shading/material.hpp"
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "parameters/world_limits.hpp"
+#include "phasetree/io/kind.hpp"
 #include "phasetree/model/concepts.hpp"
-#include "phasetree/reading/kind.hpp"
 #include "scene/parameter_types.hpp"
 #include "scene/scene.hpp"
 

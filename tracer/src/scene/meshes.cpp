@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "phasetree/reading/read_kind.hpp"
+#include "phasetree/io/read_kind.hpp"
 #include "scene/mesh_kinds.hpp"
 #include "scene/read_parts.hpp"
 

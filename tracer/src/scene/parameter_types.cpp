@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "phasetree/reading/read_kind.hpp"
+#include "phasetree/io/read_kind.hpp"
 #include "phasetree/io/reference.hpp"
 #include "scene/read_parts.hpp"
 

@@ -1,7 +1,7 @@
 // How parameters that are textures, materials of meshes, or whole parts of a file are read and described.
 #pragma once
 
-#include "phasetree/reading/parameter_type.hpp"
+#include "phasetree/io/parameter_type.hpp"
 #include "shading/material.hpp"
 
 namespace phasetree::tracer {

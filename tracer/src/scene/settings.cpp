@@ -1,4 +1,4 @@
-#include "phasetree/reading/read_kind.hpp"
+#include "phasetree/io/read_kind.hpp"
 #include "scene/image_parameters.hpp"
 #include "scene/read_parts.hpp"
 

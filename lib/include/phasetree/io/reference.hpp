@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "phasetree/io/parameter_type.hpp"
 #include "phasetree/model/concepts.hpp"
-#include "phasetree/reading/parameter_type.hpp"
 
 namespace phasetree {
 
@@ -42,7 +42,7 @@ struct Chapter {
 /// Where a default stands that is not there: what is required has none.
 ParameterPage parameter_page(const Parameter&, const ValueType&, std::string default_value);
 
-/// The page of a kind, from its list of parameters (reading/kind.hpp).
+/// The page of a kind, from its list of parameters (io/kind.hpp).
 template <class Kind>
 KindPage page_of() {
     KindPage page;

@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
+#include "phasetree/io/document.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/nodes/fields/height_grid.hpp"
 #include "phasetree/nodes/fields/siren_network.hpp"
-#include "phasetree/io/document.hpp"
 
 namespace phasetree {
 

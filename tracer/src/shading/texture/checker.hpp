@@ -3,7 +3,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "phasetree/reading/kind.hpp"
+#include "phasetree/io/kind.hpp"
 
 namespace phasetree::tracer {
 

@@ -15,7 +15,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-#include "phasetree/reading/kind.hpp"
+#include "phasetree/io/kind.hpp"
 
 namespace phasetree::tracer {
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include "phasetree/io/parameter_type.hpp"
 #include "phasetree/model/concepts.hpp"
-#include "phasetree/reading/parameter_type.hpp"
 
 namespace phasetree {
 

@@ -17,7 +17,7 @@
 ///         }
 ///     };
 ///
-/// From this list follow the reader with its checks (reading/read_kind.hpp), the reference page and the schema
+/// From this list follow the reader with its checks (io/read_kind.hpp), the reference page and the schema
 /// (io/reference.hpp). The members' initialisers are the defaults of what is optional.
 
 #include <optional>

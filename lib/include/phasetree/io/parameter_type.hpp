@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "phasetree/reading/kind.hpp"
+#include "phasetree/io/kind.hpp"
 #include "phasetree/io/object_reader.hpp"
 
 namespace phasetree {
