@@ -3,7 +3,7 @@
 #include <set>
 
 #include "phasetree/io/document.hpp"
-#include "phasetree/io/reference.hpp"
+#include "scene/reference.hpp"
 
 namespace phasetree::fuzz {
 
@@ -19,7 +19,7 @@ void collect(Value value, std::set<std::string>& found) {
 
 std::vector<std::string> words() {
     std::set<std::string> found;
-    const Document schema = Document::from_text(scene_json_schema());
+    const Document schema = Document::from_text(tracer::scene_json_schema());
     collect(schema.root(), found);
     return {found.begin(), found.end()};
 }

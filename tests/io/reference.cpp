@@ -1,51 +1,73 @@
-// The node reference and the schema are derived from the nodes; the committed copies must be what the program prints.
-//     phasetree nodes --markdown > scenes/nodes.md; phasetree nodes --json-schema > scenes/scene.schema.json
+// The reference of the nodes, as page, text and schema, follows from the nodes' own definitions. What a whole scene
+// file may say, the path tracer's kinds too, is in tracer/scene_reference.cpp.
 
 #include "phasetree/io/reference.hpp"
-#include "phasetree/model/handle.hpp"
-#include "phasetree/tree/node.hpp"
-#include "source_directory.hpp"
 
 #include <doctest/doctest.h>
 
-#include <fstream>
-#include <sstream>
+#include "phasetree/io/document.hpp"
+#include "phasetree/tree/node.hpp"
 
 using namespace phasetree;
 
 namespace {
 
-std::string committed(const std::string& file) {
-    std::ifstream in(source_directory() + "/scenes/" + file);
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
+std::vector<KindPage> pages_of_nodes() {
+    std::vector<KindPage> pages;
+    for (const Chapter& chapter : node_chapters())
+        pages.insert(pages.end(), chapter.pages.begin(), chapter.pages.end());
+    return pages;
+}
+
+template <class List>
+bool has_node(std::string_view name) {
+    bool found = false;
+    for_each_type(List(), [&]<class N>() { found = found || N::info.name == name; });
+    return found;
 }
 
 }  // namespace
 
-TEST_CASE("the committed reference page and schema are those of the nodes") {
-    CHECK(committed("nodes.md") == node_reference_markdown());
-    CHECK(committed("scene.schema.json") == scene_json_schema());
-}
-
-TEST_CASE("every node describes itself and all its parameters, in both references") {
-    const std::string text = node_reference_text(), schema = scene_json_schema();
-    const auto check = [&]<class N>() {
+TEST_CASE("every node describes itself and all its parameters, in the page and in the schema") {
+    const std::vector<KindPage> pages = pages_of_nodes();
+    const std::string text = reference_text(node_chapters()), markdown = reference_markdown(node_chapters());
+    const Document schema = Document::from_text(scene_schema({}, {}));
+    const Value definitions = *schema.root().find("definitions");
+    const auto nodes = [&](const char* name) {
+        return *(*definitions.find(name)->find("anyOf"))[1].find("properties");
+    };
+    const Value fields = nodes("field"), objects = nodes("object");
+    CHECK(fields.size() == FieldNodes::size);
+    CHECK(objects.size() == PhasedNodes::size);
+    const auto check = [&]<class N>(const Value& among) {
         CAPTURE(N::info.name);
         CHECK(!N::info.name.empty());
         CHECK(!N::info.summary.empty());
         CHECK(!N::info.equation.empty());
         CHECK(text.find("  " + std::string(N::info.name)) != std::string::npos);
-        CHECK(schema.find("\"" + std::string(N::info.name) + "\"") != std::string::npos);
+        CHECK(markdown.find("### " + std::string(N::info.name)) != std::string::npos);
+        const auto page = std::ranges::find(pages, N::info.name, &KindPage::name);
+        REQUIRE(page != pages.end());
+        REQUIRE(among.find(N::info.name));
+        Value object = *among.find(N::info.name);
+        if (const auto either = object.find("anyOf")) object = (*either)[0];
         const N node{};
+        std::size_t count = 0;
         for_each_parameter(node, [&](const auto&, const Parameter& p) {
             CAPTURE(p.name);
             CHECK(!p.name.empty());
             CHECK(!p.description.empty());
-            CHECK(schema.find("\"" + std::string(p.name) + "\"") != std::string::npos);
+            const auto property = object.find("properties")->find(p.name);
+            REQUIRE(property);
+            CHECK(property->find("description")->string().starts_with(p.description));
+            REQUIRE(count < page->parameters.size());
+            CHECK(page->parameters[count++].name == p.name);
         });
+        // A warp has one page, that of what warps objects, which may be told which phases to warp.
+        const bool has_own_page = !has_node<Warps>(N::info.name) || &among == &objects;
+        if (has_own_page) CHECK(count == page->parameters.size());
+        CHECK(object.find("properties")->size() == count);
     };
-    for_each_type(FieldNodes(), check);
-    for_each_type(PhasedNodes(), check);
+    for_each_type(FieldNodes(), [&]<class N>() { check.template operator()<N>(fields); });
+    for_each_type(PhasedNodes(), [&]<class N>() { check.template operator()<N>(objects); });
 }

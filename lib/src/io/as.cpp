@@ -30,16 +30,6 @@ Complaint must_be(Value value, std::string_view what) {
     return {value, fmt::format("must be {}, but is {}", what, name_of(value.kind()))};
 }
 
-std::string described(const Range& range) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    if (!range.description.empty()) return std::string(range.description);
-    const std::string low = fmt::format("{} {}", range.min_is_open ? "more than" : "at least", range.min);
-    const std::string high = fmt::format("{} {}", range.max_is_open ? "less than" : "at most", range.max);
-    if (range.min == -infinity) return high;
-    if (range.max == infinity) return low;
-    return low + " and " + high;
-}
-
 template <class Number>
 Checked read_number(Value value, const Range& range, Number& out) {
     constexpr bool is_integer = std::is_integral_v<Number>;
@@ -50,14 +40,23 @@ Checked read_number(Value value, const Range& range, Number& out) {
     };
     if (is_integer && number != std::trunc(number)) return complain("a whole number");
     // The caller's range first: "positive" says more than the limits of the type.
-    if (!range.contains(number)) return complain(described(range));
+    if (!range.contains(number)) return complain(describe(range));
     constexpr double lowest = static_cast<double>(std::numeric_limits<Number>::lowest());
     constexpr double highest = static_cast<double>(std::numeric_limits<Number>::max());
     if (number < lowest) return complain(fmt::format("at least {}", std::numeric_limits<Number>::lowest()));
     if (number > highest) return complain(fmt::format("at most {}", std::numeric_limits<Number>::max()));
     out = static_cast<Number>(number);
-    // A positive double can be zero as a float.
-    if (!range.contains(static_cast<double>(out))) return complain(described(range) + " as a 32-bit float");
+    // A positive double can be zero as a float. A limit is as the float that it would be read as: of 0.1, a little
+    // more.
+    if constexpr (!is_integer) {
+        const auto as_number = [&](double limit) {
+            return limit < lowest || limit > highest ? limit : static_cast<double>(static_cast<Number>(limit));
+        };
+        Range rounded = range;
+        rounded.min = as_number(range.min);
+        rounded.max = as_number(range.max);
+        if (!rounded.contains(static_cast<double>(out))) return complain(describe(range) + " as a 32-bit float");
+    }
     return std::nullopt;
 }
 
@@ -167,7 +166,7 @@ glm::vec3 as_colour(const Document& document, Value value, std::string_view what
         for (glm::length_t i = 0; i < 3; ++i) {
             if (range.contains(static_cast<double>((*colour)[i]))) continue;
             throw document.error(value, fmt::format("{} must be {} in each component, but {} is {} in linear light",
-                                                    what, described(range), value.string(), (*colour)[i]));
+                                                    what, describe(range), value.string(), (*colour)[i]));
         }
         return *colour;
     }

@@ -4,7 +4,6 @@
 
 #include <cctype>
 #include <nlohmann/json.hpp>
-#include <vector>
 
 #include "phasetree/tree/node.hpp"
 
@@ -14,87 +13,61 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What a parameter's type is called, how its default is written, and its JSON Schema. One overload a type.
-struct TypeOf {
-    std::string name;
-    std::string default_value;
-    Json schema;
-};
-
-Json with_limits(Json schema, const Limits& l) {
-    if (l.low > limits::any.low) schema[l.low_open ? "exclusiveMinimum" : "minimum"] = l.low;
-    if (l.high < limits::any.high) schema[l.high_open ? "exclusiveMaximum" : "maximum"] = l.high;
-    return schema;
-}
-Json reference_to(const char* what) {
+Json reference_to(std::string_view what) {
     return {{"$ref", fmt::format("#/definitions/{}", what)}};
 }
 Json list_of(Json items) {
     return {{"type", "array"}, {"minItems", 1}, {"items", std::move(items)}};
 }
 
-TypeOf type_of(float v, const Limits& l) {
-    return {"number", fmt::format("{}", v), with_limits({{"type", "number"}}, l)};
-}
-TypeOf type_of(int v, const Limits& l) {
-    return {"whole number", fmt::format("{}", v), with_limits({{"type", "integer"}}, l)};
-}
-TypeOf type_of(const glm::vec3& v, const Limits& l) {
-    return {"[x, y, z]",
-            fmt::format("[{}, {}, {}]", v.x, v.y, v.z),
-            {{"type", "array"}, {"minItems", 3}, {"maxItems", 3}, {"items", with_limits({{"type", "number"}}, l)}}};
-}
-TypeOf type_of(const glm::vec2& v, const Limits& l) {
-    return {"[x, y]",
-            fmt::format("[{}, {}]", v.x, v.y),
-            {{"type", "array"}, {"minItems", 2}, {"maxItems", 2}, {"items", with_limits({{"type", "number"}}, l)}}};
+/// Of a node's parameter: how its values are described, and how this one is written. One overload a type.
+struct NodeParameter {
+    ValueType type;
+    std::string written;
+};
+
+template <PlainParameter T>
+NodeParameter described(const T& v, const Parameter& p) {
+    return {ParameterType<T>::describe(p), ParameterType<T>::written(v)};
 }
 template <class Content>
-TypeOf type_of(const FromFile<Content>&, const Limits&) {
-    return {"name of a file", "none", {{"type", "string"}, {"minLength", 1}}};
+NodeParameter described(const FromFile<Content>&, const Parameter& p) {
+    return {ParameterType<std::filesystem::path>::describe(p), "none"};
 }
-TypeOf type_of(const Field&, const Limits&) {
-    return {"field", "none", reference_to("field")};
+NodeParameter described(const Field&, const Parameter&) {
+    return {{"field", schema_reference("field")}, "none"};
 }
-TypeOf type_of(const Phased&, const Limits&) {
-    return {"object", "none", reference_to("object")};
+NodeParameter described(const Phased&, const Parameter&) {
+    return {{"object", schema_reference("object")}, "none"};
 }
-TypeOf type_of(Phase, const Limits&) {
-    return {"phase", "", {{"type", "string"}}};
+NodeParameter described(Phase, const Parameter&) {
+    return {{"phase", R"({"type": "string"})"}, ""};
 }
-TypeOf type_of(PhaseSet, const Limits&) {
-    return {"phase or list of phases", "all", {{"anyOf", {{{"type", "string"}}, list_of({{"type", "string"}})}}}};
+NodeParameter described(PhaseSet, const Parameter&) {
+    const Json phase{{"type", "string"}};
+    return {{"phase or list of phases", Json{{"anyOf", {phase, list_of(phase)}}}.dump()}, "all"};
 }
-template <class T>
-TypeOf type_of(const std::vector<T>&, const Limits& l) {
-    const TypeOf item = type_of(T{}, l);
-    return {fmt::format("list of {}s", item.name), "[]", list_of(item.schema)};
-}
-
 /// A number by itself may stand for a list of one.
-TypeOf with_one_for_all(const TypeOf& list) {
-    return {"number or " + list.name, list.default_value, {{"anyOf", {list.schema["items"], list.schema}}}};
+template <class T>
+NodeParameter described(const std::vector<T>&, const Parameter& p) {
+    const ValueType item = described(T{}, p).type;
+    const std::string name = fmt::format("list of {}s", item.name), schema = list_of(Json::parse(item.schema)).dump();
+    if (p.one_for_all) return {{"number or " + name, schema_of_either(item.schema, schema)}, "[]"};
+    return {{name, schema}, "[]"};
 }
-
-struct Described {
-    Parameter parameter;
-    TypeOf type;
-};
-
-struct NodePage {
-    NodeInfo info;
-    std::vector<Described> parameters;
-    bool list_alone = false;  ///< its one required parameter is a list, which may stand for the parameters
-};
 
 template <class N>
-NodePage page_of() {
-    NodePage page{N::info, {}, false};
+KindPage page_of_node() {
+    KindPage page;
+    page.name = N::info.name;
+    page.section = N::info.section;
+    page.equation = N::info.equation;
+    page.summary = N::info.summary;
     const N node{};
     std::size_t required = 0, lists = 0;
     for_each_parameter(node, [&](const auto& value, const Parameter& p) {
-        const TypeOf type = type_of(value, p.limits);
-        page.parameters.push_back({p, p.one_for_all ? with_one_for_all(type) : type});
+        const NodeParameter d = described(value, p);
+        page.parameters.push_back(parameter_page(p, d.type, d.written));
         if (p.optional) return;
         ++required;
         if constexpr (requires { value.front(); }) ++lists;
@@ -103,104 +76,84 @@ NodePage page_of() {
     return page;
 }
 
-struct Chapter {
-    std::string title, text;
-    std::vector<NodePage> pages;
-};
-
 template <class... Ns>
-std::vector<NodePage> pages_of(TypeList<Ns...>) {
-    return {page_of<Ns>()...};
+std::vector<KindPage> pages_of_nodes(TypeList<Ns...>) {
+    return {page_of_node<Ns>()...};
 }
 
-std::vector<Chapter> chapters() {
-    return {{"Fields", "A field is one signed distance, negative inside.", pages_of(PlainFields())},
-            {"Objects", "An object has several phases, of which exactly one is at any point.", pages_of(Objects())},
-            {"Warps", "A warp deforms a field or an object, and is what its child is.",
-             pages_of(detail::Map<WarpedPhased, Warps>::type())}};
+/// What goes in brackets behind a description.
+std::string limits_of(const ParameterPage& p) {
+    if (!p.optional) return p.limits;
+    return fmt::format("{}{}default {}", p.limits, p.limits.empty() ? "" : "; ", p.default_value);
 }
 
-/// The picture of a node, rendered from the example beside it: chapters have a folder each.
-std::string picture_of(const Chapter& chapter, const NodePage& page) {
-    std::string folder = chapter.title;
-    folder.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(folder.front())));
-    const std::string file = fmt::format("nodes/{}/{}", folder, page.info.name);
-    return fmt::format("[![An example of {}]({}.jpg)]({}.json)\n", page.info.name, file, file);
+Json property_of(const ParameterPage& p) {
+    Json property = Json::parse(p.schema);
+    if (property.contains("$ref")) property = {{"allOf", {property}}};  // draft 7 ignores what stands beside $ref
+    property["description"] = p.unit.empty() ? p.description : fmt::format("{} [{}]", p.description, p.unit);
+    if (p.optional && Json::accept(p.default_value)) property["default"] = Json::parse(p.default_value);
+    return property;
 }
 
-std::string limits_of(const Described& d) {
-    std::string text;
-    if (d.parameter.limits != limits::any) text += detail::describe(d.parameter.limits);
-    if (d.parameter.optional) {
-        if (!text.empty()) text += "; ";
-        text += fmt::format("default {}", d.type.default_value);
-    }
-    return text;
-}
-
-Json schema_of(const NodePage& page) {
+Json object_of(const KindPage& page) {
     Json properties = Json::object(), required = Json::array();
-    for (const Described& d : page.parameters) {
-        Json property = d.type.schema;
-        std::string text(d.parameter.description);
-        if (!d.parameter.unit.empty()) text += fmt::format(" [{}]", d.parameter.unit);
-        if (property.contains("$ref")) property = {{"allOf", {property}}};  // draft 7 ignores what stands beside $ref
-        property["description"] = text;
-        properties[std::string(d.parameter.name)] = property;
-        if (!d.parameter.optional) required.push_back(std::string(d.parameter.name));
+    for (const ParameterPage& p : page.parameters) {
+        properties[p.name] = property_of(p);
+        if (!p.optional) required.push_back(p.name);
     }
-    Json object{
-        {"type", "object"}, {"properties", properties}, {"required", required}, {"additionalProperties", false}};
-    Json result = object;
-    if (page.list_alone) {
-        for (const Described& d : page.parameters)
-            if (!d.parameter.optional) result = {{"anyOf", {object, d.type.schema}}};
-    }
-    std::string text = fmt::format("{} {}", page.info.summary, page.info.equation);
-    if (!page.info.section.empty()) text += fmt::format(" (Section {})", page.info.section);
-    result["description"] = text;
-    return result;
+    return {{"type", "object"}, {"properties", properties}, {"required", required}, {"additionalProperties", false}};
 }
 
+/// A node of one of some kinds, or the name of a shape.
 template <class... Ns>
-Json choice(TypeList<Ns...> nodes) {
-    Json properties = Json::object();
-    for (const NodePage& page : pages_of(nodes)) properties[std::string(page.info.name)] = schema_of(page);
+Json node_of(TypeList<Ns...> nodes) {
     return {{"anyOf",
              {{{"type", "string"}, {"description", "The name of a shape."}},
-              {{"type", "object"},
-               {"minProperties", 1},
-               {"maxProperties", 1},
-               {"additionalProperties", false},
-               {"properties", properties}}}}};
-}
-
-/// {"kind": {…}} for one of some kinds.
-Json one_kind(std::initializer_list<const char*> kinds) {
-    Json properties = Json::object();
-    for (const char* kind : kinds) properties[kind] = {{"type", "object"}};
-    return {{"type", "object"},
-            {"minProperties", 1},
-            {"maxProperties", 1},
-            {"additionalProperties", false},
-            {"properties", properties}};
+              Json::parse(schema_of_one(pages_of_nodes(nodes)))}}};
 }
 
 }  // namespace
 
-std::string node_reference_text() {
+ParameterPage parameter_page(const Parameter& p, const ValueType& type, std::string default_value) {
+    ParameterPage page;
+    page.name = p.name;
+    page.type = type.name;
+    page.unit = p.unit;
+    page.description = p.description;
+    if (p.limits != limits::any) page.limits = describe(range_of(p.limits));
+    if (p.optional) page.default_value = std::move(default_value);
+    page.optional = p.optional;
+    page.schema = type.schema;
+    return page;
+}
+
+std::vector<Chapter> node_chapters() {
+    std::vector<Chapter> chapters{
+        {"Fields", "A field is one signed distance, negative inside.", pages_of_nodes(PlainFields())},
+        {"Objects", "An object has several phases, of which exactly one is at any point.", pages_of_nodes(Objects())},
+        {"Warps", "A warp deforms a field or an object, and is what its child is.",
+         pages_of_nodes(detail::Map<WarpedPhased, Warps>::type())}};
+    for (Chapter& chapter : chapters) {
+        std::string folder = chapter.title;
+        folder.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(folder.front())));
+        for (KindPage& page : chapter.pages) page.example = fmt::format("nodes/{}/{}", folder, page.name);
+    }
+    return chapters;
+}
+
+std::string reference_text(std::span<const Chapter> chapters) {
     std::string text;
-    for (const Chapter& chapter : chapters()) {
+    for (const Chapter& chapter : chapters) {
         text += fmt::format("{}\n{}\n\n", chapter.title, chapter.text);
-        for (const NodePage& page : chapter.pages) {
-            text += fmt::format("  {}{}\n      {}\n      {}\n", page.info.name,
-                                page.info.section.empty() ? "" : fmt::format("  (Section {})", page.info.section),
-                                page.info.summary, page.info.equation);
-            for (const Described& d : page.parameters) {
-                const std::string bounds = limits_of(d);
-                text += fmt::format("      {:<16} {}{}: {}{}\n", d.parameter.name, d.type.name,
-                                    d.parameter.unit.empty() ? "" : fmt::format(" in {}", d.parameter.unit),
-                                    d.parameter.description, bounds.empty() ? "" : fmt::format(" ({})", bounds));
+        for (const KindPage& page : chapter.pages) {
+            text += fmt::format("  {}{}\n      {}\n", page.name,
+                                page.section.empty() ? "" : fmt::format("  (Section {})", page.section), page.summary);
+            if (!page.equation.empty()) text += fmt::format("      {}\n", page.equation);
+            for (const ParameterPage& p : page.parameters) {
+                const std::string bounds = limits_of(p);
+                text += fmt::format("      {:<16} {}{}: {}{}\n", p.name, p.type,
+                                    p.unit.empty() ? "" : fmt::format(" in {}", p.unit), p.description,
+                                    bounds.empty() ? "" : fmt::format(" ({})", bounds));
             }
             text += "\n";
         }
@@ -208,54 +161,70 @@ std::string node_reference_text() {
     return text;
 }
 
-std::string node_reference_markdown() {
-    std::string text =
-        "# Nodes\n\nWritten by `phasetree nodes --markdown` from the nodes' own definitions. Sections are the "
-        "paper's.\nA picture leads to the tree that it shows; [nodes/studio.json](nodes/studio.json) is the scene "
-        "around "
-        "it, and [nodes/render.sh](nodes/render.sh) takes the pictures.\n";
-    for (const Chapter& chapter : chapters()) {
+std::string reference_markdown(std::span<const Chapter> chapters) {
+    std::string text;
+    for (const Chapter& chapter : chapters) {
         text += fmt::format("\n## {}\n\n{}\n", chapter.title, chapter.text);
-        for (const NodePage& page : chapter.pages) {
-            text += fmt::format(
-                "\n### {}\n\n{}{}\n\n{}\n`{}`\n\n| parameter | type | unit | | limits |\n|---|---|---|---|---|\n",
-                page.info.name, page.info.summary,
-                page.info.section.empty() ? "" : fmt::format(" Section {}.", page.info.section),
-                picture_of(chapter, page), page.info.equation);
-            for (const Described& d : page.parameters)
-                text += fmt::format("| `{}` | {} | {} | {} | {} |\n", d.parameter.name, d.type.name, d.parameter.unit,
-                                    d.parameter.description, limits_of(d));
+        for (const KindPage& page : chapter.pages) {
+            text += fmt::format("\n### {}\n\n{}{}\n", page.name, page.summary,
+                                page.section.empty() ? "" : fmt::format(" Section {}.", page.section));
+            if (!page.example.empty())
+                text +=
+                    fmt::format("\n[![An example of {}]({}.jpg)]({}.json)\n", page.name, page.example, page.example);
+            if (!page.equation.empty()) text += fmt::format("\n`{}`\n", page.equation);
+            text += "\n| parameter | type | unit | | limits |\n|---|---|---|---|---|\n";
+            for (const ParameterPage& p : page.parameters)
+                text +=
+                    fmt::format("| `{}` | {} | {} | {} | {} |\n", p.name, p.type, p.unit, p.description, limits_of(p));
         }
     }
     return text;
 }
 
-std::string scene_json_schema() {
+std::string schema_of(const KindPage& page) {
+    const Json object = object_of(page);
+    Json result = object;
+    if (page.list_alone) {
+        for (const ParameterPage& p : page.parameters)
+            if (!p.optional) result = {{"anyOf", {object, Json::parse(p.schema)}}};
+    }
+    std::string text = page.summary;
+    if (!page.equation.empty()) text += " " + page.equation;
+    if (!page.section.empty()) text += fmt::format(" (Section {})", page.section);
+    result["description"] = text;
+    return result.dump();
+}
+
+std::string schema_of_one(std::span<const KindPage> pages) {
+    Json properties = Json::object();
+    for (const KindPage& page : pages) properties[page.name] = Json::parse(schema_of(page));
+    return Json{{"type", "object"},
+                {"minProperties", 1},
+                {"maxProperties", 1},
+                {"additionalProperties", false},
+                {"properties", properties}}
+        .dump();
+}
+
+std::string schema_reference(std::string_view definition) {
+    return reference_to(definition).dump();
+}
+
+std::string schema_of_either(const std::string& one, const std::string& other) {
+    return Json{{"anyOf", {Json::parse(one), Json::parse(other)}}}.dump();
+}
+
+std::string scene_schema(const KindPage& file, std::span<const std::pair<std::string, std::string>> definitions) {
     Json schema;
     schema["$schema"] = "http://json-schema.org/draft-07/schema#";
     schema["title"] = "phasetree scene";
-    schema["type"] = "object";
-    schema["additionalProperties"] = false;
-    schema["required"] = {"version", "phases", "tree", "camera"};
-    Json& p = schema["properties"];
-    p["version"] = {{"const", 1}};
-    p["phases"] = {{"type", "object"}, {"minProperties", 1}, {"additionalProperties", reference_to("material")}};
-    p["shapes"] = {{"type", "object"},
-                   {"additionalProperties", {{"anyOf", {reference_to("field"), reference_to("object")}}}}};
-    p["tree"] = reference_to("object");
-    p["meshes"] = {{"type", "array"}, {"items", one_kind({"obj", "floor", "backdrop"})}};
-    p["lights"] = {{"type", "array"},
-                   {"items", one_kind({"constant", "gradient", "image", "sky", "sun", "rectangle", "sphere"})}};
-    p["background"] = reference_to("colour");
-    p["camera"] = {{"type", "object"}, {"required", {"position", "look_at"}}};
-    p["render"] = {{"type", "object"}};
-    Json& d = schema["definitions"];
-    d["colour"] = {{"anyOf",
-                    {{{"type", "string"}, {"pattern", "^#[0-9a-fA-F]{6}$"}},
-                     {{"type", "array"}, {"minItems", 3}, {"maxItems", 3}, {"items", {{"type", "number"}}}}}}};
-    d["material"] = one_kind({"clear", "diffuse", "conductor", "coated"});
-    d["field"] = choice(FieldNodes());
-    d["object"] = choice(PhasedNodes());
+    const Json object = object_of(file);
+    for (const char* const part : {"type", "additionalProperties", "required", "properties"})
+        schema[part] = object.at(part);
+    Json& all = schema["definitions"];
+    for (const auto& [name, text] : definitions) all[name] = Json::parse(text);
+    all["field"] = node_of(FieldNodes());
+    all["object"] = node_of(PhasedNodes());
     return schema.dump(1) + "\n";
 }
 

@@ -15,17 +15,6 @@ using model::PreparationTogether;
 
 namespace {
 
-Range range_of(const Limits& l) {
-    if (l == limits::positive) return Range::positive();
-    if (l == limits::non_negative) return Range::not_negative();
-    Range r;
-    if (l.low > limits::any.low) r.min = static_cast<double>(l.low);
-    if (l.high < limits::any.high) r.max = static_cast<double>(l.high);
-    r.min_is_open = l.low_open;
-    r.max_is_open = l.high_open;
-    return r;
-}
-
 template <class Handle>
 using NodesOf = std::conditional_t<std::is_same_v<Handle, Field>, FieldNodes, PhasedNodes>;
 

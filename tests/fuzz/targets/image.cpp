@@ -6,7 +6,7 @@
 
 #include "fuzz/input_file.hpp"
 #include "lights/load_environment.hpp"
-#include "scene/parts.hpp"
+#include "scene/read_parts.hpp"
 
 namespace phasetree::fuzz {
 

@@ -1,6 +1,6 @@
 // OBJ files, by the path tracer's own reading of them.
 #include "fuzz/input_file.hpp"
-#include "scene/parts.hpp"
+#include "scene/read_parts.hpp"
 
 namespace phasetree::fuzz {
 

@@ -7,7 +7,7 @@
 #include "output/error.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/trace/tracer.hpp"
-#include "scene/parts.hpp"
+#include "scene/read_parts.hpp"
 
 namespace phasetree::tracer {
 

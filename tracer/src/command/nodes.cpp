@@ -2,12 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include "command/streams.hpp"
-#include "phasetree/io/reference.hpp"
+#include "scene/reference.hpp"
 
 namespace phasetree::tracer {
 
 void add_nodes(CLI::App& app, Run& run) {
-    CLI::App* command = app.add_subcommand("nodes", "Print every node with its parameters, equation and section");
+    CLI::App* command =
+        app.add_subcommand("nodes", "Print all that a scene file can say, with parameters, units, limits and defaults");
     auto markdown = std::make_shared<bool>(false), schema = std::make_shared<bool>(false);
     auto* first = command->add_flag("--markdown", *markdown, "As the page scenes/nodes.md");
     command->add_flag("--json-schema", *schema, "The JSON Schema of scene files, scenes/scene.schema.json")
@@ -15,8 +16,8 @@ void add_nodes(CLI::App& app, Run& run) {
     command->callback([markdown, schema, &run] {
         run = [markdown, schema] {
             const std::string text = *schema     ? scene_json_schema()
-                                     : *markdown ? node_reference_markdown()
-                                                 : node_reference_text();
+                                     : *markdown ? scene_reference_markdown()
+                                                 : scene_reference_text();
             put(text);
             return 0;
         };

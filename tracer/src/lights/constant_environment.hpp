@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "lights/direction_sample.hpp"
+#include "phasetree/io/kind.hpp"
 
 namespace phasetree::tracer {
 
@@ -23,6 +24,23 @@ class ConstantEnvironment {
 
   private:
     glm::vec3 radiance_;
+};
+
+// As a scene file says it.
+struct ConstantEnvironmentParameters {
+    static constexpr KindInfo info{"constant", "The same radiance from everywhere."};
+
+    glm::vec3 radiance{1.0f};
+    float intensity = 1.0f;
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = ConstantEnvironmentParameters;
+        v(&P::radiance,
+          ColourParameter{{"radiance", "", "Radiance from every direction.", limits::non_negative, true}});
+        v(&P::intensity, Parameter{"intensity", "", "A factor of the radiance.", limits::non_negative, true});
+    }
+    ConstantEnvironment made() const { return ConstantEnvironment(radiance * intensity); }
 };
 
 }  // namespace phasetree::tracer

@@ -8,6 +8,7 @@
 
 #include "lights/direction_sample.hpp"
 #include "lights/zonal_distribution.hpp"
+#include "phasetree/io/kind.hpp"
 
 namespace phasetree::tracer {
 
@@ -32,6 +33,33 @@ class GradientEnvironment {
     glm::vec3 ground_;
     float softness_;
     ZonalDistribution distribution_;
+};
+
+// As a scene file says it.
+struct GradientEnvironmentParameters {
+    static constexpr KindInfo info{"gradient", "Three colours that run smoothly into each other with the height.",
+                                   "mix(horizon, zenith or ground, S(min(|z|/softness, 1))),  S(t) = t² (3 − 2t)"};
+
+    float intensity = 1.0f;
+    glm::vec3 zenith{0.0f};
+    glm::vec3 horizon{0.0f};
+    glm::vec3 ground{0.0f};
+    float softness = 1.0f;
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = GradientEnvironmentParameters;
+        v(&P::intensity, Parameter{"intensity", "", "A factor of the three radiances.", limits::non_negative, true});
+        v(&P::zenith, ColourParameter{{"zenith", "", "Radiance from straight above.", limits::non_negative}});
+        v(&P::horizon, ColourParameter{{"horizon", "", "Radiance from the horizon.", limits::non_negative}});
+        v(&P::ground, ColourParameter{{"ground", "", "Radiance from straight below.", limits::non_negative}});
+        v(&P::softness,
+          Parameter{"softness", "", "Sine of the elevation at which the zenith's or the ground's colour is reached.",
+                    Limits{.low = 0, .high = 1, .low_open = true}, true});
+    }
+    GradientEnvironment made() const {
+        return GradientEnvironment(zenith * intensity, horizon * intensity, ground * intensity, softness);
+    }
 };
 
 }  // namespace phasetree::tracer

@@ -9,6 +9,7 @@
 // Texels that are not a number or negative count as black, infinite ones as the largest half-float number, 65,504.
 #pragma once
 
+#include <filesystem>
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
@@ -17,6 +18,7 @@
 
 #include "lights/direction_sample.hpp"
 #include "lights/lat_long_distribution.hpp"
+#include "phasetree/io/kind.hpp"
 
 namespace phasetree::tracer {
 
@@ -58,6 +60,29 @@ class ImageEnvironment {
     float cos_rotation_;
     float sin_rotation_;
     float intensity_;
+};
+
+class EnvironmentImages;
+
+// As a scene file says it.
+struct ImageEnvironmentParameters {
+    static constexpr KindInfo info{"image", "An environment from a lat-long image, which is twice as wide as high."};
+
+    std::filesystem::path file{};
+    float rotation_degrees = 0.0f;
+    float intensity = 1.0f;
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = ImageEnvironmentParameters;
+        v(&P::file,
+          Parameter{"file", "", "An image of any format that OpenImageIO reads, at most 16384 × 8192 pixels."});
+        v(&P::rotation_degrees,
+          Parameter{"rotation", "degrees", "Angle by which it is turned, clockwise as seen from above.", limits::any,
+                    true});
+        v(&P::intensity, Parameter{"intensity", "", "A factor of the image.", limits::non_negative, true});
+    }
+    ImageEnvironment made(EnvironmentImages& images) const;
 };
 
 }  // namespace phasetree::tracer

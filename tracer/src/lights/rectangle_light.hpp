@@ -11,6 +11,8 @@
 #include <optional>
 
 #include "lights/direction_sample.hpp"
+#include "parameters/world_limits.hpp"
+#include "phasetree/io/kind.hpp"
 
 namespace phasetree::tracer {
 
@@ -50,6 +52,38 @@ class RectangleLight {
     double area_, disk_radius_;  // of a disk as large
     glm::vec3 radiance_;
     bool visible_to_camera_;
+};
+
+// As a scene file says it.
+struct RectangleLightParameters {
+    static constexpr KindInfo info{"rectangle", "A rectangle that shines to one side and is not there from behind."};
+
+    glm::vec3 centre{0.0f};
+    glm::vec3 target{0.0f};
+    float width = 1.0f;
+    float height = 1.0f;
+    glm::vec3 radiance{1.0f};
+    float intensity = 1.0f;
+    bool visible_to_camera = true;
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = RectangleLightParameters;
+        v(&P::centre, Parameter{"centre", "m", "Its centre.", coordinate});
+        v(&P::target, Parameter{"target", "m", "A point that it shines towards.", coordinate});
+        v(&P::width, Parameter{"width", "m", "Length of its horizontal edge; along x if it faces up or down.", extent});
+        v(&P::height, Parameter{"height", "m", "Length of its other edge.", extent});
+        v(&P::radiance,
+          ColourParameter{{"radiance", "", "Radiance of its side that shines.", limits::non_negative, true}});
+        v(&P::intensity, Parameter{"intensity", "", "A factor of the radiance.", limits::non_negative, true});
+        v(&P::visible_to_camera,
+          Parameter{"visible_to_camera", "", "Whether the camera sees it by itself.", limits::any, true});
+    }
+    RectangleLight made() const {
+        if (!(glm::length(target - centre) > 0))
+            throw ParameterError("target", "\"target\" is where the light itself is");
+        return RectangleLight::facing(centre, target, width, height, radiance * intensity, visible_to_camera);
+    }
 };
 
 }  // namespace phasetree::tracer

@@ -9,6 +9,8 @@
 #include <optional>
 
 #include "lights/direction_sample.hpp"
+#include "parameters/world_limits.hpp"
+#include "phasetree/io/kind.hpp"
 
 namespace phasetree::tracer {
 
@@ -36,6 +38,29 @@ class SphereLight {
     double radius_;
     glm::vec3 radiance_;
     bool visible_to_camera_;
+};
+
+// As a scene file says it.
+struct SphereLightParameters {
+    static constexpr KindInfo info{"sphere", "A ball that shines."};
+
+    glm::vec3 centre{0.0f};
+    float radius = 1.0f;
+    glm::vec3 radiance{1.0f};
+    float intensity = 1.0f;
+    bool visible_to_camera = true;
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = SphereLightParameters;
+        v(&P::centre, Parameter{"centre", "m", "Its centre.", coordinate});
+        v(&P::radius, Parameter{"radius", "m", "Its radius.", extent});
+        v(&P::radiance, ColourParameter{{"radiance", "", "Radiance of its surface.", limits::non_negative, true}});
+        v(&P::intensity, Parameter{"intensity", "", "A factor of the radiance.", limits::non_negative, true});
+        v(&P::visible_to_camera,
+          Parameter{"visible_to_camera", "", "Whether the camera sees it by itself.", limits::any, true});
+    }
+    SphereLight made() const { return SphereLight(centre, radius, radiance * intensity, visible_to_camera); }
 };
 
 }  // namespace phasetree::tracer

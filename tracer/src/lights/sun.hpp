@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "lights/direction_sample.hpp"
+#include "phasetree/io/kind.hpp"
 
 namespace phasetree::tracer {
 
@@ -42,6 +43,28 @@ class Sun {
     glm::vec3 radiance_;
     float squared_chord_;  // from the middle to as far as the disk reaches
     float cap_height_;     // 1 − cos α, of which nothing would be left if cos α were stored
+};
+
+// As a scene file says it.
+struct SunParameters {
+    static constexpr KindInfo info{"sun", "A disk of constant radiance infinitely far away.", "L = E/(π sin²(α/2))"};
+
+    glm::vec3 direction{0.0f, 0.0f, 1.0f};
+    glm::vec3 irradiance{1.0f};
+    float angular_diameter_degrees = Sun::real_angular_diameter_degrees;
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = SunParameters;
+        v(&P::direction, DirectionParameter{{"direction", "", "Direction towards the sun, of any length."}});
+        v(&P::irradiance, ColourParameter{{"irradiance", "", "What a surface receives that faces the sun, E.",
+                                           limits::non_negative, true}});
+        v(&P::angular_diameter_degrees,
+          Parameter{"diameter", "degrees",
+                    "Angular diameter, α. A larger sun makes softer shadows of the same brightness.",
+                    Limits{.low = 0, .high = 90, .low_open = true}, true});
+    }
+    Sun made() const { return Sun(direction, irradiance, angular_diameter_degrees); }
 };
 
 }  // namespace phasetree::tracer

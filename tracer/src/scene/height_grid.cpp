@@ -1,7 +1,7 @@
 #include <stdexcept>
 
 #include "image/read_image.hpp"
-#include "scene/parts.hpp"
+#include "scene/read_parts.hpp"
 
 namespace phasetree::tracer {
 

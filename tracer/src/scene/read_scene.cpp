@@ -1,17 +1,30 @@
 #include <fmt/format.h>
 
 #include "phasetree/trace/tracer.hpp"
-#include "scene/parts.hpp"
+#include "scene/file_parts.hpp"
+#include "scene/image_parameters.hpp"
+#include "scene/read_parts.hpp"
 
 namespace phasetree::tracer {
 
 namespace {
 
-ObjectReader read_root(const Document& document) {
-    ObjectReader root(document, document.root(), "the scene");
-    root.allow({"version", "phases", "shapes", "tree", "meshes", "lights", "background", "camera", "render"});
+// The parts that the file has, whether they are needed or not: a tree alone is good for something, too.
+FileParts parts_of(ObjectReader& root) {
+    FileParts::parameters([&](auto, const auto& p) { root.allow({p.name}); });
     root.finish();
-    return root;
+    FileParts parts;
+    FileParts::parameters([&](auto part, const auto& p) { parts.*part = root.value(p.name); });
+    return parts;
+}
+
+// A part that is needed.
+Value needed(ObjectReader& root, std::optional<Value> FileParts::*wanted) {
+    std::string_view name;
+    FileParts::parameters([&](auto part, const auto& p) {
+        if (part == wanted) name = p.name;
+    });
+    return root.required_value(name);
 }
 
 void check_version(const Document& document, Value version) {
@@ -22,8 +35,9 @@ void check_version(const Document& document, Value version) {
 }  // namespace
 
 Scene read_scene(const Document& document) {
-    ObjectReader root = read_root(document);
-    check_version(document, root.required_value("version"));
+    ObjectReader root(document, document.root(), "the scene");
+    const FileParts parts = parts_of(root);
+    check_version(document, needed(root, &FileParts::version));
 
     Scene scene;
     scene.file = document.name();
@@ -31,30 +45,32 @@ Scene read_scene(const Document& document) {
     scene.phases = std::move(tree.phases);
     scene.object = std::move(tree.object);
     scene.materials.push_back(vacuum());
-    for (const Value phase : root.required_value("phases")) scene.materials.push_back(read_material(document, phase));
+    for (const Value phase : needed(root, &FileParts::phases))
+        scene.materials.push_back(read_material(document, phase));
     scene.lights = read_lights(document, document.root());
-    if (const auto meshes = root.value("meshes")) scene.meshes = read_meshes(document, *meshes);
-    scene.camera = read_camera(document, root.required_value("camera"), scene.film);
-    if (const auto settings = root.value("render")) scene.settings = read_settings(document, *settings, scene.film);
+    if (parts.meshes) scene.meshes = read_meshes(document, *parts.meshes);
+    scene.camera = read_camera(document, needed(root, &FileParts::camera), scene.film);
+    if (parts.render) scene.settings = read_settings(document, *parts.render, scene.film);
 
     // An object that cannot be traced is found here, and not after the meshes are in memory.
     try {
         (void)prepare_to_trace(scene.object);
     } catch (const ModelError& e) {
-        throw document.error(*root.value("tree"), e.what());
+        throw document.error(*parts.tree, e.what());
     }
     return scene;
 }
 
 SceneTree read_scene_without_camera(const Document& document) {
-    ObjectReader root = read_root(document);
-    if (const auto version = root.value("version")) check_version(document, *version);
+    ObjectReader root(document, document.root(), "the scene");
+    const FileParts parts = parts_of(root);
+    if (parts.version) check_version(document, *parts.version);
     SceneTree tree = read_tree(document, {.height_grid = read_height_grid});
     (void)opaque_phases(document);
     (void)read_lights(document, document.root());
-    if (const auto meshes = root.value("meshes")) (void)read_meshes(document, *meshes);
+    if (parts.meshes) (void)read_meshes(document, *parts.meshes);
     FilmSettings unused;
-    if (const auto settings = root.value("render")) (void)read_settings(document, *settings, unused);
+    if (parts.render) (void)read_settings(document, *parts.render, unused);
     return tree;
 }
 
@@ -68,7 +84,7 @@ PhaseSet opaque_phases(const std::vector<Material>& materials) {
 PhaseSet opaque_phases(const Document& document) {
     std::vector<Material> materials{vacuum()};
     ObjectReader root(document, document.root(), "the scene");
-    for (const Value phase : root.required_value("phases"))
+    for (const Value phase : needed(root, &FileParts::phases))
         materials.push_back(phase.is_object() ? read_material(document, phase) : vacuum());
     return opaque_phases(materials);
 }

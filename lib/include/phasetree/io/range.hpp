@@ -1,7 +1,10 @@
 #pragma once
 
 #include <limits>
+#include <string>
 #include <string_view>
+
+#include "phasetree/model/parameter.hpp"
 
 namespace phasetree {
 
@@ -26,5 +29,12 @@ struct Range {
         return (min_is_open ? x > min : x >= min) && (max_is_open ? x < max : x <= max);
     }
 };
+
+/// The numbers that a parameter accepts. A limit is the decimal number that its float is written as: a file's 0.1 is
+/// within limits that begin at 0.1f, though that float is a little more.
+Range range_of(const Limits&);
+
+/// What finishes the sentence "… must be": the range's own description, or its bounds spelt out.
+std::string describe(const Range&);
 
 }  // namespace phasetree

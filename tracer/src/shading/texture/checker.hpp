@@ -3,13 +3,28 @@
 
 #include <glm/vec3.hpp>
 
+#include "phasetree/io/kind.hpp"
+
 namespace phasetree::tracer {
 
 struct CheckerTexture {
+    static constexpr KindInfo info{"checker",
+                                   "Two colours in alternate cubes, which are squares on any plane along two axes."};
+
     glm::vec3 even{0.8f};
     glm::vec3 odd{0.2f};
     float size = 1.0f;       // edge of a cube
     glm::vec3 origin{0.0f};  // a corner of an even cube; a plane to be checkered should pass between corners
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = CheckerTexture;
+        v(&P::even, ColourParameter{{"even", "", "Colour of the even cubes.", limits::fraction, true}});
+        v(&P::odd, ColourParameter{{"odd", "", "Colour of the odd cubes.", limits::fraction, true}});
+        v(&P::size, Parameter{"size", "m", "Length of the edge of a cube.", limits::positive, true});
+        v(&P::origin, Parameter{"origin", "m", "A corner of an even cube. A plane should pass between corners.",
+                                limits::any, true});
+    }
 
     glm::vec3 at(const glm::vec3& position) const;
 };

@@ -7,14 +7,30 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
+#include "phasetree/io/kind.hpp"
+
 namespace phasetree::tracer {
 
 struct SpeckleTexture {
+    static constexpr KindInfo info{"speckle", "Grains, as of sand: each has a colour and a brightness of its own."};
+
     glm::vec3 color{0.58f, 0.42f, 0.24f};
     glm::vec3 other{0.70f, 0.57f, 0.39f};  // grains are mixed from the two
     float grain = 0.01f;                   // mean distance of grains
     float contrast = 0.5f;                 // 0: all grains alike; 1: very mixed
     std::uint32_t seed = 0;
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = SpeckleTexture;
+        v(&P::color, ColourParameter{{"color", "", "One colour of the grains.", limits::fraction, true}});
+        v(&P::other,
+          ColourParameter{{"other", "", "The other colour; a grain is a mixture of both.", limits::fraction, true}});
+        v(&P::grain, Parameter{"grain", "m", "Mean distance of the grains.", limits::positive, true});
+        v(&P::contrast, Parameter{"contrast", "", "From grains that are all alike, 0, to very different ones, 1.",
+                                  limits::fraction, true});
+        v(&P::seed, Parameter{"seed", "", "Another whole number gives another piece.", limits::non_negative, true});
+    }
 
     glm::vec3 at(const glm::vec3& position) const;
 };

@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <variant>
 
+#include "phasetree/model/concepts.hpp"
 #include "shading/texture/checker.hpp"
 #include "shading/texture/constant.hpp"
 #include "shading/texture/contract.hpp"
@@ -14,11 +15,18 @@
 
 namespace phasetree::tracer {
 
+// Those that a scene file names, with their parameters: one list, from which the reader, the reference and the schema
+// follow. A colour by itself is the constant one.
+using SolidTextures = TypeList<WoodTexture, SpeckleTexture, MarbleTexture, CheckerTexture>;
+
 template <TextureKind... Kinds>
 using TextureOf = std::variant<Kinds...>;
 
+template <class... Solids>
+TextureOf<ConstantTexture, Solids...> variant_of_textures(TypeList<Solids...>);
+
 /// Every kind of texture.
-using Texture = TextureOf<ConstantTexture, CheckerTexture, MarbleTexture, SpeckleTexture, WoodTexture>;
+using Texture = decltype(variant_of_textures(SolidTextures()));
 
 /// The texture's colour at a point, for any point whatever: TextureKind's at() is asked within its limits only.
 inline glm::vec3 color_at(const Texture& texture, const glm::vec3& position) {

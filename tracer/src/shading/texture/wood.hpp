@@ -15,15 +15,31 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
+#include "phasetree/io/kind.hpp"
+
 namespace phasetree::tracer {
 
 struct WoodTexture {
+    static constexpr KindInfo info{"wood",
+                                   "Wood, as a solid: annual rings around an axis, with fibres and pores along it."};
+
     glm::vec3 light{0.42f, 0.24f, 0.115f};  // early wood
     glm::vec3 dark{0.15f, 0.068f, 0.03f};   // late wood
     float ring_spacing = 0.1f;              // mean width of a ring
     glm::vec3 axis{0.0f, 0.0f, 1.0f};       // along the trunk; any length but zero
     glm::vec3 pith{0.0f};                   // a point on the trunk's middle line; boards are cut beside it
     std::uint32_t seed = 0;
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = WoodTexture;
+        v(&P::light, ColourParameter{{"light", "", "Colour of the early wood.", limits::fraction, true}});
+        v(&P::dark, ColourParameter{{"dark", "", "Colour of the late wood.", limits::fraction, true}});
+        v(&P::ring_spacing, Parameter{"ring_spacing", "m", "Mean width of a ring.", limits::positive, true});
+        v(&P::axis, DirectionParameter{{"axis", "", "Direction of the trunk, of any length.", limits::any, true}});
+        v(&P::pith, Parameter{"pith", "m", "A point on the middle line of the trunk.", limits::any, true});
+        v(&P::seed, Parameter{"seed", "", "Another whole number gives another piece.", limits::non_negative, true});
+    }
 
     glm::vec3 at(const glm::vec3& position) const;
 };

@@ -1,11 +1,13 @@
+#include "phasetree/io/read_kind.hpp"
+
 #include <fmt/format.h>
 
 #include "phasetree/io/suggest.hpp"
-#include "scene/parts.hpp"
 
-namespace phasetree::tracer {
+namespace phasetree {
 
-Value chosen(const Document& document, Value value, std::string_view what, std::span<const std::string_view> kinds) {
+Value member_of_kind(const Document& document, Value value, std::string_view what,
+                     std::span<const std::string_view> kinds) {
     std::string list;
     for (const std::string_view kind : kinds) list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", kind);
     if (!value.is_object())
@@ -24,4 +26,10 @@ Value chosen(const Document& document, Value value, std::string_view what, std::
                          closest(member.key(), kinds));
 }
 
-}  // namespace phasetree::tracer
+SceneError located(ObjectReader& reader, const ParameterError& e) {
+    const Value value = reader.required_value(e.parameter());
+    return reader.document().error(e.place() == ParameterError::Place::key ? value.key_offset() : value.offset(),
+                                   e.what());
+}
+
+}  // namespace phasetree

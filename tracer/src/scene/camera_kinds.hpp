@@ -1,0 +1,80 @@
+// The kinds of cameras that a scene file names: one list, from which the reader, the reference and the schema follow.
+// made() is what the scene says of the camera.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "camera/camera.hpp"
+#include "film/pixel_filter.hpp"
+#include "parameters/world_limits.hpp"
+#include "phasetree/io/kind.hpp"
+#include "phasetree/model/concepts.hpp"
+
+namespace phasetree::tracer {
+
+std::vector<std::string_view> names_of_filters();
+/// One of these names.
+PixelFilter filter_of_name(std::string_view name);
+
+/// What all kinds have: where the camera stands, and how the film filters its samples.
+template <class P, class V>
+void view_parameters(V&& v) {
+    v(&P::position, Parameter{"position", "m", "Where it is.", coordinate});
+    v(&P::look_at, Parameter{"look_at", "m", "A point in the middle of the image.", coordinate});
+    v(&P::up, Parameter{"up", "", "A direction that is up in the image; +y, or +x, if it looks along that.",
+                        limits::any, true});
+    v(&P::filter_name,
+      ChoiceParameter{{"filter", "", "How samples are spread about the middle of a pixel.", limits::any, true},
+                      names_of_filters});
+}
+
+struct ThinLensKind : ThinLensParameters {
+    static constexpr KindInfo info{
+        "thin_lens", "A lens with a plane of focus; a pinhole, if its radius is 0. The kind need not be named."};
+
+    std::optional<glm::vec3> focus_at{};
+    std::string filter_name = "blackman_harris";
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = ThinLensKind;
+        view_parameters<P>(v);
+        v(&P::vertical_fov_degrees,
+          Parameter{"fov", "degrees", "Angle between the upper and the lower edge of the image.",
+                    Limits{.low = 0, .high = 180, .low_open = true, .high_open = true}, true});
+        v(&P::lens_radius, Parameter{"lens_radius", "m", "Radius of the lens; what is out of focus blurs by it.",
+                                     Limits{.low = 0, .high = farthest}, true});
+        v(&P::focus_distance,
+          Parameter{"focus_distance", "m", "Distance of the plane of focus; without it, the plane is at look_at.",
+                    limits::positive, true});
+        v(&P::focus_at,
+          Parameter{"focus_at", "m", "In place of the distance: a point of the plane of focus.", coordinate, true});
+    }
+    /// Throws ParameterError.
+    ThinLensParameters made() const;
+};
+
+struct OrthographicKind : OrthographicParameters {
+    static constexpr KindInfo info{"orthographic",
+                                   "All rays are parallel, so that lengths across them are the same at any distance."};
+    /// The widest picture is 32,768 times as wide as it is high, and rays start no farther away than `farthest`.
+    static constexpr float highest = 1e10f;
+
+    std::string filter_name = "blackman_harris";
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = OrthographicKind;
+        view_parameters<P>(v);
+        v(&P::height, Parameter{"height", "m", "What the height of the whole image shows.",
+                                Limits{.low = 0, .high = highest, .low_open = true}});
+    }
+    OrthographicParameters made() const { return *this; }
+};
+
+using CameraKinds = TypeList<ThinLensKind, OrthographicKind>;
+
+}  // namespace phasetree::tracer

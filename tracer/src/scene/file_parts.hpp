@@ -1,0 +1,60 @@
+// The parts of a scene file: one list of its outermost keys, from which their names, the reference and the schema
+// follow.
+#pragma once
+
+#include <optional>
+
+#include "phasetree/io/read_kind.hpp"
+#include "scene/parameter_types.hpp"
+
+namespace phasetree::tracer {
+
+struct FileParts {
+    static constexpr KindInfo info{"scene", "The keys of a scene file."};
+
+    std::optional<Value> version{};
+    std::optional<Value> phases{};
+    std::optional<Value> shapes{};
+    std::optional<Value> tree{};
+    std::optional<Value> meshes{};
+    std::optional<Value> lights{};
+    std::optional<Value> background{};
+    std::optional<Value> camera{};
+    std::optional<Value> render{};
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = FileParts;
+        v(&P::version, PartParameter{{"version", "", "The version of this format."}, "1", R"({"const": 1})"});
+        v(&P::phases, PartParameter{{"phases", "", "The phases by their names, and the material of each."},
+                                    "object of materials",
+                                    R"({"type": "object", "minProperties": 1, "maxProperties": 63,
+                                        "additionalProperties": {"$ref": "#/definitions/material"}})"});
+        v(&P::shapes,
+          PartParameter{{"shapes", "", "Named parts of the tree, to be used in many places.", limits::any, true},
+                        "object of fields and objects",
+                        R"({"type": "object", "additionalProperties": {"anyOf": [
+                                        {"$ref": "#/definitions/field"}, {"$ref": "#/definitions/object"}]}})"});
+        v(&P::tree,
+          PartParameter{{"tree", "", "The object that is shown."}, "object", R"({"$ref": "#/definitions/object"})"});
+        v(&P::meshes, PartParameter{{"meshes", "", "What stands beside the object.", limits::any, true},
+                                    "list of meshes",
+                                    R"({"type": "array", "items": {"$ref": "#/definitions/mesh"}})"});
+        v(&P::lights,
+          PartParameter{{"lights", "", "What shines. An image needs one light at least.", limits::any, true},
+                        "list of lights",
+                        R"({"type": "array", "items": {"$ref": "#/definitions/light"}})"});
+        v(&P::background, PartParameter{{"background", "", "What the camera sees in place of the lights at infinity.",
+                                         limits::any, true},
+                                        "colour",
+                                        R"({"$ref": "#/definitions/colour"})"});
+        v(&P::camera,
+          PartParameter{
+              {"camera", "", "Where the image is taken from."}, "camera", R"({"$ref": "#/definitions/camera"})"});
+        v(&P::render, PartParameter{{"render", "", "How large the image is, and how it is made.", limits::any, true},
+                                    "render",
+                                    R"({"$ref": "#/definitions/render"})"});
+    }
+};
+
+}  // namespace phasetree::tracer

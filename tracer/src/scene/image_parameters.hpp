@@ -1,0 +1,31 @@
+// "render" as a scene file says it: how large the image is, and how it is made.
+#pragma once
+
+#include "phasetree/io/kind.hpp"
+#include "scene/scene.hpp"
+
+namespace phasetree::tracer {
+
+struct ImageParameters : RenderSettings {
+    static constexpr KindInfo info{"render", "How large the image is, and how it is made."};
+
+    int width = 1024;
+    int height = 768;
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = ImageParameters;
+        v(&P::width, Parameter{"width", "pixels", "Width of the image.", Limits{.low = 1, .high = 32768}, true});
+        v(&P::height, Parameter{"height", "pixels", "Height of the image.", Limits{.low = 1, .high = 32768}, true});
+        v(&P::samples, Parameter{"samples", "", "Paths of each pixel.", Limits{.low = 1, .high = 1 << 24}, true});
+        v(&P::seed, Parameter{"seed", "", "Another whole number gives other noise.", limits::non_negative, true});
+        v(&P::max_depth, Parameter{"max_depth", "", "The most interactions of a path with surfaces.",
+                                   Limits{.low = 1, .high = 1 << 20}, true});
+        v(&P::exposure_ev, Parameter{"exposure", "EV", "Brightness of pictures; one more is twice as bright.",
+                                     Limits{.low = -50, .high = 50}, true});
+        v(&P::view,
+          Parameter{"view", "", "View of the display transform; the default one without it.", limits::any, true});
+    }
+};
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,110 @@
+// The kinds of materials as a scene file says them: one list, from which the reader, the reference and the schema
+// follow. made() is the material.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "phasetree/io/kind.hpp"
+#include "phasetree/model/concepts.hpp"
+#include "scene/parameter_types.hpp"
+#include "shading/material.hpp"
+
+namespace phasetree::tracer {
+
+inline constexpr Parameter roughness_parameter{"roughness", "", "α of GGX: 0 is polished, 0.1 satin, 0.5 matt.",
+                                               limits::fraction, true};
+
+struct ClearParameters {
+    static constexpr KindInfo info{"clear", "Vacuum, air, water, glass: light travels inside.", "exp(−a d)"};
+
+    float ior = 1.0f;
+    std::optional<glm::vec3> absorption{};
+    std::optional<glm::vec3> color{};
+    float color_distance = 1.0f;
+    float roughness = 0.0f;
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = ClearParameters;
+        v(&P::ior, Parameter{"ior", "", "Refractive index against vacuum.", Limits{.low = 0.1f, .high = 10}});
+        v(&P::absorption,
+          RgbParameter{{"absorption", "1/m", "Absorption of red, green and blue, a; nothing is absorbed without it.",
+                        limits::non_negative, true}});
+        v(&P::color,
+          ColourParameter{{"color", "", "In place of the absorption: what is left of white light after a distance.",
+                           Limits{.low = 0, .high = 1, .low_open = true}, true}});
+        v(&P::color_distance,
+          Parameter{"color_distance", "m", "The distance after which the colour is left.", limits::positive, true});
+        v(&P::roughness, roughness_parameter);
+    }
+    Clear made() const;
+};
+
+struct DiffuseParameters {
+    static constexpr KindInfo info{"diffuse", "Paper, plaster, clay: reflects alike in all directions."};
+
+    Texture color{};
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&DiffuseParameters::color, Parameter{"color", "", "Reflectance.", limits::any});
+    }
+    Diffuse made() const { return {color}; }
+};
+
+std::vector<std::string_view> names_of_metals();
+
+struct ConductorParameters {
+    static constexpr KindInfo info{"conductor",
+                                   "Metal: one of the measured ones, or with a complex index η + ik of one's own."};
+
+    std::optional<std::string> metal{};
+    std::optional<glm::vec3> eta{};
+    std::optional<glm::vec3> k{};
+    float roughness = 0.0f;
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = ConductorParameters;
+        v(&P::metal, ChoiceParameter{{"metal", "", "A measured metal.", limits::any, true}, names_of_metals});
+        v(&P::eta, RgbParameter{{"eta", "", "η for red, green and blue; needed unless a metal is named.",
+                                 limits::positive, true}});
+        v(&P::k, RgbParameter{{"k", "", "k for red, green and blue; needed unless a metal is named.",
+                               limits::non_negative, true}});
+        v(&P::roughness, roughness_parameter);
+    }
+    Conductor made() const;
+};
+
+struct CoatedParameters {
+    static constexpr KindInfo info{"coated", "Varnished or glazed: a clear coat over a diffuse base."};
+
+    Texture color{};
+    float ior = Coated{}.ior;
+    float roughness = 0.0f;
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = CoatedParameters;
+        v(&P::color, Parameter{"color", "", "Reflectance of the base.", limits::any});
+        v(&P::ior, Parameter{"ior", "", "Refractive index of the coat.", Limits{.low = 1, .high = 4}, true});
+        v(&P::roughness, roughness_parameter);
+    }
+    Coated made() const { return {color, ior, roughness}; }
+};
+
+using MaterialKinds = TypeList<ClearParameters, DiffuseParameters, ConductorParameters, CoatedParameters>;
+
+// Who adds a material and forgets the list is told here.
+template <class... Kinds, class... Materials>
+constexpr bool make_all_of(TypeList<Kinds...>, const std::variant<Materials...>*) {
+    constexpr auto is_made = []<class M>(const M*) {
+        return (std::is_same_v<M, decltype(std::declval<Kinds>().made())> || ...);
+    };
+    return (is_made(static_cast<const Materials*>(nullptr)) && ...);
+}
+static_assert(make_all_of(MaterialKinds(), static_cast<Material*>(nullptr)), "every material has a kind in the list");
+
+}  // namespace phasetree::tracer

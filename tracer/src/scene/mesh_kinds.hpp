@@ -1,0 +1,94 @@
+// The kinds of meshes as a scene file says them: one list, from which the reader, the reference and the schema follow.
+// made() is the mesh but for its material.
+#pragma once
+
+#include <filesystem>
+
+#include "parameters/world_limits.hpp"
+#include "phasetree/io/kind.hpp"
+#include "phasetree/model/concepts.hpp"
+#include "scene/parameter_types.hpp"
+#include "scene/scene.hpp"
+
+namespace phasetree::tracer {
+
+inline constexpr Parameter mesh_material_parameter{"material", "", "What it is made of."};
+
+// A Wavefront OBJ file; of its contents the faces, their materials not.
+struct ObjParameters {
+    static constexpr KindInfo info{"obj",
+                                   "The faces of a Wavefront OBJ file, of at most 1 GiB. Faces are made larger or "
+                                   "smaller first, then turned, then moved."};
+
+    Material material{};
+    std::filesystem::path file{};
+    float scale = 1.0f;
+    float rotate_z_degrees = 0.0f;
+    bool y_up = false;
+    glm::vec3 translate{0.0f};
+    bool smooth = true;
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = ObjParameters;
+        v(&P::material, mesh_material_parameter);
+        v(&P::file, Parameter{"file", "", "The file."});
+        v(&P::scale, Parameter{"scale", "", "A factor of its size.", limits::positive, true});
+        v(&P::rotate_z_degrees,
+          Parameter{"rotate_z", "degrees", "Angle by which it is turned about the z axis, anticlockwise from above.",
+                    limits::any, true});
+        v(&P::y_up, Parameter{"y_up", "", "Whether y is up in the file, and not z.", limits::any, true});
+        v(&P::translate, Parameter{"translate", "m", "Where its origin goes.", limits::any, true});
+        v(&P::smooth, Parameter{"smooth", "", "Whether it is shaded as if it were smooth.", limits::any, true});
+    }
+    Mesh made() const;
+};
+
+// A square on the plane z = height.
+struct FloorParameters {
+    static constexpr KindInfo info{"floor", "A horizontal square about the z axis."};
+
+    Material material{};
+    float height = 0.0f;
+    float size = 1000.0f;
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = FloorParameters;
+        v(&P::material, mesh_material_parameter);
+        v(&P::height, Parameter{"height", "m", "Its z.", coordinate, true});
+        v(&P::size, Parameter{"size", "m", "Length of its edges.", extent, true});
+    }
+    Mesh made() const;
+};
+
+// A photographer's sweep: a floor at z = height that curves up into a wall at y = distance, without an edge.
+struct BackdropParameters {
+    static constexpr KindInfo info{
+        "backdrop", "A photographer's sweep: a floor that curves up into a wall behind, without an edge."};
+
+    Material material{};
+    float height = 0.0f;
+    float distance = 5.0f;
+    float radius = 2.0f;
+    float width = 100.0f;
+    float front = 50.0f;
+    float wall = 50.0f;
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = BackdropParameters;
+        v(&P::material, mesh_material_parameter);
+        v(&P::height, Parameter{"height", "m", "z of the floor.", coordinate, true});
+        v(&P::distance, Parameter{"distance", "m", "y of the wall.", extent, true});
+        v(&P::radius, Parameter{"radius", "m", "Radius of the curve between floor and wall.", extent, true});
+        v(&P::width, Parameter{"width", "m", "Length along x.", extent, true});
+        v(&P::front, Parameter{"front", "m", "The floor begins at y = −front.", extent, true});
+        v(&P::wall, Parameter{"wall", "m", "Height of the wall above the curve.", extent, true});
+    }
+    Mesh made() const;
+};
+
+using MeshKinds = TypeList<ObjParameters, FloorParameters, BackdropParameters>;
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+#include <tiny_obj_loader.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "scene/mesh_kinds.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+constexpr std::uintmax_t max_file_bytes = std::uintmax_t{1} << 30;
+
+// Normals of the vertices: those of the triangles around each, weighted by area.
+void add_smooth_normals(Mesh& mesh) {
+    mesh.normals.assign(mesh.vertices.size(), glm::vec3(0.0f));
+    for (const glm::uvec3& t : mesh.triangles) {
+        const glm::vec3 n =
+            glm::cross(mesh.vertices[t.y] - mesh.vertices[t.x], mesh.vertices[t.z] - mesh.vertices[t.x]);
+        for (int i = 0; i < 3; ++i) mesh.normals[t[i]] += n;
+    }
+    for (glm::vec3& n : mesh.normals) {
+        const float l = glm::length(n);
+        n = l > 0 ? n / l : glm::vec3(0, 0, 1);
+    }
+}
+
+std::string read_text(const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored))
+        throw ParameterError("file", fmt::format("there is no file {}", path.string()));
+    if (!std::filesystem::is_regular_file(path, ignored))
+        throw ParameterError("file", fmt::format("{} is not a regular file", path.string()));
+    if (std::filesystem::file_size(path, ignored) > max_file_bytes)
+        throw ParameterError("file", fmt::format("{} is larger than 1 GiB", path.string()));
+    std::ifstream stream(path, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    if (!stream) throw ParameterError("file", fmt::format("{} cannot be read", path.string()));
+    return text.str();
+}
+
+}  // namespace
+
+Mesh ObjParameters::made() const {
+    tinyobj::ObjReader obj;
+    tinyobj::ObjReaderConfig config;
+    config.triangulate = true;
+    config.vertex_color = false;
+    if (!obj.ParseFromString(read_text(file), "", config))
+        throw ParameterError("file", fmt::format("{} is not a readable OBJ file: {}", file.string(), obj.Error()));
+
+    const float turn = glm::radians(rotate_z_degrees);
+    Mesh mesh;
+    const auto& v = obj.GetAttrib().vertices;
+    for (std::size_t i = 0; i + 2 < v.size(); i += 3) {
+        glm::vec3 p(v[i], v[i + 1], v[i + 2]);
+        if (y_up) p = {p.x, -p.z, p.y};
+        p *= scale;
+        p = {std::cos(turn) * p.x - std::sin(turn) * p.y, std::sin(turn) * p.x + std::cos(turn) * p.y, p.z};
+        mesh.vertices.push_back(p + translate);
+        for (int k = 0; k < 3; ++k)
+            if (!coordinate.contains(mesh.vertices.back()[k]))
+                throw ParameterError(
+                    "file", fmt::format("{} has a coordinate that is no number or beyond 10¹⁵", file.string()));
+    }
+    for (const auto& shape : obj.GetShapes()) {
+        const auto& index = shape.mesh.indices;
+        for (std::size_t i = 0; i + 2 < index.size(); i += 3) {
+            glm::uvec3 triangle;
+            for (int k = 0; k < 3; ++k) {
+                const int vertex = index[i + static_cast<std::size_t>(k)].vertex_index;
+                if (vertex < 0 || static_cast<std::size_t>(vertex) >= mesh.vertices.size())
+                    throw ParameterError("file",
+                                         fmt::format("{} has a face with a vertex that does not exist", file.string()));
+                triangle[k] = static_cast<unsigned>(vertex);
+            }
+            mesh.triangles.push_back(triangle);
+        }
+    }
+    if (mesh.triangles.empty()) throw ParameterError("file", fmt::format("{} has no faces", file.string()));
+    if (smooth) add_smooth_normals(mesh);
+    return mesh;
+}
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,23 @@
+// The readers of a scene's parts. All throw SceneError.
+#pragma once
+
+#include <vector>
+
+#include "phasetree/io/document.hpp"
+#include "scene/scene.hpp"
+
+namespace phasetree::tracer {
+
+Material read_material(const Document& document, Value value);
+Lights read_lights(const Document& document, Value root);
+// Sets the pixel filter of the film, too.
+AnyCameraParameters read_camera(const Document& document, Value value, FilmSettings& film);
+std::vector<Mesh> read_meshes(const Document& document, Value list);
+// Sets the size of the film, too.
+RenderSettings read_settings(const Document& document, Value value, FilmSettings& film);
+
+// The first channel of an image, as stored: integers of any width from 0 to 1, without a transfer function. Throws
+// std::runtime_error.
+HeightGrid read_height_grid(const std::filesystem::path&);
+
+}  // namespace phasetree::tracer

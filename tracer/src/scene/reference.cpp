@@ -1,0 +1,75 @@
+#include "scene/reference.hpp"
+
+#include "lights/light_kinds.hpp"
+#include "scene/camera_kinds.hpp"
+#include "scene/file_parts.hpp"
+#include "scene/image_parameters.hpp"
+#include "scene/material_kinds.hpp"
+#include "scene/mesh_kinds.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+// Those that a mesh may be of.
+template <class... Kinds>
+std::vector<KindPage> pages_of_opaque(TypeList<Kinds...>) {
+    std::vector<KindPage> pages;
+    const auto add_opaque = [&]<class Kind>(const Kind*) {
+        if constexpr (!std::is_same_v<decltype(std::declval<Kind>().made()), Clear>) pages.push_back(page_of<Kind>());
+    };
+    (add_opaque(static_cast<const Kinds*>(nullptr)), ...);
+    return pages;
+}
+
+}  // namespace
+
+std::vector<Chapter> scene_chapters() {
+    std::vector<Chapter> chapters{
+        {"Scene file",
+         "A scene is JSON with comments. z is up; lengths are in any one unit, which is called m here; colours are "
+         "linear `[r, g, b]` or sRGB `\"#rrggbb\"`.",
+         {page_of<FileParts>()}}};
+    for (Chapter& chapter : node_chapters()) chapters.push_back(std::move(chapter));
+    chapters.push_back(
+        {"Materials", "A phase or a mesh is of one material, `{\"kind\": {parameters}}`.", pages_of(MaterialKinds())});
+    chapters.push_back({"Textures", "A material's colour may be a texture, which is a colour for each point of space.",
+                        pages_of(SolidTextures())});
+    chapters.push_back({"Lights", "Radiances have no unit. Those of all lights and the exposure belong together.",
+                        pages_of(LightKinds())});
+    chapters.push_back({"Meshes", "What stands beside the object. Meshes are opaque.", pages_of(MeshKinds())});
+    chapters.push_back(
+        {"Cameras",
+         "Where the image is taken from: `{\"kind\": {parameters}}`, or the parameters of a thin lens alone.",
+         pages_of(CameraKinds())});
+    chapters.push_back({"Image", "How large the image is, and how it is made.", {page_of<ImageParameters>()}});
+    return chapters;
+}
+
+std::string scene_reference_text() {
+    return reference_text(scene_chapters());
+}
+
+std::string scene_reference_markdown() {
+    return "# Scene files\n\nAll that a scene file can say, written by `phasetree nodes --markdown` from the program's "
+           "own lists of parameters. Sections are the paper's. A node's picture leads to the tree that it shows; "
+           "[nodes/studio.json](nodes/studio.json) is the scene around it, and [nodes/render.sh](nodes/render.sh) "
+           "takes "
+           "the pictures.\n" +
+           reference_markdown(scene_chapters());
+}
+
+std::string scene_json_schema() {
+    const std::pair<std::string, std::string> definitions[] = {
+        {"colour", colour_type(limits::non_negative).schema},
+        {"texture", schema_of_either(colour_type(limits::fraction).schema, schema_of_one(pages_of(SolidTextures())))},
+        {"material", schema_of_one(pages_of(MaterialKinds()))},
+        {"opaque_material", schema_of_one(pages_of_opaque(MaterialKinds()))},
+        {"light", schema_of_one(pages_of(LightKinds()))},
+        {"mesh", schema_of_one(pages_of(MeshKinds()))},
+        {"camera", schema_of_either(schema_of(page_of<ThinLensKind>()), schema_of_one(pages_of(CameraKinds())))},
+        {"render", schema_of(page_of<ImageParameters>())}};
+    return scene_schema(page_of<FileParts>(), definitions);
+}
+
+}  // namespace phasetree::tracer
