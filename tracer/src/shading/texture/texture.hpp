@@ -14,8 +14,16 @@
 
 namespace phasetree::tracer {
 
-template <TextureKind... Kinds>
-using TextureOf = std::variant<Kinds...>;
+/// A kind of texture, once its contract has been asked of it. If it does not meet that, the message names the kind and
+/// the member.
+template <class Kind>
+struct CheckedTexture {
+    static_assert(TextureKind<Kind>);
+    using Type = Kind;
+};
+
+template <class... Kinds>
+using TextureOf = std::variant<typename CheckedTexture<Kinds>::Type...>;
 
 /// Every kind of texture.
 using Texture = TextureOf<ConstantTexture, CheckerTexture, MarbleTexture, SpeckleTexture, WoodTexture>;
