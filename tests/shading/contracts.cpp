@@ -1,5 +1,5 @@
-// The contracts of lights, BSDFs, textures, media and cameras: that they are asked of every kind, and refuse what is
-// none.
+// The contracts of lights, BSDFs, textures, media and cameras: they accept what is of a kind, and refuse what is not.
+// That every kind of a list meets its contract is asserted where the list is.
 #include <doctest/doctest.h>
 
 #include "camera/camera.hpp"
@@ -33,23 +33,6 @@ static_assert(BsdfKind<CoatedDiffuseBsdf> && BsdfKind<Bsdf> && !BsdfKind<Constan
 static_assert(TextureKind<WoodTexture> && !TextureKind<TextureOfFloats>);
 static_assert(MediumKind<AbsorbingMedium> && !MediumKind<MediumThatChanges>);
 static_assert(CameraKind<ThinLens> && CameraKind<Orthographic> && !CameraKind<Camera>);
-
-// The lists ask for them.
-template <class Kind>
-concept InfiniteLists = requires {
-    typename InfiniteLightOf<Kind>;
-};
-template <class Kind>
-concept TextureLists = requires {
-    typename TextureOf<Kind>;
-};
-template <class Kind>
-concept MediumLists = requires {
-    typename MediumOf<Kind>;
-};
-static_assert(InfiniteLists<Sun> && !InfiniteLists<InfiniteWithoutCentre>);
-static_assert(TextureLists<WoodTexture> && !TextureLists<TextureOfFloats>);
-static_assert(MediumLists<AbsorbingMedium> && !MediumLists<MediumThatChanges>);
 
 }  // namespace
 

@@ -9,9 +9,17 @@
 
 namespace phasetree::tracer {
 
-template <CameraKind... Kinds>
+/// A kind of camera, once its contract has been asked of it. If it does not meet that, the message names the kind and
+/// the member.
+template <class Kind>
+struct CheckedCamera {
+    static_assert(CameraKind<Kind>);
+    using Type = Kind;
+};
+
+template <class... Kinds>
 struct CameraList {
-    using Any = std::variant<Kinds...>;
+    using Any = std::variant<typename CheckedCamera<Kinds>::Type...>;
     using AnyParameters = std::variant<typename Kinds::Parameters...>;
 };
 

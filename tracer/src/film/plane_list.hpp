@@ -12,14 +12,22 @@
 
 namespace phasetree::tracer {
 
+/// A plane, once its contract has been asked of it. If it does not meet that, the message names the kind and the
+/// member.
+template <class Kind>
+struct CheckedPlane {
+    static_assert(PlaneKind<Kind>);
+    using Type = Kind;
+};
+
 /// The first plane is the picture, which has three channels and which all formats can hold; the others become further
 /// channels of the image.
-template <PlaneKind Picture, PlaneKind... Others>
+template <class Picture, class... Others>
 struct PlaneList {
-    static_assert(Picture::channels.size() == 3);
+    static_assert(CheckedPlane<Picture>::Type::channels.size() == 3);
 
     /// What is accumulated at one pixel.
-    using Sums = std::tuple<typename Picture::Sum, typename Others::Sum...>;
+    using Sums = std::tuple<typename Picture::Sum, typename CheckedPlane<Others>::Type::Sum...>;
 
     static void add(Sums& sums, const FilmSample& sample) {
         [&]<std::size_t... I>(std::index_sequence<I...>) {

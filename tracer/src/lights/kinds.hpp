@@ -13,11 +13,26 @@
 
 namespace phasetree::tracer {
 
-template <InfiniteLightKind... Kinds>
-using InfiniteLightOf = std::variant<Kinds...>;
+/// A kind of infinite light, once its contract has been asked of it. If it does not meet that, the message names the
+/// kind and the member.
+template <class Kind>
+struct CheckedInfiniteLight {
+    static_assert(InfiniteLightKind<Kind>);
+    using Type = Kind;
+};
 
-template <AreaLightKind... Kinds>
-using AreaLightOf = std::variant<Kinds...>;
+/// The same of an area light.
+template <class Kind>
+struct CheckedAreaLight {
+    static_assert(AreaLightKind<Kind>);
+    using Type = Kind;
+};
+
+template <class... Kinds>
+using InfiniteLightOf = std::variant<typename CheckedInfiniteLight<Kinds>::Type...>;
+
+template <class... Kinds>
+using AreaLightOf = std::variant<typename CheckedAreaLight<Kinds>::Type...>;
 
 /// Every kind of infinite light.
 using InfiniteLight = InfiniteLightOf<ConstantEnvironment, GradientEnvironment, ImageEnvironment, Sun>;

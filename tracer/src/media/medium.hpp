@@ -8,8 +8,16 @@
 
 namespace phasetree::tracer {
 
-template <MediumKind... Kinds>
-using MediumOf = std::variant<Kinds...>;
+/// A kind of medium, once its contract has been asked of it. If it does not meet that, the message names the kind and
+/// the member.
+template <class Kind>
+struct CheckedMedium {
+    static_assert(MediumKind<Kind>);
+    using Type = Kind;
+};
+
+template <class... Kinds>
+using MediumOf = std::variant<typename CheckedMedium<Kinds>::Type...>;
 
 /// Every kind of medium. The first is the default, and lets everything pass as long as nothing else is said.
 using Medium = MediumOf<AbsorbingMedium>;

@@ -21,8 +21,16 @@
 
 namespace phasetree::tracer {
 
-template <BsdfKind... Kinds>
-using BsdfOf = std::variant<Kinds...>;
+/// A kind of BSDF, once its contract has been asked of it. If it does not meet that, the message names the kind and the
+/// member.
+template <class Kind>
+struct CheckedBsdf {
+    static_assert(BsdfKind<Kind>);
+    using Type = Kind;
+};
+
+template <class... Kinds>
+using BsdfOf = std::variant<typename CheckedBsdf<Kinds>::Type...>;
 
 /// Every kind of BSDF.
 using AnyBsdf = BsdfOf<DiffuseBsdf, SmoothDielectricBsdf, RoughDielectricBsdf, SmoothConductorBsdf, RoughConductorBsdf,

@@ -28,7 +28,7 @@ struct ParameterType;
 
 /// Values that say everything by themselves.
 template <class T>
-concept PlainParameter = reading::one_of<T, bool, int, unsigned, float, double, std::string, glm::vec2, glm::vec3>;
+concept PlainParameter = io::one_of<T, bool, int, unsigned, float, double, std::string, glm::vec2, glm::vec3>;
 
 template <PlainParameter T>
 struct ParameterType<T, Parameter> {

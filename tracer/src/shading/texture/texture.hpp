@@ -19,8 +19,16 @@ namespace phasetree::tracer {
 // follow. A colour by itself is the constant one.
 using SolidTextures = TypeList<WoodTexture, SpeckleTexture, MarbleTexture, CheckerTexture>;
 
-template <TextureKind... Kinds>
-using TextureOf = std::variant<Kinds...>;
+/// A kind of texture, once its contract has been asked of it. If it does not meet that, the message names the kind and
+/// the member.
+template <class Kind>
+struct CheckedTexture {
+    static_assert(TextureKind<Kind>);
+    using Type = Kind;
+};
+
+template <class... Kinds>
+using TextureOf = std::variant<typename CheckedTexture<Kinds>::Type...>;
 
 template <class... Solids>
 TextureOf<ConstantTexture, Solids...> variant_of_textures(TypeList<Solids...>);
