@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Takes the pictures of nodes.md: each tree in fields/, objects/ and warps/ is put into the studio and rendered to a JPEG
-# of the same name beside it. What is not named is rendered too if nothing is:
+# of the same name beside it. Without names, all are rendered:
 #
 #   scenes/nodes/render.sh build/release/tracer/phasetree                  # all of them
 #   scenes/nodes/render.sh build/release/tracer/phasetree fields/sphere …  # these
