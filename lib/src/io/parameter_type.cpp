@@ -121,7 +121,7 @@ std::string Choice::read(const Document& document, Value value, std::string_view
         if (choice == word) return word;
         list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", choice);
     }
-    throw document.error(value, fmt::format("{} must be one of {}, but is {}", what, list, reading::in_quotes(word)),
+    throw document.error(value, fmt::format("{} must be one of {}, but is {}", what, list, io::in_quotes(word)),
                          closest(word, choices));
 }
 ValueType Choice::describe(const ChoiceParameter& p) {
