@@ -25,7 +25,7 @@ std::optional<Crossing> search(const InterfaceCells& cells, const Arguments& arg
     try {
         if (!query.seen.is(ray)) query.seen = SeenRay::of(ray);
         const ObjectInstance object = ObjectInstance::of(*arguments.context, arguments.geomID);
-        const std::optional<Phase> carried = query.phases.of(object);
+        const std::optional<Phase> carried = RayPhases::find(query.media, query.elsewhere, object);
         return search_cell(cells, arguments.primID, query.seen, ray, carried,
                            departure_of(arguments, query, object, ray, carried), query.counters);
     } catch (const std::bad_alloc&) {
