@@ -11,7 +11,7 @@
 #include "command/subcommand.hpp"
 #include "commands/commands.hpp"
 #include "output/file.hpp"
-#include "phasetree/program/evaluator.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/version.hpp"
 
 namespace phasetree::bench {

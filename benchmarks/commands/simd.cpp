@@ -8,7 +8,7 @@
 #include "commands/commands.hpp"
 #include "objects/scene_file.hpp"
 #include "objects/tentacle.hpp"
-#include "phasetree/program/evaluator.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
 #include "rays/camera_rays.hpp"
 #include "rays/random_rays.hpp"
 #include "trace/field_scene.hpp"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "phasetree/model/walk.hpp"
+#include "phasetree/tree/walk.hpp"
 
 namespace phasetree::bench {
 

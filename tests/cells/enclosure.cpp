@@ -1,15 +1,17 @@
 // Enclosures against what they enclose: values, gradients and curvatures of every primitive at random points of random
 // boxes.
-#include "phasetree/math/enclosure.hpp"
+#include "enclosure/enclosure.hpp"
 
 #include <doctest/doctest.h>
 
+#include "bounding/convex_in_box.hpp"
+#include "enclosure/difference.hpp"
 #include "phasetree/math/dual.hpp"
-#include "phasetree/math/enclosure/convex_in_box.hpp"
-#include "phasetree/math/enclosure/difference.hpp"
-#include "phasetree/model/walk.hpp"
+#include "phasetree/model/concepts.hpp"
+#include "phasetree/model/handle.hpp"
 #include "phasetree/nodes/copies/endless_grid.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/tree/node.hpp"
+#include "phasetree/tree/walk.hpp"
 #include "support/random_tree.hpp"
 
 using namespace phasetree;
@@ -17,7 +19,7 @@ using namespace phasetree::tests;
 
 namespace {
 
-struct Found {
+struct CellBuffer {
     std::size_t points = 0, outside = 0, off_slope = 0, steep = 0;
     std::size_t beyond_half = 0;  ///< points that half of the range would not have held
     std::size_t chords = 0, off_chord = 0;
@@ -33,7 +35,7 @@ constexpr double chord_error = 2e-6;
 /// values' rounding counts; so does that a chord is short for it to matter less than the curvature.
 template <class Primitive>
 void check_chord(const Primitive& n, const Enclosure& e, const glm::vec3& centre, const glm::vec3& half, Random& rng,
-                 Found& found) {
+                 CellBuffer& found) {
     const auto at = [&](const glm::vec3& q) { return static_cast<double>(n.distance(Vec3<float>{q.x, q.y, q.z})); };
     const auto inside = [&] { return glm::vec3(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)); };
     const glm::vec3 a = centre + half * inside(), b = centre + half * inside(), m = 0.5f * (a + b);
@@ -51,7 +53,7 @@ void check_chord(const Primitive& n, const Enclosure& e, const glm::vec3& centre
 
 /// `enclose(p, half extents)` encloses the primitive's distance, or says that it cannot.
 template <class Primitive, class Enclose>
-void look(const Primitive& n, Random& rng, int boxes, Found& found, Enclose&& enclose) {
+void look(const Primitive& n, Random& rng, int boxes, CellBuffer& found, Enclose&& enclose) {
     for (int box = 0; box < boxes; ++box) {
         const glm::vec3 centre = rng.uniform(0, 1.5f) * rng.direction();
         const float size = std::exp2(rng.uniform(-9, 0));
@@ -96,11 +98,11 @@ void look(const Primitive& n, Random& rng, int boxes, Found& found, Enclose&& en
 TEST_CASE("an enclosure holds the values and the gradients of every primitive") {
     Random rng(23);
     std::size_t kinds = 0, curved_kinds = 0;
-    Found all;
+    CellBuffer all;
     for (const NodeKind& kind : node_kinds()) {
         if (!kind.is_field) continue;
         CAPTURE(kind.name);
-        Found found;
+        CellBuffer found;
         for (int i = 0; i < (long_tests() ? 500 : 20); ++i) {
             const Field f = kind.field(rng, 1);
             std::visit(
@@ -246,7 +248,7 @@ TEST_CASE("what is known at a box's centre encloses rounded solids, behind affin
     for (const NodeKind& kind : node_kinds()) {
         if (!kind.is_field) continue;
         CAPTURE(kind.name);
-        Found found;
+        CellBuffer found;
         bool is_rounded = false;
         for (int i = 0; i < (long_tests() ? 2000 : 100); ++i) {
             AffineMap map;

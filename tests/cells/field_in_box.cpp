@@ -1,14 +1,15 @@
 // A field that is known in a box, as a function of the points of another: of quadratic fields all is known exactly, so
 // that what their enclosures allow is what they do, but for how maps bend. And what is known of noise.
-#include "phasetree/math/enclosure/field_in_box.hpp"
+#include "enclosure/field_in_box.hpp"
 
 #include <doctest/doctest.h>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "enclosure/value_noise.hpp"
 #include "phasetree/math/dual.hpp"
-#include "phasetree/math/enclosure/value_noise.hpp"
+#include "phasetree/model/handle.hpp"
 #include "phasetree/nodes/fields/fractal_noise.hpp"
 #include "support/compared_crossings.hpp"
 

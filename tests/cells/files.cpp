@@ -1,5 +1,16 @@
 // Files of cells: what is read is what was built, and whatever is done to a file is refused or harmless.
+#include "cells/file_header.hpp"
+#include "cells/sound.hpp"
+#include "phasetree/cells/cells.hpp"
 #include "phasetree/cells/file.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/io/tree.hpp"
+#include "phasetree/model/crossing.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/model/ray.hpp"
+#include "phasetree/nodes/list.hpp"
+#include "phasetree/program/program.hpp"
+#include "support/random_tree.hpp"
 
 #include <doctest/doctest.h>
 #include <sys/resource.h>
@@ -10,13 +21,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-
-#include "cells/file_header.hpp"
-#include "cells/sound.hpp"
-#include "phasetree/nodes/list.hpp"
-#include "phasetree/phasetree.hpp"
-#include "phasetree/reading/tree.hpp"
-#include "support/random_tree.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;
@@ -390,7 +394,7 @@ std::string unsound(const Program& program, std::uint32_t op, std::uint32_t data
     t.routines.outputs = {{.slot = 3, .phase = 1, .sign = 1}};
     t.routines.data = {data};
     t.cells = {InterfaceCell{}};
-    t.first_proof = {0, 0};
+    t.first_certificate = {0, 0};
     return what_is_unsound(t, program);
 }
 
@@ -412,7 +416,7 @@ TEST_CASE("a primitive with data takes none but its own of the object, or a list
     }
     CHECK(found == 1);
     const auto near = static_cast<std::uint32_t>(static_cast<std::size_t>(Op::first_primitive) + Primitives::size +
-                                                 index_in<VoronoiCells::Near>(DataPrimitives()));
+                                                 index_in<VoronoiCells::Specialised>(DataPrimitives()));
     const auto with_count = [&](float count) {
         Program blocks;
         blocks.constants = {1, 0.05f, 0.02f, 0.9f, 0, count};

@@ -2,9 +2,15 @@
 // given (TraceableObject); below 10⁻²⁰ of the ray even the coarsening of creeping rays comes to its end.
 #include <doctest/doctest.h>
 
-#include "cells/linear_bound.hpp"
-#include "phasetree/phasetree.hpp"
-#include "program/assemble.hpp"
+#include "evaluation/assemble.hpp"
+#include "kernel/linear_bound.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/model/crossing.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/model/ray.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/program/program.hpp"
 #include "support/random_tree.hpp"
 #include "trace/march.hpp"
 
@@ -39,7 +45,7 @@ TEST_CASE("a search ends at any resolution") {
                                              .t_max = 100,
                                              .resolution = resolution,
                                              .carried = 0,
-                                             .rise = Visit::no_departure},
+                                             .rise = Visit::no_leaving_hint},
                                             counters);
             most = std::max<std::uint64_t>(most, counters.batches);
             if (resolution > 0.01f) continue;  // nothing need be seen

@@ -1,5 +1,5 @@
 // What is known of a neural field in a box, against the field itself, along lines, in double.
-#include "phasetree/math/enclosure/network_in_box.hpp"
+#include "bounding/network_in_box.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,10 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "phasetree/phasetree.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/siren.hpp"
+#include "phasetree/nodes/fields/siren_network.hpp"
+#include "phasetree/nodes/phased/set.hpp"
 #include "support/compared_crossings.hpp"
 
 using namespace phasetree;
@@ -76,14 +79,14 @@ Range bends(const SirenNetwork& network, const glm::dvec3& p) {
     return shift > 0 ? Range{farthest(h - glm::dmat3(shift)), farthest(h + glm::dmat3(shift))} : Range{};
 }
 
-struct Found {
+struct CellBuffer {
     std::size_t points = 0, outside = 0, steep = 0, bent = 0;
 };
 
 /// Looks at points of a box that is so many times as large as the one of which the bounds speak.
-Found look(double larger, double& slack) {
+CellBuffer look(double larger, double& slack) {
     Random rng(211);
-    Found found;
+    CellBuffer found;
     double known = 0, met = 0;
     for (int n = 0; n < (long_tests() ? 2000 : 60); ++n) {
         const SirenNetwork network = random_network(rng, 2 + rng.below(31), rng.uniform(1, 12));
@@ -136,7 +139,7 @@ Found look(double larger, double& slack) {
 
 TEST_CASE("a neural field's values, gradients and curvatures in a box are within what is known of them") {
     double slack = 0;
-    const Found found = look(1, slack);
+    const CellBuffer found = look(1, slack);
     CHECK(found.outside == 0);
     CHECK(found.steep == 0);
     CHECK(found.bent == 0);
@@ -144,7 +147,7 @@ TEST_CASE("a neural field's values, gradients and curvatures in a box are within
     MESSAGE(found.points, " points; in small boxes the curvature's range is ", slack, " times what was met");
     CHECK(slack < 2);
     // And it is no more than so small: of boxes that are larger it would be wrong.
-    const Found beyond = look(1.5, slack), far = look(4, slack);
+    const CellBuffer beyond = look(1.5, slack), far = look(4, slack);
     MESSAGE("half as large again, ", beyond.steep, " slopes would be outside; four times, ", far.bent, " curvatures");
     CHECK(beyond.steep > found.points / 100);
     CHECK(far.bent > found.points / 100);

@@ -2,8 +2,12 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include "phasetree/cells/cells.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/math/float_mode.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/model/crossing.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/trace/tracer.hpp"
 #include "support/normal_checks.hpp"
 
 using namespace phasetree;
@@ -12,8 +16,8 @@ using namespace phasetree::tests;
 namespace {
 
 /// Calls found(cell, crossing) for the cells that hold a crossing and find it.
-template <class Found>
-void each_cell(const InterfaceCells& cells, const Crossing& c, const glm::vec3& d, Found&& found) {
+template <class CellBuffer>
+void each_cell(const InterfaceCells& cells, const Crossing& c, const glm::vec3& d, CellBuffer&& found) {
     const float size = cells.bounds().diagonal();
     const glm::vec3 o = c.p_in - 0.01f * size * d;
     for (std::size_t cell = 0; cell < cells.size(); ++cell) {

@@ -6,8 +6,11 @@
 
 #include "cells/traceable.hpp"
 #include "phasetree/cells/cells.hpp"
-#include "phasetree/phasetree.hpp"
-#include "phasetree/reading/tree.hpp"
+#include "phasetree/io/tree.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/phased/over.hpp"
+#include "phasetree/nodes/phased/set.hpp"
 #include "source_directory.hpp"
 #include "support/compared_crossings.hpp"
 

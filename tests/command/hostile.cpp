@@ -6,8 +6,8 @@
 #include <regex>
 
 #include "command.hpp"
-#include "phasetree/reading/document.hpp"
-#include "phasetree/reading/error.hpp"
+#include "phasetree/io/document.hpp"
+#include "phasetree/io/error.hpp"
 #include "scene/scene.hpp"
 
 using namespace phasetree::tests;

@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "command.hpp"
-#include "phasetree/phasetree.hpp"
-#include "phasetree/reading/tree.hpp"
+#include "phasetree/io/tree.hpp"
+#include "phasetree/model/handle.hpp"
 
 using namespace phasetree::tests;
 

@@ -8,8 +8,8 @@
 #include <random>
 
 #include "embree_core/rays.hpp"
-#include "phasetree/phasetree.hpp"
-#include "phasetree/reading/tree.hpp"
+#include "phasetree/io/tree.hpp"
+#include "phasetree/model/handle.hpp"
 
 namespace phasetree::tests {
 

@@ -11,6 +11,9 @@
 
 #include "embree/embree.hpp"
 #include "embree_core/cell_geometry.hpp"
+#include "phasetree/cells/cells.hpp"
+#include "phasetree/model/crossing.hpp"
+#include "phasetree/model/handle.hpp"
 #include "source_directory.hpp"
 #include "support/random_tree.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <set>
 
-#include "phasetree/reading/document.hpp"
-#include "phasetree/reading/reference.hpp"
+#include "phasetree/io/document.hpp"
+#include "phasetree/io/reference.hpp"
 
 namespace phasetree::fuzz {
 

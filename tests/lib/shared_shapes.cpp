@@ -3,8 +3,10 @@
 // not end tells of one that does neither.
 #include <doctest/doctest.h>
 
+#include "phasetree/io/write.hpp"
+#include "phasetree/model/handle.hpp"
 #include "phasetree/program/program.hpp"
-#include "phasetree/reading/write.hpp"
+#include "phasetree/tree/node.hpp"
 #include "support/random_node.hpp"
 
 using namespace phasetree;

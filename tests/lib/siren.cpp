@@ -2,8 +2,10 @@
 
 #include <cmath>
 
-#include "phasetree/nodes/node.hpp"
-#include "phasetree/reading/tree.hpp"
+#include "phasetree/io/tree.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/siren.hpp"
+#include "phasetree/nodes/fields/siren_network.hpp"
 #include "source_directory.hpp"
 
 using namespace phasetree;

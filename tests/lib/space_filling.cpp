@@ -4,8 +4,9 @@
 
 #include <tuple>
 
-#include "phasetree/phasetree.hpp"
-#include "phasetree/reading/tree.hpp"
+#include "phasetree/io/tree.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/phased/checker.hpp"
 
 using namespace phasetree;
 

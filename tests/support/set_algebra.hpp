@@ -15,7 +15,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "phasetree/nodes/node.hpp"
+#include "phasetree/model/handle.hpp"
 
 namespace phasetree::tests {
 

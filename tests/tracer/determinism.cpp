@@ -6,7 +6,7 @@
 #include "output/encode.hpp"
 #include "output/environment.hpp"
 #include "paths.hpp"
-#include "phasetree/program/evaluator.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
 
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::tests;

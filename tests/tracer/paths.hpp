@@ -5,8 +5,8 @@
 #include <string>
 
 #include "integrator/path.hpp"
+#include "phasetree/io/document.hpp"
 #include "phasetree/math/float_mode.hpp"
-#include "phasetree/reading/document.hpp"
 #include "render/render.hpp"
 #include "scene/scene.hpp"
 #include "support/statistics.hpp"

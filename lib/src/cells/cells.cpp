@@ -5,13 +5,13 @@
 #include <optional>
 #include <utility>
 
+#include "building/divide_within.hpp"
 #include "cells/curvature_code.hpp"
-#include "cells/divide_within.hpp"
 #include "cells/file.hpp"
-#include "cells/rewrite.hpp"
+#include "evaluation/target.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/trace/tracer.hpp"
-#include "program/target.hpp"
+#include "rewriting/rewrite.hpp"
 #include "trace/march.hpp"
 #include "trace/normal.hpp"
 
@@ -65,10 +65,10 @@ struct InterfaceCells::Data : CellTables {
         return r;
     }
     std::uint32_t slots(const Cell& c) const { return routines.shapes[c.shape].slots; }
-    /// Adds a cell's proof, which is needed where curvature leaves the ray in doubt.
-    void prove(Routine& r, std::size_t cell) const {
-        r.proof = proofs.data() + first_proof[cell];
-        r.proof_steps = first_proof[cell + 1] - first_proof[cell];
+    /// Adds a cell's certificate, which is needed where curvature leaves the ray in doubt.
+    void certify_sign(Routine& r, std::size_t cell) const {
+        r.certificate = certificates.data() + first_certificate[cell];
+        r.certificate_steps = first_certificate[cell + 1] - first_certificate[cell];
     }
     /// Whether curvature may leave a ray in doubt that carries this phase.
     bool is_in_doubt(const Cell& c, const Routine& r, const std::optional<Phase>& carried) const {
@@ -79,7 +79,7 @@ struct InterfaceCells::Data : CellTables {
     }
 
     std::optional<Crossing> search(std::size_t cell, const TracedRay& ray, float t_min, float t_max,
-                                   std::optional<Phase> carried, const std::optional<Departure>& departure,
+                                   std::optional<Phase> carried, const std::optional<LeavingHint>& leaving_hint,
                                    Evaluator::Workspace* w, TraceCounters& counters) const {
         ++counters.visits;
         const Cell& c = cells[cell];
@@ -91,8 +91,8 @@ struct InterfaceCells::Data : CellTables {
         __builtin_prefetch(r.data);
         __builtin_prefetch(r.data + r.count);
         if (is_in_doubt(c, r, carried)) {
-            prove(r, cell);
-            __builtin_prefetch(r.proof);
+            certify_sign(r, cell);
+            __builtin_prefetch(r.certificate);
         }
         const auto many = [&] { return (w ? *w : Evaluator::thread_workspace()).registers(slots(c)); };
         return phasetree::first_crossing(
@@ -106,35 +106,35 @@ struct InterfaceCells::Data : CellTables {
              .t_max = t_max,
              .resolution = resolution,
              .carried = carried_by(carried),
-             .rise = departure ? departure->rise : Visit::no_departure},
+             .rise = leaving_hint ? leaving_hint->rise : Visit::no_leaving_hint},
             counters);
     }
 
     /// Cells with equal programs share one.
-    void add(FoundPieces found, Routines made, const std::function<bool()>& cancelled) {
+    void add(CellBuffers found, Routines made, const std::function<bool()>& cancelled) {
         cells.reserve(found.cells());
-        first_proof.reserve(found.cells() + 1);
-        for (Found& piece : found) {
+        first_certificate.reserve(found.cells() + 1);
+        for (CellBuffer& piece : found) {
             if (cancelled && cancelled()) throw BuildCancelled();
-            made.take_near(piece);
+            made.take_specialised_data(piece);
             add(piece, made);
         }
-        first_proof.push_back(Found::narrow(proofs.size()));
-        proofs.shrink_to_fit();
+        first_certificate.push_back(CellBuffer::narrow(certificates.size()));
+        certificates.shrink_to_fit();
         routine_count = made.count();
         routines = std::move(made.tables);
         routines.shrink_to_fit();
     }
-    void add(const Found& found, Routines& made) {
-        for (const Found::Cell& c : found.cells) {
+    void add(const CellBuffer& found, Routines& made) {
+        for (const CellBuffer::Cell& c : found.cells) {
             const Routines::Ready& r = made.add(found, c);
             // Without its component alone a ray in the first phase knows nothing.
             const bool is_known = c.outputs == 2 || made.tables.shapes[r.shape].leading > 0;
             cells.push_back({c.box, is_known ? c.bound : LinearBound{}, r.shape, r.first_data,
-                             curvature_code.encode(c.curvature.most[0]), curvature_code.encode(c.curvature.most[1]),
+                             curvature_code.encode(c.curvature.bound[0]), curvature_code.encode(c.curvature.bound[1]),
                              found.outputs_of(c)[0].phase.index, c.curvature.is_by_own, c.curvature.is_by_first});
-            first_proof.push_back(Found::narrow(proofs.size()));
-            made.add_proof(r, found.proof_of(c), proofs);
+            first_certificate.push_back(CellBuffer::narrow(certificates.size()));
+            made.add_certificate(r, found.certificate_of(c), certificates);
         }
     }
 };
@@ -147,9 +147,10 @@ InterfaceCells::InterfaceCells(const Phased& object, const CellOptions& options)
     Arena arena;
     const WorkingProgram rewritten = rewrite(recorded, arena);
     BuildProgress progress(options.progress);
-    const Division division(options, progress, rewritten, recorded.constants, data->reach, 0.5f * data->resolution,
-                            data->bounds.diagonal());
-    FoundWithin within = divide_within(data->most_bytes, data->bounds, rewritten, division);
+    const BuildContext context{options, progress,
+                               ProgramContext(rewritten, recorded.constants, options.opaque, 0.5f * data->resolution),
+                               data->reach, data->bounds.diagonal()};
+    CellsWithinBudget within = divide_within(data->most_bytes, data->bounds, rewritten, context);
     data->is_coarser = within.is_coarser;
     data->add(std::move(within.found), Routines(recorded.constants), options.cancelled);
     data->whole.emplace(std::move(recorded));
@@ -197,9 +198,9 @@ std::optional<Crossing> InterfaceCells::first_crossing(std::size_t cell, const g
 
 std::optional<Crossing> InterfaceCells::first_crossing(std::size_t cell, const TracedRay& ray, float t_min, float t_max,
                                                        std::optional<Phase> carried,
-                                                       const std::optional<Departure>& departure,
+                                                       const std::optional<LeavingHint>& leaving_hint,
                                                        TraceCounters& counters) const {
-    return data_->search(cell, ray, t_min, t_max, carried, departure, nullptr, counters);
+    return data_->search(cell, ray, t_min, t_max, carried, leaving_hint, nullptr, counters);
 }
 
 CrossingNormal InterfaceCells::normal(std::size_t cell, const Crossing& c, const glm::vec3& direction) const {
@@ -256,8 +257,8 @@ CellStatistics InterfaceCells::statistics() const {
     s.cells = data_->cells.size();
     s.routines = data_->routine_count;
     s.bytes = data_->cells.size() * sizeof(Data::Cell) + data_->routines.bytes() +
-              data_->proofs.size() * sizeof(ProofStep) + data_->first_proof.size() * sizeof(data_->first_proof[0]) +
-              data_->whole->bytes();
+              data_->certificates.size() * sizeof(PackedCertificateStep) +
+              data_->first_certificate.size() * sizeof(data_->first_certificate[0]) + data_->whole->bytes();
     s.build_seconds = data_->build_seconds;
     s.is_coarser = data_->is_coarser;
     if (data_->cells.empty()) return s;

@@ -3,7 +3,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "cells/linear_bound.hpp"
+#include "kernel/linear_bound.hpp"
 
 namespace phasetree {
 

@@ -63,11 +63,11 @@ struct StoredCell {
                 (flags & by_first) != 0};
     }
 };
-static_assert(sizeof(StoredCell) == 64 && sizeof(Step) == 16 && sizeof(OutputSlot) == 12 && sizeof(ProofStep) == 16 &&
-              sizeof(RoutineTables::Shape) == 24);
+static_assert(sizeof(StoredCell) == 64 && sizeof(Step) == 16 && sizeof(OutputSlot) == 12 &&
+              sizeof(PackedCertificateStep) == 16 && sizeof(RoutineTables::Shape) == 24);
 constexpr std::array<std::uint64_t, section_count> item_bytes{
-    sizeof(StoredCell), sizeof(RoutineTables::Shape), sizeof(Step), sizeof(OutputSlot), sizeof(std::uint32_t),
-    sizeof(ProofStep),  sizeof(std::uint32_t),        sizeof(float)};
+    sizeof(StoredCell),    sizeof(RoutineTables::Shape),  sizeof(Step),          sizeof(OutputSlot),
+    sizeof(std::uint32_t), sizeof(PackedCertificateStep), sizeof(std::uint32_t), sizeof(float)};
 
 std::array<char, 24> as_chars(std::string_view text) {
     std::array<char, 24> chars{};
@@ -99,7 +99,7 @@ std::uint64_t layout_of_tables() {
     Checksum sum;
     const auto put = [&](std::uint64_t n) { sum.put(&n, sizeof n); };
     for (const std::size_t n :
-         {batch_size, std::size_t{few_slots}, most_proof_steps, placed_floats, std::size_t{first_placed}})
+         {batch_size, std::size_t{few_slots}, most_certificate_steps, placed_floats, std::size_t{first_placed}})
         put(n);
     const auto put_type = [&]<class T>() {
         put(sizeof(T));
@@ -167,8 +167,8 @@ class Reading {
         read(t.routines.steps, h.counts[steps]);
         read(t.routines.outputs, h.counts[outputs]);
         read(t.routines.data, h.counts[data]);
-        read(t.proofs, h.counts[proofs]);
-        read(t.first_proof, h.counts[first_proofs]);
+        read(t.certificates, h.counts[certificates]);
+        read(t.first_certificate, h.counts[first_certificates]);
         std::vector<float> more;
         read(more, h.counts[constants]);
         if (sum_.get() != h.tables_checksum)
@@ -285,11 +285,14 @@ void write_cells(const fs::path& path, const InterfaceCells& cells) {
     Header h = header_of(program, t.recorded_constants, made);
     h.is_coarser = t.is_coarser;
     h.routines = t.routine_count;
-    const std::array<std::span<const std::byte>, section_count> parts{
-        bytes_of(stored),           bytes_of(t.routines.shapes),
-        bytes_of(t.routines.steps), bytes_of(t.routines.outputs),
-        bytes_of(t.routines.data),  bytes_of(t.proofs),
-        bytes_of(t.first_proof),    more};
+    const std::array<std::span<const std::byte>, section_count> parts{bytes_of(stored),
+                                                                      bytes_of(t.routines.shapes),
+                                                                      bytes_of(t.routines.steps),
+                                                                      bytes_of(t.routines.outputs),
+                                                                      bytes_of(t.routines.data),
+                                                                      bytes_of(t.certificates),
+                                                                      bytes_of(t.first_certificate),
+                                                                      more};
     Checksum sum;
     for (std::size_t i = 0; i < section_count; ++i) {
         h.counts[i] = parts[i].size() / item_bytes[i];

@@ -10,7 +10,17 @@ namespace phasetree {
 
 /// What a file of cells begins with; the sections follow one after another, and nothing behind them.
 struct CellsFileHeader {
-    enum Section : std::size_t { cells, shapes, steps, outputs, data, proofs, first_proofs, constants, sections };
+    enum Section : std::size_t {
+        cells,
+        shapes,
+        steps,
+        outputs,
+        data,
+        certificates,
+        first_certificates,
+        constants,
+        sections
+    };
     static constexpr std::array<char, 8> known_magic{'p', 'h', 't', 'c', 'e', 'l', 'l', 's'};
     static constexpr std::uint32_t known_format = 1, own_byte_order = 0x01020304, other_byte_order = 0x04030201;
 

@@ -60,15 +60,15 @@ class Check {
     std::string operator()() {
         for (const RoutineTables::Shape& s : r_.shapes)
             if (!is_sound(s)) return "a routine is impossible";
-        if (t_.first_proof.size() != t_.cells.size() + 1 || t_.first_proof.front() != 0 ||
-            t_.first_proof.back() != t_.proofs.size() || !std::ranges::is_sorted(t_.first_proof))
-            return "its proofs are not its cells'";
+        if (t_.first_certificate.size() != t_.cells.size() + 1 || t_.first_certificate.front() != 0 ||
+            t_.first_certificate.back() != t_.certificates.size() || !std::ranges::is_sorted(t_.first_certificate))
+            return "its certificates are not its cells'";
         for (std::size_t i = 0; i < t_.cells.size(); ++i) {
             const InterfaceCell& c = t_.cells[i];
             if (c.shape >= r_.shapes.size() || c.first_phase >= Phase::capacity) return "a cell is impossible";
             if (!has_constants(c)) return "a routine's constants are missing";
-            if (!is_proof(t_.first_proof[i], t_.first_proof[i + 1], r_.shapes[c.shape].slots))
-                return "a proof is impossible";
+            if (!is_certificate(t_.first_certificate[i], t_.first_certificate[i + 1], r_.shapes[c.shape].slots))
+                return "a certificate is impossible";
         }
         return "";
     }
@@ -120,11 +120,11 @@ class Check {
         static const auto floats = all_floats();
         if (!fits(at, floats[op], constants_.size())) return false;
         if (!has_data(op)) return true;
-        if (traits(static_cast<Op>(op)).is_near) return is_list_of_sites(at);
+        if (traits(static_cast<Op>(op)).is_specialised) return is_list_of_sites(at);
         return std::ranges::binary_search(of_object_, std::pair{op, at});
     }
     bool is_list_of_sites(std::uint32_t at) const {
-        constexpr std::uint32_t before = VoronoiNear::parameters + 1;
+        constexpr std::uint32_t before = SpecialisedVoronoi::parameters + 1;
         if (!fits(at, before, constants_.size())) return false;
         const float count = constants_[at + before - 1];
         constexpr auto each = static_cast<float>(VoronoiSites::site_floats);
@@ -133,12 +133,12 @@ class Check {
         return fits(at + before, static_cast<std::uint64_t>(count), constants_.size());
     }
 
-    bool is_proof(std::uint32_t first, std::uint32_t end, std::uint32_t slots) const {
-        if (end - first > most_proof_steps) return false;
+    bool is_certificate(std::uint32_t first, std::uint32_t end, std::uint32_t slots) const {
+        if (end - first > most_certificate_steps) return false;
         std::size_t depth = 0;
         for (std::uint32_t i = first; i < end; ++i) {
-            const ProofStep& s = t_.proofs[i];
-            if (s.kind == ProofStep::leaf) {
+            const PackedCertificateStep& s = t_.certificates[i];
+            if (s.kind == PackedCertificateStep::leaf) {
                 if (s.slot >= slots || !is_number(s.factor) || !is_number(s.up) || !is_number(s.down)) return false;
                 ++depth;
             } else {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cells/routines.hpp"
+#include "building/routines.hpp"
 
 namespace phasetree {
 
@@ -19,10 +19,10 @@ struct CellTables {
     std::vector<InterfaceCell> cells;
     std::size_t routine_count = 0;
     RoutineTables routines;
-    std::vector<ProofStep> proofs;
-    std::vector<std::uint32_t> first_proof;  ///< of each cell, and the end
-    std::size_t recorded_constants = 0;      ///< of the program's: those behind them are the cells'
-    bool is_coarser = false;                 ///< for want of memory
+    std::vector<PackedCertificateStep> certificates;
+    std::vector<std::uint32_t> first_certificate;  ///< of each cell, and the end
+    std::size_t recorded_constants = 0;            ///< of the program's: those behind them are the cells'
+    bool is_coarser = false;                       ///< for want of memory
 };
 
 }  // namespace phasetree

@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "phasetree/math/number.hpp"
-#include "phasetree/program/evaluator.hpp"
+#include "phasetree/program/batch.hpp"
 
 namespace phasetree::HWY_NAMESPACE {
 

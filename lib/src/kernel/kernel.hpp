@@ -3,14 +3,14 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "cells/linear_bound.hpp"
-#include "phasetree/program/evaluator.hpp"
-#include "phasetree/trace/ray.hpp"
+#include "kernel/linear_bound.hpp"
+#include "phasetree/model/phase.hpp"
+#include "phasetree/model/ray.hpp"
 
 namespace phasetree {
 
-/// A proof is no longer than this.
-inline constexpr std::size_t most_proof_steps = 32;
+/// A certificate is no longer than this.
+inline constexpr std::size_t most_certificate_steps = 32;
 
 /// A resolved instruction. Slots count batches in the register file; a point takes three. Where its constants are is
 /// kept apart, so that many routines share their steps.
@@ -32,10 +32,11 @@ struct OutputSlot {
     bool operator==(const OutputSlot&) const = default;
 };
 
-/// A step of a proof, on a stack, that a field keeps its sign between samples: see proof.inl. A leaf speaks of
+/// A step of a certificate, on a stack, that a field keeps its sign between samples: see certificate.inl. A leaf speaks
+/// of
 ///     g = factor · (the slot's value − threshold),
 /// which is 1-Lipschitz; 16-bit numbers are the upper halves of floats.
-struct ProofStep {
+struct PackedCertificateStep {
     enum Kind : std::uint32_t { leaf, both, either, either_one_way };
 
     float threshold;
@@ -44,7 +45,7 @@ struct ProofStep {
     std::uint16_t up, down;  ///< how much g and −g curve upward at most, infinite if that is not known
     std::uint16_t unused = 0;
 
-    bool operator==(const ProofStep&) const = default;
+    bool operator==(const PackedCertificateStep&) const = default;
 };
 
 /// What a kernel runs: plain pointers, because kernels are compiled for several instruction sets and must not share
@@ -64,8 +65,8 @@ struct Routine {
     /// So many steps give the first component alone, 0 if that is not known: enough for a ray that is in its phase.
     std::size_t leading = 0;
     /// Of the first component, where its curvature is not known: that it stays negative.
-    const ProofStep* proof = nullptr;
-    std::size_t proof_steps = 0;
+    const PackedCertificateStep* certificate = nullptr;
+    std::size_t certificate_steps = 0;
 };
 
 /// Routines that need no more batches bring no registers.
@@ -83,11 +84,11 @@ struct Visit {
     float t_min, t_max;
     float resolution;
     float carried;  ///< the phase that the ray is in; negative: the label at its start
-    float rise;     ///< of a Departure, or none
+    float rise;     ///< of a LeavingHint, or none
     /// Where an unfinished search goes on, counted from where it began: a place in the ray's phase; or 0.
     float from = 0;
 
-    static constexpr float no_departure = -2;
+    static constexpr float no_leaving_hint = -2;
 };
 
 /// The first change of label there; see Crossing. Without one, only what it cost.

@@ -41,8 +41,8 @@ struct Simple {
         if constexpr (op == Op::negate) store(-load(a), to);
         if constexpr (op == Op::add) store(load(a) + load(b), to);
         if constexpr (op == Op::subtract) store(load(a) - load(b), to);
-        if constexpr (op == Op::minimum || op == Op::farther_inside) store(min(load(a), load(b)), to);
-        if constexpr (op == Op::maximum || op == Op::farther) store(max(load(a), load(b)), to);
+        if constexpr (op == Op::minimum || op == Op::far_bound_inside) store(min(load(a), load(b)), to);
+        if constexpr (op == Op::maximum || op == Op::far_bound) store(max(load(a), load(b)), to);
         if constexpr (op == Op::absolute) store(abs(load(a)), to);
         if constexpr (op == Op::add_constant) store(load(a) + *constants, to);
         if constexpr (op == Op::constant_minus) store(*constants - load(a), to);
@@ -214,7 +214,7 @@ void sample_ray(const Routine& routine, const float* o, const float* d, const fl
 }  // namespace HWY_NAMESPACE
 }  // namespace phasetree
 
-#include "kernel/proof.inl"
+#include "kernel/sign_certificate.inl"
 
 #include "kernel/places.inl"
 

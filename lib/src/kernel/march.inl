@@ -190,7 +190,7 @@ class March {
     float other_half_curvature_ = 0;  ///< and in the other, if it is pinnable
     bool is_curvature_known_ = false;
     bool is_pinnable_ = false;  ///< one value tells where the label changes, and how it curves both ways
-    bool is_provable_ = false;  ///< else by a proof
+    bool is_provable_ = false;  ///< else by a certificate
     Place here_{};              ///< all up to here is in the ray's phase
     Place certain_{};           ///< the last place whose own label is the ray's phase; mostly `here`
     Place other_{};             ///< after it, the first place of the label that is there now
@@ -225,7 +225,7 @@ bool March::find(RayCrossing& result) {
         other_half_curvature_ = 0.5f * ray_.curvature[routine_.outputs[0].phase == phase_ ? 1 : 0];
         is_pinnable_ = is_curvature_known_ && other_half_curvature_ < 1e30f &&
                        (is_shared(routine_) || (is_alone_ && routine_.is_by_first));
-        is_provable_ = !is_curvature_known_ && routine_.proof_steps > 0 &&
+        is_provable_ = !is_curvature_known_ && routine_.certificate_steps > 0 &&
                        (routine_.outputs[0].phase == phase_ || is_shared(routine_));
         other_.label = none;
         judge(f, t, c, here_);
@@ -346,7 +346,7 @@ HWY_INLINE Batch March::narrowing(const Frame& f, int lane, const Place& next) c
     const bool has_before = lane >= 1, has_after = lane >= 0 && lane + 1 < static_cast<int>(batch_size);
     const Place before = has_before ? f.place(lane - 2) : here_, after = has_after ? f.place(lane + 1) : next;
     const float root = predicted_root(here_, next, before, after);
-    // A proof speaks of what is between samples.
+    // A certificate speaks of what is between samples.
     return gather_around(smaller(larger(root, here_.t), next.t), here_.t, next.t, 0.49f * ray_.resolution,
                          is_provable_);
 }

@@ -1,4 +1,4 @@
-/// A linear layer of a network for numbers of several lanes (math/enclosure/network_in_box.hpp). Included by
+/// A linear layer of a network for numbers of several lanes (bounding/network_in_box.hpp). Included by
 /// kernel.inl.
 
 namespace phasetree::HWY_NAMESPACE {

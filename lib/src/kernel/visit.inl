@@ -58,7 +58,7 @@ bool visit(const Visit& v, RayCrossing& result) {
     };
     start_at(span.low);
     float carried = v.carried;
-    const bool is_departure = v.rise != Visit::no_departure, has_two = routine.output_count == 2;
+    const bool is_departure = v.rise != Visit::no_leaving_hint, has_two = routine.output_count == 2;
     const bool is_in_first = routine.outputs[0].phase == carried;
     // What starts here and carries a phase has mostly just crossed or left an interface.
     bool on_interface = carried >= 0 && span.low == static_cast<double>(v.t_min);

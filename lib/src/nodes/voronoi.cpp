@@ -34,9 +34,9 @@ bool is_small(const PointRange& r) {
 
 /// Those of what append() has made.
 std::span<const float> sites_of(std::span<const float> of) {
-    return of.empty() ? of : VoronoiNear::list(of.data());
+    return of.empty() ? of : SpecialisedVoronoi::list(of.data());
 }
-bool append(std::span<const VoronoiSites::Site> sites, std::array<float, VoronoiNear::parameters> parameters,
+bool append(std::span<const VoronoiSites::Site> sites, std::array<float, SpecialisedVoronoi::parameters> parameters,
             std::vector<float>& floats) {
     if (sites.size() > most_sites) return false;
     floats.insert(floats.end(), parameters.begin(), parameters.end());
@@ -103,7 +103,7 @@ void VoronoiSites::find(const Search& search, std::span<const float> list, std::
     std::erase_if(found, [&](const Site& s) { return s.distance > farthest; });
 }
 
-bool VoronoiCells::near(const PointRange& range, std::span<const float> of, std::vector<float>& floats) const {
+bool VoronoiCells::specialise(const PointRange& range, std::span<const float> of, std::vector<float>& floats) const {
     const PointRange box = in_cubes(range, size);
     if (!is_small(box)) return false;
     const VoronoiSites sites{jitter, seed};
@@ -132,7 +132,8 @@ bool VoronoiCells::near(const PointRange& range, std::span<const float> of, std:
     return append(found, {size, gap, rounding, jitter, seed}, floats);
 }
 
-bool Voronoi::Nearest::near(const PointRange& range, std::span<const float> of, std::vector<float>& floats) const {
+bool Voronoi::Nearest::specialise(const PointRange& range, std::span<const float> of,
+                                  std::vector<float>& floats) const {
     const PointRange box = in_cubes(range, size);
     if (!is_small(box)) return false;
     const VoronoiSites sites{jitter, seed};

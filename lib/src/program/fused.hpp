@@ -6,7 +6,7 @@
 #include "phasetree/nodes/list.hpp"
 #include "phasetree/program/program.hpp"
 
-/// Instructions that only cells have (cells/fuse.hpp): what is affine before a
+/// Instructions that only cells have (rewriting/fuse.hpp): what is affine before a
 /// primitive and after it, in one with it, rounded as it would be alone.
 /// Their operations follow those of the maps of space: first a map alone, then one for each primitive.
 namespace phasetree {

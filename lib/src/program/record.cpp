@@ -4,9 +4,9 @@
 #include <cstring>
 #include <unordered_map>
 
-#include "phasetree/nodes/node.hpp"
 #include "phasetree/program/program.hpp"
-#include "program/assemble.hpp"
+#include "phasetree/tree/node.hpp"
+#include "program/op_traits.hpp"
 
 namespace phasetree {
 
@@ -171,11 +171,11 @@ Recorded min(Recorded a, Recorded b) {
 Recorded max(Recorded a, Recorded b) {
     return a.id == b.id ? a : a.recorder->emit(Op::maximum, a.id, b.id, {}, a.recorder->largest(a, b));
 }
-[[maybe_unused]] Recorded farther(Recorded f, Recorded bound) {
-    return f.recorder->emit(Op::farther, f.id, bound.id, {}, f.recorder->largest(f, bound));
+[[maybe_unused]] Recorded far_bound(Recorded f, Recorded bound) {
+    return f.recorder->emit(Op::far_bound, f.id, bound.id, {}, f.recorder->largest(f, bound));
 }
-[[maybe_unused]] Recorded farther_inside(Recorded f, Recorded bound) {
-    return f.recorder->emit(Op::farther_inside, f.id, bound.id, {}, f.recorder->largest(f, bound));
+[[maybe_unused]] Recorded far_bound_inside(Recorded f, Recorded bound) {
+    return f.recorder->emit(Op::far_bound_inside, f.id, bound.id, {}, f.recorder->largest(f, bound));
 }
 Recorded abs(Recorded a) {
     return a.recorder->emit(Op::absolute, a.id, 0, {}, a.recorder->lipschitz(a));

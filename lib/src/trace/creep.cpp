@@ -4,8 +4,9 @@
 #include <cmath>
 #include <optional>
 
-#include "cells/enclose_primitive.hpp"
-#include "program/target.hpp"
+#include "bounding/enclose_primitive.hpp"
+#include "evaluation/target.hpp"
+#include "phasetree/program/batch.hpp"
 
 namespace phasetree {
 

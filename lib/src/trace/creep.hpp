@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernel/kernel.hpp"
-#include "phasetree/trace/crossing.hpp"
+#include "phasetree/model/crossing.hpp"
 
 /// Rays that creep along an interface.
 ///

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "program/target.hpp"
+#include "evaluation/target.hpp"
 #include "trace/creep.hpp"
 
 namespace phasetree {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "phasetree/trace/crossing.hpp"
-#include "program/assemble.hpp"
+#include "evaluation/component.hpp"
+#include "phasetree/model/crossing.hpp"
 
 namespace phasetree {
 

@@ -1,6 +1,6 @@
 #include "phasetree/trace/tracer.hpp"
 
-#include "program/assemble.hpp"
+#include "evaluation/assemble.hpp"
 #include "trace/march.hpp"
 #include "trace/normal.hpp"
 
@@ -34,7 +34,7 @@ std::optional<Crossing> InterfaceTracer::first_crossing(const glm::vec3& origin,
                                       .t_max = t_max,
                                       .resolution = resolution_,
                                       .carried = carried_by(carried),
-                                      .rise = Visit::no_departure},
+                                      .rise = Visit::no_leaving_hint},
                                      c);
 }
 

@@ -1,9 +1,9 @@
 // A tree built with the C++ library instead of read from a file, made into a geometry through the C++ wrapper; prints
 // the closest interface to a point.
 #include <cstdio>
+#include <phasetree/io/write.hpp>
 #include <phasetree/phasetree.hpp>
 #include <phasetree/phasetree_embree.hpp>
-#include <phasetree/reading/write.hpp>
 
 int main() {
     using namespace phasetree;

@@ -1,6 +1,6 @@
 // What a host gets and keeps of each phase: the scene's material as JSON, and a number and a pointer of its own.
 #include "embree/api/api.hpp"
-#include "phasetree/reading/write.hpp"
+#include "phasetree/io/write.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;

@@ -3,7 +3,7 @@
 #include <fstream>
 
 #include "embree/api/api.hpp"
-#include "phasetree/reading/write.hpp"
+#include "phasetree/io/write.hpp"
 #include "source_directory.hpp"
 
 using namespace phasetree;

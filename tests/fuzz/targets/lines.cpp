@@ -2,14 +2,15 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <iostream>
 #include <sstream>
 
 #include "command/commands.hpp"
 #include "command/numbers.hpp"
 #include "fuzz/input_file.hpp"
+#include "phasetree/io/error.hpp"
 #include "phasetree/model/handle.hpp"
-#include "phasetree/reading/error.hpp"
 
 namespace phasetree::fuzz {
 

@@ -4,10 +4,10 @@
 
 #include "fuzz/target.hpp"
 #include "phasetree/cells/cells.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/io/tree.hpp"
+#include "phasetree/io/write.hpp"
 #include "phasetree/math/float_mode.hpp"
-#include "phasetree/program/evaluator.hpp"
-#include "phasetree/reading/tree.hpp"
-#include "phasetree/reading/write.hpp"
 #include "phasetree/trace/tracer.hpp"
 #include "source_directory.hpp"
 

@@ -1,9 +1,12 @@
 // The weights of a network, and a siren of them: its proven slope, its values and its gradient.
 #include "fuzz/input_file.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/io/tree.hpp"
 #include "phasetree/math/float_mode.hpp"
-#include "phasetree/phasetree.hpp"
-#include "phasetree/program/evaluator.hpp"
-#include "phasetree/reading/tree.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/siren.hpp"
+#include "phasetree/nodes/fields/siren_network.hpp"
+#include "phasetree/program/program.hpp"
 
 namespace phasetree::fuzz {
 

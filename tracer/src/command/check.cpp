@@ -1,9 +1,11 @@
 #include "command/commands.hpp"
+
+#include <CLI/CLI.hpp>
 #include "command/empty_object.hpp"
 #include "command/load.hpp"
 #include "command/streams.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/model/handle.hpp"
-#include "phasetree/program/evaluator.hpp"
 #include "phasetree/trace/tracer.hpp"
 #include "render/threads.hpp"
 

@@ -1,6 +1,6 @@
 #include "command/empty_object.hpp"
 
-#include "phasetree/program/evaluator.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
 
 namespace phasetree::tracer {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "phasetree/cells/cells.hpp"
-#include "phasetree/reading/document.hpp"
+#include "phasetree/io/document.hpp"
 
 namespace phasetree::tracer {
 

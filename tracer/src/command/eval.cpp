@@ -1,12 +1,13 @@
+#include <CLI/CLI.hpp>
 #include <iostream>
 
 #include "command/commands.hpp"
 #include "command/load.hpp"
 #include "command/numbers.hpp"
 #include "command/streams.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/io/tree.hpp"
 #include "phasetree/math/float_mode.hpp"
-#include "phasetree/program/evaluator.hpp"
-#include "phasetree/reading/tree.hpp"
 
 namespace phasetree::tracer {
 

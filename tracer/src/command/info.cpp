@@ -1,3 +1,4 @@
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "command/build_quality.hpp"
@@ -9,9 +10,9 @@
 #include "command/numbers.hpp"
 #include "command/streams.hpp"
 #include "output/cell_progress.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/io/tree.hpp"
 #include "phasetree/model/handle.hpp"
-#include "phasetree/program/evaluator.hpp"
-#include "phasetree/reading/tree.hpp"
 #include "phasetree/trace/tracer.hpp"
 #include "render/threads.hpp"
 #include "scene/scene.hpp"

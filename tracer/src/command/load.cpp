@@ -5,7 +5,7 @@
 #include "command/numbers.hpp"
 #include "command/streams.hpp"
 #include "output/error.hpp"
-#include "phasetree/program/evaluator.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/trace/tracer.hpp"
 #include "scene/parts.hpp"
 

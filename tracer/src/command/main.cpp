@@ -7,8 +7,8 @@
 #include "command/streams.hpp"
 #include "command/subcommand.hpp"
 #include "output/error.hpp"
+#include "phasetree/io/error.hpp"
 #include "phasetree/model/handle.hpp"
-#include "phasetree/reading/error.hpp"
 #include "phasetree/version.hpp"
 
 namespace {

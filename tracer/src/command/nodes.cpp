@@ -1,6 +1,8 @@
 #include "command/commands.hpp"
+
+#include <CLI/CLI.hpp>
 #include "command/streams.hpp"
-#include "phasetree/reading/reference.hpp"
+#include "phasetree/io/reference.hpp"
 
 namespace phasetree::tracer {
 

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "command/streams.hpp"
-#include "phasetree/reading/suggest.hpp"
+#include "phasetree/io/suggest.hpp"
 
 namespace phasetree::tracer {
 

@@ -1,3 +1,4 @@
+#include <CLI/CLI.hpp>
 #include <iostream>
 #include <limits>
 
@@ -5,9 +6,9 @@
 #include "command/load.hpp"
 #include "command/numbers.hpp"
 #include "command/streams.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/io/tree.hpp"
 #include "phasetree/math/float_mode.hpp"
-#include "phasetree/program/evaluator.hpp"
-#include "phasetree/reading/tree.hpp"
 #include "phasetree/trace/tracer.hpp"
 
 namespace phasetree::tracer {

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "phasetree/reading/suggest.hpp"
+#include "phasetree/io/suggest.hpp"
 #include "scene/parts.hpp"
 
 namespace phasetree::tracer {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "phasetree/reading/suggest.hpp"
+#include "phasetree/io/suggest.hpp"
 #include "scene/parts.hpp"
 #include "shading/metals.hpp"
 

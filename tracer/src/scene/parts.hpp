@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "phasetree/reading/object_reader.hpp"
-#include "phasetree/reading/range.hpp"
+#include "phasetree/io/object_reader.hpp"
+#include "phasetree/io/range.hpp"
 #include "scene/scene.hpp"
 
 namespace phasetree::tracer {

@@ -9,7 +9,7 @@
 
 #include "camera/thin_lens.hpp"
 #include "lights/lights.hpp"
-#include "phasetree/reading/tree.hpp"
+#include "phasetree/io/tree.hpp"
 #include "shading/material.hpp"
 
 namespace phasetree::tracer {

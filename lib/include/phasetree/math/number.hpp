@@ -83,12 +83,12 @@ T guarded(const T& bound, const T& f, float far) {
 /// A field f and a bound b that is farther from zero far away: max(f, b), where {f ≤ 0} ⊂ {b ≤ 0}. So f alone has the
 /// sign, and near the surface it will do.
 template <class T>
-T farther(const T& f, const T& bound) {
+T far_bound(const T& f, const T& bound) {
     return max(f, bound);
 }
 /// The same inside: min(f, b), where {f ≥ 0} ⊂ {b ≥ 0}.
 template <class T>
-T farther_inside(const T& f, const T& bound) {
+T far_bound_inside(const T& f, const T& bound) {
     return min(f, bound);
 }
 

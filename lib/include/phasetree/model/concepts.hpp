@@ -43,16 +43,18 @@ concept PatternPrimitive = requires(const N& n) {
     { n.period() } -> std::same_as<float>;
 };
 
-/// A long primitive of which little matters in a small box: near() appends what P::Near, a primitive with data, wants
-/// to give the same values there to the last bit; false, and nothing appended, if that would be no gain. `of` is empty,
-/// or what it gave for a box around this one.
+/// A long primitive of which little matters in a small box: near() appends what P::Specialised, a primitive with data,
+/// wants to give the same values there to the last bit; false, and nothing appended, if that would be no gain. `of` is
+/// empty, or what it gave for a box around this one.
 template <class N>
 concept LocalPrimitive = PatternPrimitive<N> &&
     requires(const N& n, const PointRange& range, std::span<const float> of, std::vector<float>& floats) {
-    requires DataPrimitive<typename N::Near>;
-    { n.near(range, of, floats) } -> std::same_as<bool>;
-    { N::Near::floats(floats.data()) } -> std::same_as<std::size_t>;   // how many they are
-    { N::Near::half_works(floats.data()) } -> std::same_as<unsigned>;  // how much work, in halves of a simple one
+    requires DataPrimitive<typename N::Specialised>;
+    { n.specialise(range, of, floats) } -> std::same_as<bool>;
+    { N::Specialised::floats(floats.data()) } -> std::same_as<std::size_t>;  // how many they are
+    {
+        N::Specialised::half_works(floats.data())
+        } -> std::same_as<unsigned>;  // how much work, in halves of a simple one
 };
 
 /// A primitive whose distance is a convex function: that to a convex solid, if it is exact inside and out.

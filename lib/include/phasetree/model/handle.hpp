@@ -5,6 +5,8 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <typeinfo>
+#include <utility>
 
 #include "phasetree/math/bounds.hpp"
 #include "phasetree/math/vec3.hpp"
@@ -23,6 +25,13 @@ class ModelError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+namespace detail {
+/// The handle's content, moved out of the node that `node` points to, which is of this type: one of the list of nodes.
+/// The library alone knows what holds any of them, so that who makes a few needs their headers and no other.
+std::shared_ptr<const FieldNode> make_field_node(const std::type_info& type, void* node);
+std::shared_ptr<const PhasedNode> make_phased_node(const std::type_info& type, void* node);
+}  // namespace detail
+
 /// A plain distance field: one 1-Lipschitz value, negative inside. A cheap handle of an immutable tree, shared when
 /// copied; any thread may read it. Made from a node: `Field ball = Sphere{.radius = 2};`
 /// Throws ModelError where the node's parameters are out of their limits.
@@ -31,7 +40,8 @@ class Field {
     Field() = default;
     template <class Node>
     requires requires { Node::is_field_node; }
-    Field(Node node);  // NOLINT: conversion intended
+    Field(Node node)  // NOLINT: conversion intended
+        : node_(detail::make_field_node(typeid(Node), &node)) {}
 
     explicit operator bool() const { return node_ != nullptr; }
     const FieldNode* node() const { return node_.get(); }
@@ -47,7 +57,8 @@ class Phased {
     Phased() = default;
     template <class Node>
     requires requires { Node::is_phased_node; }
-    Phased(Node node);  // NOLINT: conversion intended
+    Phased(Node node)  // NOLINT: conversion intended
+        : node_(detail::make_phased_node(typeid(Node), &node)) {}
 
     explicit operator bool() const { return node_ != nullptr; }
     const PhasedNode* node() const { return node_.get(); }

@@ -16,8 +16,8 @@ enum class Op : std::uint16_t {
     subtract,           ///< a − b
     minimum,            ///< a < b ? a : b
     maximum,            ///< a > b ? a : b
-    farther,            ///< the maximum, where a alone has the sign
-    farther_inside,     ///< the minimum, where a alone has the sign
+    far_bound,          ///< the maximum, where a alone has the sign
+    far_bound_inside,   ///< the minimum, where a alone has the sign
     absolute,           ///< |a|
     add_constant,       ///< a + c
     constant_minus,     ///< c − a

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "phasetree/program/evaluator.hpp"
-#include "phasetree/trace/crossing.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/model/crossing.hpp"
 
 namespace phasetree {
 

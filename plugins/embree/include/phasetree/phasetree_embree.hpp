@@ -69,7 +69,7 @@ class Tree {
         return Tree(handle);
     }
     /// A tree built with the C++ library: a phasetree::SceneTree. It comes over as text, equal to the last bit, so that
-    /// the two libraries need not agree on anything else; include <phasetree/reading/write.hpp>. Files that its nodes
+    /// the two libraries need not agree on anything else; include <phasetree/io/write.hpp>. Files that its nodes
     /// name are sought beside `name`.
     template <class SceneTree>
     static Tree of(const SceneTree& tree, const std::string& name = "<tree>",

@@ -5,7 +5,7 @@
 #include "embree_core/error.hpp"
 #include "phasetree/cells/cells.hpp"
 #include "phasetree/cells/file.hpp"
-#include "phasetree/reading/error.hpp"
+#include "phasetree/io/error.hpp"
 
 namespace phasetree::embree::api {
 

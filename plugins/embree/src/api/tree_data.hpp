@@ -4,7 +4,7 @@
 
 #include "api/errors.hpp"
 #include "api/handles.hpp"
-#include "phasetree/reading/tree.hpp"
+#include "phasetree/io/tree.hpp"
 
 namespace phasetree::embree::api {
 

@@ -5,7 +5,7 @@
 namespace phasetree {
 
 /// p ↦ the same place in the cell about `centre`. It jumps at the cells' faces, so its slope is unbounded: `jump`
-/// stands for that. Where a cell of the object touches no face, pruning divides by it again (src/cells/prune.cpp).
+/// stands for that. Where a cell of the object touches no face, pruning divides by it again (src/pruning/prune.cpp).
 struct FoldMap {
     glm::vec3 centre{0};
     glm::vec3 spacing{1};

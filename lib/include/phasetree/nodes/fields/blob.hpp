@@ -10,8 +10,8 @@ namespace phasetree {
 /// and b = Σ wᵢ gᵢ, the solid is b > T.
 ///
 /// *Slope.* (T − b)/λ is 1-Lipschitz for λ ≥ sup ‖∇b‖. The sum of the falloffs' own bounds would do, but skeletons of
-/// which no two are steep at one place would make it many times too large. blob_slope() (src/nodes/blob.cpp) bounds
-/// Σ wᵢ |gᵢ′| over all of space by subdivision.
+/// which no two are steep at one place would make it many times too large. blob_slope() (src/preparation/blob.cpp)
+/// bounds Σ wᵢ |gᵢ′| over all of space by subdivision.
 ///
 /// *Outside.* The paper (9.2) adds the distance to the support. Nearer, and as safe: where b ≥ T, at least one wᵢ gᵢ is
 /// its share wᵢ T/Σw or more, hence some gᵢ ≥ T/Σw, hence dᵢ ≤ rᵢ with gᵢ(rᵢ) = T/Σw. So max((T − b)/λ, min (dᵢ − rᵢ))
@@ -99,7 +99,7 @@ struct Blob {
             add(chain);
         }
         for (const Field& f : of) add(d.field(f, p));
-        return farther(d.one_lipschitz((threshold - *sum) * (1 / slope), p), *nearest);
+        return far_bound(d.one_lipschitz((threshold - *sum) * (1 / slope), p), *nearest);
     }
     Bounds bounds(BoundsQuery& q, float at_level) const {
         Bounds all;

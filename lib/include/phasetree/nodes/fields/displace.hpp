@@ -39,7 +39,7 @@ struct Displace {
         const FractalNoise noise(scale, octaves);
         const float slope = amplitude * FractalNoise::slope(scale, octaves);
         const typename D::Scalar g = (f + d.primitive(noise, p) * slope) * (1.f / (1.f + slope));
-        return farther_inside(farther(g, f - amplitude), f + amplitude);
+        return far_bound_inside(far_bound(g, f - amplitude), f + amplitude);
     }
     Bounds bounds(BoundsQuery& q, float level) const { return q(of, level + amplitude); }
 };

@@ -93,15 +93,15 @@ struct VoronoiCells {
         return gap * 0.5f - max(v, T(0.f)) * size;
     }
     /// The same in a box with the few sites that matter there.
-    struct Near : VoronoiNear {
+    struct Specialised : SpecialisedVoronoi {
         static unsigned half_works(const float* data) { return 10 + 5 * sites(data); }
         template <class T>
         static T distance(const float* data, const Vec3<T>& p);
     };
-    using Parts = TypeList<Near>;
+    using Parts = TypeList<Specialised>;
     float period() const { return size; }
     /// See LocalPrimitive: the sites that may be the nearest or have a bisector that is not cut off.
-    bool near(const PointRange&, std::span<const float> of, std::vector<float>& floats) const;
+    bool specialise(const PointRange&, std::span<const float> of, std::vector<float>& floats) const;
 
     Bounds bounds(BoundsQuery&, float) const { return Bounds::everything(); }
 
@@ -113,7 +113,7 @@ struct VoronoiCells {
 };
 
 template <class T>
-T VoronoiCells::Near::distance(const float* data, const Vec3<T>& p) {
+T VoronoiCells::Specialised::distance(const float* data, const Vec3<T>& p) {
     VoronoiCells node;
     node.size = data[0], node.gap = data[1], node.rounding = data[2], node.jitter = data[3], node.seed = data[4];
     return node.distance(p, VoronoiSiteList{{node.jitter, node.seed}, list(data)});

@@ -117,7 +117,7 @@ struct VoronoiSiteList {
 
 /// What Voronoi primitives become in a small box (LocalPrimitive): their five parameters, how many floats follow, and
 /// the sites.
-struct VoronoiNear {
+struct SpecialisedVoronoi {
     static constexpr std::size_t parameters = 5;
 
     std::vector<float> values{};

@@ -47,7 +47,7 @@ struct Voronoi {
         float end_hash() const { return 289 * (kind + 1) / kinds - 0.5f; }
 
         /// The same in a box with the few sites of the kind that may be the nearest there.
-        struct Near : VoronoiNear {
+        struct Specialised : SpecialisedVoronoi {
             static unsigned half_works(const float* data) { return 6 + 2 * sites(data); }
             template <class T>
             static T distance(const float* data, const Vec3<T>& p) {
@@ -56,9 +56,9 @@ struct Voronoi {
             }
         };
         float period() const { return size; }
-        bool near(const PointRange&, std::span<const float> of, std::vector<float>& floats) const;
+        bool specialise(const PointRange&, std::span<const float> of, std::vector<float>& floats) const;
     };
-    using Parts = TypeList<Nearest, Nearest::Near>;
+    using Parts = TypeList<Nearest, Nearest::Specialised>;
 
     std::vector<Phase> of_phases{};
     float size = 1;

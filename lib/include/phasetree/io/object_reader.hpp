@@ -1,0 +1,100 @@
+#pragma once
+
+#include <concepts>
+#include <glm/fwd.hpp>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "phasetree/io/document.hpp"
+#include "phasetree/io/range.hpp"
+
+namespace phasetree {
+
+namespace reading {
+template <class T, class... Ts>
+concept one_of = (std::same_as<T, Ts> || ...);
+template <class T>
+concept readable_item = one_of<T, bool, int, unsigned, float, double, std::string, glm::vec2, glm::vec3, glm::vec4,
+                               glm::dvec2, glm::dvec3, glm::dvec4>;
+template <class T>
+inline constexpr bool is_list = false;
+template <readable_item T>
+inline constexpr bool is_list<std::vector<T>> = true;
+}  // namespace reading
+
+/// The types a value can be read as: bool, int, unsigned, float, double, std::string, glm vectors of float and double,
+/// and a std::vector of any of these.
+template <class T>
+concept Readable = reading::readable_item<T> || reading::is_list<T>;
+
+/// The value as a T, or a SceneError at the value (at the item, for one inside an array) that says what is wrong.
+/// `what` begins the sentence, e.g. `"radius"`. Every number read, also those inside vectors and lists, must be in the
+/// range; a number must fit its type: an integer must be whole, a float must not become infinite.
+template <Readable T>
+T as(const Document& document, Value value, std::string_view what, const Range& range = {});
+
+/// A colour in linear Rec.709 RGB. It is written as [r, g, b], three linear numbers, or as "#rrggbb", which is sRGB
+/// as image editors show it and is converted with the exact piecewise curve of IEC 61966-2-1. Each component must be
+/// in the range.
+glm::vec3 as_colour(const Document& document, Value value, std::string_view what,
+                    const Range& range = Range::not_negative());
+
+/// Reads the members of one object by key, and remembers which keys it was asked for, so that finish() can tell a
+/// misspelt key from a known one.
+class ObjectReader {
+  public:
+    /// `what` names the object in messages: "the camera", "the sphere". SceneError when the value is no object.
+    /// The document must outlive the reader.
+    ObjectReader(const Document& document, Value object, std::string_view what);
+
+    template <Readable T>
+    T required(std::string_view key, const Range& range = {}) {
+        return as<T>(document(), required_value(key), quoted(key), range);
+    }
+
+    /// The fallback, when the key is missing, is taken as it is, in the range or not.
+    template <Readable T>
+    T optional(std::string_view key, T fallback, const Range& range = {}) {
+        const std::optional<Value> found = value(key);
+        return found ? as<T>(document(), *found, quoted(key), range) : fallback;
+    }
+
+    /// The same for an optional member that has no fallback.
+    template <Readable T>
+    std::optional<T> maybe(std::string_view key, const Range& range = {}) {
+        const std::optional<Value> found = value(key);
+        return found ? std::optional<T>(as<T>(document(), *found, quoted(key), range)) : std::nullopt;
+    }
+
+    glm::vec3 required_colour(std::string_view key, const Range& range = Range::not_negative());
+    glm::vec3 optional_colour(std::string_view key, const glm::vec3& fallback,
+                              const Range& range = Range::not_negative());
+
+    /// The member itself, for what is read elsewhere.
+    std::optional<Value> value(std::string_view key);
+    Value required_value(std::string_view key);
+
+    /// Names keys without reading them.
+    void allow(std::initializer_list<std::string_view> keys);
+
+    /// SceneError for the first key nobody asked for. Call it when everything was read.
+    void finish() const;
+
+    const Document& document() const { return *document_; }
+    Value object() const { return object_; }
+    const std::string& what() const { return what_; }
+
+  private:
+    static std::string quoted(std::string_view key);
+    bool knows(std::string_view key) const;
+
+    const Document* document_;
+    Value object_;
+    std::string what_;
+    std::vector<std::string> known_;
+};
+
+}  // namespace phasetree

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "phasetree/io/document.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/height_grid.hpp"
+#include "phasetree/nodes/fields/siren_network.hpp"
+
+namespace phasetree {
+
+/// The names that a scene file gives to its phases, in the order of the file: names[0] is "vacuum".
+struct PhaseNames {
+    std::vector<std::string> names{"vacuum"};
+
+    const std::string& operator[](Phase p) const { return names[p.index]; }
+    /// Material phases, the vacuum not counted.
+    std::size_t size() const { return names.size() - 1; }
+};
+
+/// What of a scene file is the model: the names of "phases", the named "shapes", and the "tree".
+struct SceneTree {
+    PhaseNames phases;
+    Phased object;
+};
+
+/// What reads the files that nodes name. This library knows no images; whoever does gives it a reader for them. A
+/// reader throws any std::exception whose what() says what is wrong with the file.
+struct FileReaders {
+    std::function<HeightGrid(const std::filesystem::path&)> height_grid{};
+};
+
+/// The weights of a network: {"radius": R, "layers": [{"weights": [[…], …], "bias": […]}, …]}. Throws SceneError, which
+/// quotes nothing of the file.
+SirenNetwork read_siren(const std::filesystem::path&);
+
+/// Reads the model of a scene document; the rest of the file is not looked at.
+///
+///     "phases": {"glass": …, "water": …},
+///     "shapes": {"bulb": {"sphere": {"radius": 1}}},
+///     "tree":   {"under": [{"set": {"phase": "glass", "of": "bulb"}}, …]}
+///
+/// A node is an object of one member: the node's name, and its parameters; a node whose one required parameter is a
+/// list of children takes the list in place of the parameters. A string is a named shape. Names of phases are
+/// strings, sets of phases lists of them. Throws SceneError, at the place in the text.
+/// Files are sought from the scene file's folder.
+SceneTree read_tree(const Document&, const FileReaders& = {});
+
+}  // namespace phasetree

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "phasetree/tree/node.hpp"
+
+namespace phasetree {
+
+/// Evaluates a tree by walking it, over any number type: the definition of what a tree means.
+template <class T>
+struct Walk {
+    using Scalar = T;
+    using Point = Vec3<T>;
+
+    T field(const Field& f, const Point& p) const {
+        return std::visit(
+            [&](const auto& n) {
+                using N = std::remove_cvref_t<decltype(n)>;
+                if constexpr (Primitive<N> || DataPrimitive<N>)
+                    return primitive(n, p);
+                else
+                    return n.evaluate(*this, p);
+            },
+            f.node()->node);
+    }
+    Phases<T> phases(const Phased& a, const Point& p) const {
+        return std::visit([&](const auto& n) { return n.evaluate(*this, p); }, a.node()->node);
+    }
+    template <Primitive P>
+    T primitive(const P& primitive, const Point& p) const {
+        return primitive.distance(p);
+    }
+    template <DataPrimitive P>
+    T primitive(const P& primitive, const Point& p) const {
+        return P::distance(primitive.data().data(), p);
+    }
+    /// Tells the recorder that a value is 1-Lipschitz in p, where it would derive less.
+    T one_lipschitz(const T& value, const Point&) const { return value; }
+    template <PointMap M>
+    Point map(const M& m, const Point& p, float /*lipschitz*/) const {
+        return m(p);
+    }
+};
+
+}  // namespace phasetree

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "enclosure/length.hpp"
+#include "enclosure/number.hpp"
+#include "enclosure/range.hpp"
+#include "phasetree/math/point_range.hpp"
+
+namespace phasetree {
+
+/// What a field does in a box: proven, but for the rounding of doubles.
+struct FieldInBox {
+    double value = 0;                  ///< at the box's centre
+    std::array<double, 3> gradient{};  ///< there
+    std::array<Range, 3> gradients{};  ///< anywhere in the box
+    Range curvature{};                 ///< of d²f/dt² along straight lines of unit speed
+    Range values = Range::all();       ///< what else is known of the value
+};
+
+/// Where a point may be that a field is given.
+struct Region : PointRange {
+    std::array<const Enclosure*, 3> x;
+
+    explicit Region(const Vec3<Enclosure>& q) : x{&q.x, &q.y, &q.z} {
+        for (std::size_t i = 0; i < 3; ++i) {
+            centre[i] = x[i]->centre;
+            reach[i] = std::max(x[i]->value.high - centre[i], centre[i] - x[i]->value.low);
+        }
+    }
+    double farthest() const {
+        return std::max({x[0]->value.magnitude(), x[1]->value.magnitude(), x[2]->value.magnitude()});
+    }
+    Vec3<float> point() const {
+        return {static_cast<float>(centre[0]), static_cast<float>(centre[1]), static_cast<float>(centre[2])};
+    }
+};
+
+/// What a field that is known where its point may be is as a function of the box's points. Along a line
+/// (f∘q)″ = q′ᵀf″q′ + f′·q″.
+inline Enclosure enclose(const FieldInBox& f, const Region& at) {
+    Enclosure e;
+    e.centre = f.value;
+    double change = 0, squared_slope = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double steepest = f.gradients[i].magnitude();
+        change += steepest * at.reach[i];
+        squared_slope += steepest * steepest;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            e.gradient[axis] = e.gradient[axis] + f.gradients[i] * at.x[i]->gradient[axis];
+            e.centre_gradient[axis] += f.gradient[i] * at.x[i]->centre_gradient[axis];
+        }
+    }
+    e.value = limited(std::max(f.value - change, f.values.low), std::min(f.value + change, f.values.high));
+    const double bent = std::sqrt(squared_slope) * detail::curvature_of(at.x);
+    e.set_curvature(hull(f.curvature, {}) * detail::squared_stretch(at.x) + within(bent));
+    return e;
+}
+
+}  // namespace phasetree

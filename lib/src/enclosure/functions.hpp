@@ -1,0 +1,134 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+
+#include "enclosure/length.hpp"
+
+namespace phasetree {
+
+/// As the template, whose seams are none: with h(δ) = |δ|/2 + r/6·max(1 − |δ|/r, 0)³ for δ = b − a it is (a + b)/2 −
+/// h(δ), and 0 ≤ h″ ≤ max(1 − |δ|/r, 0)/r.
+inline Enclosure smooth_min(const Enclosure& a, const Enclosure& b, float r) {
+    const Enclosure apart = b - a;
+    Enclosure s = smooth_min<Enclosure>(a, b, r);
+    const double radius = static_cast<double>(r);
+    const Range& v = apart.value;
+    const double nearest = v.low > 0 ? v.low : v.high < 0 ? -v.high : 0;
+    if (nearest >= radius) return s;
+    const double sharpest = (1 - nearest / radius) / radius;
+    s.set_curvature(limited(std::min(a.curvature.low, b.curvature.low) - sharpest * apart.squared_slope(),
+                            std::max(a.curvature.high, b.curvature.high)));
+    return s;
+}
+
+/// As the template: φ(x) = (1 − x²)³ for x = d/R in [0, 1] has φ″ = (1 − u)(30u − 6) with u = x², from −6 to 4.8.
+inline Enclosure falloff(const Enclosure& d, float reach) {
+    Enclosure f = falloff<Enclosure>(d, reach);
+    const double k = 1 / static_cast<double>(reach);
+    const auto inside = [&](double x) { return std::clamp(x * k, 0.0, 1.0); };
+    const double from = inside(d.value.low), to = inside(d.value.high);
+    const auto curvature = [](double x) { return (1 - x * x) * (30 * x * x - 6); };
+    const auto slope = [](double x) { return -6 * x * (1 - x * x) * (1 - x * x); };
+    Range bends = hull({curvature(from), curvature(from)}, {curvature(to), curvature(to)});
+    Range slopes = hull({slope(from), slope(from)}, {slope(to), slope(to)});
+    constexpr double most_curved = 0.7745966692414834, steepest = 0.4472135954999579;  // √0.6, √0.2
+    if (from < most_curved && to > most_curved) bends.high = 4.8;
+    if (from < steepest && to > steepest) slopes.low = -static_cast<double>(steepest_falloff) * (1 + 1e-6);
+    if (d.value.low < 0 || d.value.high * k > 1) bends = hull(bends, {});  // flat beyond
+    const Range by_slope = detail::squares_of_slope(d) * (bends * (k * k));
+    const Range straight = d.curvature * (slopes * k);
+    // At a skeleton φ′ vanishes as d does: φ′(d)/d = −6(1 − x²)²/R².
+    const auto share = [](double x) { return -6 * (1 - x * x) * (1 - x * x); };
+    Range shares = hull({share(from), share(from)}, {share(to), share(to)});
+    if (d.value.low < 0) shares = hull(shares, {});
+    const Range near = d.value_curvature * (shares * (k * k));
+    f.set_curvature(by_slope + Range{std::max(straight.low, near.low), std::min(straight.high, near.high)});
+    return f;
+}
+
+namespace detail {
+/// Of a convex function that grows with each of these and is 1-Lipschitz in them: its derivatives by them are weights
+/// from 0 to 1.
+inline Enclosure convex_combination(Enclosure f, std::initializer_list<const Enclosure*> x) {
+    double sum = 0;
+    for (const Enclosure* e : x) sum += std::min(e->curvature.low, 0.0) * std::min(e->curvature.low, 0.0);
+    f.curvature.low = std::max(f.curvature.low, std::max(-std::sqrt(sum), -Range::most));
+    f.value_curvature = f.value * f.curvature;
+    for (std::size_t i = 0; i < 3; ++i) {
+        Range weighted{};
+        for (const Enclosure* e : x) weighted = weighted + hull(e->gradient[i], {});
+        f.gradient[i] = {std::max(f.gradient[i].low, weighted.low), std::min(f.gradient[i].high, weighted.high)};
+    }
+    return f;
+}
+}  // namespace detail
+
+/// Where one of them is never positive, it is the larger of it and the others' corner, by the template's equation. And
+/// it is convex: outside the largest sum of the two, weighted by a vector of unit length without negative components.
+inline Enclosure corner(const Enclosure& a, const Enclosure& b) {
+    if (a.value.high <= 0 || b.value.high <= 0) return max(a, b);
+    return detail::convex_combination(corner<Enclosure>(a, b), {&a, &b});
+}
+inline Enclosure corner(const Enclosure& a, const Enclosure& b, const Enclosure& c) {
+    if (a.value.high <= 0) return max(a, corner(b, c));
+    if (b.value.high <= 0) return max(b, corner(a, c));
+    if (c.value.high <= 0) return max(c, corner(a, b));
+    return detail::convex_combination(corner<Enclosure>(a, b, c), {&a, &b, &c});
+}
+
+/// Slopes agree on the seam, so it bends nothing.
+inline Enclosure select_smoothly(const Decision& d, const Enclosure& yes, const Enclosure& no) {
+    Enclosure r = select(d, yes, no);
+    r.set_curvature(!d.can_be_false  ? yes.curvature
+                    : !d.can_be_true ? no.curvature
+                                     : hull(yes.curvature, no.curvature));
+    return r;
+}
+
+/// Where a comparison is decided there is only one branch.
+template <class Yes, class No>
+Enclosure choose_smoothly(const Decision& d, const Yes& yes, const No& no) {
+    if (!d.can_be_false) return yes();
+    if (!d.can_be_true) return no();
+    return select_smoothly(d, yes(), no());
+}
+
+template <class Other>
+Enclosure also_known_as(const Enclosure& f, const Other& other) {
+    const auto [is_certain, g] = other([](const Decision& d) { return !d.can_be_false; });
+    return is_certain ? g : f;
+}
+
+/// A squared distance to a convex set is convex, and no more curved than that to a point.
+inline Enclosure squared_distance_to_segment(const Vec3<Enclosure>& q, const glm::vec3& along, float inverse) {
+    Enclosure r = squared_distance_to_segment<Enclosure>(q, along, inverse);
+    const std::array<const Enclosure*, 3> x{&q.x, &q.y, &q.z};
+    const double aside = 2 * std::sqrt(r.value.high) * detail::curvature_of(x);
+    const Range curvature = limited(-aside, 2 * detail::squared_stretch(x) + aside);
+    r.set_curvature({std::max(r.curvature.low, curvature.low), std::min(r.curvature.high, curvature.high)});
+    return r;
+}
+
+/// A 1-Lipschitz function that is convex in q falls off a straight line only as q does.
+inline Enclosure known_to_be_convex(Enclosure f, const Vec3<Enclosure>& q) {
+    const double aside = detail::curvature_of<3>({&q.x, &q.y, &q.z});
+    f.curvature.low = std::max(f.curvature.low, -aside);
+    f.value_curvature = f.value * f.curvature;
+    return f;
+}
+
+/// As the template, whose seams are none where it stands for sine and cosine.
+inline SineCosine<Enclosure> sine_cosine(const Enclosure& x) {
+    SineCosine<Enclosure> r = sine_cosine<Enclosure>(x);
+    if (!(x.value.magnitude() < 1e4)) return r;
+    const auto cut = [](const Range& v) { return Range{std::max(v.low, -1.0), std::min(v.high, 1.0)}; };
+    const Range s = cut(r.sine.value), c = cut(r.cosine.value);
+    r.sine.set_curvature(c * x.curvature - s * detail::squares_of_slope(x));
+    r.cosine.set_curvature(-s * x.curvature - c * detail::squares_of_slope(x));
+    return r;
+}
+
+}  // namespace phasetree

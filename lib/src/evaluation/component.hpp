@@ -1,0 +1,17 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "kernel/kernel.hpp"
+
+namespace phasetree {
+
+/// A component's value at a point, and its gradient.
+struct Component {
+    float value = 0;
+    glm::vec3 gradient{0};
+};
+/// By dual numbers; zero if the phase is absent.
+Component component(const Routine&, std::uint32_t slots, const glm::vec3& p, Phase);
+
+}  // namespace phasetree

@@ -1,0 +1,129 @@
+#pragma once
+
+#include "kernel/kernel.hpp"
+#include "program/dispatch.hpp"
+#include "program/fused.hpp"
+
+/// A routine run with any number type, one number at a time: for gradients and enclosures. Kernels have their own.
+namespace phasetree {
+
+/// A point in three registers.
+template <class T>
+struct PointInRegisters {
+    const T* registers;
+    std::uint32_t slot;
+
+    operator Vec3<T>() const { return {registers[slot], registers[slot + 1], registers[slot + 2]}; }
+};
+
+/// A routine's steps, for interpret().
+class RoutineSteps {
+  public:
+    explicit RoutineSteps(const Routine& routine) : routine_(routine) {}
+    std::size_t size() const { return routine_.count; }
+    static bool is_left_out(std::size_t) { return false; }
+    const Step& step(std::size_t i) const { return routine_.steps[i]; }
+    const float* constants(std::size_t i) const { return routine_.constants + routine_.data[i]; }
+
+  private:
+    const Routine& routine_;
+};
+
+/// Registers 0 … 2 hold the point. `distance.template operator()<P>(constants, point, to)` sets that of a primitive,
+/// whose point is a Vec3<T> or in registers; `done(number)` is called with each number that a step of any other kind
+/// has made.
+template <class Steps, class T, class Distance, class Done>
+void interpret(const Steps& steps, T* registers, Distance&& distance, Done&& done) {
+    constexpr auto first_primitive = static_cast<std::uint32_t>(Op::first_primitive);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        if (steps.is_left_out(i)) continue;
+        const Step& s = steps.step(i);
+        const T& a = registers[s.a];
+        const T& b = registers[s.b];
+        T& to = registers[s.to];
+        const float* c = steps.constants(i);
+        switch (static_cast<Op>(s.op)) {
+            case Op::input:
+                break;
+            case Op::negate:
+                to = -a;
+                break;
+            case Op::add:
+                to = a + b;
+                break;
+            case Op::subtract:
+                to = a - b;
+                break;
+            case Op::minimum:
+            case Op::far_bound_inside:
+                to = min(a, b);
+                break;
+            case Op::maximum:
+            case Op::far_bound:
+                to = max(a, b);
+                break;
+            case Op::absolute:
+                to = abs(a);
+                break;
+            case Op::add_constant:
+                to = a + *c;
+                break;
+            case Op::constant_minus:
+                to = *c - a;
+                break;
+            case Op::multiply_constant:
+                to = a * *c;
+                break;
+            case Op::smooth_minimum:
+                to = smooth_min(a, b, *c);
+                break;
+            case Op::guarded:
+                to = guarded(a, b, *c);
+                break;
+            case Op::falloff:
+                to = falloff(a, *c);
+                break;
+            case Op::corner:
+                to = corner(a, b);
+                break;
+            default: {
+                const PointInRegisters<T> input{registers, s.a};
+                const std::uint32_t index = s.op - first_primitive;
+                const auto set_point = [&](const Vec3<T>& q) {
+                    registers[s.to] = q.x;
+                    registers[s.to + 1] = q.y;
+                    registers[s.to + 2] = q.z;
+                    done(registers[s.to + 1]);
+                    done(registers[s.to + 2]);
+                };
+                const auto primitive = [&]<class P>(const float* floats, const auto& point) {
+                    distance.template operator()<P>(floats, point, to);
+                };
+                if (s.op < first_map) {
+                    if (index < Primitives::size)
+                        detail::dispatch(Primitives(), index,
+                                         [&]<class P>() { primitive.template operator()<P>(c, input); });
+                    else
+                        detail::dispatch(DataPrimitives(), index - static_cast<std::uint32_t>(Primitives::size),
+                                         [&]<class P>() { primitive.template operator()<P>(c, input); });
+                    continue;
+                }
+                if (s.op >= first_placed) {
+                    const auto placed = detail::read<PlacedPrimitive>(c);
+                    detail::dispatch(Primitives(), s.op - first_placed, [&]<class P>() {
+                        primitive.template operator()<P>(c + placed_floats, placed.map(Vec3<T>(input)));
+                    });
+                    to = to * placed.scale + placed.offset;
+                } else if (s.op == affine_map) {
+                    set_point(detail::read<AffineMap>(c)(Vec3<T>(input)));
+                } else {
+                    detail::dispatch(PointMaps(), s.op - first_map,
+                                     [&]<class M>() { set_point(detail::read<M>(c)(Vec3<T>(input))); });
+                }
+            }
+        }
+        done(to);
+    }
+}
+
+}  // namespace phasetree

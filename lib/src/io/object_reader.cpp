@@ -1,0 +1,76 @@
+#include "phasetree/io/object_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/glm.hpp>
+
+#include "io/utf8.hpp"
+#include "phasetree/io/suggest.hpp"
+
+namespace phasetree {
+
+ObjectReader::ObjectReader(const Document& document, Value object, std::string_view what)
+    : document_(&document), object_(object), what_(what) {
+    if (!object.is_object()) {
+        throw document.error(object, fmt::format("{} must be an object, but is {}", what, name_of(object.kind())));
+    }
+}
+
+std::string ObjectReader::quoted(std::string_view key) {
+    return reading::in_quotes(key);
+}
+
+bool ObjectReader::knows(std::string_view key) const {
+    return std::ranges::find(known_, key) != known_.end();
+}
+
+void ObjectReader::allow(std::initializer_list<std::string_view> keys) {
+    for (const std::string_view key : keys) {
+        if (!knows(key)) known_.emplace_back(key);
+    }
+}
+
+std::optional<Value> ObjectReader::value(std::string_view key) {
+    allow({key});
+    return object_.find(key);
+}
+
+Value ObjectReader::required_value(std::string_view key) {
+    if (const auto found = value(key)) return *found;
+    // A misspelt key is why it is missing, more often than not.
+    for (const Value member : object_) {
+        if (!knows(member.key()) && closest(member.key(), {key})) {
+            throw document_->error(member.key_offset(),
+                                   fmt::format("{} needs {}, but has {}", what_, quoted(key), quoted(member.key())),
+                                   std::string(key));
+        }
+    }
+    throw document_->error(object_, fmt::format("{} needs {}", what_, quoted(key)));
+}
+
+glm::vec3 ObjectReader::required_colour(std::string_view key, const Range& range) {
+    return as_colour(document(), required_value(key), quoted(key), range);
+}
+
+glm::vec3 ObjectReader::optional_colour(std::string_view key, const glm::vec3& fallback, const Range& range) {
+    const std::optional<Value> found = value(key);
+    return found ? as_colour(document(), *found, quoted(key), range) : fallback;
+}
+
+void ObjectReader::finish() const {
+    for (const Value member : object_) {
+        if (knows(member.key())) continue;
+        std::string message = fmt::format("unknown key {} in {}", quoted(member.key()), what_);
+        const auto meant = closest(member.key(), known_);
+        // Nothing is near: say what there is, unless that is a long list.
+        constexpr std::size_t max_listed = 12;
+        if (!meant && !known_.empty() && known_.size() <= max_listed) {
+            message += known_.size() == 1 ? "; it has only" : "; it may have";
+            for (std::size_t i = 0; i < known_.size(); ++i) message += (i == 0 ? " " : ", ") + quoted(known_[i]);
+        }
+        throw document_->error(member.key_offset(), std::move(message), meant);
+    }
+}
+
+}  // namespace phasetree

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "io/document_data.hpp"
+
+namespace phasetree::reading {
+
+/// Parses data.text into the rest of data. SceneError if it is no JSON text as Document describes it.
+void parse(DocumentData& data);
+
+}  // namespace phasetree::reading

@@ -1,0 +1,67 @@
+#include <fmt/format.h>
+
+#include "phasetree/io/object_reader.hpp"
+#include "phasetree/io/tree.hpp"
+
+namespace phasetree {
+
+namespace {
+
+SirenNetwork network_of(const Document& document) {
+    ObjectReader root(document, document.root(), "the network");
+    root.allow({"source", "radius", "layers"});
+    root.finish();
+    SirenNetwork network;
+    network.radius = root.required<float>("radius", Range::positive());
+    const Value layers = root.required_value("layers");
+    if (!layers.is_array())
+        throw document.error(layers, fmt::format("\"layers\" must be a list, but is {}", name_of(layers.kind())));
+    for (const Value item : layers) {
+        ObjectReader reader(document, item, "the layer");
+        reader.allow({"weights", "bias"});
+        reader.finish();
+        SirenNetwork::Layer layer;
+        layer.bias = reader.required<std::vector<float>>("bias");
+        layer.outputs = static_cast<int>(layer.bias.size());
+        const Value rows = reader.required_value("weights");
+        if (!rows.is_array() || rows.size() != layer.bias.size())
+            throw document.error(rows, "\"weights\" must be a list of rows, one for each number in \"bias\"");
+        for (const Value row : rows) {
+            const auto numbers = as<std::vector<float>>(document, row, "a row of \"weights\"");
+            if (layer.weights.empty()) layer.inputs = static_cast<int>(numbers.size());
+            if (numbers.empty() || numbers.size() != static_cast<std::size_t>(layer.inputs))
+                throw document.error(row, "the rows of \"weights\" must be of one length");
+            layer.weights.insert(layer.weights.end(), numbers.begin(), numbers.end());
+        }
+        network.layers.push_back(std::move(layer));
+    }
+    return network;
+}
+
+/// Which file is read a scene says, which may be a stranger's, and who reads the error may not be who may read the
+/// file. So an error tells the place in it, and quotes nothing of it: `what` stands for what is wrong there. That a
+/// file is missing, too large and the like is told as it is.
+template <class F>
+auto unquoted(const std::filesystem::path& path, std::string_view what, F&& read) {
+    try {
+        return read();
+    } catch (const SceneError& e) {
+        if (e.line() == 0) throw;
+        throw SceneError(path.string(), fmt::format("{} (line {}, column {})", what, e.line(), e.column()));
+    }
+}
+
+}  // namespace
+
+SirenNetwork read_siren(const std::filesystem::path& path) {
+    const Document document = unquoted(path, "is no JSON text", [&] { return Document::from_file(path); });
+    SirenNetwork network = unquoted(
+        path,
+        "is no network {\"radius\": R, \"layers\": [{\"weights\": [[…], …], \"bias\": […]}, …]}, with a row of "
+        "weights for each number in bias",
+        [&] { return network_of(document); });
+    if (const char* mistake = network.mistake()) throw SceneError(path.string(), mistake);
+    return network;
+}
+
+}  // namespace phasetree

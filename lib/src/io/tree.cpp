@@ -1,0 +1,356 @@
+#include "phasetree/io/tree.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "model/preparation.hpp"
+#include "phasetree/io/object_reader.hpp"
+#include "phasetree/io/suggest.hpp"
+#include "phasetree/tree/node.hpp"
+
+namespace phasetree {
+
+namespace {
+
+Range range_of(const Limits& l) {
+    if (l == limits::positive) return Range::positive();
+    if (l == limits::non_negative) return Range::not_negative();
+    Range r;
+    if (l.low > limits::any.low) r.min = static_cast<double>(l.low);
+    if (l.high < limits::any.high) r.max = static_cast<double>(l.high);
+    r.min_is_open = l.low_open;
+    r.max_is_open = l.high_open;
+    return r;
+}
+
+template <class Handle>
+using NodesOf = std::conditional_t<std::is_same_v<Handle, Field>, FieldNodes, PhasedNodes>;
+
+template <class Handle>
+constexpr std::string_view kind_name = std::is_same_v<Handle, Field> ? "a plain field" : "an object of phases";
+
+template <class List>
+bool has_node(std::string_view name) {
+    bool found = false;
+    for_each_type(List(), [&]<class N>() { found = found || N::info.name == name; });
+    return found;
+}
+
+static_assert(Document::max_depth >= 3 * max_tree_depth + 8, "the deepest tree that there may be can be written");
+
+class Reader {
+  public:
+    Reader(const Document& document, PhaseNames names, std::optional<Value> shapes, const FileReaders& files)
+        : document_(document), names_(std::move(names)), shapes_(shapes), files_(files) {}
+
+    template <class Handle>
+    Handle read(Value value) {
+        const Level level(*this, levels_, 2 * max_tree_depth, value);
+        if (value.is_string()) return named<Handle>(value);
+        if (!value.is_object() || value.size() != 1) {
+            throw document_.error(value, value.is_object()
+                                             ? "a node is an object of one member, {\"name\": {…}}, but this has " +
+                                                   std::to_string(value.size())
+                                             : fmt::format("expected {}: a node {{\"name\": {{…}}}} or the name of a "
+                                                           "shape, but found {}",
+                                                           kind_name<Handle>, name_of(value.kind())));
+        }
+        const Value member = value[0];
+        Handle (Reader::*make_node)(Value) = nullptr;
+        for_each_type(NodesOf<Handle>(), [&]<class N>() {
+            if (!make_node && N::info.name == member.key()) make_node = &Reader::make<Handle, N>;
+        });
+        if (!make_node) throw unknown_node<Handle>(member);
+        return (this->*make_node)(member);
+    }
+
+    /// Reads the shapes that the tree did not use, so that a mistake in them is found too.
+    void read_unused() {
+        if (!shapes_) return;
+        for (const Value shape : *shapes_) {
+            const std::string name(shape.key());
+            if (is_field(shape)) {
+                if (!fields_.contains(name)) fields_.emplace(name, read<Field>(shape));
+            } else if (!objects_.contains(name)) {
+                objects_.emplace(name, read<Phased>(shape));
+            }
+        }
+    }
+
+  private:
+    /// Counts the nesting, of nodes and of nodes and names, through named shapes too, so that no file can exhaust the
+    /// stack.
+    struct Level {
+        Level(const Reader& reader, std::size_t& count, std::size_t most, Value value) : count_(count) {
+            if (count_ == most)
+                throw reader.document_.error(value, fmt::format("the tree is deeper than {} nodes", max_tree_depth));
+            ++count_;
+        }
+        ~Level() { --count_; }
+        Level(const Level&) = delete;
+        Level& operator=(const Level&) = delete;
+
+      private:
+        std::size_t& count_;
+    };
+
+    template <class Handle>
+    std::map<std::string, Handle, std::less<>>& known() {
+        if constexpr (std::is_same_v<Handle, Field>)
+            return fields_;
+        else
+            return objects_;
+    }
+
+    template <class Handle>
+    Handle named(Value reference) {
+        const std::string_view name = reference.string();
+        if (const auto found = known<Handle>().find(name); found != known<Handle>().end()) return found->second;
+        const std::optional<Value> shape = shapes_ ? shapes_->find(name) : std::nullopt;
+        if (!shape) {
+            throw document_.error(reference, fmt::format("there is no shape \"{}\"", name),
+                                  closest(name, shape_names()));
+        }
+        if (std::find(open_.begin(), open_.end(), name) != open_.end())
+            throw document_.error(reference, fmt::format("the shape \"{}\" is made of itself", name));
+        if (is_field(*shape) != std::is_same_v<Handle, Field>)
+            throw document_.error(
+                reference, fmt::format("\"{}\" is {}, but {} is needed here", name,
+                                       is_field(*shape) ? kind_name<Field> : kind_name<Phased>, kind_name<Handle>));
+        open_.emplace_back(name);
+        Handle result = read<Handle>(*shape);
+        open_.pop_back();
+        known<Handle>().emplace(std::string(name), result);
+        return result;
+    }
+
+    /// Whether a shape is a plain field, told from its node's name; a warp is what its child is.
+    bool is_field(Value shape) const {
+        for (std::size_t steps = 0; steps < 2 * max_tree_depth; ++steps) {
+            if (shape.is_string()) {
+                const std::optional<Value> target = shapes_ ? shapes_->find(shape.string()) : std::nullopt;
+                if (!target) return true;
+                shape = *target;
+                continue;
+            }
+            if (!shape.is_object() || shape.size() != 1) return true;
+            const std::string_view name = shape[0].key();
+            const bool may_be_field = has_node<FieldNodes>(name), may_be_object = has_node<PhasedNodes>(name);
+            // Here, and not as a field where an object is needed.
+            if (!may_be_field && !may_be_object) throw unknown_node(shape[0], names_of(FieldNodes(), PhasedNodes()));
+            if (!may_be_object) return true;
+            if (!may_be_field) return false;
+            const std::optional<Value> child = shape[0].find("of");
+            if (!child) return true;
+            shape = *child;
+        }
+        return true;
+    }
+
+    template <class Handle, class N>
+    Handle make(Value member) {
+        const Level level(*this, nodes_, max_tree_depth, member);
+        N node{};
+        if (member.is_array())
+            read_list(node, member);
+        else
+            read_parameters(node, member);
+        try {
+            return Handle(std::move(node));
+        } catch (const ModelError& e) {
+            throw document_.error(member.key_offset(), e.what());
+        }
+    }
+
+    template <class N>
+    void read_parameters(N& node, Value member) {
+        ObjectReader reader(document_, member, fmt::format("\"{}\"", N::info.name));
+        // Name every key first: a misspelt one is then found before "is missing" is said of what it was meant for.
+        for_each_parameter(node, [&](auto&, const Parameter& p) { reader.allow({p.name}); });
+        reader.finish();
+        for_each_parameter(node, [&](auto& target, const Parameter& p) {
+            if (p.optional && !reader.value(p.name)) return;
+            read_value(target, reader.required_value(p.name), p);
+        });
+    }
+
+    template <class N>
+    void read_list(N& node, Value list) {
+        std::string missing, single;
+        for_each_parameter(node, [&](auto& target, const Parameter& p) {
+            if (p.optional) return;
+            if constexpr (requires { target.push_back(target.front()); }) {
+                if (single.empty()) {
+                    single = p.name;
+                    read_value(target, list, p);
+                    return;
+                }
+            }
+            if (missing.empty()) missing = p.name;
+        });
+        if (single.empty())
+            throw document_.error(
+                list, fmt::format("the parameters of \"{}\" must be an object, but are a list", N::info.name));
+        if (!missing.empty())
+            throw document_.error(
+                list, fmt::format("\"{0}\" needs \"{1}\" beside the list: {{\"{0}\": {{\"{2}\": […], \"{1}\": …}}}}",
+                                  N::info.name, missing, single));
+    }
+
+    template <class T>
+    void read_value(T& target, Value value, const Parameter& p) {
+        const std::string what = fmt::format("\"{}\"", p.name);
+        if constexpr (std::is_same_v<T, Field> || std::is_same_v<T, Phased>) {
+            target = read<T>(value);
+        } else if constexpr (std::is_same_v<T, std::vector<Field>> || std::is_same_v<T, std::vector<Phased>>) {
+            if (!value.is_array())
+                throw document_.error(value, fmt::format("{} must be a list, but is {}", what, name_of(value.kind())));
+            if (value.size() == 0) throw document_.error(value, fmt::format("{} must not be empty", what));
+            for (const Value item : value) target.push_back(read<typename T::value_type>(item));
+        } else if constexpr (std::is_same_v<T, std::vector<float>> || std::is_same_v<T, std::vector<glm::vec2>> ||
+                             std::is_same_v<T, std::vector<glm::vec3>> || std::is_same_v<T, std::vector<Phase>>) {
+            if (p.one_for_all && value.is_number()) return read_value(target.emplace_back(), value, p);
+            if (!value.is_array())
+                throw document_.error(
+                    value, fmt::format("{} must be {}list, but is {}", what, p.one_for_all ? "a number or a " : "a ",
+                                       name_of(value.kind())));
+            if (value.size() == 0) throw document_.error(value, fmt::format("{} must not be empty", what));
+            for (const Value item : value) read_value(target.emplace_back(), item, p);
+        } else if constexpr (std::is_same_v<T, Phase>) {
+            target = phase(value, what);
+        } else if constexpr (requires { target.content; }) {
+            target.path = as<std::string>(document_, value, what);
+            if (target.path.empty()) throw document_.error(value, fmt::format("{} must not be empty", what));
+            read_file(target, value);
+        } else if constexpr (std::is_same_v<T, PhaseSet>) {
+            if (value.is_string()) {
+                target = PhaseSet::of(phase_or_vacuum(value, what));
+            } else if (value.is_array() && value.size() > 0) {
+                for (const Value item : value) target = target | PhaseSet::of(phase_or_vacuum(item, what));
+            } else {
+                throw document_.error(value, fmt::format("{} must be the name of a phase or a list of names", what));
+            }
+        } else {
+            target = as<T>(document_, value, what, range_of(p.limits));
+        }
+    }
+
+    /// Each file once.
+    template <class Content>
+    void read_file(FromFile<Content>& target, Value value) {
+        const std::filesystem::path path = document_.file(value);
+        std::map<std::string, std::shared_ptr<const Content>, std::less<>>* known = nullptr;
+        if constexpr (std::is_same_v<Content, SirenNetwork>)
+            known = &networks_;
+        else
+            known = &height_grids_;
+        if (const auto found = known->find(target.path); found != known->end()) {
+            target.content = found->second;
+            return;
+        }
+        try {
+            if constexpr (std::is_same_v<Content, SirenNetwork>) {
+                target.content = std::make_shared<const Content>(read_siren(path));
+            } else {
+                if (!files_.height_grid) throw std::runtime_error("this program reads no images");
+                target.content = std::make_shared<const Content>(files_.height_grid(path));
+            }
+        } catch (const std::exception& e) {
+            throw document_.error(value, e.what());
+        }
+        known->emplace(target.path, target.content);
+    }
+
+    /// In a set the vacuum may be; the nodes that have no use for it refuse it themselves.
+    Phase phase_or_vacuum(Value value, const std::string& what) const {
+        return value.is_string() && value.string() == names_.names[0] ? vacuum : phase(value, what);
+    }
+
+    Phase phase(Value value, const std::string& what) const {
+        if (!value.is_string())
+            throw document_.error(
+                value, fmt::format("{} must be the name of a phase, but is {}", what, name_of(value.kind())));
+        for (std::size_t i = 1; i < names_.names.size(); ++i)
+            if (names_.names[i] == value.string()) return Phase{static_cast<std::uint8_t>(i)};
+        if (value.string() == names_.names[0])
+            throw document_.error(value, fmt::format("{} must be a phase other than the vacuum", what));
+        throw document_.error(value, fmt::format("there is no phase \"{}\"", value.string()),
+                              closest(value.string(), std::span(names_.names).subspan(1)));
+    }
+
+    template <class Handle>
+    SceneError unknown_node(Value member) {
+        using Other = std::conditional_t<std::is_same_v<Handle, Field>, Phased, Field>;
+        if (has_node<NodesOf<Other>>(member.key()))
+            return document_.error(member.key_offset(), fmt::format("\"{}\" makes {}, but {} is needed here",
+                                                                    member.key(), kind_name<Other>, kind_name<Handle>));
+        return unknown_node(member, names_of(NodesOf<Handle>()));
+    }
+    SceneError unknown_node(Value member, const std::vector<std::string>& known) const {
+        return document_.error(member.key_offset(), fmt::format("there is no node \"{}\"", member.key()),
+                               closest(member.key(), known));
+    }
+    template <class... Lists>
+    static std::vector<std::string> names_of(Lists... lists) {
+        std::vector<std::string> all;
+        (for_each_type(lists, [&]<class N>() { all.emplace_back(N::info.name); }), ...);
+        return all;
+    }
+
+    std::vector<std::string> shape_names() const {
+        std::vector<std::string> all;
+        if (shapes_)
+            for (const Value shape : *shapes_) all.emplace_back(shape.key());
+        return all;
+    }
+
+    const Document& document_;
+    PreparationTogether preparation_;
+    PhaseNames names_;
+    std::optional<Value> shapes_;
+    const FileReaders& files_;
+    std::map<std::string, std::shared_ptr<const SirenNetwork>, std::less<>> networks_;
+    std::map<std::string, std::shared_ptr<const HeightGrid>, std::less<>> height_grids_;
+    std::map<std::string, Field, std::less<>> fields_;
+    std::map<std::string, Phased, std::less<>> objects_;
+    std::vector<std::string> open_;  ///< shapes being read, to find cycles
+    std::size_t levels_ = 0, nodes_ = 0;
+};
+
+PhaseNames read_phases(const Document& document, Value root) {
+    const std::optional<Value> phases = root.find("phases");
+    if (!phases) throw document.error(root, "the scene needs \"phases\"");
+    if (!phases->is_object())
+        throw document.error(*phases, fmt::format("\"phases\" must be an object, but is {}", name_of(phases->kind())));
+    PhaseNames names;
+    for (const Value phase : *phases) {
+        if (phase.key() == names.names[0])
+            throw document.error(phase.key_offset(), "\"vacuum\" is always there and cannot be a phase of one's own");
+        if (names.names.size() == Phase::capacity)
+            throw document.error(phase.key_offset(), fmt::format("more than {} phases", Phase::capacity - 1));
+        names.names.emplace_back(phase.key());
+    }
+    if (names.size() == 0) throw document.error(*phases, "\"phases\" must not be empty");
+    return names;
+}
+
+}  // namespace
+
+SceneTree read_tree(const Document& document, const FileReaders& files) {
+    const Value root = document.root();
+    if (!root.is_object())
+        throw document.error(root, fmt::format("a scene is an object, but this is {}", name_of(root.kind())));
+    PhaseNames names = read_phases(document, root);
+    const std::optional<Value> shapes = root.find("shapes");
+    if (shapes && !shapes->is_object())
+        throw document.error(*shapes, fmt::format("\"shapes\" must be an object, but is {}", name_of(shapes->kind())));
+    const std::optional<Value> tree = root.find("tree");
+    if (!tree) throw document.error(root, "the scene needs \"tree\"");
+    Reader reader(document, names, shapes, files);
+    SceneTree result{names, reader.read<Phased>(*tree)};
+    reader.read_unused();
+    return result;
+}
+
+}  // namespace phasetree

@@ -1,0 +1,161 @@
+#include "phasetree/nodes/fields/blob.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <queue>
+#include <span>
+
+#include "phasetree/tree/node.hpp"
+#include "preparation/prepared_field.hpp"
+
+namespace phasetree {
+
+namespace {
+
+/// sup over a ball of Σ wᵢ |gᵢ′(dᵢ)|, from the distances at its centre. |gᵢ′| = 6x(1 − x²)²/Rᵢ, x = d/R, rises to
+/// x² = 1/5 and falls from there.
+double steepness(const Blob& blob, const std::vector<double>& distances, double radius) {
+    double sum = 0;
+    for (std::size_t i = 0; i < distances.size(); ++i) {
+        const double reach = static_cast<double>(blob.reach(i)), top = std::sqrt(0.2);
+        const double low = std::max(distances[i] - radius, 0.0) / reach, high = (distances[i] + radius) / reach;
+        if (low >= 1) continue;
+        const double x = std::clamp(top, low, std::min(high, 1.0));
+        sum += static_cast<double>(blob.weight(i)) / reach * 6 * x * (1 - x * x) * (1 - x * x);
+    }
+    return sum;
+}
+
+/// The distances to a blob's skeletons.
+class Skeletons {
+  public:
+    Skeletons(const Blob& blob, Preparation& preparation) : blob_(blob), preparation_(preparation) {
+        own_steps_ = blob.points.size() + 3 * blob.segments.size();
+        for (const Field& f : blob.of) fields_.emplace_back(Blob::info.name, f, preparation);
+    }
+
+    /// At each point of a batch, of which so many count.
+    void find(const BatchOfPoints& p, std::size_t count) {
+        preparation_.pay(count * own_steps_);
+        values_.clear();
+        for (PreparedField& f : fields_) values_.push_back(f(p));
+        for (std::size_t lane = 0; lane < count; ++lane) {
+            std::vector<double>& all = at_[lane];
+            all.clear();
+            const Vec3<float> q{p.x[lane], p.y[lane], p.z[lane]};
+            for (const glm::vec3& v : blob_.points)
+                all.push_back(static_cast<double>(glm::length(glm::vec3(q.x, q.y, q.z) - v)));
+            if (!blob_.segments.empty()) {
+                float nearest = Bounds::infinity;
+                for (const Blob::Segment& s : blob_.segments) nearest = std::min(nearest, s.distance(q));
+                all.push_back(static_cast<double>(nearest));
+            }
+            for (const BatchOfFloats& v : values_) all.push_back(static_cast<double>(v[lane]));
+        }
+    }
+    const std::vector<double>& at(std::size_t lane) const { return at_[lane]; }
+    /// Of one call of find().
+    std::uint64_t steps() const {
+        std::uint64_t steps = batch_size * (1 + own_steps_);
+        for (const PreparedField& f : fields_) steps += f.steps();
+        return steps;
+    }
+
+  private:
+    const Blob& blob_;
+    Preparation& preparation_;
+    std::vector<PreparedField> fields_;
+    std::uint64_t own_steps_ = 0;
+    std::vector<BatchOfFloats> values_;
+    std::array<std::vector<double>, batch_size> at_;
+};
+
+/// A bound of sup ‖∇b‖ over all of space, close to Σ wᵢ |gᵢ′| at its worst place: cubes over the supports, of which the
+/// one that allows most is divided until that no longer helps.
+double blob_slope(const Blob& blob) {
+    double everywhere = 0;
+    for (std::size_t i = 0; i < blob.count(); ++i)
+        everywhere += static_cast<double>(blob.weight(i)) * static_cast<double>(steepest_falloff / blob.reach(i));
+    BoundsQuery query;
+    Bounds support;
+    std::size_t i = 0;
+    const auto grown = [&](const std::vector<glm::vec3>& some) {
+        Bounds b;
+        for (const glm::vec3& v : some) b = unite(b, Bounds{v, v});
+        support = unite(support, b.inflated(blob.reach(i++)));
+    };
+    for (const glm::vec3& v : blob.points) grown({v});
+    if (!blob.polyline.empty()) grown(blob.polyline);
+    for (const Field& f : blob.of) support = unite(support, query(f, blob.reach(i++)));
+    if (!support.finite() || support.empty()) return everywhere;
+
+    struct Cube {
+        double bound;
+        glm::vec3 centre;
+        float half;  ///< of the edge
+        bool operator<(const Cube& o) const { return bound < o.bound; }
+    };
+    std::priority_queue<Cube> cubes;
+    double reached = 0;  // somewhere, the sum is that much
+    Preparation preparation(Blob::info.name);
+    Skeletons skeletons(blob, preparation);
+    const auto add = [&](std::span<const glm::vec3> centres, float half) {
+        BatchOfPoints points;
+        for (std::size_t lane = 0; lane < batch_size; ++lane)
+            points.set(lane, centres[std::min(lane, centres.size() - 1)]);
+        skeletons.find(points, centres.size());
+        for (std::size_t lane = 0; lane < centres.size(); ++lane) {
+            const std::vector<double>& d = skeletons.at(lane);
+            reached = std::max(reached, steepness(blob, d, 0));
+            cubes.push(
+                {steepness(blob, d, static_cast<double>(half) * std::sqrt(3.0) * (1 + 1e-6)), centres[lane], half});
+        }
+    };
+    const glm::vec3 extent = support.extent(), middle = support.centre();
+    add({&middle, 1}, 0.5f * std::max({extent.x, extent.y, extent.z}) * (1 + 1e-6f));
+    // Skeletons of many instructions are asked less often, and what is found is a bound all the same.
+    const std::uint64_t affordable = batch_size * (preparation.left() / 8 / skeletons.steps());
+    const std::size_t most =
+        std::min<std::uint64_t>(std::clamp<std::size_t>(2'000'000 / blob.count(), 2'000, 50'000), affordable);
+    for (std::size_t n = 0; n < most && cubes.top().bound > 1.02 * reached; n += 8) {
+        const Cube cube = cubes.top();
+        cubes.pop();
+        const float half = 0.5f * cube.half;
+        std::array<glm::vec3, 8> centres;
+        for (int corner = 0; corner < 8; ++corner)
+            centres[static_cast<std::size_t>(corner)] =
+                cube.centre + half * glm::vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+        add(centres, half);
+    }
+    return std::min(everywhere, cubes.top().bound);
+}
+
+}  // namespace
+
+void Blob::prepare() {
+    if (count() == 0) throw ModelError("blob: it needs skeletons: \"points\", a \"polyline\" or fields in \"of\"");
+    if (polyline.size() == 1) throw ModelError("blob: a polyline has two points at least");
+    const auto fits = [&](const std::vector<float>& list) { return list.size() <= 1 || list.size() == count(); };
+    if (!fits(radii) || !fits(weights))
+        throw ModelError("blob: \"radii\" and \"weights\" need an entry for each skeleton, or one for all");
+    for (const float r : radii) detail::require_usable(info.name, {r});
+    for (const float w : weights) detail::require_usable(info.name, {w});
+    for (const auto* list : {&points, &polyline})
+        for (const glm::vec3& v : *list)
+            if (!(glm::length(v) < 1e9f)) throw ModelError("blob: its points must be within 1e9 m of the origin");
+    double sum = 0;
+    for (std::size_t i = 0; i < count(); ++i) sum += static_cast<double>(weight(i));
+    level = static_cast<float>(static_cast<double>(threshold) / sum);
+    if (!(level < 1)) throw ModelError("blob: the threshold is more than all skeletons together give, so it is empty");
+    if (!(level > 1e-12f)) throw ModelError("blob: the threshold is too small");
+    segments.clear();
+    for (std::size_t i = 0; i + 1 < polyline.size(); ++i) {
+        const glm::vec3 along = polyline[i + 1] - polyline[i];
+        const float squared = glm::dot(along, along);
+        segments.push_back({polyline[i], along, squared > 1e-18f ? 1 / squared : 0.f});
+    }
+    slope = static_cast<float>(blob_slope(*this) * (1 + 1e-5));
+}
+
+}  // namespace phasetree

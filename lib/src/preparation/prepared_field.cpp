@@ -1,0 +1,56 @@
+#include "preparation/prepared_field.hpp"
+
+#include <fmt/format.h>
+
+#include "phasetree/nodes/list.hpp"
+#include "program/op_traits.hpp"
+
+namespace phasetree {
+
+namespace {
+
+/// What it takes to record an instruction.
+constexpr std::uint64_t recording = 100;
+
+Program recorded(std::string_view node, const Field& field) {
+    try {
+        return record(field);
+    } catch (const ModelError& e) {
+        throw ModelError(fmt::format("{}: {}", node, e.what()));
+    }
+}
+
+constexpr auto height_map = static_cast<Op>(static_cast<std::size_t>(Op::first_primitive) + Primitives::size +
+                                            index_in<HeightMap>(DataPrimitives()));
+
+/// A long primitive counts for more than one, and one with data for a quarter of them; but of a height map an
+/// evaluation looks at nine.
+std::uint64_t steps_of(const Program& program) {
+    std::uint64_t steps = 20;  // to call it
+    for (std::size_t i = 1; i < program.instructions.size(); ++i) {
+        const Instruction& in = program.instructions[i];
+        const std::size_t end =
+            i + 1 < program.instructions.size() ? program.instructions[i + 1].data : program.constants.size();
+        const std::size_t floats = in.op == height_map ? 0 : (end - in.data) / 4;
+        steps += std::max<std::uint64_t>(traits(in.op).half_works / 2, floats);
+    }
+    return steps;
+}
+
+}  // namespace
+
+PreparedField::PreparedField(std::string_view node, const Field& field, Preparation& preparation)
+    : preparation_(preparation),
+      evaluator_(recorded(node, field)),
+      out_(evaluator_.program().outputs.size()),
+      steps_(steps_of(evaluator_.program())) {
+    preparation.pay(recording * evaluator_.program().instructions.size());
+}
+
+BatchOfFloats PreparedField::operator()(const BatchOfPoints& p) {
+    preparation_.pay(steps_);
+    evaluator_.evaluate(p.x, p.y, p.z, out_, registers_);
+    return out_.back();  // the vacuum comes before
+}
+
+}  // namespace phasetree

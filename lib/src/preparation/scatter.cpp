@@ -1,0 +1,190 @@
+#include "phasetree/nodes/copies/scatter.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <unordered_map>
+
+#include "preparation/prepared_field.hpp"
+
+namespace phasetree::detail {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// The accepted points, so that those near a place are found without asking all.
+class Neighbourhood {
+  public:
+    explicit Neighbourhood(float spacing) : spacing_(spacing) {}
+
+    bool is_free(const glm::vec3& p) const {
+        if (spacing_ == 0) return true;
+        const glm::ivec3 cell = cell_of(p);
+        for (int k = -1; k <= 1; ++k)
+            for (int j = -1; j <= 1; ++j)
+                for (int i = -1; i <= 1; ++i) {
+                    const auto [from, to] = cells_.equal_range(key(cell + glm::ivec3(i, j, k)));
+                    for (auto it = from; it != to; ++it)
+                        if (glm::length(it->second - p) < spacing_) return false;
+                }
+        return true;
+    }
+    void add(const glm::vec3& p) {
+        if (spacing_ > 0) cells_.emplace(key(cell_of(p)), p);
+    }
+
+  private:
+    glm::ivec3 cell_of(const glm::vec3& p) const { return glm::ivec3(glm::floor(p / spacing_)); }
+    static std::uint64_t key(const glm::ivec3& c) {
+        const auto part = [](int v) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(v)) & 0x1fffff; };
+        return part(c.x) | part(c.y) << 21 | part(c.z) << 42;
+    }
+
+    float spacing_;
+    std::unordered_multimap<std::uint64_t, glm::vec3> cells_;
+};
+
+/// A straight line through the ball around the surface, and where the field changes its sign along it.
+struct Line {
+    glm::vec3 origin{}, direction{};
+    float before = 0, value = 0, t = 0;  ///< up to `before`, where the field has this value, it is searched; t is next
+
+    glm::vec3 at(float along) const { return origin + along * direction; }
+};
+struct Change {
+    std::size_t line = 0;
+    float low = 0, high = 0;
+    bool is_negative = false;  ///< the field at `low`
+};
+
+class Search {
+  public:
+    Search(const Field& surface, const glm::vec3& centre, float radius, int seed)
+        : preparation_("scatter"),
+          surface_("scatter", surface, preparation_),
+          centre_(centre),
+          radius_(radius),
+          smallest_(2e-4f * radius),
+          state_(0x5851f42d4c957f2du + static_cast<std::uint64_t>(seed)) {}
+
+    /// Where the next lines cross the surface, line after line.
+    std::vector<glm::vec3> crossings() {
+        for (Line& line : lines_) line = random_line();
+        std::vector<Change> changes = march();
+        std::ranges::stable_sort(changes, {}, &Change::line);
+        std::vector<glm::vec3> found;
+        for (std::size_t first = 0; first < changes.size(); first += batch_size)
+            bisect(std::span(changes).subspan(first, std::min(batch_size, changes.size() - first)));
+        for (const Change& c : changes) found.push_back(lines_[c.line].at(0.5f * (c.low + c.high)));
+        return found;
+    }
+    glm::dvec3 normal_at(const glm::vec3& p) {
+        BatchOfPoints around;
+        for (std::size_t lane = 0; lane < batch_size; ++lane) {
+            glm::vec3 step(0);
+            step[static_cast<int>(lane % 3)] = smallest_;
+            around.set(lane, lane < 3 ? p + step : p - step);
+        }
+        const BatchOfFloats f = surface_(around);
+        glm::dvec3 g;
+        for (int i = 0; i < 3; ++i)
+            g[i] = static_cast<double>(f[static_cast<std::size_t>(i)]) -
+                   static_cast<double>(f[static_cast<std::size_t>(i) + 3]);
+        const double length = glm::length(g);
+        return length > 0 ? g / length : glm::dvec3(0, 0, 1);
+    }
+
+  private:
+    /// A uniform direction, and a uniform point of the disk across it.
+    Line random_line() {
+        const double z = 2 * next_random(state_) - 1, a = 2 * pi * next_random(state_), rho = std::sqrt(1 - z * z);
+        const glm::dvec3 d(rho * std::cos(a), rho * std::sin(a), z);
+        const glm::dvec3 u =
+            glm::normalize(glm::cross(d, std::abs(z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
+        const glm::dvec3 v = glm::cross(d, u);
+        const double r = static_cast<double>(radius_) * std::sqrt(next_random(state_)),
+                     angle = 2 * pi * next_random(state_);
+        return {glm::vec3(glm::dvec3(centre_) + r * (std::cos(angle) * u + std::sin(angle) * v)), glm::vec3(d)};
+    }
+    BatchOfFloats along_lines(float Line::*t) {
+        BatchOfPoints points;
+        for (std::size_t i = 0; i < lines_.size(); ++i) points.set(i, lines_[i].at(lines_[i].*t));
+        return surface_(points);
+    }
+    float step(float value) const { return std::max(std::abs(value), smallest_); }
+    /// All lines at once, each with its own steps.
+    std::vector<Change> march() {
+        std::vector<Change> changes;
+        for (Line& line : lines_) line.before = -radius_;
+        const BatchOfFloats first = along_lines(&Line::before);
+        for (std::size_t i = 0; i < lines_.size(); ++i) {
+            lines_[i].value = first[i];
+            lines_[i].t = lines_[i].before + step(first[i]);
+        }
+        while (std::ranges::any_of(lines_, [&](const Line& l) { return l.t < radius_; })) {
+            const BatchOfFloats next = along_lines(&Line::t);
+            for (std::size_t i = 0; i < lines_.size(); ++i) {
+                Line& line = lines_[i];
+                if (!(line.t < radius_)) continue;
+                if ((next[i] < 0) != (line.value < 0)) changes.push_back({i, line.before, line.t, line.value < 0});
+                line.before = line.t;
+                line.value = next[i];
+                line.t += step(next[i]);
+            }
+        }
+        return changes;
+    }
+    void bisect(std::span<Change> changes) {
+        for (int n = 0; n < 24; ++n) {
+            BatchOfPoints points;
+            const auto middle = [](const Change& c) { return 0.5f * (c.low + c.high); };
+            for (std::size_t i = 0; i < changes.size(); ++i)
+                points.set(i, lines_[changes[i].line].at(middle(changes[i])));
+            const BatchOfFloats f = surface_(points);
+            for (std::size_t i = 0; i < changes.size(); ++i) {
+                Change& c = changes[i];
+                const float m = middle(c);
+                ((f[i] < 0) == c.is_negative ? c.low : c.high) = m;
+            }
+        }
+    }
+
+    Preparation preparation_;
+    PreparedField surface_;
+    glm::vec3 centre_;
+    float radius_, smallest_;
+    std::uint64_t state_;
+    std::array<Line, batch_size> lines_;
+};
+
+}  // namespace
+
+std::vector<SurfacePoint> scattered(const Field& surface, int count, float spacing, int seed) {
+    const Bounds b = bounds(surface);
+    if (b.empty()) throw ModelError("scatter: the surface is empty");
+    if (!b.finite()) throw ModelError("scatter: the surface must be bounded");
+    const float radius = 0.5f * b.diagonal() * (1 + 1e-4f);
+    if (!(radius > 1e-9f && radius < 1e9f))
+        throw ModelError("scatter: the surface must be between 1e-9 and 1e9 m large");
+    // A multiple of the bounds' size, so that no cell's number overflows.
+    if (spacing > 0 && spacing < 1e-4f * radius) spacing = 0;
+    Neighbourhood taken(spacing);
+    std::vector<SurfacePoint> found;
+    Search search(surface, b.centre(), radius, seed);
+    const auto most = static_cast<std::size_t>(count);
+    const std::size_t lines = 4096 + 16 * most;
+    static_assert(16 % batch_size == 0, "all lines of a batch count");
+    for (std::size_t line = 0; line < lines && found.size() < most; line += batch_size)
+        for (const glm::vec3& p : search.crossings()) {
+            if (found.size() == most) break;
+            if (!taken.is_free(p)) continue;
+            taken.add(p);
+            found.push_back({p, search.normal_at(p)});
+        }
+    if (found.empty()) throw ModelError("scatter: no place was found on the surface");
+    return found;
+}
+
+}  // namespace phasetree::detail

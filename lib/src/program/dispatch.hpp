@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <tuple>
+#include <type_traits>
+
+#include "phasetree/nodes/list.hpp"
+
+/// From an operation's number to the type of its primitive, and from an instruction's floats to its values.
+namespace phasetree {
+
+namespace detail {
+
+template <std::size_t first, std::size_t count, class... Ts, class Run>
+[[gnu::always_inline]] inline void dispatch_among(TypeList<Ts...> list, std::uint32_t index, Run& run) {
+    if constexpr (count == 1) {
+        run.template operator()<std::tuple_element_t<first, std::tuple<Ts...>>>();
+    } else {
+        constexpr std::size_t half = count / 2;
+        if (index < first + half)
+            dispatch_among<first, half>(list, index, run);
+        else
+            dispatch_among<first + half, count - half>(list, index, run);
+    }
+}
+/// Calls run.template operator()<T>() for the index-th type of a list. It is found by halves, and what is called is
+/// inline.
+template <class... Ts, class Run>
+void dispatch(TypeList<Ts...> list, std::uint32_t index, Run&& run) {
+    if (index < sizeof...(Ts)) dispatch_among<0, sizeof...(Ts)>(list, index, run);
+}
+
+template <class Struct>
+Struct read(const float* constants) {
+    Struct result;
+    std::memcpy(static_cast<void*>(&result), constants, sizeof result);
+    return result;
+}
+
+/// The distance of a primitive of either kind, whose floats are at `constants`.
+template <class P, class T>
+T distance_of(const float* constants, const Vec3<T>& q) {
+    if constexpr (DataPrimitive<P>) {
+        return P::distance(constants, q);
+    } else {
+        return read<P>(constants).distance(q);
+    }
+}
+
+}  // namespace detail
+
+}  // namespace phasetree

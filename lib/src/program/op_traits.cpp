@@ -1,0 +1,54 @@
+#include "program/op_traits.hpp"
+
+#include "program/fused.hpp"
+
+namespace phasetree {
+
+namespace {
+
+static_assert(first_placed + Primitives::size <= most_operations);
+
+template <class... Ps>
+constexpr auto long_ones(TypeList<Ps...>) {
+    return std::array<bool, sizeof...(Ps)>{LongPrimitive<Ps>...};
+}
+
+template <class... Ps>
+constexpr void mark_patterns(TypeList<Ps...>, auto& all) {
+    constexpr auto first = static_cast<std::size_t>(Op::first_primitive);
+    const auto mark = [&]<class P>() {
+        if constexpr (PatternPrimitive<P>) all[first + index_in<P>(Primitives())].is_pattern = true;
+        if constexpr (LocalPrimitive<P>) {
+            OpTraits& local = all[first + index_in<P>(Primitives())];
+            local.is_local = true;
+            local.half_works = 800;  // as long as all of it may matter
+            all[first + Primitives::size + index_in<typename P::Specialised>(DataPrimitives())].is_specialised = true;
+        }
+    };
+    (mark.template operator()<Ps>(), ...);
+}
+
+constexpr auto all_traits() {
+    std::array<OpTraits, most_operations> all{};
+    constexpr auto first_primitive = static_cast<std::size_t>(Op::first_primitive);
+    const auto of = [&](Op op) -> OpTraits& { return all[static_cast<std::size_t>(op)]; };
+    of(Op::input) = {.operands = 0, .gives_point = true};
+    for (const Op op : {Op::add, Op::subtract, Op::minimum, Op::maximum, Op::far_bound, Op::far_bound_inside,
+                        Op::smooth_minimum, Op::guarded, Op::corner})
+        of(op).operands = 2;
+    constexpr auto is_long = long_ones(Primitives());
+    for (std::size_t i = 0; i < Primitives::size + DataPrimitives::size; ++i)
+        all[first_primitive + i].is_long_primitive = i >= is_long.size() || is_long[i];  // then come those with data
+    for (std::size_t i = first_primitive; i < first_placed + Primitives::size; ++i)
+        all[i].half_works = all[i].is_long_primitive ? 120 : 3;
+    for (std::size_t i = first_map; i < first_placed; ++i) all[i].gives_point = true;
+    all[first_map + index_in<FoldMap>(PointMaps())].is_fold = true;
+    all[first_primitive + Primitives::size + index_in<Siren::Network>(DataPrimitives())].is_network = true;
+    mark_patterns(Primitives(), all);
+    return all;
+}
+}  // namespace
+
+constexpr std::array<OpTraits, most_operations> op_traits = all_traits();
+
+}  // namespace phasetree

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "phasetree/program/program.hpp"
+
+namespace phasetree {
+
+/// What is known of an operation.
+struct OpTraits {
+    std::uint8_t operands = 1;       ///< how many values it takes
+    std::uint16_t half_works = 2;    ///< how much work it is, in halves of a simple one
+    bool gives_point = false;        ///< its result is a point and not a number
+    bool is_long_primitive = false;  ///< a primitive whose equation is long (concepts.hpp)
+    bool is_network = false;         ///< a neural field: Siren::Network
+    bool is_fold = false;            ///< a fold of space, which jumps
+    bool is_pattern = false;         ///< a PatternPrimitive
+    bool is_local = false;           ///< a LocalPrimitive
+    bool is_specialised = false;     ///< and what it becomes in a small box
+};
+/// Of every operation, those of fused.hpp too.
+inline constexpr std::size_t most_operations = 256;
+extern const std::array<OpTraits, most_operations> op_traits;
+
+inline const OpTraits& traits(Op op) {
+    return op_traits[static_cast<std::size_t>(op)];
+}
+inline int operands(Op op) {
+    return traits(op).operands;
+}
+inline bool gives_point(Op op) {
+    return traits(op).gives_point;
+}
+inline bool is_long_primitive(Op op) {
+    return traits(op).is_long_primitive;
+}
+inline bool is_fold(Op op) {
+    return traits(op).is_fold;
+}
+/// Whether an operation makes distances larger far from the surface.
+inline bool is_far_bound(Op op) {
+    return op == Op::far_bound || op == Op::far_bound_inside;
+}
+
+}  // namespace phasetree

@@ -1,0 +1,11 @@
+#include "program/program_output.hpp"
+
+namespace phasetree {
+
+std::vector<ProgramOutput> outputs_of(const Program& program) {
+    std::vector<ProgramOutput> outputs;
+    for (const Output& o : program.outputs) outputs.push_back({o.phase, o.value, false});
+    return outputs;
+}
+
+}  // namespace phasetree

@@ -1,0 +1,49 @@
+#include "rewriting/specialise.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "program/dispatch.hpp"
+
+namespace phasetree {
+
+WorkingProgram specialised(const WorkingProgram& program, std::span<const LocalValue> values,
+                           std::vector<float>& floats, Arena& scratch) {
+    if (values.empty()) return program;
+    const std::span<Instruction> code = scratch.copy(program.code);
+    for (const LocalValue& v : values) {
+        code[v.value].op = v.op;
+        code[v.value].data = static_cast<std::uint32_t>(floats.size());
+        floats.insert(floats.end(), v.data.begin(), v.data.end());
+    }
+    WorkingProgram result = program;
+    result.code = code;
+    return result;
+}
+
+float finest_pattern(const WorkingProgram& program, std::span<const float> constants) {
+    float finest = Bounds::infinity;
+    for (const Instruction& in : program.code) {
+        if (!traits(in.op).is_pattern) continue;
+        const auto op = static_cast<std::uint32_t>(in.op) - static_cast<std::uint32_t>(Op::first_primitive);
+        detail::dispatch(Primitives(), op, [&]<class P>() {
+            if constexpr (PatternPrimitive<P>) {
+                P primitive;
+                std::memcpy(static_cast<void*>(&primitive), &constants[in.data], sizeof primitive);
+                finest = std::min(finest, primitive.period() / program.lipschitz[in.a]);
+            }
+        });
+    }
+    return finest;
+}
+
+std::span<const float> data_of_specialised(Op op, std::span<const float> floats) {
+    std::size_t count = 0;
+    const std::uint32_t index = static_cast<std::uint32_t>(op) - static_cast<std::uint32_t>(Op::first_primitive);
+    detail::dispatch(DataPrimitives(), index - static_cast<std::uint32_t>(Primitives::size), [&]<class D>() {
+        if constexpr (requires { D::floats(floats.data()); }) count = D::floats(floats.data());
+    });
+    return floats.first(count);
+}
+
+}  // namespace phasetree

@@ -1,0 +1,197 @@
+#include "phasetree/model/bounds_query.hpp"
+
+#include <unordered_map>
+#include <unordered_set>
+
+#include "model/preparation.hpp"
+#include "phasetree/tree/node.hpp"
+
+namespace phasetree {
+
+namespace {
+
+void mix(std::size_t& hash, std::size_t value) {
+    hash = (hash ^ value) * 0x9e3779b97f4a7c15u;
+    hash ^= hash >> 29;
+}
+
+/// Of a box's sides, those of the tighter box that are tighter by a hundredth of its size: a side that differs only as
+/// the two are rounded stays where it is.
+Bounds tightened(const Bounds& box, const Bounds& tighter) {
+    if (tighter.empty()) return {};
+    Bounds result = box;
+    for (int i = 0; i < 3; ++i) {
+        const float size = box.high[i] - box.low[i];
+        const auto is_tighter = [&](float by) { return by > (std::isfinite(size) ? 0.01f * size : 0.f); };
+        if (is_tighter(tighter.low[i] - box.low[i])) result.low[i] = tighter.low[i];
+        if (is_tighter(box.high[i] - tighter.high[i])) result.high[i] = tighter.high[i];
+    }
+    return result;
+}
+
+}  // namespace
+
+struct BoundsQuery::Memory {
+    struct Key {
+        const void* node;
+        float level;
+        bool operator==(const Key&) const = default;
+    };
+    struct DirectedKey {
+        Key key;
+        Directions directions;
+        bool operator==(const DirectedKey&) const = default;
+    };
+    struct Hash {
+        std::size_t operator()(const Key& k) const {
+            std::size_t hash = std::hash<const void*>()(k.node);
+            mix(hash, std::hash<float>()(k.level));
+            return hash;
+        }
+        std::size_t operator()(const DirectedKey& k) const {
+            std::size_t hash = (*this)(k.key);
+            for (const glm::dvec3& d : k.directions)
+                for (int i = 0; i < 3; ++i) mix(hash, std::hash<double>()(d[i]));
+            return hash;
+        }
+    };
+    std::unordered_map<Key, Bounds, Hash> boxes;
+    std::unordered_map<DirectedKey, Bounds, Hash> directed;
+    std::unordered_map<const void*, std::unordered_set<float>> levels;  ///< that each node was asked for
+    std::size_t asked = 0;                                              ///< by directions
+
+    /// A tree of offsets of shared subtrees can ask exponentially many levels. Past some, they are rounded up to a few:
+    /// the box of a higher level holds that of a lower one.
+    float usual(const void* node, float level) {
+        std::unordered_set<float>& known = levels[node];
+        if (known.contains(level)) return level;
+        if (known.size() < 16) {
+            known.insert(level);
+            return level;
+        }
+        int exponent = 0;
+        const float mantissa = std::frexp(level, &exponent);
+        return std::ldexp(std::ceil(mantissa * 8) / 8, exponent);
+    }
+};
+
+BoundsQuery::BoundsQuery() : memory_(std::make_unique<Memory>()) {}
+BoundsQuery::~BoundsQuery() = default;
+
+/// With a margin for rounding: coordinates are rounded along each direction by what they are along all.
+Bounds BoundsQuery::gathered(const Reaches& reach) {
+    double largest = 0;
+    for (const double r : reach)
+        if (std::isfinite(r)) largest = std::max(largest, std::abs(r));
+    const double margin = 1e-6 * largest;
+    Bounds b;
+    for (int i = 0; i < 3; ++i) {
+        b.low[i] = static_cast<float>(-(reach[static_cast<std::size_t>(i)] + margin));
+        b.high[i] = static_cast<float>(reach[static_cast<std::size_t>(i) + 3] + margin);
+    }
+    return b;
+}
+
+Bounds BoundsQuery::moved(const Bounds& box, const Reaches& more) {
+    if (box.low.x == Bounds::infinity) return {};
+    Reaches reach;
+    for (int i = 0; i < 3; ++i) {
+        const auto low = static_cast<std::size_t>(i), high = low + 3;
+        reach[low] = more[low] - static_cast<double>(box.low[i]);
+        reach[high] = more[high] + static_cast<double>(box.high[i]);
+    }
+    return gathered(reach);
+}
+
+Bounds BoundsQuery::placed(const Bounds& box) const {
+    if (is_by_boxes()) return box;
+    if (box.empty()) return {};
+    // A side at infinity matters only along directions that are not across it.
+    Reaches reach{};
+    for (std::size_t k = 0; k < reach.size(); ++k) {
+        for (int i = 0; i < 3; ++i) {
+            const double d = directions_[k][i];
+            if (d != 0) reach[k] += d * static_cast<double>(d > 0 ? box.high[i] : box.low[i]);
+        }
+    }
+    return gathered(reach);
+}
+
+template <class Handle>
+Bounds BoundsQuery::by_boxes(const Handle& handle, float level) {
+    // Nodes ask when they are made, too, each anew; a question is about so many steps.
+    PreparationTogether::pay("bounds", 60);
+    const typename Memory::Key key{handle.node(), memory_->usual(handle.node(), level)};
+    if (const auto found = memory_->boxes.find(key); found != memory_->boxes.end()) return found->second;
+    Bounds b = std::visit([&](const auto& n) { return n.bounds(*this, key.level); }, handle.node()->node);
+    if (b.empty()) b = {};
+    memory_->boxes.emplace(key, b);
+    return b;
+}
+
+template <class Handle>
+Bounds BoundsQuery::by_directions(const Handle& handle, float level) {
+    PreparationTogether::pay("bounds", 120);
+    const typename Memory::DirectedKey key{{handle.node(), memory_->usual(handle.node(), level)}, directions_};
+    if (const auto found = memory_->directed.find(key); found != memory_->directed.end()) return found->second;
+    if (++memory_->asked > most_asked) {
+        way_ = Way::by_boxes;
+        const Bounds box = by_boxes(handle, level);
+        way_ = Way::by_directions;
+        return placed(box);
+    }
+    const Bounds b = std::visit(
+        [&](const auto& n) {
+            using N = std::remove_cvref_t<decltype(n)>;
+            if constexpr (requires(const glm::dvec3& d) { n.support(d, level); })
+                return placed(n.bounds(*this, key.key.level),
+                              [&](const glm::dvec3& d) { return n.support(d, key.key.level); });
+            else if constexpr (Primitive<N> || DataPrimitive<N>)
+                return placed(n.bounds(*this, key.key.level));
+            else
+                return n.bounds(*this, key.key.level);
+        },
+        handle.node()->node);
+    memory_->directed.emplace(key, b);
+    return b;
+}
+
+template <class Handle>
+Bounds BoundsQuery::along_own_axes(const Handle& handle, float level) {
+    const Directions outer = directions_;
+    directions_ = along_axes;
+    const Bounds b = by_directions(handle, level);
+    directions_ = outer;
+    return b;
+}
+
+template <class Handle>
+Bounds BoundsQuery::answer(const Handle& handle, float level) {
+    if (way_ == Way::by_boxes) return by_boxes(handle, level);
+    if (way_ == Way::by_directions) return by_directions(handle, level);
+    way_ = Way::by_boxes;
+    const Bounds box = by_boxes(handle, level);
+    Bounds result = box;
+    if (!box.empty()) {
+        way_ = Way::by_directions;
+        memory_->asked = 0;
+        result = tightened(box, along_own_axes(handle, level));
+    }
+    way_ = Way::both;
+    return result;
+}
+
+Bounds BoundsQuery::operator()(const Field& f, float level) {
+    return answer(f, level);
+}
+Bounds BoundsQuery::operator()(const Phased& a, float level) {
+    return answer(a, level);
+}
+Bounds BoundsQuery::own_box(const Field& f, float level) {
+    return is_by_boxes() ? answer(f, level) : along_own_axes(f, level);
+}
+Bounds BoundsQuery::own_box(const Phased& a, float level) {
+    return is_by_boxes() ? answer(a, level) : along_own_axes(a, level);
+}
+
+}  // namespace phasetree

@@ -1,0 +1,187 @@
+// Pruning by what is demanded, of random programs in which every operation stands below every other one: what is left
+// in a ball must have the same sign there. Trees reach few of these pairs, and rarely where one can go.
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/list.hpp"
+#include "phasetree/program/program.hpp"
+#include "pruning/prune.hpp"
+#include "support/random_tree.hpp"
+
+using namespace phasetree;
+using namespace phasetree::tests;
+
+namespace {
+
+template <class P>
+constexpr Op op_of() {
+    return static_cast<Op>(static_cast<std::size_t>(Op::first_primitive) + index_in<P>(Primitives()));
+}
+
+/// One number and its sign are told, as where two phases meet.
+struct RandomProgram {
+    std::vector<Instruction> code{Instruction{}};
+    std::vector<float> constants, lipschitz{1};
+    std::vector<ProgramOutput> outputs;
+
+    explicit RandomProgram(Random& rng) {
+        const int leaves = 3 + rng.below(8), inner = 2 + rng.below(20);
+        for (int i = 0; i < leaves; ++i) {
+            if (rng.chance(0.5))
+                add_leaf(Plane{.normal = rng.direction(), .offset = rng.uniform(-1, 1)});
+            else
+                add_leaf(Capsule{.from = place(rng), .to = place(rng), .radius = rng.uniform(0.1f, 0.5f)});
+        }
+        for (int i = 0; i < inner; ++i) add_operation(rng);
+        const auto last = static_cast<std::uint32_t>(code.size() - 1);
+        outputs = {{Phase{0}, last, true}, {Phase{1}, last, false}};
+    }
+
+    WorkingProgram working() const { return {code, lipschitz, outputs}; }
+
+  private:
+    static glm::vec3 place(Random& rng) { return rng.in({glm::vec3(-1), glm::vec3(1)}); }
+
+    template <class P>
+    void add_leaf(const P& primitive) {
+        const auto floats = std::bit_cast<std::array<float, sizeof(P) / sizeof(float)>>(primitive);
+        add(op_of<P>(), 0, 0, floats, 1);
+    }
+    void add(Op op, std::uint32_t a, std::uint32_t b, std::span<const float> floats, float slope) {
+        code.push_back({op, a, b, static_cast<std::uint32_t>(constants.size())});
+        constants.insert(constants.end(), floats.begin(), floats.end());
+        lipschitz.push_back(slope);
+    }
+    void add_operation(Random& rng) {
+        // Mostly of what was made last, so that little is left out.
+        const auto size = static_cast<int>(code.size());
+        const auto any = [&] { return static_cast<std::uint32_t>(1 + rng.below(size - 1)); };
+        const std::uint32_t late = static_cast<std::uint32_t>(size - 1 - rng.below(std::min(size - 1, 3)));
+        const std::uint32_t other = any(), a = rng.chance(0.5) ? late : other, b = a == late ? other : late;
+        const float of_a = lipschitz[a], of_b = lipschitz[b], steeper = std::max(of_a, of_b);
+        const auto constant = [&](float low, float high) { return std::array{rng.uniform(low, high)}; };
+        switch (rng.below(16)) {
+            case 0:
+                return add(Op::negate, late, 0, {}, lipschitz[late]);
+            case 1:
+                return add(Op::add, a, b, {}, of_a + of_b);
+            case 2:
+                return add(Op::subtract, a, b, {}, of_a + of_b);
+            case 3:
+                return add(Op::absolute, late, 0, {}, lipschitz[late]);
+            case 4:
+                return add(Op::add_constant, late, 0, constant(-0.5f, 0.5f), lipschitz[late]);
+            case 5:
+                return add(Op::constant_minus, late, 0, constant(-0.5f, 0.5f), lipschitz[late]);
+            case 6: {
+                const auto factor = constant(-1.5f, 1.5f);
+                return add(Op::multiply_constant, late, 0, factor, std::abs(factor[0]) * lipschitz[late]);
+            }
+            case 7:
+            case 8:
+                return add(Op::smooth_minimum, a, b, constant(0.01f, 0.6f), steeper);
+            case 9:
+                return add(Op::guarded, a, b, constant(0.1f, 2), steeper);
+            case 10: {
+                const auto reach = constant(0.3f, 2);
+                return add(Op::falloff, late, 0, reach, steepest_falloff / reach[0] * lipschitz[late]);
+            }
+            case 11:
+            case 12:
+                return add(Op::corner, a, b, {}, of_a + of_b);
+            case 13:
+                return add(Op::maximum, a, b, {}, steeper);
+            default:
+                return add(Op::minimum, a, b, {}, steeper);
+        }
+    }
+};
+
+/// By the equations, one instruction after the other.
+std::vector<float> values(std::span<const Instruction> code, std::span<const float> constants, const glm::vec3& p) {
+    const Vec3<float> at{p.x, p.y, p.z};
+    std::vector<float> v(code.size());
+    for (std::size_t i = 1; i < code.size(); ++i) {
+        const Instruction& in = code[i];
+        const float a = v[in.a], b = v[in.b], *const c = constants.data() + in.data;
+        const auto distance = [&]<class P>(P primitive) {
+            std::memcpy(static_cast<void*>(&primitive), c, sizeof primitive);
+            return primitive.distance(at);
+        };
+        if (in.op == op_of<Plane>()) v[i] = distance(Plane());
+        if (in.op == op_of<Capsule>()) v[i] = distance(Capsule());
+        if (in.op == Op::negate) v[i] = -a;
+        if (in.op == Op::add) v[i] = a + b;
+        if (in.op == Op::subtract) v[i] = a - b;
+        if (in.op == Op::minimum) v[i] = std::min(a, b);
+        if (in.op == Op::maximum) v[i] = std::max(a, b);
+        if (in.op == Op::absolute) v[i] = std::abs(a);
+        if (in.op == Op::add_constant) v[i] = a + *c;
+        if (in.op == Op::constant_minus) v[i] = *c - a;
+        if (in.op == Op::multiply_constant) v[i] = a * *c;
+        if (in.op == Op::smooth_minimum) v[i] = smooth_min(a, b, *c);
+        if (in.op == Op::guarded) v[i] = guarded(a, b, *c);
+        if (in.op == Op::falloff) v[i] = falloff(a, *c);
+        if (in.op == Op::corner) v[i] = corner(a, b);
+    }
+    return v;
+}
+
+}  // namespace
+
+TEST_CASE("what is left of a program in a ball has its sign there, whatever stands below what") {
+    constexpr float rounding = 1e-4f;
+    const int programs = long_tests() ? 2'000'000 : 200'000;
+    std::size_t shortened = 0, gone = 0, points = 0, wrong = 0;
+    int first_wrong = -1;
+    Arena keep, scratch;
+    for (int n = 0; n < programs; ++n) {
+        Random rng(51'000 + static_cast<unsigned>(n));
+        const RandomProgram program(rng);
+        const glm::vec3 centre = rng.in({glm::vec3(-1), glm::vec3(1)});
+        const std::vector<float> at_centre = values(program.code, program.constants, centre);
+        const float steep = program.lipschitz.back(), off = std::abs(at_centre.back());
+        if (!(steep > 0 && steep < 50)) continue;
+        // Just so large that a sign may change in it.
+        const float radius = std::min(off / steep * std::exp2(rng.uniform(0, 3)) + 0.01f, 1.f);
+        std::vector<BatchOfFloats> registers(program.code.size());
+        std::vector<std::uint32_t> slot(program.code.size());
+        for (std::size_t i = 0; i < slot.size(); ++i) {
+            registers[i].lane[0] = at_centre[i];
+            slot[i] = static_cast<std::uint32_t>(i);
+        }
+        const ArenaScope kept(keep), used(scratch);
+        const RangesInBall ranges{{registers.data(), slot, 0}, program.lipschitz, radius, rounding};
+        const auto left = prune(program.working(), program.constants, ranges, {}, keep, scratch);
+        if (!left) ++gone;
+        if (left && left->code.size() < program.code.size()) ++shortened;
+        float only = 0;
+        for (int k = 0; k < 40; ++k) {
+            const glm::vec3 p = centre + radius * std::cbrt(rng.uniform(0, 1)) * rng.direction();
+            const float expected = values(program.code, program.constants, p).back();
+            if (std::abs(expected) < rounding) continue;
+            // Where nothing is left, one sign: that of the first point, for at the centre it may be zero.
+            if (only == 0) only = expected;
+            float found = only;
+            if (left) {
+                const ProgramOutput& o = left->outputs[0].phase == Phase{1} ? left->outputs[0] : left->outputs[1];
+                found = values(left->code, program.constants, p)[o.value] * (o.negate ? -1.f : 1.f);
+            }
+            ++points;
+            if ((found < 0) == (expected < 0)) continue;
+            ++wrong;
+            if (first_wrong < 0) first_wrong = n;
+        }
+    }
+    MESSAGE(programs, " programs, ", shortened, " shortened, ", gone, " without a change of sign; ", points, " points");
+    CAPTURE(first_wrong);
+    CHECK(wrong == 0);
+    CHECK(shortened > static_cast<std::size_t>(programs / 4));
+    CHECK(points > 10 * static_cast<std::size_t>(programs));
+}
