@@ -1,9 +1,14 @@
 // Rays through several objects at once: each has its own phase of each, and what happens along it is what happens in
 // every object alone, merged by distance.
-#include <map>
+#include <algorithm>
 
 #include "embree/embree.hpp"
 #include "embree_core/cell_geometry.hpp"
+#include "phasetree/nodes/fields/box.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/nodes/phased/under.hpp"
+#include "phasetree/nodes/warps/translate.hpp"
 #include "support/random_tree.hpp"
 
 using namespace phasetree;

@@ -32,11 +32,11 @@ struct SeenRay {
 /// Embree comes here.
 inline std::optional<Crossing> search_cell(const InterfaceCells& cells, unsigned cell, const SeenRay& seen,
                                            const RTCRay& ray, std::optional<Phase> carried,
-                                           const std::optional<Departure>& departure, TraceCounters& counters) {
+                                           const std::optional<LeavingHint>& leaving_hint, TraceCounters& counters) {
     const float near = std::max(ray.tnear * seen.length, 0.0f), far = ray.tfar * seen.length;
     std::optional<Crossing> crossing;
     if (!(near <= far)) return crossing;
-    crossing = cells.first_crossing(cell, seen.traced, near, far, carried, departure, counters);
+    crossing = cells.first_crossing(cell, seen.traced, near, far, carried, leaving_hint, counters);
     if (crossing && !(crossing->t_in <= far)) crossing.reset();  // it was so but for rounding
     return crossing;
 }

@@ -3,7 +3,7 @@
 /// Packets of rays, lane by lane: what callbacks read of them and write to them.
 
 #include "embree_core/rays.hpp"
-#include "phasetree/trace/crossing.hpp"
+#include "phasetree/model/crossing.hpp"
 
 namespace phasetree::embree {
 
