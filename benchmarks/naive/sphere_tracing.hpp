@@ -2,6 +2,7 @@
 // one ray and one point at a time, and the whole object is one primitive of Embree.
 #pragma once
 
+#include "phasetree/cells/cells.hpp"
 #include "trace/embree_scene.hpp"
 #include "trace/many.hpp"
 

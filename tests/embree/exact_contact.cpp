@@ -71,7 +71,7 @@ std::vector<Step> crossings(RTCScene scene, const InterfaceCells& cells, const R
     Phase carried = vacuum;
     for (int i = 0; i < 1000; ++i) {
         embree::Query query;
-        query.phases = embree::RayPhases(carried);
+        query.elsewhere = carried;
         RTCRayHit hit = rayhit({origin, ray.direction});
         embree::intersect(scene, query.context, hit);
         if (!hits(hit)) return all;

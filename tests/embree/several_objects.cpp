@@ -1,9 +1,14 @@
 // Rays through several objects at once: each has its own phase of each, and what happens along it is what happens in
 // every object alone, merged by distance.
-#include <map>
+#include <algorithm>
 
 #include "embree/embree.hpp"
 #include "embree_core/cell_geometry.hpp"
+#include "phasetree/nodes/fields/box.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/nodes/phased/under.hpp"
+#include "phasetree/nodes/warps/translate.hpp"
 #include "support/random_tree.hpp"
 
 using namespace phasetree;
@@ -36,11 +41,11 @@ std::vector<Step> walk(RTCScene scene, const std::vector<Standing>& objects, con
     glm::vec3 origin = ray.origin;
     for (;;) {
         embree::Query query;
-        query.phases = phases;
+        query.carry(phases);
         RTCRayHit hit = embree::rayhit_of(origin, ray.direction);
         embree::intersect(scene, query.context, hit);
         embree::Query shadow;
-        shadow.phases = phases;
+        shadow.carry(phases);
         RTCRay shadow_ray = embree::ray_of(origin, ray.direction);
         REQUIRE(embree::occluded(scene, shadow.context, shadow_ray) == embree::is_hit(hit));
         if (!embree::is_hit(hit)) return steps;
@@ -233,7 +238,7 @@ TEST_CASE("a ray that leaves with its phases evaluates nothing in the cell that 
         phases.set(room_id, glm::length(ray.origin) < 3 ? water : vacuum);
         phases.set(stone_id, vacuum);
         embree::Query query;
-        query.phases = phases;
+        query.carry(phases);
         RTCRayHit hit = embree::rayhit_of(ray.origin, ray.direction);
         embree::intersect(scene, query.context, hit);
         if (!embree::is_hit(hit) || !(ObjectInstance::of(hit.hit) == stone_id)) continue;
@@ -244,7 +249,7 @@ TEST_CASE("a ray that leaves with its phases evaluates nothing in the cell that 
         const Ray away{c.p_in, glm::reflect(ray.direction, normal.unit)};
         const auto counters = [&](const RayPhases& known, const embree::StartHint& start) {
             embree::Query leaving;
-            leaving.phases = known;
+            leaving.carry(known);
             leaving.start = start;
             RTCRayHit rest = embree::rayhit_of(away.origin, away.direction, 0, 2);
             embree::intersect(scene, leaving.context, rest);
@@ -268,7 +273,6 @@ TEST_CASE("phases of a ray: known by object, path and all, and of the rest what 
     RayPhases nothing, outside(vacuum);
     CHECK_FALSE(nothing.of(ObjectInstance{0}).has_value());
     CHECK(outside.of(ObjectInstance{0}) == vacuum);
-    // More than are kept without an allocation.
     for (unsigned i = 0; i < 20; ++i) {
         nothing.set(ObjectInstance{i}, Phase{static_cast<std::uint8_t>(i)});
         nothing.set(within(i, {7}), Phase{static_cast<std::uint8_t>(i + 20)});

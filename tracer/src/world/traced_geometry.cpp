@@ -87,7 +87,7 @@ TracedGeometry::TracedGeometry(const Scene& scene, const WorldOptions& options)
 // Whether the ray meets anything.
 bool TracedGeometry::trace(const Ray& ray, float far, embree::Query& query, RTCRayHit& hit,
                            PathCounters& counters) const {
-    query.phases.set(embree::ObjectInstance{object_id}, ray.phase);
+    query.elsewhere = ray.phase;  // the scene has one object
     query.start = ray.hint;
     hit = embree::rayhit_of(ray.origin, ray.direction, 0, far);
     embree::intersect(embree_.get(), query.context, hit);

@@ -10,8 +10,8 @@ Query& query_of(Context* context) {
 
 /// What the query knows of how its ray leaves this cell.
 template <class Arguments>
-std::optional<LeavingHint> departure_of(const Arguments& arguments, const Query& query, const ObjectInstance& object,
-                                        const RTCRay& ray, std::optional<Phase> carried) {
+std::optional<LeavingHint> leaving_hint_of(const Arguments& arguments, const Query& query, const ObjectInstance& object,
+                                           const RTCRay& ray, std::optional<Phase> carried) {
     const StartHint& start = query.start;
     if (start.cell != arguments.primID || ray.tnear != 0 || !(start.object == object)) return std::nullopt;
     const float along = glm::dot(start.gradient, query.seen.traced.direction);
@@ -25,9 +25,9 @@ std::optional<Crossing> search(const InterfaceCells& cells, const Arguments& arg
     try {
         if (!query.seen.is(ray)) query.seen = SeenRay::of(ray);
         const ObjectInstance object = ObjectInstance::of(*arguments.context, arguments.geomID);
-        const std::optional<Phase> carried = query.phases.of(object);
+        const std::optional<Phase> carried = RayPhases::find(query.media, query.elsewhere, object);
         return search_cell(cells, arguments.primID, query.seen, ray, carried,
-                           departure_of(arguments, query, object, ray, carried), query.counters);
+                           leaving_hint_of(arguments, query, object, ray, carried), query.counters);
     } catch (const std::bad_alloc&) {
         query.is_out_of_memory = true;
         return std::nullopt;

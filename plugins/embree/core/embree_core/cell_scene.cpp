@@ -22,11 +22,6 @@ bool is_within_range(const UnitRay& ray) {
     return ray.near >= 0 && ray.near < 1e18f && ray.near <= ray.far;
 }
 
-/// The scene has one object, so what a ray carries is its phase.
-void carry(Query& query, std::optional<Phase> phase) {
-    query.phases = RayPhases(phase);
-}
-
 }  // namespace
 
 CellScene::CellScene(RTCDevice device, std::shared_ptr<const InterfaceCells> cells)
@@ -49,7 +44,7 @@ CellScene::~CellScene() {
 std::optional<CellScene::Hit> CellScene::first_crossing(const UnitRay& ray, std::optional<Phase> carried) const {
     if (!is_within_range(ray)) return std::nullopt;
     Query query;
-    carry(query, carried);
+    query.elsewhere = carried;  // the scene has one object
     RTCRayHit rayhit = rayhit_of(ray.origin, ray.direction, ray.near, ray.far);
     intersect(scene_, query.context, rayhit);
     if (query.is_out_of_memory) throw std::bad_alloc();
@@ -60,7 +55,7 @@ std::optional<CellScene::Hit> CellScene::first_crossing(const UnitRay& ray, std:
 bool CellScene::any_crossing(const UnitRay& ray, std::optional<Phase> carried) const {
     if (!is_within_range(ray)) return false;
     Query query;
-    carry(query, carried);
+    query.elsewhere = carried;  // the scene has one object
     RTCRay embree_ray = ray_of(ray.origin, ray.direction, ray.near, ray.far);
     const bool is_occluded = occluded(scene_, query.context, embree_ray);
     if (query.is_out_of_memory && !is_occluded) throw std::bad_alloc();

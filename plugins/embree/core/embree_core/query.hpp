@@ -19,8 +19,10 @@ struct StartHint {
 /// CellGeometry::Options::rays_carry_phases.
 struct Query {
     Context context;
-    /// In: the phases that the ray is in, and how it starts.
-    RayPhases phases;
+    /// In: the phases that the ray is in, of the objects in `media`, which is the caller's, and of all others. With
+    /// neither every object takes the phase at the ray's start (RayPhases). And how the ray starts.
+    std::span<const Medium> media;
+    std::optional<Phase> elsewhere;
     StartHint start;
     /// Out: the crossing behind the last hit that an object reported, in that object's own space. If the ray's final
     /// hit is an object's, this is that hit's; the hit's primID is the cell, whose InterfaceCells::normal gives the
@@ -33,6 +35,13 @@ struct Query {
     SeenRay seen;
 
     Query() { initialise(context); }
+
+    /// The ray is in these phases, which must outlive the query.
+    void carry(const RayPhases& phases) {
+        media = phases.media();
+        elsewhere = phases.elsewhere();
+    }
+    void carry(RayPhases&&) = delete;
 };
 
 }  // namespace phasetree::embree

@@ -1,14 +1,20 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "embree_core/object_instance.hpp"
 #include "phasetree/model/phase.hpp"
 
 namespace phasetree::embree {
+
+/// That a ray is in a phase of an object.
+struct Medium {
+    ObjectInstance object;
+    Phase phase;
+};
 
 /// The phases that a ray is in, one for each object: the media that it carries from hit to hit. Objects may overlap; a
 /// hit changes the phase of its own object and of no other.
@@ -21,41 +27,30 @@ class RayPhases {
     explicit RayPhases(std::optional<Phase> elsewhere) : elsewhere_(elsewhere) {}
 
     /// The phase for an object; nothing where it is that at the ray's start.
-    std::optional<Phase> of(const ObjectInstance& object) const {
-        for (std::size_t i = 0; i < std::min(count_, few); ++i)
-            if (first_[i].object == object) return first_[i].phase;
-        for (const Medium& medium : more_)
-            if (medium.object == object) return medium.phase;
-        return elsewhere_;
-    }
+    std::optional<Phase> of(const ObjectInstance& object) const { return find(media_, elsewhere_, object); }
     /// From here on the ray is in this phase of an object.
     void set(const ObjectInstance& object, Phase phase) {
-        for (std::size_t i = 0; i < count_; ++i) {
-            Medium& medium = i < few ? first_[i] : more_[i - few];
-            if (medium.object == object) {
-                medium.phase = phase;
-                return;
-            }
-        }
-        if (count_ < few)
-            first_[count_] = {object, phase};
+        const auto known = std::ranges::find(media_, object, &Medium::object);
+        if (known == media_.end())
+            media_.push_back({object, phase});
         else
-            more_.push_back({object, phase});
-        ++count_;
+            known->phase = phase;
+    }
+
+    std::span<const Medium> media() const { return media_; }
+    std::optional<Phase> elsewhere() const { return elsewhere_; }
+
+    /// The phase of an object among media, or `elsewhere` if it is not among them.
+    static std::optional<Phase> find(std::span<const Medium> media, std::optional<Phase> elsewhere,
+                                     const ObjectInstance& object) {
+        for (const Medium& medium : media)
+            if (medium.object == object) return medium.phase;
+        return elsewhere;
     }
 
   private:
-    struct Medium {
-        ObjectInstance object;
-        Phase phase;
-    };
-    /// A ray is seldom within more objects at once; so many cost no allocation.
-    static constexpr std::size_t few = 4;
-
+    std::vector<Medium> media_;
     std::optional<Phase> elsewhere_;
-    std::size_t count_ = 0;
-    std::array<Medium, few> first_{};
-    std::vector<Medium> more_;
 };
 
 }  // namespace phasetree::embree
