@@ -1,4 +1,4 @@
-// Cells that may take no more than so much memory: coarser, slower, and as right as all others.
+// Cells with a limit of memory are coarser and slower, but as right as all others.
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
@@ -22,7 +22,7 @@ using namespace phasetree::tests;
 
 namespace {
 
-/// Three phases in blocks within a ball: cells are many, for what they are cut from is small.
+/// Three phases in blocks within a ball. There are many cells, because the blocks are small.
 Phased blocks(float size) {
     return IntersectShape{.of = Voronoi{.of_phases = {Phase{1}, Phase{2}, Phase{3}}, .size = size},
                           .shape = Sphere{.radius = 1}};
@@ -56,7 +56,7 @@ std::vector<Phased> objects() {
 
 }  // namespace
 
-TEST_CASE("whatever memory cells may take, they give the whole object's labels and crossings") {
+TEST_CASE("cells with any limit of memory give the labels and crossings of the whole object") {
     Random rng(35);
     Evaluator::Workspace w;
     Compared all;
@@ -84,7 +84,7 @@ TEST_CASE("whatever memory cells may take, they give the whole object's labels a
     CHECK(labels.wrong == 0);
 }
 
-TEST_CASE("cells within a budget take about that, say that they are coarser, and are the same by any threads") {
+TEST_CASE("cells within a budget take about that much, say that they are coarser, and do not depend on the threads") {
     const Phased object = blocks(0.25f);
     const InterfaceCells unlimited(object);
     CHECK(!unlimited.statistics().is_coarser);
@@ -105,28 +105,28 @@ TEST_CASE("cells within a budget take about that, say that they are coarser, and
     }
 }
 
-TEST_CASE("the building tells how much is done, one at a time, rising, and in the end that it is all") {
+TEST_CASE("a build reports its progress one call at a time, each time more than before, and 1 at the end") {
     for (const std::size_t bytes : {std::size_t{0}, std::size_t{1'000'000}}) {
-        std::vector<float> told;
+        std::vector<float> reports;
         std::atomic<int> inside{0};
         bool is_alone = true;
         const InterfaceCells cells(blocks(0.25f), {.progress =
                                                        [&](float done) {
                                                            is_alone = is_alone && ++inside == 1;
-                                                           told.push_back(done);
+                                                           reports.push_back(done);
                                                            --inside;
                                                        },
                                                    .most_bytes = bytes});
         CHECK(is_alone);
-        REQUIRE(told.size() > 10);
-        CHECK(std::ranges::is_sorted(told, std::less_equal<>()));  // each more than the one before
-        CHECK(told.front() > 0);
-        CHECK(told.front() < 0.5f);
-        CHECK(told.back() == 1);
+        REQUIRE(reports.size() > 10);
+        CHECK(std::ranges::is_sorted(reports, std::less_equal<>()));  // each more than the one before
+        CHECK(reports.front() > 0);
+        CHECK(reports.front() < 0.5f);
+        CHECK(reports.back() == 1);
     }
 }
 
-TEST_CASE("the building ends when it is told to, within a budget, too") {
+TEST_CASE("a build that is cancelled ends, also within a budget") {
     for (const std::size_t bytes : {std::size_t{0}, std::size_t{1'000'000}}) {
         std::atomic<int> asked{0};
         const int enough = 500;

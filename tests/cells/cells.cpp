@@ -1,5 +1,5 @@
-// Cells against the whole program: the same labels at points, valid distances. The whole program is itself held to set
-// algebra and analytic roots in tests/lib.
+// Cells are compared with the whole program: they must give the same labels and valid distances at points. The whole
+// program itself is compared with set algebra and analytic roots in tests/lib.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -60,7 +60,7 @@ TEST_CASE("a cell's program gives the whole object's labels in the cell and on i
     CHECK(wrong == 0);
 }
 
-TEST_CASE("endless copies are pruned as single ones are, away from the faces where space is folded") {
+TEST_CASE("away from the faces where space is folded, endless copies are pruned like single objects") {
     // Eleven instructions tell a phase of a copy; the fold of space, the guard above it and the cut are a few more.
     const Phased ball = Under{.of = {Set{.phase = Phase{1}, .of = Sphere{.radius = 0.2f}},
                                      Set{.phase = Phase{2}, .of = Box{.size = glm::vec3(0.15f, 0.15f, 0.5f)}},
@@ -80,7 +80,7 @@ TEST_CASE("endless copies are pruned as single ones are, away from the faces whe
     CHECK(d.wrong == 0);
 }
 
-TEST_CASE("two endless grids of one point do not vouch for each other's folds") {
+TEST_CASE("of two endless grids that fold the same point, one that does not jump says nothing of the other") {
     const Phased object = read_tree(Document::from_text(R"({
         "version": 1,
         "phases": {"a": {"diffuse": {"color": [1, 1, 1]}}, "b": {"diffuse": {"color": [1, 1, 1]}}},
@@ -102,7 +102,7 @@ TEST_CASE("two endless grids of one point do not vouch for each other's folds") 
     CHECK(d.wrong == 0);
 }
 
-TEST_CASE("no interface passes outside the cells") {
+TEST_CASE("every interface is inside a cell") {
     Random rng(11);
     const Phased object = hourglass();
     const InterfaceCells cells(object);

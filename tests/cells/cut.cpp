@@ -1,5 +1,5 @@
-// Cells' boxes are cut to where interfaces can be, by the sides that meet at an edge and by set algebra; what cancels
-// has none. That they hold every interface is for the comparisons of rays (cells.cpp), and for random points here.
+// Boxes of cells are cut to where interfaces can be, by the fields that meet at an edge and by set algebra. That cells
+// hold every interface is tested with random points here, and by the comparisons of rays in rays.cpp.
 #include <doctest/doctest.h>
 
 #include <glm/trigonometric.hpp>
@@ -38,7 +38,7 @@ double surface(const Bounds& box) {
     return e.x * e.y + e.y * e.z + e.z * e.x;
 }
 
-/// Between points of different labels in a box, where the label changes.
+/// Places where the label changes, each between two random points of a box with different labels.
 struct Changes {
     std::size_t all = 0, outside = 0;
 };
@@ -72,7 +72,7 @@ Changes changes_of(const InterfaceCells& cells, const Bounds& box, PhaseSet opaq
 
 }  // namespace
 
-TEST_CASE("wherever the label changes is a cell") {
+TEST_CASE("there is a cell wherever the label changes") {
     Random rng(31);
     Changes all;
     for (int i = 0; i < (long_tests() ? 2000 : 50); ++i) {
@@ -91,7 +91,7 @@ TEST_CASE("wherever the label changes is a cell") {
     CHECK(all.all > 1500);
 }
 
-TEST_CASE("a cut asks for every kind of field away from zero, too") {
+TEST_CASE("every kind of field is cut correctly at thresholds other than zero") {
     Random rng(33);
     std::size_t changes = 0, kinds = 0;
     for (const NodeKind& kind : node_kinds()) {
@@ -125,7 +125,7 @@ TEST_CASE("a cut asks for every kind of field away from zero, too") {
     CHECK(changes > 10'000);
 }
 
-TEST_CASE("boxes in which bumps meet the skin end with them") {
+TEST_CASE("boxes in which bumps meet the skin end where the bumps end") {
     const Phased object = read_tree(Document::from_file(source_directory() + "/scenes/tentacle.json")).object;
     const InterfaceCells cells(object, {.opaque = {phases(object).bits & ~std::uint64_t{1}}});
     double sum = 0;
@@ -135,7 +135,7 @@ TEST_CASE("boxes in which bumps meet the skin end with them") {
     CHECK(sum < 105);  // 95; 116 if boxes are cut by the whole distance's linear bound alone
 }
 
-TEST_CASE("a gem's many facets are each asked a few times, and its cells are around it") {
+TEST_CASE("each of a gem's many facets is visited a few times, and the cells lie close around the gem") {
     const glm::vec3 centre(0.9f, 0.8f, 0.7f);
     Intersection gem{{Sphere{.radius = 2}}};
     constexpr int facets = 24;

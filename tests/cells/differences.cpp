@@ -1,6 +1,6 @@
-// Solids that continue each other, such as the links of a bent arm: near a joint their distances and gradients are
-// nearly the same, and which of them is nearer is told by their difference alone. What is pruned for it must not move
-// the surface, and must be most of what can go.
+// Near a joint of two solids that continue each other, such as the links of a bent arm, their distances and gradients
+// are nearly the same, and only an enclosure of their difference proves which of them is nearer. Pruning by that must
+// not move the surface, and must delete most of what can be deleted.
 
 #include <doctest/doctest.h>
 
@@ -71,7 +71,7 @@ void check_totals(const Compared& all) {
 
 }  // namespace
 
-TEST_CASE("links of an arm are told apart by their difference, and rays meet what they meet of the whole") {
+TEST_CASE("links of an arm are pruned by their difference, and rays meet what they meet of the whole arm") {
     Random rng(37);
     Compared all;
     for (int n = 0; n < (long_tests() ? 3000 : 120); ++n) {
@@ -93,7 +93,7 @@ TEST_CASE("links of an arm are told apart by their difference, and rays meet wha
     check_totals(all);
 }
 
-TEST_CASE("a shallow dome and its plate are told apart by how the dome bends, as far as it does") {
+TEST_CASE("a shallow dome and its plate are pruned by the curvature of the dome") {
     Random rng(38);
     Compared all;
     for (int n = 0; n < (long_tests() ? 3000 : 200); ++n) {
@@ -116,7 +116,7 @@ TEST_CASE("a shallow dome and its plate are told apart by how the dome bends, as
     check_totals(all);
 }
 
-TEST_CASE("of an arm of many short links cells have three") {
+TEST_CASE("cells of an arm of many short links have three links") {
     const Arm arm{.links = 48};
     const Field solid = arm.joined([](const Field& a, const Field& b) { return Union{{a, b}}; });
     const CellStatistics cells = InterfaceCells(Set{.phase = Phase{1}, .of = solid}).statistics();

@@ -1,4 +1,5 @@
-// Solids displaced by noise, whose cells know its slope and how it bends: rays must find what marching the whole finds.
+// Solids are displaced by noise, of which cells know slope and curvature: rays must find what marching through the
+// whole object finds.
 #include <doctest/doctest.h>
 
 #include "phasetree/cells/cells.hpp"
@@ -27,7 +28,7 @@ TEST_CASE("rays through cells of displaced solids find what marching through the
     CHECK(all.different == 0);
 }
 
-TEST_CASE("cells of a displaced solid are without the bounds that tell more from afar") {
+TEST_CASE("the programs of a displaced solid's cells have no far bounds") {
     const InterfaceCells cells(Set{
         .phase = Phase{1},
         .of =

@@ -165,12 +165,12 @@ TEST_CASE("a box's own point is made ready as any affine point is") {
         const auto is_same = [](const Dual& a, const Dual& b) {
             return a.value() == b.value() && a.gradient() == b.gradient();
         };
-        CHECK(is_same(own.number.x, any->number.x));
-        CHECK(is_same(own.number.y, any->number.y));
-        CHECK(is_same(own.number.z, any->number.z));
+        CHECK(is_same(own.at_centre.x, any->at_centre.x));
+        CHECK(is_same(own.at_centre.y, any->at_centre.y));
+        CHECK(is_same(own.at_centre.z, any->at_centre.z));
         CHECK(own.squared_stretch == any->squared_stretch);
-        CHECK(own.size == any->size);
-        CHECK(own.reach == any->reach);
+        CHECK(own.largest_coordinate == any->largest_coordinate);
+        CHECK(own.radius == any->radius);
     }
 }
 

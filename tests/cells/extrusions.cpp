@@ -1,5 +1,5 @@
-// Pruning through the corner of a profile and a height: cells keep the whole object's labels on either side of every
-// threshold that an offset or a shell puts to the corner, and their distances stay bounds.
+// Pruning through the corner of a profile and a height: cells give the labels of the whole object on either side of
+// every threshold at which an offset or a shell needs the corner, and their distances stay lower bounds.
 #include <doctest/doctest.h>
 
 #include "phasetree/cells/cells.hpp"

@@ -25,7 +25,7 @@
 using namespace phasetree;
 using namespace phasetree::tests;
 
-using cells::CellsFileHeader, cells::CellTables, cells::Checksum, cells::InterfaceCell, cells::what_is_unsound;
+using cells::CellsFileHeader, cells::CellTables, cells::Checksum, cells::InterfaceCell, cells::describe_damage;
 
 namespace {
 
@@ -38,7 +38,7 @@ bool is_long() {
     return value && *value == '1';
 }
 
-// A folder of the test's own, gone behind it.
+// A folder of the test's own, which is removed after it.
 class Folder {
   public:
     Folder() {
@@ -127,7 +127,7 @@ int differing_cells(const InterfaceCells& a, const InterfaceCells& b) {
     return differing;
 }
 
-// Why a file is refused; nothing if it is not.
+// The reason for which a file is refused; nothing if it is accepted.
 std::optional<Reason> refusal(const fs::path& path, const Phased& object, const CellOptions& options = few,
                               std::string* message = nullptr) {
     try {
@@ -150,7 +150,7 @@ void set_header(Bytes& file, CellsFileHeader h) {
     h.header_checksum = h.own_checksum();
     std::memcpy(file.data(), &h, sizeof h);
 }
-// Makes a changed file's checksums right.
+// Corrects the checksums of a file that was changed.
 void forge(Bytes& file) {
     CellsFileHeader h = header_of(file);
     constexpr std::array<std::size_t, CellsFileHeader::sections> size{64, 24, 16, 12, 4, 16, 4, 4};
@@ -264,7 +264,7 @@ TEST_CASE("a file of other cells is refused, and says in what it differs") {
     with([](CellsFileHeader& h) { h.byte_order = 0x04030201; }, "byte order");
 }
 
-TEST_CASE("cells that have all the memory they want are those that more of it gives; others are not") {
+TEST_CASE("a file of cells is accepted with a higher limit of memory if the limit did not make them coarser") {
     const CellOptions roomy{.most_bytes = 1 << 28}, tight{.most_bytes = 1 << 18};
     const auto with = [](std::size_t bytes) { return CellOptions{.most_bytes = bytes}; };
     const Written all(roomy), less(tight);
@@ -279,7 +279,7 @@ TEST_CASE("cells that have all the memory they want are those that more of it gi
         CHECK(refusal(less.path, less.object, with(bytes)) == Reason::differing);
 }
 
-TEST_CASE("what is no file of cells") {
+TEST_CASE("a file of another kind is refused as foreign") {
     const Written w;
     CHECK(refusal(w.folder / "nothing", w.object) == Reason::missing);
     CHECK(refusal(w.folder / "cells/below", w.object) == Reason::missing);
@@ -308,7 +308,7 @@ TEST_CASE("a file that ends too early is refused wherever it ends") {
     }
 }
 
-TEST_CASE("a changed byte is found, every one of them") {
+TEST_CASE("every changed byte is found") {
     const Written w;
     MESSAGE(w.bytes.size(), " bytes");
     Random rng(23);
@@ -323,7 +323,7 @@ TEST_CASE("a changed byte is found, every one of them") {
     }
 }
 
-TEST_CASE("no counts make more be allocated than the file has") {
+TEST_CASE("no count in a header makes more memory be allocated than the file has bytes") {
     const Written w;
     for (std::size_t i = 0; i < CellsFileHeader::sections; ++i) {
         for (const std::uint64_t count : {~std::uint64_t{0}, std::uint64_t{1} << 62, std::uint64_t{1} << 32,
@@ -397,12 +397,12 @@ std::string unsound(const Program& program, std::uint32_t op, std::uint32_t data
     t.routines.data = {data};
     t.cells = {InterfaceCell{}};
     t.first_certificate = {0, 0};
-    return what_is_unsound(t, program);
+    return describe_damage(t, program);
 }
 
 }  // namespace
 
-TEST_CASE("a primitive with data takes none but its own of the object, or a list that is all there") {
+TEST_CASE("a primitive with data may refer to its own data in the object, or to a complete list of sites") {
     const Program polygon = record(various());
     int found = 0;
     for (const Instruction& in : polygon.instructions) {

@@ -1,5 +1,5 @@
-// A ray's search ends whatever the resolution: also one that is finer than floats are apart, which no object is
-// given (TraceableObject); below 10⁻²⁰ of the ray even the coarsening of creeping rays comes to its end.
+// A ray's search ends at any resolution, also at one that is finer than the spacing of floats, which no object is given
+// (TraceableObject). Below 10⁻²⁰ of the ray's length not even the growing steps of creeping rays move it.
 #include <doctest/doctest.h>
 
 #include "evaluation/assemble.hpp"

@@ -1,5 +1,5 @@
-// The gallery's objects, which have nodes of all kinds at their real sizes: over their cells, every interface of the
-// whole object and no other.
+// The objects of the gallery have nodes of all kinds at their real sizes: rays must find every interface of the whole
+// object in their cells, and no other.
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -31,9 +31,10 @@ TEST_CASE("the nearest crossing over all cells is the whole object's in the gall
     CHECK(all.crossings > all.rays);
 }
 
-// Dividing a box that is larger than the bumps of its noise wins nothing at first. Where it was given up, boxes of more
-// than two bumps of the scoops had 29 % of all cells' surface, which is how many rays visit them; now 17 %.
-TEST_CASE("boxes larger than the bumps of their noise are divided on") {
+// The division of a box that is larger than the bumps of its noise saves nothing at first. When such boxes were not
+// divided further, those of more than two bumps had 29 % of the surface of all cells of the scoops, and so as many of
+// the visits of rays; now they have 17 %.
+TEST_CASE("boxes larger than the bumps of their noise are divided further") {
     const InterfaceCells cells(read_tree(Document::from_file(source_directory() + "/scenes/ice_cup.json")).object);
     double all = 0, large = 0;
     for (std::size_t i = 0; i < cells.size(); ++i) {

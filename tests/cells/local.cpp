@@ -32,8 +32,8 @@ Field blocks(Random& rng) {
                         .seed = static_cast<float>(rng.below(289))};
 }
 
-/// One pattern at several places: what is known of one must not be taken for the other's. A twisted bar among them is
-/// told to be away only where values are enclosed, so that the patterns are enclosed again without it.
+/// One pattern at several places, whose specialisations must not be taken for each other's. Only enclosures prove that
+/// a twisted bar among them is away, so the patterns are enclosed a second time without it.
 Phased several(Random& rng) {
     const Field pattern = blocks(rng);
     const Field moved = warped(Translate{.by = 0.3f * rng.direction()}, pattern);

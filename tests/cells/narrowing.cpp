@@ -1,4 +1,4 @@
-// How soon a change of label is found: where it is predicted, by how the distance curves along the ray.
+// A change of label is found in few batches if the bounds of curvature along the ray predict where it is.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@
 using namespace phasetree;
 using namespace phasetree::tests;
 
-TEST_CASE("a ray finds where it enters a ball in few batches, because it is told how the distance curves") {
+TEST_CASE("a ray finds where it enters a ball in few batches, because it knows a bound of the distance's curvature") {
     const InterfaceCells cells(Phased(Set{.phase = Phase{1}, .of = Sphere{.radius = 1}}));
     Random rng(3);
     TraceCounters counters;
@@ -34,7 +34,7 @@ TEST_CASE("a ray finds where it enters a ball in few batches, because it is told
     CHECK(batches < 2.1);
 }
 
-TEST_CASE("where the bend of the distance tells the crossing, the bracket holds it") {
+TEST_CASE("a bracket that follows from the curvature of the distance holds the crossing") {
     const double radius = 1;
     const InterfaceCells cells(Phased(Set{.phase = Phase{1}, .of = Sphere{.radius = 1}}), {.deepest = 3});
     Random rng(5);

@@ -1,4 +1,4 @@
-// What is known of a neural field in a box, against the field itself, along lines, in double.
+// The bounds of a neural field in a box are compared with the field itself, along lines and in doubles.
 #include "bounding/network_in_box.hpp"
 
 #include <doctest/doctest.h>
@@ -61,7 +61,8 @@ OnLine along(const SirenNetwork& network, const glm::dvec3& p, const glm::dvec3&
     return now[0];
 }
 
-/// Along lines of all directions the second derivative is between these: the eigenvalues of what it is along six.
+/// The range of the second derivative along lines of all directions: the eigenvalues of the matrix that follows from
+/// its values along six.
 Range bends(const SirenNetwork& network, const glm::dvec3& p) {
     const auto on = [&](const glm::dvec3& d) { return along(network, p, d).bend; };
     glm::dmat3 h(0);
@@ -86,7 +87,7 @@ struct CellBuffer {
     std::size_t points = 0, outside = 0, steep = 0, bent = 0;
 };
 
-/// Looks at points of a box that is so many times as large as the one of which the bounds speak.
+/// Compares points of a box that is `larger` times as large as the one for which the bounds hold.
 CellBuffer look(double larger, double& slack) {
     Random rng(211);
     CellBuffer found;
@@ -105,7 +106,7 @@ CellBuffer look(double larger, double& slack) {
             for (std::size_t i = 0; i < 3; ++i) most += f.gradients[i].magnitude() * half[static_cast<int>(i)] * larger;
             double highest = -Range::most, lowest = Range::most;
             for (int point = 0; point < 24; ++point) {
-                // Corners, where there is most to see, and others.
+                // Half of the coordinates are those of corners, where the field departs most from the centre's.
                 const auto one = [&] { return rng.chance(0.5) ? (rng.chance(0.5) ? 1 : -1) : rng.uniform(-1, 1); };
                 const glm::dvec3 p = centre + larger * half * glm::dvec3(one(), one(), one());
                 const double rounding = 1e-9 * (1 + f.curvature.magnitude());
@@ -140,7 +141,7 @@ CellBuffer look(double larger, double& slack) {
 
 }  // namespace
 
-TEST_CASE("a neural field's values, gradients and curvatures in a box are within what is known of them") {
+TEST_CASE("a neural field's values, gradients and curvatures in a box are within their bounds") {
     double slack = 0;
     const CellBuffer found = look(1, slack);
     CHECK(found.outside == 0);

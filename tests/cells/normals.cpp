@@ -1,4 +1,4 @@
-// Cells' normals, as those of whole programs: tests/lib/normals.cpp.
+// The normals that cells give, tested as those of whole programs are in tests/lib/normals.cpp.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@ using namespace phasetree::tests;
 
 namespace {
 
-/// Calls found(cell, crossing) for the cells that hold a crossing and find it.
+/// Calls found(cell, crossing) for each cell that holds a crossing and finds it.
 template <class CellBuffer>
 void each_cell(const InterfaceCells& cells, const Crossing& c, const glm::vec3& d, CellBuffer&& found) {
     const float size = cells.bounds().diagonal();

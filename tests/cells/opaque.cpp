@@ -1,4 +1,4 @@
-// Where an opaque object's phases meet no ray is, so rays outside find its cells as if it were of one.
+// No ray is where the phases of an opaque object meet, so the cells that rays outside find are those of one phase.
 #include <doctest/doctest.h>
 
 #include <fstream>
@@ -75,8 +75,8 @@ TEST_CASE("an opaque object's inner interfaces cost the rays outside nothing") {
     compare("hourglass", BuildQuality::medium, 1.15, 1.01);
 }
 
-// There labels are known with the first samples, and how the surface bends tells where it is crossed; but on
-// the way from there to the next sample the label may have changed again.
+// The first samples know the labels here, and the surface's curvature tells where it is crossed; but between that place
+// and the next sample the label may have changed again.
 TEST_CASE("a neural field cut by a fine checker has the phase at its surface") {
     std::ifstream file(source_directory() + "/scenes/bunny.json");
     std::string text(std::istreambuf_iterator<char>(file), {});
@@ -94,8 +94,8 @@ TEST_CASE("a neural field cut by a fine checker has the phase at its surface") {
     CHECK(all.different == 0);
 }
 
-// Where three phases and more meet a ray in the vacuum asks for its component alone, and for the label behind a
-// crossing anew.
+// Where more than two phases meet, a ray in the vacuum evaluates the vacuum's component alone, and the label behind a
+// crossing by another evaluation.
 TEST_CASE("opaque layers of a blob have the phase at its surface") {
     const Phased object = read_tree(Document::from_file(source_directory() + "/scenes/blob.json")).object;
     Random rng(5);

@@ -1,5 +1,5 @@
-// Long chains of operators: what is demanded of a value goes down through all of them, and what it leaves of a chain
-// must be the same solid, and most of what can go.
+// Required intervals reach down through long chains of operators: what pruning leaves of a chain must be the same
+// solid, and must be without most of what can be deleted.
 
 #include <doctest/doctest.h>
 
@@ -135,7 +135,7 @@ TEST_CASE("what is left of long chains of all operators has the same labels, and
     CHECK(rays.crossings > rays.rays);
 }
 
-TEST_CASE("far links of a chain go, though each is too near the next one to be told from it") {
+TEST_CASE("far links of a chain are pruned, though each is too near to the next to be told from it by value") {
     // Boxes are small beside the chain and large beside a link's length.
     constexpr int links = 192;
     constexpr float length = 6.f / links;

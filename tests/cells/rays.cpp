@@ -1,4 +1,4 @@
-// Rays through cells against rays through the whole program: the same interfaces.
+// Rays through cells must find the same interfaces as rays through the whole program.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
-// Pruning by what is demanded, of random programs in which every operation stands below every other one: what is left
-// in a ball must have the same sign there. Trees reach few of these pairs, and rarely where one can go.
+// Pruning by required intervals is tested on random programs in which every operation is an operand of every other one:
+// what is left of a program in a ball must have the same sign there. Trees contain few of these pairs of operations,
+// and rarely one of which something can be pruned.
 
 #include <doctest/doctest.h>
 
@@ -19,7 +20,7 @@ using namespace phasetree::tests;
 
 using program::ProgramOutput;
 using pruning::prune, pruning::RangesInBall;
-using rewriting::Arena, rewriting::ArenaScope, rewriting::WorkingProgram;
+using rewriting::Arena, rewriting::ArenaScope, rewriting::ProgramContext, rewriting::WorkingProgram;
 
 namespace {
 
@@ -28,7 +29,7 @@ constexpr Op op_of() {
     return static_cast<Op>(static_cast<std::size_t>(Op::first_primitive) + index_in<P>(Primitives()));
 }
 
-/// One number and its sign are told, as where two phases meet.
+/// A program with one number, from whose sign two phases follow.
 struct RandomProgram {
     std::vector<Instruction> code{Instruction{}};
     std::vector<float> constants, lipschitz{1};
@@ -63,7 +64,7 @@ struct RandomProgram {
         lipschitz.push_back(slope);
     }
     void add_operation(Random& rng) {
-        // Mostly of what was made last, so that little is left out.
+        // One operand is mostly a late value, so that few values have no use.
         const auto size = static_cast<int>(code.size());
         const auto any = [&] { return static_cast<std::uint32_t>(1 + rng.below(size - 1)); };
         const std::uint32_t late = static_cast<std::uint32_t>(size - 1 - rng.below(std::min(size - 1, 3)));
@@ -107,7 +108,7 @@ struct RandomProgram {
     }
 };
 
-/// By the equations, one instruction after the other.
+/// The values of a program at a point, by the equations of its operations.
 std::vector<float> values(std::span<const Instruction> code, std::span<const float> constants, const glm::vec3& p) {
     const Vec3<float> at{p.x, p.y, p.z};
     std::vector<float> v(code.size());
@@ -144,7 +145,7 @@ TEST_CASE("what is left of a program in a ball has its sign there, whatever stan
     const int programs = long_tests() ? 2'000'000 : 200'000;
     std::size_t shortened = 0, gone = 0, points = 0, wrong = 0;
     int first_wrong = -1;
-    Arena keep, scratch;
+    Arena results, scratch;
     for (int n = 0; n < programs; ++n) {
         Random rng(51'000 + static_cast<unsigned>(n));
         const RandomProgram program(rng);
@@ -152,7 +153,7 @@ TEST_CASE("what is left of a program in a ball has its sign there, whatever stan
         const std::vector<float> at_centre = values(program.code, program.constants, centre);
         const float steep = program.lipschitz.back(), off = std::abs(at_centre.back());
         if (!(steep > 0 && steep < 50)) continue;
-        // Just so large that a sign may change in it.
+        // The ball is so large that the sign may change in it.
         const float radius = std::min(off / steep * std::exp2(rng.uniform(0, 3)) + 0.01f, 1.f);
         std::vector<BatchOfFloats> registers(program.code.size());
         std::vector<std::uint32_t> slot(program.code.size());
@@ -160,9 +161,11 @@ TEST_CASE("what is left of a program in a ball has its sign there, whatever stan
             registers[i].lane[0] = at_centre[i];
             slot[i] = static_cast<std::uint32_t>(i);
         }
-        const ArenaScope kept(keep), used(scratch);
+        const ArenaScope results_of_this(results), scratch_of_this(scratch);
         const RangesInBall ranges{{registers.data(), slot, 0}, program.lipschitz, radius, rounding};
-        const auto left = prune(program.working(), program.constants, ranges, {}, keep, scratch);
+        const WorkingProgram whole = program.working();
+        const ProgramContext context(whole, program.constants, {}, rounding);
+        const auto left = prune(whole, ranges, context, {results, scratch});
         if (!left) ++gone;
         if (left && left->code.size() < program.code.size()) ++shortened;
         float only = 0;
@@ -170,7 +173,7 @@ TEST_CASE("what is left of a program in a ball has its sign there, whatever stan
             const glm::vec3 p = centre + radius * std::cbrt(rng.uniform(0, 1)) * rng.direction();
             const float expected = values(program.code, program.constants, p).back();
             if (std::abs(expected) < rounding) continue;
-            // Where nothing is left, one sign: that of the first point, for at the centre it may be zero.
+            // Where nothing is left, there is one sign: that of the first point, for the centre's value may be zero.
             if (only == 0) only = expected;
             float found = only;
             if (left) {

@@ -1,6 +1,6 @@
-// Where a cell's field has no curvature that bounds it, at the edges of convex solids: rays near them must take few
-// batches, and miss nothing. That nothing is missed anywhere is for tests/embree/crossings.cpp; here are solids that
-// nearly touch, which a certificate that is too bold passes between.
+// At the edges of convex solids a cell's field has no bound of its curvature. With certificates rays near them must
+// take few batches and miss nothing. Here solids nearly touch, and a certificate that proves too much would pass
+// between them; all other solids are for tests/embree/crossings.cpp.
 
 #include <doctest/doctest.h>
 
@@ -81,7 +81,7 @@ Field edges(Random& rng) {
 
 }  // namespace
 
-TEST_CASE("rays along what bends beside edges, and along rounded edges, meet what the whole object's rays meet") {
+TEST_CASE("rays along curved surfaces beside edges, and along rounded edges, meet what rays meet of the whole object") {
     Random rng(34);
     Compared all;
     for (int n = 0; n < (long_tests() ? 4000 : 150); ++n) {
@@ -144,7 +144,7 @@ TEST_CASE("a ray that grazes a ball beside its crease with a plate meets it") {
     CHECK(all.crossings > 2 * all.rays);
 }
 
-TEST_CASE("a ray that grazes a dome beside what cuts it meets it, where bounds are nearly the curvature that it has") {
+TEST_CASE("a ray that grazes a dome beside its cut meets it, where the bounds of curvature are nearly exact") {
     Random rng(36);
     Evaluator::Workspace w;
     Compared all;
@@ -187,7 +187,7 @@ TEST_CASE("a ray that grazes a dome beside what cuts it meets it, where bounds a
     CHECK(all.crossings > 2 * all.rays);
 }
 
-TEST_CASE("near edges rays take few batches, and meet what the whole object's rays meet") {
+TEST_CASE("near edges rays take few batches, and meet what rays meet of the whole object") {
     Random rng(31);
     std::size_t rays = 0, crossings = 0, different = 0;
     TraceCounters all;

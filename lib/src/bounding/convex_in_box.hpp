@@ -7,83 +7,88 @@
 #include "phasetree/math/dual.hpp"
 #include "phasetree/model/concepts.hpp"
 
+/// The distance to a rounded convex solid in a box, by its value and gradient at the centre alone. If a ball of radius
+/// ρ touches the surface from inside wherever that is nearest to a point of the box, the distance f bends no more than
+/// the distance to that ball: along straight lines of unit speed
+///     0 ≤ f″ ≤ 1/(f + ρ).
+/// This is both tighter and faster than interval arithmetic through the solid's equation.
 namespace phasetree::bounding {
 
 using enclosure::Enclosure, enclosure::limited;
 
-/// A point that is an affine function of a box's points: what convex solids need of it, worked out once for all of
-/// them.
+/// A point that is an affine function of a box's points, with what enclose_convex() needs of it. Many solids are given
+/// the same point, so this is computed once for all of them.
 struct AffinePoint {
-    Vec3<Dual> number;  ///< at the box's centre
-    glm::dvec3 centre;
-    double size;                      ///< of the centre's largest coordinate
-    double squared_stretch, stretch;  ///< of its Jacobian at most
-    Enclosure::Vector half;           ///< the box's half extents,
-    double squared_reach, reach;      ///< and how long they are
+    Vec3<Dual> at_centre;  ///< the point and its Jacobian at the box's centre, in floats
+    glm::dvec3 centre;     ///< the same point in doubles
+    double largest_coordinate;
+    double squared_stretch, stretch;  ///< a bound of the Jacobian's norm
+    Enclosure::Vector half;           ///< the half extents of the box
+    double squared_radius, radius;    ///< half of the box's diagonal
 
-    /// A box's own.
+    /// The point of the box itself.
     static AffinePoint of_box(const glm::dvec3& centre, const Enclosure::Vector& half) {
-        const auto number = [&](int i) {
+        const auto coordinate = [&](int i) {
             return Dual(static_cast<float>(centre[i]), i == 0 ? 1.f : 0.f, i == 1 ? 1.f : 0.f, i == 2 ? 1.f : 0.f);
         };
-        return {{number(0), number(1), number(2)}, centre, 1, half};
+        return {{coordinate(0), coordinate(1), coordinate(2)}, centre, 1, half};
     }
-    /// Nothing if it is not affine.
+    /// Nothing if the point is not affine.
     static std::optional<AffinePoint> of(const Vec3<Enclosure>& q, const Enclosure::Vector& half) {
         const std::array<const Enclosure*, 3> x{&q.x, &q.y, &q.z};
         if (!enclosure::detail::are_affine(x)) return std::nullopt;
-        const auto number = [](const Enclosure& e) {
+        const auto coordinate = [](const Enclosure& e) {
             return Dual(static_cast<float>(e.centre), static_cast<float>(e.gradient[0].low),
                         static_cast<float>(e.gradient[1].low), static_cast<float>(e.gradient[2].low));
         };
         const glm::dvec3 centre(q.x.centre, q.y.centre, q.z.centre);
-        return AffinePoint({number(q.x), number(q.y), number(q.z)}, centre,
+        return AffinePoint({coordinate(q.x), coordinate(q.y), coordinate(q.z)}, centre,
                            enclosure::detail::squared_stretch_of_affine(x), half);
     }
 
   private:
-    AffinePoint(const Vec3<Dual>& q, const glm::dvec3& c, double stretched, const Enclosure::Vector& h)
-        : number(q),
+    AffinePoint(const Vec3<Dual>& q, const glm::dvec3& c, double squared_norm, const Enclosure::Vector& h)
+        : at_centre(q),
           centre(c),
-          size(std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)})),
-          squared_stretch(stretched),
-          stretch(std::sqrt(stretched)),
+          largest_coordinate(std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)})),
+          squared_stretch(squared_norm),
+          stretch(std::sqrt(squared_norm)),
           half(h),
-          squared_reach(h[0] * h[0] + h[1] * h[1] + h[2] * h[2]),
-          reach(std::sqrt(squared_reach)) {}
+          squared_radius(h[0] * h[0] + h[1] * h[1] + h[2] * h[2]),
+          radius(std::sqrt(squared_radius)) {}
 };
 
-/// The distance to a convex solid by its value and gradient at the box's centre, into e; false if its skeleton is too
-/// near. With a ball of radius ρ inside, where it touches the surface, f bends no more than the distance to that ball:
-/// along straight lines of unit speed 0 ≤ f″ ≤ 1/(f + ρ).
+/// Writes the enclosure of a solid's distance to `result`. False if the box may hold centres of these balls, where the
+/// distance has no bound of its second derivative.
 ///
-/// Value and gradient are computed in floats, because that is where boxes' time goes; so is waiting for a copy of what
-/// was just written number by number, hence e.
+/// Value and gradient are computed in floats because most of the time of an enclosure goes there. The result is written
+/// in place, because to copy it right after it was written number by number would stall the processor.
 template <RoundedPrimitive P>
-bool enclose_convex(const P& solid, const AffinePoint& at, Enclosure& e) {
-    const Dual f = solid.distance(at.number);
+bool enclose_convex(const P& solid, const AffinePoint& point, Enclosure& result) {
+    const Dual f = solid.distance(point.at_centre);
     const glm::dvec3 slope(f.gradient());
     const auto value = static_cast<double>(f.value());
 
-    // Convex: nowhere below the plane that touches it at the centre.
-    double below = 0;
-    for (std::size_t i = 0; i < 3; ++i) below += std::abs(slope[static_cast<int>(i)]) * at.half[i];
-    const double nearest = value - below + solid.rolling_radius(at.centre, at.stretch * at.reach);
-    if (!(nearest > 0)) return false;
-    const double inverse = 1 / nearest, bend = at.squared_stretch * inverse;
-    // What floats lose, of the centre and of the gradient itself.
-    const double lost = at.stretch * (4e-7 * at.size * inverse + 1e-6);
+    // A convex function is nowhere below its tangent plane at the centre.
+    double drop = 0;
+    for (std::size_t i = 0; i < 3; ++i) drop += std::abs(slope[static_cast<int>(i)]) * point.half[i];
+    const double least_radius = value - drop + solid.rolling_radius(point.centre, point.stretch * point.radius);
+    if (!(least_radius > 0)) return false;
+    const double inverse = 1 / least_radius, curvature = point.squared_stretch * inverse;
+    // A bound of the rounding error of the gradient: by that of the centre's coordinates, and its own.
+    const double rounding = point.stretch * (4e-7 * point.largest_coordinate * inverse + 1e-6);
 
-    e.centre = value;
-    e.value = limited(value - below, value + below + 0.5 * bend * at.squared_reach);
+    result.centre = value;
+    result.value = limited(value - drop, value + drop + 0.5 * curvature * point.squared_radius);
     for (std::size_t i = 0; i < 3; ++i) {
         const double g = slope[static_cast<int>(i)];
-        // By second derivatives whose eigenvalues are within bend/2 of bend/2.
-        const double turn = 0.5 * bend * (at.half[i] + at.reach) + lost;
-        e.gradient[i] = limited(g - turn, g + turn);
-        e.centre_gradient[i] = g;
+        // The eigenvalues of the second derivatives are between 0 and `curvature`: they are half of that times the
+        // identity, and a matrix whose norm is no more than half of it.
+        const double change = 0.5 * curvature * (point.half[i] + point.radius) + rounding;
+        result.gradient[i] = limited(g - change, g + change);
+        result.centre_gradient[i] = g;
     }
-    e.set_curvature(limited(0, bend));
+    result.set_curvature(limited(0, curvature));
     return true;
 }
 

@@ -11,64 +11,71 @@ using rewriting::ArenaScope, rewriting::Threshold;
 
 namespace {
 
-/// Where a value is, of a threshold; the threshold itself is on both sides.
+/// Where a value is compared with a threshold. The threshold itself belongs to all three.
 enum class Side { below, at, above };
 
-Side mirrored(Side side) {
+Side reversed(Side side) {
     return side == Side::below ? Side::above : side == Side::above ? Side::below : Side::at;
 }
 
+/// The set of points on one side of a threshold τ: {v ≤ τ}, {v = τ} or {v ≥ τ}.
+struct LevelSet {
+    std::uint32_t value;
+    Side side;
+    float tau;
+};
+
+/// Finds boxes around level sets by recursion from a value to its operands.
 class Cutter {
   public:
-    Cutter(const Bounds& box, const WorkingProgram& program, std::span<const float> constants,
-           const Enclosure* registers, std::span<const std::uint32_t> slot, float rounding, Arena& scratch)
-        : program_(program),
-          constants_(constants),
-          registers_(registers),
-          slot_(slot),
-          middle_(box.centre()),
-          margin_(cut_margin(box, rounding)),
-          planes_(scratch.take<Plane>(program.code.size())) {
-        const glm::dvec3 half = 0.5 * glm::dvec3(box.extent());
+    Cutter(const EnclosedProgram& enclosed, Arena& scratch)
+        : enclosed_(enclosed),
+          middle_(enclosed.box.centre()),
+          margin_(cut_margin(enclosed.box, enclosed.context->rounding)),
+          planes_(scratch.allocate<Plane>(enclosed.program.code.size())) {
+        const glm::dvec3 half = 0.5 * glm::dvec3(enclosed.box.extent());
         half_ = {half.x, half.y, half.z};
         std::ranges::fill(planes_, Plane{});
     }
 
-    /// Where v may be on that side of τ. For `at` the box may be cut already to where v may be below τ, or above:
-    /// `cut`.
-    LaneBox where(std::uint32_t v, Side side, float tau, const LaneBox& box, Side cut = Side::at) {
-        const Range& r = registers_[slot_[v]].value;
-        const bool is_above = static_cast<float>(r.low) > tau + margin_;
-        const bool is_below = static_cast<float>(r.high) < tau - margin_;
+    /// A box around the part of `box` that is in a level set. For {v = τ} the box may have been cut already to where
+    /// v ≤ τ or v ≥ τ can hold, which `already_cut` says.
+    LaneBox box_around(const LevelSet& set, const LaneBox& box, Side already_cut = Side::at) {
+        const auto [v, side, tau] = set;
+        const Range& range = enclosed_[v].value;
+        const bool is_above = static_cast<float>(range.low) > tau + margin_;
+        const bool is_below = static_cast<float>(range.high) < tau - margin_;
         if (box.empty() || (is_above && side != Side::above) || (is_below && side != Side::below)) return {};
         if (is_above || is_below || steps_ >= most_steps) return box;
         ++steps_;
-        const Instruction& in = program_.code[v];
-        if (const auto now = Threshold::of_operand(in, constants_, static_cast<double>(tau))) {
-            const auto of = [&](Side s) { return now->is_mirrored ? mirrored(s) : s; };
-            return where(in.a, of(side), static_cast<float>(now->tau), box, of(cut));
+        const Instruction& in = enclosed_.program.code[v];
+        if (const auto operand = Threshold::of_operand(in, enclosed_.constants(), static_cast<double>(tau))) {
+            const auto of_operand = [&](Side s) { return operand->is_reversed ? reversed(s) : s; };
+            return box_around({in.a, of_operand(side), static_cast<float>(operand->tau)}, box, of_operand(already_cut));
         }
         switch (in.op) {
             case Op::far_bound:
             case Op::far_bound_inside:
-                if (side == Side::at && tau == 0) return where(in.a, Side::at, 0, box);
-                return of_both(in, in.op == Op::far_bound ? Side::below : Side::above, side, tau, box, cut);
+                // Its zeros are those of the first operand.
+                if (side == Side::at && tau == 0) return box_around({in.a, Side::at, 0}, box);
+                return of_extremum(in.op == Op::far_bound ? Side::below : Side::above, set, box, already_cut);
             case Op::maximum:
-                return of_both(in, Side::below, side, tau, box, cut);
+                return of_extremum(Side::below, set, box, already_cut);
             case Op::minimum:
-                return of_both(in, Side::above, side, tau, box, cut);
+                return of_extremum(Side::above, set, box, already_cut);
             case Op::corner:
-                // Up to 0 it is the maximum; above, no less than each.
-                if (tau <= 0) return of_both(in, Side::below, side, tau, box, cut);
-                return by_plane(v, side, tau, side == Side::above ? box : both(in, Side::below, tau, box));
+                // Up to 0 it is the maximum; above 0 it is no less than either operand.
+                if (tau <= 0) return of_extremum(Side::below, set, box, already_cut);
+                return by_plane(set, side == Side::above ? box : of_both(in, Side::below, tau, box));
             case Op::smooth_minimum:
-                // No more than each.
-                return by_plane(v, side, tau, side == Side::below ? box : both(in, Side::above, tau, box));
+                // It is no more than either operand.
+                return by_plane(set, side == Side::below ? box : of_both(in, Side::above, tau, box));
             case Op::absolute:
-                if (side == Side::below) return where(in.a, Side::above, -tau, where(in.a, Side::below, tau, box));
-                return unite(where(in.a, side, tau, box), where(in.a, mirrored(side), -tau, box));
+                if (side == Side::below)
+                    return box_around({in.a, Side::above, -tau}, box_around({in.a, Side::below, tau}, box));
+                return unite(box_around({in.a, side, tau}, box), box_around({in.a, reversed(side), -tau}, box));
             default:
-                return by_plane(v, side == Side::at ? mirrored(cut) : side, tau, box);
+                return by_plane({v, side == Side::at ? reversed(already_cut) : side, tau}, box);
         }
     }
 
@@ -78,37 +85,40 @@ class Cutter {
         PlaneCut cut{};
     };
 
-    LaneBox both(const Instruction& in, Side side, float tau, const LaneBox& box) {
-        return where(in.b, side, tau, where(in.a, side, tau, box));
+    /// Of the points where both operands are on one side.
+    LaneBox of_both(const Instruction& in, Side side, float tau, const LaneBox& box) {
+        return box_around({in.b, side, tau}, box_around({in.a, side, tau}, box));
     }
-    /// Of a value that is on one side where both operands are, below if it is their maximum; so it is at τ where one
-    /// operand is, of what is left of the box on that side.
-    LaneBox of_both(const Instruction& in, Side of_all, Side side, float tau, const LaneBox& box, Side cut) {
-        if (side == of_all) return both(in, side, tau, box);
-        if (side != Side::at) return unite(where(in.a, side, tau, box), where(in.b, side, tau, box));
-        const LaneBox left = cut == of_all ? box : both(in, of_all, tau, box);
-        if (left.empty()) return {};
-        return unite(where(in.a, side, tau, left, of_all), where(in.b, side, tau, left, of_all));
+    /// Of a maximum, which is on the side `of_both_side` (below) where both its operands are, on the other side where
+    /// one of them is, and at τ where one is at τ and both are on the side `of_both_side`. Of a minimum, likewise, with
+    /// `of_both_side` above.
+    LaneBox of_extremum(Side of_both_side, const LevelSet& set, const LaneBox& box, Side already_cut) {
+        const auto [v, side, tau] = set;
+        const Instruction& in = enclosed_.program.code[v];
+        if (side == of_both_side) return of_both(in, side, tau, box);
+        if (side != Side::at) return unite(box_around({in.a, side, tau}, box), box_around({in.b, side, tau}, box));
+        const LaneBox rest = already_cut == of_both_side ? box : of_both(in, of_both_side, tau, box);
+        if (rest.empty()) return {};
+        return unite(box_around({in.a, side, tau}, rest, of_both_side),
+                     box_around({in.b, side, tau}, rest, of_both_side));
     }
-    LaneBox by_plane(std::uint32_t v, Side side, float tau, const LaneBox& box) {
-        Plane& plane = planes_[v];
-        if (!plane.is_found) plane = {true, {NearlyLinear(registers_[slot_[v]], half_), middle_, margin_}};
-        return side == Side::below   ? plane.cut.below(tau, box)
-               : side == Side::above ? plane.cut.above(tau, box)
-                                     : plane.cut.at(tau, box);
+    LaneBox by_plane(const LevelSet& set, const LaneBox& box) {
+        Plane& plane = planes_[set.value];
+        if (!plane.is_found) plane = {true, {NearlyLinear(enclosed_[set.value], half_), middle_, margin_}};
+        return set.side == Side::below   ? plane.cut.below(set.tau, box)
+               : set.side == Side::above ? plane.cut.above(set.tau, box)
+                                         : plane.cut.at(set.tau, box);
     }
 
-    /// Beyond them a box is left as it is: values that many others share are asked again each time.
+    /// After this many steps of the recursion boxes are left as they are, because a value that is an operand of many
+    /// others is visited once for each way to it.
     static constexpr int most_steps = 200;
 
-    const WorkingProgram& program_;
-    std::span<const float> constants_;
-    const Enclosure* registers_;
-    std::span<const std::uint32_t> slot_;
+    const EnclosedProgram& enclosed_;
     glm::vec3 middle_;
     Enclosure::Vector half_{};
     float margin_;
-    std::span<Plane> planes_;  ///< of a value, once it was wanted
+    std::span<Plane> planes_;  ///< of each value, found when it is needed first
     int steps_ = 0;
 };
 
@@ -119,13 +129,9 @@ float cut_margin(const Bounds& box, float rounding) {
     return 3 * rounding + 2e-6f * std::max({farthest.x, farthest.y, farthest.z});
 }
 
-Bounds cut_to_zero(std::uint32_t value, const Bounds& box, const Bounds& all, const WorkingProgram& program,
-                   std::span<const float> constants, const Enclosure* registers, std::span<const std::uint32_t> slot,
-                   float rounding, Arena& scratch) {
+Bounds cut_to_zero(std::uint32_t value, const Bounds& box, const EnclosedProgram& enclosed, Arena& scratch) {
     const ArenaScope scope(scratch);
-    return Cutter(all, program, constants, registers, slot, rounding, scratch)
-        .where(value, Side::at, 0, LaneBox(box))
-        .bounds();
+    return Cutter(enclosed, scratch).box_around({value, Side::at, 0}, LaneBox(box)).bounds();
 }
 
 }  // namespace phasetree::bounding

@@ -1,27 +1,18 @@
 #pragma once
 
-#include "phasetree/math/bounds.hpp"
-#include "rewriting/working_program.hpp"
-
-namespace phasetree::enclosure {
-struct Enclosure;
-}
+#include "bounding/enclosed_program.hpp"
 
 namespace phasetree::bounding {
 
-using enclosure::Enclosure;
-using rewriting::Arena, rewriting::WorkingProgram;
-
-/// What floats lose where a box is cut. `rounding` bounds the error of a value.
+/// A bound of what rounding moves a plane by when a box is cut, as a distance. `rounding` bounds the error of a value.
 float cut_margin(const Bounds& box, float rounding);
 
-/// The part of a box that a value can be zero in, from the enclosures of a program's values in `all` around it: by the
-/// linear bounds of what minima and maxima are made of, and by set algebra, as
+/// The smallest box found around the part of `box` in which a value of an enclosed program can be zero; empty if it can
+/// be zero nowhere. `box` lies within the box of the enclosures.
+///
+/// Each value that is nearly linear leaves only a slab of the box. At an edge, where two fields a and b meet, their
+/// maximum is not nearly linear, but both operands are, and set algebra combines the boxes that they leave:
 ///     {max(a, b) = 0}  ⊂  {a = 0, b ≤ 0} ∪ {b = 0, a ≤ 0}.
-/// Where an edge passes through a box, its two sides' bounds hold, though the maximum has none. Empty if the value is
-/// zero nowhere.
-Bounds cut_to_zero(std::uint32_t value, const Bounds& box, const Bounds& all, const WorkingProgram&,
-                   std::span<const float> constants, const Enclosure* registers, std::span<const std::uint32_t> slot,
-                   float rounding, Arena& scratch);
+Bounds cut_to_zero(std::uint32_t value, const Bounds& box, const EnclosedProgram&, Arena& scratch);
 
 }  // namespace phasetree::bounding

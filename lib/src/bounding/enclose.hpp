@@ -5,63 +5,71 @@
 #include "bounding/sign_certificate.hpp"
 #include "bounding/value_ranges.hpp"
 #include "kernel/linear_bound.hpp"
-#include "phasetree/math/bounds.hpp"
-#include "rewriting/program_context.hpp"
-
-namespace phasetree::enclosure {
-struct Enclosure;
-}
+#include "rewriting/specialise.hpp"
 
 namespace phasetree::bounding {
 
+using enclosure::Range;
 using kernel::Curvature, kernel::LinearBound;
 using program::ProgramOutput;
-using rewriting::LocalValue, rewriting::ProgramContext;
+using rewriting::Specialisation;
 
 struct AffinePoint;
+struct NearlyLinear;
 
-/// What is known of a program in a box, besides its values' ranges.
-struct BoxKnowledge {
+/// What is known of the interfaces in a box besides the ranges of values.
+struct InterfaceBounds {
     LinearBound bound;
     Curvature curvature;
-    Bounds box;                                    ///< around the interface in the box; empty if no ray can meet one
-    std::span<const CertificateStep> certificate;  ///< where a ray may be in a phase whose curvature is unknown
-    std::span<const LocalValue> local;
+    Bounds box;                                    ///< around the interfaces; empty if no ray can meet one
+    std::span<const CertificateStep> certificate;  ///< for phases of rays in which the curvature is not bounded
+    std::span<const Specialisation> specialisations;
 };
 
-/// Longer programs are not worth the time that it takes to enclose them; of those with local values a few times as long
-/// ones are.
+/// Programs of more instructions are not enclosed, because that would take longer than it saves; those with local
+/// primitives, for which it saves more, are enclosed up to four times this length.
 inline constexpr std::size_t longest_enclosed = 64;
 
-/// Encloses programs' values in a box: interval arithmetic with gradients, which sees what a Lipschitz bound and a ball
-/// cannot. A program that pruning has left of the last one keeps what was found of its primitives.
+/// Encloses the values of programs in a box (bounding/enclosed_program.hpp) by interval arithmetic with gradients and
+/// curvatures, which bounds them better than Lipschitz bounds in a ball around the box do. If a program is what pruning
+/// has left of the one before it, the enclosures of its primitives are taken from that.
 class Encloser {
   public:
-    /// What is taken of `scratch` stays until the last enclosing. `around` is what local primitives are in a box around
-    /// this one, in a program of which pruning has left those to come.
-    Encloser(const ProgramContext&, const Bounds& box, std::span<const LocalValue> around, Arena& scratch);
+    /// What is allocated in `scratch` must stay as long as any result is used. `around` holds the specialisations that
+    /// local primitives had in a box around this one.
+    Encloser(const ProgramContext&, const Bounds& box, std::span<const Specialisation> around, Arena& scratch);
 
-    /// Ranges of its values; nothing for a program that is too long, or that folds space.
-    std::optional<ValueRanges> ranges(const WorkingProgram&);
-    /// The rest, of a program whose ranges were asked last and of which an interface is left.
-    BoxKnowledge rest(const WorkingProgram&) const;
+    /// The ranges of a program's values. Nothing for a program that is too long or that folds space.
+    std::optional<ValueRanges> value_ranges(const WorkingProgram&);
+    /// The rest, of the program whose ranges were asked for last.
+    InterfaceBounds interface_bounds() const;
 
   private:
-    void compute(const WorkingProgram&);
-    std::span<const std::uint32_t> known_of(const WorkingProgram&) const;
+    void enclose_values(const WorkingProgram&);
+    void enclose_primitives(const WorkingProgram&, std::span<const std::uint32_t> previous,
+                            std::span<Specialisation> found);
+    std::span<const std::uint32_t> previous_numbers(const WorkingProgram&) const;
+    std::span<Specialisation> previous_specialisations(const WorkingProgram&,
+                                                       std::span<const std::uint32_t> previous) const;
+    void keep_specialisations(std::span<Specialisation> found);
+    std::span<const float> data_around(std::uint32_t source) const;
     Enclosure component(const ProgramOutput&) const;
+    Curvature curvature() const;
+    LinearBound linear_bound(const NearlyLinear&, const Enclosure& f) const;
+    Bounds box_around_interface(const NearlyLinear&, const LinearBound&) const;
+    bool is_clear(const ProgramOutput& o) const { return !context_.opaque.contains(o.phase); }
 
     const ProgramContext& context_;
     Bounds box_;
-    std::array<double, 3> half_;
+    std::array<double, 3> half_;  ///< the half extents of the box, rounded up
     Arena& scratch_;
-    glm::dvec3 middle_;
-    const AffinePoint* input_;  ///< any point of the box
-    // Of the last program.
-    std::span<const Instruction> code_;
-    std::span<const std::uint32_t> slot_;
+    glm::dvec3 centre_;
+    const AffinePoint* point_of_box_;
+    std::span<const Specialisation> around_;
+    // These are of the last program.
+    EnclosedProgram last_;
     Enclosure* registers_ = nullptr;
-    std::span<const LocalValue> around_, local_;
+    std::span<const Specialisation> specialisations_;
 };
 
 }  // namespace phasetree::bounding

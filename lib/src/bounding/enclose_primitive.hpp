@@ -12,35 +12,42 @@
 namespace phasetree::bounding {
 
 using enclosure::enclose, enclosure::Range, enclosure::Region, enclosure::within;
-using rewriting::Arena, rewriting::LocalValue;
+using rewriting::Arena, rewriting::Specialisation;
 
-/// The value at a centre of a long primitive of which little matters in the box; what that is, or nothing, is kept.
-/// `of` is what it was in a box around.
+/// The specialisation of a local primitive in the box in which it is enclosed.
+struct SpecialisationInBox {
+    std::span<const float> around;  ///< the data of its specialisation in a box around this one, or empty
+    Arena& scratch;
+    Specialisation found{};  ///< what enclosing has found; its data are in `scratch`
+};
+
+/// The value of a local primitive at the centre of a region, by its specialisation there if there is one.
 template <LocalPrimitive P>
-float local_value(const float* constants, const Region& at, std::span<const float> of, LocalValue& kept,
-                  Arena& scratch) {
+float value_by_specialisation(const float* constants, const Region& at, SpecialisationInBox& specialisation) {
     P primitive;
     std::memcpy(static_cast<void*>(&primitive), constants, sizeof primitive);
     std::vector<float> floats;
-    if (!primitive.specialise(at, of, floats)) return primitive.distance(at.point());
-    kept = LocalValue::of<P>(scratch.copy(std::span<const float>(floats)));
-    return P::Specialised::distance(kept.data.data(), at.point());
+    if (!primitive.specialise(at, specialisation.around, floats)) return primitive.distance(at.point());
+    Specialisation& found = specialisation.found;
+    found = Specialisation::of<P>(specialisation.scratch.copy(std::span<const float>(floats)));
+    return P::Specialised::distance(found.data.data(), at.point());
 }
 
-/// A long primitive. Of networks and noise, where they are not cut off, there is more to know; of others (an image,
-/// Voronoi cells) only their slope is used, at most 1 in their own space.
+/// The enclosure of a long primitive. Networks and noise have enclosures of their own; of a network, where it is not
+/// cut off by its cube. Of all others (an image, Voronoi cells) only the value at the centre is used and that their
+/// slope is at most 1 in their own space.
 template <class P>
 Enclosure enclose_long_primitive(const float* constants, const Vec3<Enclosure>& q, const Enclosure::Vector& half,
-                                 std::span<const float> of, LocalValue& kept, Arena& scratch) {
+                                 SpecialisationInBox& specialisation) {
     const Region at(q);
     if constexpr (std::is_same_v<P, Siren::Network>) {
-        if (at.farthest() < static_cast<double>(constants[1]))
-            return enclose(network_in_box(constants, at.centre, at.reach), at);
+        const auto half_of_cube = static_cast<double>(constants[1]);
+        if (at.farthest() < half_of_cube) return enclose(network_in_box(constants, at.centre, at.reach), at);
     }
     if constexpr (std::is_same_v<P, FractalNoise>) return program::distance_of<P>(constants, q);
     double value = 0;
     if constexpr (LocalPrimitive<P>)
-        value = static_cast<double>(local_value<P>(constants, at, of, kept, scratch));
+        value = static_cast<double>(value_by_specialisation<P>(constants, at, specialisation));
     else
         value = static_cast<double>(program::distance_of<P>(constants, at.point()));
     const auto slope = enclosure::detail::each_axis([&](std::size_t i) {
@@ -50,7 +57,7 @@ Enclosure enclose_long_primitive(const float* constants, const Vec3<Enclosure>& 
     return Enclosure(value, Range::all(), slope, enclosure::detail::no_gradient, Range::all()).tightened(half);
 }
 
-/// One that is not, by its equation.
+/// The enclosure of any other primitive, by its equation.
 template <class P>
 Enclosure enclose_primitive(const float* constants, const Vec3<Enclosure>& q) {
     const Enclosure e = program::distance_of<P>(constants, q);

@@ -8,7 +8,8 @@
 
 namespace phasetree::bounding {
 
-/// A box in two vector registers, for what does little but cut boxes. Of the fourth axis it is {0}.
+/// A box in two vector registers, for code whose time goes into cutting boxes. Along the fourth axis, which pads the
+/// registers, it is the interval [0, 0]. The default is the empty box.
 struct LaneBox {
     using Lanes [[gnu::vector_size(16)]] = float;
 

@@ -10,17 +10,20 @@ namespace phasetree::bounding {
 
 using enclosure::Enclosure, enclosure::Range;
 
-/// As LinearBound, but about the centre of a box, and in numbers of full length. By the ranges of the gradient about
-/// their middles; or by the gradient at the centre and how f bends from there on, if that says more. Where nothing is
-/// known of the gradient, the slack is infinite.
+/// A linear function and a bound of how far a field f departs from it in a box:
+///     |f(p) − (at_centre + normal·(p − centre))| ≤ slack.
+/// It is a LinearBound in doubles and about the box's centre. There are two ways to find it, and the smaller slack is
+/// taken: the mean value theorem with the middle of the gradient's range as the normal, or Taylor's formula of first
+/// order, with the gradient at the centre and the bounds of the second derivative. If nothing is known of the gradient,
+/// the slack is infinite.
 struct NearlyLinear {
     Enclosure::Vector normal{};
     double at_centre, slack;
-    bool is_bent = false;  ///< what it is by
+    bool is_by_curvature = false;  ///< whether it is by Taylor's formula
 
-    /// `half` are the box's half extents.
+    /// `half` holds the box's half extents.
     NearlyLinear(const Enclosure& f, const Enclosure::Vector& half) : at_centre(f.centre), slack(0) {
-        double aside = 0, squared_half = 0;
+        double by_gradient = 0, squared_half = 0;
         for (std::size_t i = 0; i < 3; ++i) {
             const Range& g = f.gradient[i];
             const double at = f.centre_gradient[i];
@@ -30,18 +33,18 @@ struct NearlyLinear {
             }
             normal[i] = g.middle();
             slack += 0.5 * (g.high - g.low) * half[i];
-            aside += std::max(std::abs(g.high - at), std::abs(g.low - at)) * half[i];
+            by_gradient += std::max(std::abs(g.high - at), std::abs(g.low - at)) * half[i];
             squared_half += half[i] * half[i];
         }
-        const double above = std::min(aside, 0.5 * std::max(f.curvature.high, 0.0) * squared_half);
-        const double below = std::min(aside, 0.5 * std::max(-f.curvature.low, 0.0) * squared_half);
+        const double above = std::min(by_gradient, 0.5 * std::max(f.curvature.high, 0.0) * squared_half);
+        const double below = std::min(by_gradient, 0.5 * std::max(-f.curvature.low, 0.0) * squared_half);
         if (!(0.5 * (above + below) < slack)) return;
-        is_bent = true;
+        is_by_curvature = true;
         normal = f.centre_gradient;
         at_centre += 0.5 * (above - below);
         slack = 0.5 * (above + below);
     }
-    /// How far the gradient is from the normal at most.
+    /// A bound of the distance of the gradient from the normal.
     double spread(const Enclosure& f, const Enclosure::Vector& half) const {
         double squared = 0, squared_half = 0;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -50,20 +53,20 @@ struct NearlyLinear {
             squared += off * off;
             squared_half += half[i] * half[i];
         }
-        const double most = std::sqrt(squared);
-        return is_bent ? std::min(most, f.curvature.magnitude() * std::sqrt(squared_half)) : most;
+        const double farthest = std::sqrt(squared);
+        return is_by_curvature ? std::min(farthest, f.curvature.magnitude() * std::sqrt(squared_half)) : farthest;
     }
 };
 
-/// Cuts the value's range to what that allows.
-inline void tighten_by_bend(Enclosure& f, const Enclosure::Vector& half) {
+/// Narrows the value's range to what a linear bound allows in a box of these half extents.
+inline void tighten_by_linear_bound(Enclosure& f, const Enclosure::Vector& half) {
     const NearlyLinear linear(f, half);
     double reach = linear.slack;
     for (std::size_t i = 0; i < 3; ++i) reach += std::abs(linear.normal[i]) * half[i];
     if (!(reach < 1e30)) return;
     const double low = std::max(f.value.low, linear.at_centre - reach);
     const double high = std::min(f.value.high, linear.at_centre + reach);
-    f.value = {std::min(low, high), std::max(low, high)};  // as tighten() does
+    f.value = {std::min(low, high), std::max(low, high)};  // see Enclosure::tighten()
 }
 
 }  // namespace phasetree::bounding

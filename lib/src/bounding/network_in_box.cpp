@@ -15,9 +15,9 @@ using kernel::absolute_lane, kernel::network_lanes;
 
 namespace {
 
-/// A neuron's Taylor polynomial: the value, then the first, second and third derivatives, each by the axes in the order
-/// of a dictionary (xx, xy, xz, yy …), which are 3, 6 and 10. All are linear in a layer's inputs. And what the fourth
-/// derivative is at most, which takes the weights' absolute values.
+/// A neuron's Taylor polynomial: its value and its 3 first, 6 second and 10 third partial derivatives, in the order xx,
+/// xy, xz, yy … All of these are linear in the inputs of a layer. The last number is a bound of the fourth derivatives;
+/// a layer combines it with the weights' absolute values.
 struct alignas(64) Jet {
     std::array<double, network_lanes> all;
 
@@ -27,11 +27,12 @@ struct alignas(64) Jet {
     double* third() { return all.data() + 10; }
     double& fourth() { return all[absolute_lane]; }
 };
-/// Where the derivative by two axes, or three, is.
-constexpr std::size_t place2[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-constexpr std::size_t place3[3][6] = {{0, 1, 2, 3, 4, 5}, {1, 3, 4, 6, 7, 8}, {2, 4, 5, 7, 8, 9}};
+/// The index of the derivative by axes i and j is second_index[i][j]; by i, j and k it is
+/// third_index[i][second_index[j][k]].
+constexpr std::size_t second_index[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+constexpr std::size_t third_index[3][6] = {{0, 1, 2, 3, 4, 5}, {1, 3, 4, 6, 7, 8}, {2, 4, 5, 7, 8, 9}};
 
-/// Not below what the derivatives are along any line of unit speed: Frobenius' norms.
+/// The Frobenius norm of the derivatives of one order, which bounds them along every line of unit speed.
 double norm1(const double* g) {
     return std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
 }
@@ -44,7 +45,7 @@ double norm3(const double* t) {
     return std::sqrt(square(0) + square(6) + square(9) + 3 * mixed + 6 * square(4));
 }
 
-/// The eigenvalues' range of a symmetric matrix of order 3 (Smith, "Eigenvalues of a symmetric 3 × 3 matrix", 1961).
+/// The range of the eigenvalues of a symmetric matrix (Smith, "Eigenvalues of a symmetric 3 × 3 matrix", 1961).
 Range eigenvalues(const double* h) {
     const double mean = (h[0] + h[3] + h[5]) / 3;
     const double a = h[0] - mean, b = h[3] - mean, c = h[5] - mean, xy = h[1], xz = h[2], yz = h[4];
@@ -52,48 +53,49 @@ Range eigenvalues(const double* h) {
     if (!(p > 0)) return {mean, mean};
     const double determinant = a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz);
     const double angle = std::acos(std::clamp(determinant / (2 * p * p * p), -1.0, 1.0)) / 3;
-    const double rounding = 1e-7 * (p + std::abs(mean));  // acos has half of the digits near its ends
+    const double rounding = 1e-7 * (p + std::abs(mean));  // Near ±1 acos has half of the digits.
     return {mean + 2 * p * std::cos(angle + 2 * std::numbers::pi / 3) - rounding,
             mean + 2 * p * std::cos(angle) + rounding};
 }
 
-/// A neuron's sine, in place.
+/// Replaces the polynomial of z by that of sin z, in a box of this radius.
 void activate(Jet& z, double radius) {
-    const double fourth = z.fourth();
+    const double q = z.fourth();
     const double sine = std::sin(z.value()), cosine = std::cos(z.value());
     double *first = z.first(), *second = z.second(), *third = z.third();
     const double n1 = norm1(first), n2 = norm2(second), n3 = norm3(third);
-    const double t = n3 + radius * fourth;
-    const double k = n2 + radius * (n3 + radius / 2 * fourth);
-    const double g = n1 + radius * (n2 + radius / 2 * (n3 + radius / 3 * fourth));
-    const double most_sine = std::min(1.0, std::abs(sine) + g * radius);
-    const double most_cosine = std::min(1.0, std::abs(cosine) + g * radius);
+    // These are the bounds t, k and g of the third, second and first derivative in the box (see the header).
+    const double t = n3 + radius * q;
+    const double k = n2 + radius * (n3 + radius / 2 * q);
+    const double g = n1 + radius * (n2 + radius / 2 * (n3 + radius / 3 * q));
+    const double largest_sine = std::min(1.0, std::abs(sine) + g * radius);
+    const double largest_cosine = std::min(1.0, std::abs(cosine) + g * radius);
 
     const std::array<double, 3> by{first[0], first[1], first[2]};
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = i; j < 3; ++j)
             for (std::size_t l = j; l < 3; ++l) {
-                const double products =
-                    by[i] * second[place2[j][l]] + by[j] * second[place2[i][l]] + by[l] * second[place2[i][j]];
-                double& d = third[place3[i][place2[j][l]]];
+                const double products = by[i] * second[second_index[j][l]] + by[j] * second[second_index[i][l]] +
+                                        by[l] * second[second_index[i][j]];
+                double& d = third[third_index[i][second_index[j][l]]];
                 d = cosine * (d - by[i] * by[j] * by[l]) - sine * products;
             }
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = i; j < 3; ++j) {
-            double& d = second[place2[i][j]];
+            double& d = second[second_index[i][j]];
             d = cosine * d - sine * by[i] * by[j];
         }
     for (std::size_t i = 0; i < 3; ++i) first[i] *= cosine;
     z.value() = sine;
-    z.fourth() = most_cosine * (fourth + 6 * g * g * k) + most_sine * (4 * g * t + 3 * k * k + g * g * g * g);
+    z.fourth() = largest_cosine * (q + 6 * g * g * k) + largest_sine * (4 * g * t + 3 * k * k + g * g * g * g);
 }
 
 }  // namespace
 
 FieldInBox network_in_box(const float* data, const std::array<double, 3>& centre, const std::array<double, 3>& half) {
     const double radius = norm1(half.data());
-    std::array<Jet, SirenNetwork::widest> now, next;
-    Jet *in = now.data(), *out = next.data();
+    std::array<Jet, SirenNetwork::widest> layer_in, layer_out;
+    Jet *in = layer_in.data(), *out = layer_out.data();
     for (std::size_t i = 0; i < 3; ++i) {
         in[i] = {};
         in[i].value() = centre[i];
@@ -113,24 +115,24 @@ FieldInBox network_in_box(const float* data, const std::array<double, 3>& centre
 
     Jet& f = *in;
     constexpr double rounding = 1 + 1e-9;
-    const double rest = f.fourth() * rounding;
+    const double fourth = f.fourth() * rounding;
     FieldInBox result;
     result.value = f.value();
     for (std::size_t i = 0; i < 3; ++i) {
-        // A symmetric multilinear form is nowhere larger than along lines (Banach, 1938): so `rest` bounds mixed
-        // derivatives, too.
-        double change = rest * radius * radius * radius / 6;
+        // A symmetric multilinear form is largest where all its arguments are equal (Banach, 1938), so a bound along
+        // lines also bounds the mixed derivatives.
+        double change = fourth * radius * radius * radius / 6;
         for (std::size_t j = 0; j < 3; ++j) {
-            change += std::abs(f.second()[place2[i][j]]) * half[j];
+            change += std::abs(f.second()[second_index[i][j]]) * half[j];
             for (std::size_t l = 0; l < 3; ++l)
-                change += 0.5 * std::abs(f.third()[place3[i][place2[j][l]]]) * half[j] * half[l];
+                change += 0.5 * std::abs(f.third()[third_index[i][second_index[j][l]]]) * half[j] * half[l];
         }
         result.gradient[i] = f.first()[i];
         result.gradients[i] = limited(result.gradient[i] - change * rounding, result.gradient[i] + change * rounding);
     }
-    const Range bends = eigenvalues(f.second());
-    const double change = radius * (norm3(f.third()) + radius / 2 * rest) * rounding;
-    result.curvature = limited(bends.low - change, bends.high + change);
+    const Range at_centre = eigenvalues(f.second());
+    const double change = radius * (norm3(f.third()) + radius / 2 * fourth) * rounding;
+    result.curvature = limited(at_centre.low - change, at_centre.high + change);
     return result;
 }
 

@@ -15,102 +15,108 @@ using rewriting::Threshold;
 
 namespace {
 
-constexpr double unknown = 1e30;
+/// A curvature of this size or more counts as unbounded.
+constexpr double unbounded = 1e30;
 
-/// The upper half of a float's bits, of a number that is no smaller, or none that is larger.
-std::uint16_t half_at_least(float x) {
+/// The upper half of a float's bits, rounded up.
+std::uint16_t upper_half_rounded_up(float x) {
     return static_cast<std::uint16_t>((std::bit_cast<std::uint32_t>(x) + 0xffffu) >> 16);
 }
-std::uint16_t half_at_most(float x) {
+/// The upper half of a float's bits, rounded toward zero.
+std::uint16_t upper_half_rounded_down(float x) {
     return static_cast<std::uint16_t>(std::bit_cast<std::uint32_t>(x) >> 16);
 }
 
+/// Writes the steps of a certificate by recursion from a value to its operands.
 class Certifier {
   public:
-    Certifier(const WorkingProgram& program, std::span<const float> constants, const Enclosure* registers,
-              std::span<const std::uint32_t> slot, std::span<CertificateStep> room)
-        : program_(program), constants_(constants), registers_(registers), slot_(slot), room_(room) {}
+    Certifier(const EnclosedProgram& enclosed, std::span<CertificateStep> room) : enclosed_(enclosed), room_(room) {}
 
-    /// That sign · (v − τ) > 0. False if that takes too many steps.
+    /// Appends a certificate that sign · (v − τ) > 0. False if there is no room for it.
     bool add(std::uint32_t v, double sign, double tau) {
-        const Instruction& in = program_.code[v];
-        const Range& curvature = registers_[slot_[v]].curvature;
-        if (std::abs(curvature.low) < unknown || std::abs(curvature.high) < unknown) return leaf(v, sign, tau);
-        if (const auto now = Threshold::of_operand(in, constants_, tau))
-            return add(in.a, now->is_mirrored ? -sign : sign, now->tau);
+        const Instruction& in = enclosed_.program.code[v];
+        const Range& curvature = enclosed_[v].curvature;
+        if (std::abs(curvature.low) < unbounded || std::abs(curvature.high) < unbounded) return add_leaf(v, sign, tau);
+        if (const auto operand = Threshold::of_operand(in, enclosed_.constants(), tau))
+            return add(in.a, operand->is_reversed ? -sign : sign, operand->tau);
         const bool is_above = sign > 0;
         switch (in.op) {
             case Op::minimum:
             case Op::far_bound_inside:
-                return both(in, sign, tau, is_above ? PackedCertificateStep::both : PackedCertificateStep::either);
+                return add_operands(in, sign, tau,
+                                    is_above ? PackedCertificateStep::both : PackedCertificateStep::either);
             case Op::maximum:
             case Op::far_bound:
-                return both(in, sign, tau, is_above ? PackedCertificateStep::either : PackedCertificateStep::both);
+                return add_operands(in, sign, tau,
+                                    is_above ? PackedCertificateStep::either : PackedCertificateStep::both);
             case Op::corner:
-                // Up to 0 it is the maximum; above, no less than each.
+                // Up to 0 it is the maximum; above 0 it is no less than either operand.
                 if (tau <= 0)
-                    return both(in, sign, tau, is_above ? PackedCertificateStep::either : PackedCertificateStep::both);
-                return is_above ? both(in, sign, tau, PackedCertificateStep::either_one_way) : leaf(v, sign, tau);
+                    return add_operands(in, sign, tau,
+                                        is_above ? PackedCertificateStep::either : PackedCertificateStep::both);
+                return is_above ? add_operands(in, sign, tau, PackedCertificateStep::either_one_way)
+                                : add_leaf(v, sign, tau);
             case Op::smooth_minimum:
-                // No more than each.
-                return is_above ? leaf(v, sign, tau) : both(in, sign, tau, PackedCertificateStep::either_one_way);
+                // It is no more than either operand.
+                return is_above ? add_leaf(v, sign, tau)
+                                : add_operands(in, sign, tau, PackedCertificateStep::either_one_way);
             case Op::absolute:
-                if (tau < 0) return leaf(v, sign, tau);
+                if (tau < 0) return add_leaf(v, sign, tau);
                 return add(in.a, sign, tau) && add(in.a, -sign, -tau) &&
                        push({is_above ? PackedCertificateStep::either : PackedCertificateStep::both});
             default:
-                return leaf(v, sign, tau);
+                return add_leaf(v, sign, tau);
         }
     }
     std::span<const CertificateStep> result() const {
-        return is_any_known_ ? room_.first(count_) : std::span<const CertificateStep>();
+        return has_bounded_leaf_ ? room_.first(count_) : std::span<const CertificateStep>();
     }
 
   private:
-    bool push(const CertificateStep& part) {
+    bool push(const CertificateStep& step) {
         if (count_ == room_.size()) return false;
-        room_[count_++] = part;
+        room_[count_++] = step;
         return true;
     }
-    /// Of both operands, combined.
-    bool both(const Instruction& in, double sign, double tau, PackedCertificateStep::Kind kind) {
+    bool add_operands(const Instruction& in, double sign, double tau, PackedCertificateStep::Kind kind) {
         return add(in.a, sign, tau) && add(in.b, sign, tau) && push({kind});
     }
-    bool leaf(std::uint32_t v, double sign, double tau) {
-        const Range& c = registers_[slot_[v]].curvature;
-        const double factor = 1 / std::max(1.0, static_cast<double>(program_.lipschitz[v]));
-        const auto bend = [&](double most) {
-            return most < unknown ? static_cast<float>(std::max(most, 0.0) * factor) * (1 + 1e-3f) : Bounds::infinity;
+    bool add_leaf(std::uint32_t v, double sign, double tau) {
+        const Range& curvature = enclosed_[v].curvature;
+        const double factor = 1 / std::max(1.0, static_cast<double>(enclosed_.program.lipschitz[v]));
+        const auto bound = [&](double upward) {
+            return upward < unbounded ? static_cast<float>(std::max(upward, 0.0) * factor) * (1 + 1e-3f)
+                                      : Bounds::infinity;
         };
-        const float up = bend(c.high), down = bend(-c.low);
-        is_any_known_ = is_any_known_ || up < Bounds::infinity || down < Bounds::infinity;
+        const float up = bound(curvature.high), down = bound(-curvature.low);
+        has_bounded_leaf_ = has_bounded_leaf_ || up < Bounds::infinity || down < Bounds::infinity;
         const bool is_above = sign > 0;
         return push({PackedCertificateStep::leaf, v, static_cast<float>(tau), static_cast<float>(sign * factor),
                      is_above ? up : down, is_above ? down : up});
     }
 
-    const WorkingProgram& program_;
-    std::span<const float> constants_;
-    const Enclosure* registers_;
-    std::span<const std::uint32_t> slot_;
+    const EnclosedProgram& enclosed_;
     std::span<CertificateStep> room_;
     std::size_t count_ = 0;
-    bool is_any_known_ = false;
+    bool has_bounded_leaf_ = false;
 };
 
 }  // namespace
 
-PackedCertificateStep CertificateStep::step(std::uint32_t slot) const {
-    return {threshold,         slot & 0x3fffffffu, static_cast<std::uint32_t>(kind) & 3u, half_at_most(factor),
-            half_at_least(up), half_at_least(down)};
+PackedCertificateStep CertificateStep::packed(std::uint32_t slot) const {
+    return {threshold,
+            slot & 0x3fffffffu,
+            static_cast<std::uint32_t>(kind) & 3u,
+            upper_half_rounded_down(factor),
+            upper_half_rounded_up(up),
+            upper_half_rounded_up(down)};
 }
 
-std::span<const CertificateStep> certify_sign(const WorkingProgram& program, std::span<const float> constants,
-                                              const Enclosure* registers, std::span<const std::uint32_t> slot,
-                                              Arena& scratch) {
-    Certifier prover(program, constants, registers, slot, scratch.take<CertificateStep>(most_certificate_steps));
-    const ProgramOutput& first = program.outputs[0];
-    return prover.add(first.value, first.negate ? 1 : -1, 0) ? prover.result() : std::span<const CertificateStep>();
+std::span<const CertificateStep> certify_sign(const EnclosedProgram& enclosed, Arena& scratch) {
+    Certifier certifier(enclosed, scratch.allocate<CertificateStep>(most_certificate_steps));
+    const ProgramOutput& first = enclosed.program.outputs[0];
+    return certifier.add(first.value, first.negate ? 1 : -1, 0) ? certifier.result()
+                                                                : std::span<const CertificateStep>();
 }
 
 }  // namespace phasetree::bounding

@@ -1,35 +1,29 @@
 #pragma once
 
-#include <span>
-
+#include "bounding/enclosed_program.hpp"
 #include "kernel/kernel.hpp"
-#include "rewriting/working_program.hpp"
 
-namespace phasetree::enclosure {
-struct Enclosure;
-}
-
+/// Certificates that a field keeps its sign between samples along a ray, for fields whose curvature has no bound: a
+/// maximum has none at an edge, where its slope jumps upward. But a minimum stays positive where both its operands do,
+/// and a maximum where one of them does at each point. So a certificate is the tree of a field's minima and maxima, in
+/// postfix order, down to leaves whose curvature is bounded on one side at least. How the kernel evaluates it, and the
+/// inequalities of the leaves: kernel/sign_certificate.inl.
 namespace phasetree::bounding {
 
-using enclosure::Enclosure;
 using kernel::PackedCertificateStep;
-using rewriting::Arena, rewriting::WorkingProgram;
 
-/// A step of a certificate (kernel/sign_certificate.inl) in the course of its making: in numbers of full length, and
-/// with the number of a value for its slot. Only leaves have one.
+/// A step of a certificate while cells are built. It refers to a value where the packed step has a register, and its
+/// numbers are floats of full length. Only leaves have values and numbers.
 struct CertificateStep {
     PackedCertificateStep::Kind kind = PackedCertificateStep::leaf;
     std::uint32_t value = 0;
-    float threshold = 0, factor = 1, up = 0, down = 0;
+    float threshold = 0, factor = 1, up = 0, down = 0;  ///< see PackedCertificateStep
 
-    PackedCertificateStep step(std::uint32_t slot) const;
+    PackedCertificateStep packed(std::uint32_t slot) const;
 };
 
-/// How to prove that a program's first component stays negative where its curvature is not known, from the enclosures
-/// of its values in a box; those of the same program, one for each slot. Nothing if no leaf's curvature is known, or if
-/// it takes too many. The result is in `scratch`.
-std::span<const CertificateStep> certify_sign(const WorkingProgram&, std::span<const float> constants,
-                                              const Enclosure* registers, std::span<const std::uint32_t> slot,
-                                              Arena& scratch);
+/// A certificate that the first component of an enclosed program stays negative. Empty if there is no leaf with a
+/// bounded curvature, or if it would take too many steps. It is in `scratch`.
+std::span<const CertificateStep> certify_sign(const EnclosedProgram&, Arena& scratch);
 
 }  // namespace phasetree::bounding

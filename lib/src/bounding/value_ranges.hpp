@@ -1,32 +1,21 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <span>
-
-#include "phasetree/program/program.hpp"
-
-namespace phasetree::enclosure {
-struct Enclosure;
-}
+#include "bounding/enclosed_program.hpp"
 
 namespace phasetree::bounding {
 
-using enclosure::Enclosure;
-
-/// Bounds of every instruction's value in a box, and of its slope there; and the enclosures that they are of, which
-/// know differences better.
+/// The range of every value of an enclosed program, with a margin for the rounding of floats.
 struct ValueRanges {
-    std::span<const float> lows, highs, slope;
-    std::span<const Instruction> code;
-    const Enclosure* registers;
-    std::span<const std::uint32_t> slot;
-    std::array<double, 3> half;  ///< the box's half extents
-    double margin;               ///< of a value
+    std::span<const float> lows, highs;
+    std::span<const float> slope;  ///< a Lipschitz bound of each value in the box
+    EnclosedProgram enclosed;
+    std::array<double, 3> half;  ///< the box's half extents, rounded up
+    double margin;               ///< a bound of the rounding error of one value
 
     float low(std::uint32_t i) const { return lows[i]; }
     float high(std::uint32_t i) const { return highs[i]; }
-    /// Whether a − b > least throughout. Minima and maxima are looked into that many deep.
+    /// Whether a − b > least is proven for the whole box: by the two ranges, by an enclosure of the difference, or, at
+    /// most `depth` times, by the operands of minima and maxima.
     bool is_above(std::uint32_t a, std::uint32_t b, float least, int depth = 1) const;
 };
 

@@ -8,12 +8,12 @@ namespace phasetree::building {
 
 using rewriting::ProgramContext;
 
-/// What every step of dividing an object into cells needs to know and none of them changes.
+/// What all steps of a build know and none of them changes. Lengths are in metres.
 struct BuildContext {
     const CellOptions& options;
     BuildProgress& progress;
     ProgramContext program;
-    float reach;  ///< how far beyond its share of space a cell's program must be right
+    float reach;  ///< how far beyond a cell's share of space its program must be right
     float size;   ///< the diagonal of the object's bounds
 };
 

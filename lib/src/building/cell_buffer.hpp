@@ -14,14 +14,17 @@ using kernel::Curvature, kernel::LinearBound;
 using program::ProgramOutput;
 using rewriting::WorkingProgram;
 
-/// Cells found so far, in order, with their programs.
+/// Cells in the order in which they were found, with their programs. It is a stack: the last cells can be discarded.
 struct CellBuffer {
+    /// A cell, whose program and certificate are parts of the vectors below.
     struct Cell {
         Bounds box;
         LinearBound bound;
         Curvature curvature;
-        std::uint32_t first_instruction, instructions, leading, first_output, outputs, first_certificate,
-            certificate_parts;
+        std::uint32_t first_instruction = 0, instructions = 0;
+        std::uint32_t leading = 0;  ///< how many of the instructions compute the first component (Routine::leading)
+        std::uint32_t first_output = 0, outputs = 0;
+        std::uint32_t first_certificate_step = 0, certificate_steps = 0;
     };
     std::vector<Cell> cells;
     std::vector<Instruction> code;
@@ -29,36 +32,22 @@ struct CellBuffer {
     std::vector<CertificateStep> certificates;
     std::vector<float> specialised_data;  ///< the data of specialised instructions
 
+    /// The sizes of these vectors at some time.
     struct Mark {
         std::size_t cells, code, outputs, certificates, specialised_data;
     };
-    /// About what a cell of so much takes as long as it exists, and Embree's tree over it: as it was found, its box and
-    /// bound again, its routine or that which it shares, and what vectors and tables have to spare.
-    static std::size_t bytes(const Mark& from, const Mark& to) {
-        return per_cell * (to.cells - from.cells) + per_instruction * (to.code - from.code) +
-               2 * sizeof(ProgramOutput) * (to.outputs - from.outputs) +
-               2 * sizeof(CertificateStep) * (to.certificates - from.certificates) +
-               3 * sizeof(float) * (to.specialised_data - from.specialised_data);
-    }
     Mark mark() const {
         return {cells.size(), code.size(), outputs.size(), certificates.size(), specialised_data.size()};
     }
-    void forget_from(const Mark& m) {
-        each(m, [](auto& of, std::size_t count) { of.resize(count); });
-    }
-    void reserve(const Mark& m) {
-        each(m, [](auto& of, std::size_t count) { of.reserve(count); });
-    }
-    void add(const Bounds& box, const LinearBound& bound, const Curvature& curvature, const WorkingProgram& program,
-             std::uint32_t leading, std::span<const CertificateStep> certificate) {
-        const Mark m = mark();
-        append(code, program.code);
-        append(outputs, program.outputs);
-        append(certificates, certificate);
-        cells.push_back({box, bound, curvature, narrow(m.code), narrow(program.code.size()), leading, narrow(m.outputs),
-                         narrow(program.outputs.size()), narrow(m.certificates), narrow(certificate.size())});
-    }
-    static std::uint32_t narrow(std::size_t n) { return static_cast<std::uint32_t>(n); }
+    /// About how many bytes the cells between two marks take as long as they exist, Embree's tree over them included:
+    /// as they were found; their boxes and bounds again; their routines, or those that they share; and the unused
+    /// capacity of vectors and tables.
+    static std::size_t bytes(const Mark& from, const Mark& to);
+    void discard_from(const Mark&);
+    void reserve(const Mark&);
+
+    /// Appends a cell. `cell` gives its box and what is known in it; its other members are set here.
+    void add(Cell cell, const WorkingProgram&, std::span<const CertificateStep>);
 
     std::span<const Instruction> code_of(const Cell& c) const {
         return std::span(code).subspan(c.first_instruction, c.instructions);
@@ -67,64 +56,40 @@ struct CellBuffer {
         return std::span(outputs).subspan(c.first_output, c.outputs);
     }
     std::span<const CertificateStep> certificate_of(const Cell& c) const {
-        return std::span(certificates).subspan(c.first_certificate, c.certificate_parts);
+        return std::span(certificates).subspan(c.first_certificate_step, c.certificate_steps);
     }
 
   private:
-    static constexpr std::size_t per_cell = 2 * sizeof(Cell), per_instruction = 2 * sizeof(Instruction);
-
     template <class F>
-    void each(const Mark& m, F&& f) {
-        f(cells, m.cells);
-        f(code, m.code);
-        f(outputs, m.outputs);
-        f(certificates, m.certificates);
-        f(specialised_data, m.specialised_data);
-    }
-    template <class T, class From>
-    static void append(std::vector<T>& to, const From& from) {
-        to.insert(to.end(), from.begin(), from.end());
-    }
+    void for_each_vector(const Mark&, F&&);
 };
 
-/// The same in pieces: what others have found is taken over, and none of it copied.
+/// A sequence of buffers, to which those of other workers can be appended without a copy of their cells.
 class CellBuffers {
   public:
     struct Mark {
-        std::size_t pieces;
+        std::size_t buffers;
         CellBuffer::Mark last;
     };
-    Mark mark() const { return {pieces_.size(), pieces_.back().mark()}; }
-    void forget_from(const Mark& m) {
-        pieces_.resize(m.pieces);
-        pieces_.back().forget_from(m.last);
-    }
-    /// The piece to which more can be added: a new one after so many cells, because to move them takes time.
-    CellBuffer& last() {
-        if (pieces_.back().cells.size() >= most_cells) {
-            const CellBuffer::Mark full = pieces_.back().mark();
-            pieces_.emplace_back().reserve(full);
-        }
-        return pieces_.back();
-    }
-    /// All of another's, which has nothing then.
-    void take(CellBuffers& more) {
-        for (CellBuffer& piece : more.pieces_)
-            if (!piece.cells.empty()) pieces_.push_back(std::move(piece));
-        more.pieces_ = std::vector<CellBuffer>(1);
-    }
-    std::size_t cells() const {
-        std::size_t sum = 0;
-        for (const CellBuffer& piece : pieces_) sum += piece.cells.size();
-        return sum;
-    }
-    auto begin() { return pieces_.begin(); }
-    auto end() { return pieces_.end(); }
+    Mark mark() const { return {buffers_.size(), buffers_.back().mark()}; }
+    void discard_from(const Mark&);
+    /// The buffer for the next cell. When it is full a new one is begun, because a vector that grows moves all it has.
+    CellBuffer& last();
+    /// Takes all cells of another, which is then empty.
+    void append(CellBuffers&);
+    std::size_t cells() const;
+    auto begin() { return buffers_.begin(); }
+    auto end() { return buffers_.end(); }
 
   private:
-    static constexpr std::size_t most_cells = 4096;
+    static constexpr std::size_t cells_in_full_buffer = 4096;
 
-    std::vector<CellBuffer> pieces_ = std::vector<CellBuffer>(1);
+    std::vector<CellBuffer> buffers_ = std::vector<CellBuffer>(1);
 };
+
+/// Indices are kept in 32 bits; no table of cells has 2³² entries, because of the largest budget.
+inline std::uint32_t narrow(std::size_t n) {
+    return static_cast<std::uint32_t>(n);
+}
 
 }  // namespace phasetree::building

@@ -1,108 +1,69 @@
 #pragma once
 
-#include <algorithm>
-
 #include "kernel/linear_bound.hpp"
-#include "phasetree/nodes/fields/siren.hpp"
-#include "rewriting/live_set.hpp"
 #include "rewriting/specialise.hpp"
 
+/// The surface area heuristic for cells: what rays are expected to spend in a cell. The number of rays that enter a box
+/// is proportional to its surface, and each of them pays for the way to the cell, for entering it, and for batches of
+/// samples that are as long as the cell's program, more of them the less is known of the field.
+///
+/// Costs are in nanoseconds times square metres, up to a common factor. They are rough, because they serve only to
+/// compare a box with the cells that it could be divided into. The constants were measured (benchmarks/experiments.md).
 namespace phasetree::building {
 
 using kernel::Curvature, kernel::LinearBound;
-using program::OpTraits, program::ProgramOutput, program::traits;
-using rewriting::Arena, rewriting::ArenaScope, rewriting::LiveSet, rewriting::LocalValue, rewriting::WorkingProgram;
+using rewriting::Arena, rewriting::Specialisation, rewriting::WorkingProgram;
 
-/// What rays spend in a cell, in nanoseconds for each unit of surface (which is how many come, up to a factor). Rough:
-/// only what is dearer than what matters.
 namespace cost_model {
-inline constexpr float parts = 12;  ///< of Embree's going down to the parts of a box
+// These are in nanoseconds.
+inline constexpr float traversal =
+    12;                             ///< of one more node of Embree's hierarchy, whose children are the parts of a box
 inline constexpr float visit = 60;  ///< of entering a cell
-/// Rays that start at an interface, for each unit of its area. (Those that enter come through both sides of a box.)
-inline constexpr float starts = 0.5f;
-inline constexpr float batch = 25, step = 2.4f;  ///< of a batch, and of each of its instructions
-inline constexpr float certain = 1.8f;           ///< batches where the field is linear,
-inline constexpr float unknown = 0.7f;           ///< more of them the less it lets rays pass without one,
-inline constexpr float uneven = 3;               ///< the more its gradient varies,
-inline constexpr float proven = 0.5f;            ///< and where only a certificate tells how it bends,
-inline constexpr float blind = 2;                ///< or nothing
+inline constexpr float batch = 25;  ///< of a batch of samples,
+inline constexpr float instruction = 2.4f;  ///< and of each simple instruction in it
+// These count batches.
+inline constexpr float batches_of_linear_field = 1.8f;   ///< where the field is linear
+inline constexpr float batches_by_slack = 0.7f;          ///< more, times the share of the box within the bound's slack
+inline constexpr float batches_by_spread = 3;            ///< more, times the variation of the gradient
+inline constexpr float batches_with_certificate = 0.5f;  ///< more where curvature is known by a certificate alone
+inline constexpr float batches_without_curvature = 2;    ///< more where nothing is known of curvature
+/// How many rays start at an interface for each unit of its area. (A ray that enters a box passes its surface twice.)
+inline constexpr float starting_rays = 0.5f;
 }  // namespace cost_model
 
-/// How much work an instruction is, in halves of a simple one.
-inline unsigned half_works(const Instruction& in, std::span<const float> constants) {
-    const OpTraits& t = traits(in.op);
-    return t.is_network ? static_cast<unsigned>(Siren::Network::multiplications(&constants[in.data])) / 3
-                        : t.half_works;
-}
-/// How much work a program is, in simple instructions; and its first component alone, if more than two phases meet.
+/// How much work a batch is, in simple instructions: of all of a program, and of its first component alone, which
+/// differs if more than two phases meet.
 struct Work {
     float all = 0, first = 0;
 };
-inline Work work(const WorkingProgram& program, std::span<const float> constants, std::span<const LocalValue> local,
-                 Arena& scratch) {
-    unsigned halves = 0;
-    for (const Instruction& in : program.code.subspan(1)) halves += half_works(in, constants);
-    for (const LocalValue& v : local) halves -= v.half_works_saved;
-    const float all = 0.5f * static_cast<float>(halves);
-    if (program.outputs.size() == 2) return {all, all};
-    const ArenaScope scope(scratch);
-    const LiveSet first(program, program.outputs.first(1), scratch);
-    unsigned rest = 0;
-    for (std::size_t i = 1; i < program.code.size(); ++i)
-        rest += first.has(i) ? 0u : half_works(program.code[i], constants);
-    for (const LocalValue& v : local) rest -= first.has(v.value) ? 0u : v.half_works_saved;
-    return {all, all - 0.5f * static_cast<float>(rest)};
-}
+Work work(const WorkingProgram&, std::span<const float> constants, std::span<const Specialisation>, Arena& scratch);
 
 inline float surface(const Bounds& box) {
     const glm::vec3 e = box.extent();
     return e.x * e.y + e.y * e.z + e.z * e.x;
 }
 
-/// Of an interface across a box, about.
-inline float one_interface(const Bounds& box) {
+/// About the area of one interface across a box.
+inline float interface_area(const Bounds& box) {
     const glm::vec3 e = box.extent();
     return std::max({e.x * e.y, e.y * e.z, e.z * e.x});
 }
 
-/// How many batches a visit takes of rays in one phase: of the first component or of the others.
-inline float batches(const Bounds& box, const LinearBound& bound, float curvature_bound, bool has_certificate) {
-    float unknown = 3, spread = 1;
-    if (bound.slack < Bounds::infinity) {
-        const float thickness = 0.5f * glm::dot(glm::abs(bound.normal), box.extent());
-        unknown = std::min(1.f, bound.slack / std::max(thickness, 1e-30f));
-        spread = std::min(1.f, bound.spread);
-    }
-    const bool is_blind = !(curvature_bound < Curvature::unknown);
-    return cost_model::certain + cost_model::unknown * unknown + cost_model::uneven * spread +
-           (!is_blind         ? 0.f
-            : has_certificate ? cost_model::proven
-                              : cost_model::blind);
-}
-/// Half of the rays are taken to be in the first phase, if that is the vacuum; all, if the others are opaque. Where
-/// more than two phases meet they need its component alone, and the rest where they leave it.
-inline float cost(const Bounds& box, const LinearBound& bound, const Curvature& curvature,
-                  const WorkingProgram& program, const Work& work, bool has_certificate, PhaseSet opaque) {
-    const float all = cost_model::batch + cost_model::step * work.all;
-    const auto is_opaque = [&](const ProgramOutput& o) { return opaque.contains(o.phase); };
-    const bool is_one_clear = std::ranges::all_of(program.outputs.subspan(1), is_opaque);
-    const bool has_two = program.outputs.size() == 2;
-    const float others =
-        batches(box, has_two ? bound : LinearBound{}, curvature.bound[1], has_two && has_certificate) * all;
-    float first = batches(box, bound, curvature.bound[0], has_certificate) * all;
-    if (!has_two) {
-        first = others;
-        if (program.outputs[0].phase == vacuum || is_one_clear)
-            first = batches(box, bound, curvature.bound[0], has_certificate) *
-                        (cost_model::batch + cost_model::step * work.first) +
-                    all;
-    }
-    const float in_first = is_one_clear ? 1.f : is_opaque(program.outputs[0]) ? 0.f : 0.5f;
-    return surface(box) * (cost_model::visit + in_first * first + (1 - in_first) * others);
-}
-/// A cell of this size cannot cost less.
+/// What the cost of a cell depends on besides its program.
+struct CellFacts {
+    Bounds box{};
+    LinearBound bound{};
+    Curvature curvature{};
+    bool has_certificate = false;
+};
+
+/// The cost of a cell.
+float cost(const CellFacts&, const WorkingProgram&, const Work&, PhaseSet opaque);
+
+/// The cost of the cheapest cell that has this box.
 inline float least_cost(const Bounds& box) {
-    return surface(box) * (cost_model::visit + cost_model::certain * (cost_model::batch + cost_model::step));
+    return surface(box) *
+           (cost_model::visit + cost_model::batches_of_linear_field * (cost_model::batch + cost_model::instruction));
 }
 
 }  // namespace phasetree::building

@@ -6,8 +6,8 @@
 
 namespace phasetree::building {
 
-/// Cuts a box into cells, by as many threads as TBB has; the result does not depend on them. Throws BuildCancelled, or
-/// BudgetExceeded, which depends on nothing else either.
+/// Divides a box, in which an object has this program, into cells, with as many threads as TBB has. Neither the cells
+/// nor whether the budget is exceeded depends on the threads. Throws BuildCancelled or BudgetExceeded.
 CellBuffers divide_into_cells(const Bounds&, const WorkingProgram&, const BuildContext&, CellBudget&);
 
 }  // namespace phasetree::building

@@ -1,7 +1,8 @@
-// Cells within a budget. First without a thought of it. If they exceed it, again, and from the coarse side: one cell;
-// then such boxes are divided as cost rays much, then such as cost less, as long as the memory will do. Each division
-// takes about twice the memory and time of the one before, so all together as much time as two of the last; and each
-// tells about what the next will take, so that few are in vain.
+/// Cells within a budget of memory. First they are built without regard to it. If that exceeds the budget, they are
+/// built again from the coarse side: first one cell; then only boxes are divided whose division saves much, then also
+/// those that save less, as long as the memory suffices. Each attempt takes about twice the memory and the time of the
+/// one before, so all of them together take about twice the time of the last. Each also tells about what the next will
+/// take, so that few of them are in vain.
 #include "building/divide_within.hpp"
 
 #include <algorithm>
@@ -13,59 +14,62 @@ namespace phasetree::building {
 
 namespace {
 
-/// By what the least saving is divided from one division to the next.
-class Finer {
+/// The factor by which the least saving falls from one attempt to the next.
+class ReductionFactor {
   public:
-    /// Such that the memory about doubles, as far as the last step tells.
-    void learn(double growth) {
-        const double aimed = growth > 1.01 ? std::pow(factor_, std::numbers::ln2 / std::log(growth)) : most;
-        growth_ = growth;
-        last_ = factor_;
-        factor_ = std::clamp(aimed, least, most);
+    /// Chooses the factor such that memory will about double. With the last factor it grew by `growth`.
+    void adapt(double growth) {
+        const double doubling = growth > 1.01 ? std::pow(factor_, std::numbers::ln2 / std::log(growth)) : largest;
+        last_growth_ = growth;
+        last_factor_ = factor_;
+        factor_ = std::clamp(doubling, smallest, largest);
     }
-    bool can_be_less() const { return factor_ > least; }
-    void be_least() { factor_ = least; }
-    double factor() const { return factor_; }
-    /// What the memory will grow by.
-    double growth() const { return std::pow(std::max(growth_, 1.0), std::log(factor_) / std::log(last_)); }
+    bool is_smallest() const { return !(factor_ > smallest); }
+    void set_smallest() { factor_ = smallest; }
+    double get() const { return factor_; }
+    /// The expected growth of memory with this factor, as a power of the factor.
+    double expected_growth() const {
+        return std::pow(std::max(last_growth_, 1.0), std::log(factor_) / std::log(last_factor_));
+    }
 
   private:
-    static constexpr double least = std::numbers::sqrt2, most = 4;
-    double factor_ = 2, last_ = 2, growth_ = 2;
+    static constexpr double smallest = std::numbers::sqrt2, largest = 4;
+    double factor_ = 2, last_factor_ = 2, last_growth_ = 2;
 };
 
 }  // namespace
 
-CellsWithinBudget divide_within(std::size_t bytes, const Bounds& box, const WorkingProgram& program,
-                                const BuildContext& d) {
+CellsWithinBudget divide_within(std::size_t limit_bytes, const Bounds& box, const WorkingProgram& program,
+                                const BuildContext& context) {
     try {
-        CellBudget budget(bytes);
-        return {divide_into_cells(box, program, d, budget)};
+        CellBudget budget(limit_bytes);
+        return {divide_into_cells(box, program, context, budget)};
     } catch (const BudgetExceeded&) {
     }
+    const auto limit = static_cast<double>(limit_bytes);
     constexpr auto infinity = std::numeric_limits<float>::infinity();
     CellBudget one_cell(std::numeric_limits<std::size_t>::max(), infinity);
-    CellBuffers best = divide_into_cells(box, program, d, one_cell);
-    float saving = one_cell.most_left();
-    double paid = static_cast<double>(one_cell.paid());
-    Finer step;
+    CellBuffers best = divide_into_cells(box, program, context, one_cell);
+    float saving = one_cell.largest_refused_saving();
+    double bytes = static_cast<double>(one_cell.charged_bytes());
+    ReductionFactor factor;
     constexpr double enough = 0.7;
-    while (saving > 0 && paid < enough * static_cast<double>(bytes)) {
-        if (paid * step.growth() > static_cast<double>(bytes) && step.can_be_less()) step.be_least();
-        const double expected = paid * step.growth();
-        if (expected > static_cast<double>(bytes)) break;
-        d.progress.start_again(expected / static_cast<double>(bytes));
-        CellBudget budget(bytes, saving / static_cast<float>(step.factor()));
+    while (saving > 0 && bytes < enough * limit) {
+        if (bytes * factor.expected_growth() > limit && !factor.is_smallest()) factor.set_smallest();
+        const double expected = bytes * factor.expected_growth();
+        if (expected > limit) break;
+        context.progress.start_attempt(expected / limit);
+        CellBudget budget(limit_bytes, saving / static_cast<float>(factor.get()));
         try {
-            best = divide_into_cells(box, program, d, budget);
+            best = divide_into_cells(box, program, context, budget);
         } catch (const BudgetExceeded&) {
-            if (!step.can_be_less()) break;
-            step.be_least();
+            if (factor.is_smallest()) break;
+            factor.set_smallest();
             continue;
         }
-        step.learn(static_cast<double>(budget.paid()) / paid);
-        paid = static_cast<double>(budget.paid());
-        saving = budget.most_left();
+        factor.adapt(static_cast<double>(budget.charged_bytes()) / bytes);
+        bytes = static_cast<double>(budget.charged_bytes());
+        saving = budget.largest_refused_saving();
     }
     return {std::move(best), true};
 }

@@ -5,12 +5,12 @@
 namespace phasetree::building {
 
 struct CellsWithinBudget {
-    CellBuffers found;
-    bool is_coarser = false;  ///< than it would be with more memory
+    CellBuffers cells;
+    bool is_coarser = false;  ///< whether more memory would have given more cells
 };
 
-/// Cuts a box into cells that take no more than so many bytes, or into one; the result does not depend on the number of
-/// threads. Throws BuildCancelled.
-CellsWithinBudget divide_within(std::size_t bytes, const Bounds&, const WorkingProgram&, const BuildContext&);
+/// Divides a box into cells that take no more than this many bytes, or into a single cell. The result does not depend
+/// on the number of threads. Throws BuildCancelled.
+CellsWithinBudget divide_within(std::size_t limit_bytes, const Bounds&, const WorkingProgram&, const BuildContext&);
 
 }  // namespace phasetree::building

@@ -6,8 +6,9 @@
 
 namespace phasetree::cells {
 
-/// Of bytes, eight at a time. Each step is a bijection of what it has so far and of the bytes that come, so that a
-/// change within eight bytes is always found, and any other all but once in 2⁶⁴. The result depends on the byte order.
+/// A checksum of bytes, eight at a time. Each step is a bijection both of the sum so far and of the bytes that are put
+/// in, so a change within eight bytes is always found, and any other except for one in 2⁶⁴. It depends on the machine's
+/// byte order. It is no protection against forgery.
 class Checksum {
   public:
     void put(const void* bytes, std::size_t count) {

@@ -8,7 +8,7 @@
 
 namespace phasetree::cells {
 
-/// What a file of cells begins with; the sections follow one after another, and nothing behind them.
+/// The beginning of a file of cells. The sections follow it one after another, and nothing is behind them.
 struct CellsFileHeader {
     enum Section : std::size_t {
         cells,
@@ -26,16 +26,16 @@ struct CellsFileHeader {
 
     std::array<char, 8> magic;
     std::uint32_t format, byte_order;
-    std::array<char, 24> library;  ///< its version
+    std::array<char, 24> library;  ///< the version of the library
     std::array<char, 24> machine;
-    std::uint64_t layout;   ///< of all that is in the tables, and the list of operations: a hash
-    std::uint64_t program;  ///< of the object: a hash
+    std::uint64_t layout;   ///< a hash of what gives the tables their meaning (file_format.cpp)
+    std::uint64_t program;  ///< a hash of the object's program
     std::uint64_t opaque, most_bytes;
     float resolution;
     std::int32_t deepest;
     std::uint32_t quality, is_coarser;
     std::uint64_t routines;
-    std::array<std::uint64_t, sections> counts;  ///< how many items each has
+    std::array<std::uint64_t, sections> counts;  ///< how many items each section has
     std::uint64_t tables_checksum, header_checksum;
 
     std::uint64_t own_checksum() const {

@@ -12,15 +12,15 @@ using program::is_fold, program::operands;
 
 namespace {
 
-/// A slope above this has a jump in it.
-constexpr float half_a_jump = 0x1p20f;
+/// A Lipschitz bound above this has the factor FoldMap::jump, which is 2⁴⁰, in it.
+constexpr float least_slope_of_jump = 0x1p20f;
 
 }  // namespace
 
 float finest_jump(const WorkingProgram& program, std::span<const float> constants) {
     float finest = Bounds::infinity;
     for (std::size_t i = 0; i < program.code.size(); ++i) {
-        if (!is_fold(program.code[i].op) || program.lipschitz[i] <= half_a_jump) continue;
+        if (!is_fold(program.code[i].op) || program.lipschitz[i] <= least_slope_of_jump) continue;
         FoldMap fold;
         std::memcpy(static_cast<void*>(&fold), constants.data() + program.code[i].data, sizeof fold);
         for (int axis = 0; axis < 3; ++axis)
@@ -30,37 +30,37 @@ float finest_jump(const WorkingProgram& program, std::span<const float> constant
 }
 
 bool may_jump(const WorkingProgram& program) {
-    return std::ranges::any_of(program.lipschitz, [](float l) { return l > half_a_jump; });
+    return std::ranges::any_of(program.lipschitz, [](float l) { return l > least_slope_of_jump; });
 }
 
-/// Slopes within the ball. A fold of space jumps, which is recorded as a slope of FoldMap::jump; in a ball that
-/// touches none of its jumps that factor goes from all that follows. The guard above the fold tells: its bound is
-/// more than half of `far` wherever the fold jumps.
-std::span<const float> slopes_in_ball(const WorkingProgram& program, std::span<const float> constants,
-                                      const ValuesAtPoint& value, float radius, float rounding, Arena& scratch) {
-    const std::span<float> slope = scratch.copy(program.lipschitz);
+/// The guard above a fold tells whether it jumps in the ball: its bound exceeds half of its constant wherever the fold
+/// jumps (`guarded` in math/number.hpp).
+std::span<const float> slopes_in_ball(const WorkingProgram& program, const ValuesAtPoint& centre, float radius,
+                                      const ProgramContext& context, Arena& arena) {
+    const std::span<float> slope = arena.copy(program.lipschitz);
     const auto size = static_cast<std::uint32_t>(program.code.size());
-    const std::span<char> is_still = scratch.take<char>(size);  // 1: folds without a jump in the ball
-    const std::span<char> jumps = scratch.take<char>(size);
-    std::ranges::fill(is_still, 0);
+    // Several folds may have the same point, and none of them is continuous unless all of their guards say so.
+    constexpr char is_continuous = 1, may_jump_here = 2;
+    const std::span<char> verdicts = arena.allocate<char>(size);  // What the guards say of each fold, as a set.
+    const std::span<char> jumps = arena.allocate<char>(size);     // Whether a value depends on a fold that may jump.
+    std::ranges::fill(verdicts, 0);
     std::ranges::fill(jumps, 0);
     for (std::uint32_t i = 1; i < size; ++i) {
         const Instruction& guard = program.code[i];
         if (guard.op != Op::guarded) continue;
-        // The bound's own slope is that of its point.
-        const float high = value[guard.a] + slope[guard.a] * radius + rounding;
-        // Several folds may have one point: none is still unless all of their guards say so.
-        const char says = high < 0.5f * constants[guard.data] ? 1 : 2;
+        const float high = centre[guard.a] + slope[guard.a] * radius + context.rounding;
+        const char verdict = high < 0.5f * context.constants[guard.data] ? is_continuous : may_jump_here;
         for (std::uint32_t k = 1; k < i; ++k)
             if (is_fold(program.code[k].op) && program.code[k].a == program.code[guard.a].a)
-                is_still[k] = static_cast<char>(is_still[k] | says);
+                verdicts[k] = static_cast<char>(verdicts[k] | verdict);
     }
     for (std::uint32_t i = 1; i < size; ++i) {
         const Instruction& in = program.code[i];
-        if (slope[i] <= half_a_jump) continue;
+        if (slope[i] <= least_slope_of_jump) continue;
         const int n = operands(in.op);
-        jumps[i] = (n > 0 && jumps[in.a]) || (n > 1 && jumps[in.b]) || (is_fold(in.op) && is_still[i] != 1);
-        while (!jumps[i] && slope[i] > half_a_jump) slope[i] /= FoldMap::jump;
+        jumps[i] = (n > 0 && jumps[in.a]) || (n > 1 && jumps[in.b]) || (is_fold(in.op) && verdicts[i] != is_continuous);
+        // Each fold that the value depends on has multiplied its bound once.
+        while (!jumps[i] && slope[i] > least_slope_of_jump) slope[i] /= FoldMap::jump;
     }
     return slope;
 }

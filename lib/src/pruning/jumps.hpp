@@ -2,18 +2,21 @@
 
 #include "pruning/prune.hpp"
 
-/// Folds of space jump, which a program records as a slope of FoldMap::jump; where they do not, that goes.
+/// Folds of space (endless copies) make fields that jump. A program records that by multiplying the Lipschitz bounds of
+/// a fold and of all that follows it by FoldMap::jump. In a region in which a fold does not jump, the factor can be
+/// taken away again, and then pruning is possible.
 namespace phasetree::pruning {
 
-/// Whether anything in it has a slope that only a jump can have.
+/// Whether a value of the program has a Lipschitz bound that only a jump explains.
 bool may_jump(const WorkingProgram&);
 
-/// Slopes within a ball about a point with these values: of the program, but for folds that do not jump there.
-std::span<const float> slopes_in_ball(const WorkingProgram&, std::span<const float> constants,
-                                      const ValuesAtPoint& centre, float radius, float rounding, Arena& scratch);
+/// The Lipschitz bounds of all values in a ball: those of the program, except that folds which do not jump in the ball
+/// count as continuous. `centre` holds the values at its centre.
+std::span<const float> slopes_in_ball(const WorkingProgram&, const ValuesAtPoint& centre, float radius,
+                                      const ProgramContext&, Arena&);
 
-/// The smallest period of what is folded in a program and still jumps, infinity if nothing does: larger cells cannot be
-/// pruned of it.
+/// The smallest period of the folds of a program that still may jump, in metres; infinity if there are none. Nothing of
+/// such a fold can be pruned in boxes larger than its period.
 float finest_jump(const WorkingProgram&, std::span<const float> constants);
 
 }  // namespace phasetree::pruning

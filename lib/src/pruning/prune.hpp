@@ -1,23 +1,41 @@
 #pragma once
 
 #include <optional>
-#include <span>
 
 #include "bounding/value_ranges.hpp"
 #include "evaluation/values_at_point.hpp"
-#include "rewriting/working_program.hpp"
+#include "rewriting/program_context.hpp"
 
+/// Pruning deletes what cannot matter in a region of space from a program, in one backward sweep over its instructions
+/// (backward_sweep.hpp) with rules for each operation (operation_rules.hpp). There are two kinds of it.
+///
+/// *By value* (Barbier et al. 2025): of min(a, b) only a is left if a < b is proven for the whole region, and likewise
+/// of maxima and smooth minima. In a ball that follows from b − a at the centre and the Lipschitz bounds of both; in a
+/// box, where gradients are known, from the enclosure of b − a.
+///
+/// *By the required interval*: of an output only the sign matters, and the sign of max(a, b) − τ is that of b − τ if a
+/// stays below τ. Negations, offsets and scalings only move the threshold τ. Of a in min(a, b) nothing matters above
+/// the largest value of b, for there the minimum is b. So each value is required only in an interval, and outside of
+/// it only on which side it lies (required_interval.hpp). That reaches down a long chain of minima to links that are
+/// far from the region, though each of them is too near to the next to be told from it by value.
+///
+/// What replaces a value is equal to it within its required interval, and outside on the same side of it. Both operands
+/// of a minimum may be replaced at once: the smaller, a, does not exceed the largest value of b, so it stays what it
+/// is; and what replaces b is b, or not below the largest value of a. A replacement has the same sign relative to each
+/// threshold and is Lipschitz itself, so its distance from the threshold is still a lower bound of the distance to
+/// where the sign changes.
 namespace phasetree::pruning {
 
 using bounding::ValueRanges;
 using evaluation::ValuesAtPoint;
-using rewriting::Arena, rewriting::WorkingProgram;
+using rewriting::Arena, rewriting::Arenas, rewriting::ProgramContext, rewriting::WorkingProgram;
 
-/// Bounds of every value in a ball, by values at its centre and Lipschitz bounds; worked out for those that are asked.
+/// The range of every value in a ball, by the values at its centre and Lipschitz bounds: |v(p) − v(centre)| ≤ slope ·
+/// radius. Ranges are computed when they are asked for.
 struct RangesInBall {
     ValuesAtPoint centre;
     std::span<const float> slope;
-    float radius, rounding;  ///< which bounds the error of any value
+    float radius, rounding;  ///< `rounding` bounds the error of any value
 
     float low(std::uint32_t i) const { return centre[i] - slack(i); }
     float high(std::uint32_t i) const { return centre[i] + slack(i); }
@@ -27,19 +45,17 @@ struct RangesInBall {
     float slack(std::uint32_t i) const { return slope[i] * radius + rounding; }
 };
 
-/// What is left of a program in a region where its values are within these ranges, if an interface may pass through it
-/// that a ray can meet, which is in a phase that is not opaque; nothing otherwise. The result is in `keep`, or it is
-/// the program itself, if that was pruned before and all of it is left; `scratch` is left as it was.
+/// The program that is left in a region where the values of a program have these ranges. Nothing if no ray can meet an
+/// interface there: that needs two phases, one of which is not opaque. The result is in `results`; or it is the program
+/// itself, if that was pruned before and all of it is left.
 ///
-/// What remains gives the same labels in the region, and its components' absolute values are still lower bounds of the
-/// distance to where the label changes there. See prune.cpp.
-std::optional<WorkingProgram> prune(const WorkingProgram&, std::span<const float> constants, const ValueRanges&,
-                                    PhaseSet opaque, Arena& keep, Arena& scratch);
-std::optional<WorkingProgram> prune(const WorkingProgram&, std::span<const float> constants, const RangesInBall&,
-                                    PhaseSet opaque, Arena& keep, Arena& scratch);
+/// In the region the result gives the same labels, and the absolute values of its components are still lower bounds of
+/// the distance to where the label changes.
+std::optional<WorkingProgram> prune(const WorkingProgram&, const ValueRanges&, const ProgramContext&, const Arenas&);
+std::optional<WorkingProgram> prune(const WorkingProgram&, const RangesInBall&, const ProgramContext&, const Arenas&);
 
-/// Without what makes distances larger far from the surface, if there is any (Op::far_bound): the signs are the same.
-std::optional<WorkingProgram> without_far_bounds(const WorkingProgram&, std::span<const float> constants,
-                                                 PhaseSet opaque, Arena& keep, Arena& scratch);
+/// The program without the operations that enlarge distances far from the surface (Op::far_bound), which do not change
+/// any sign. Nothing if it has none, or if no interface is left.
+std::optional<WorkingProgram> without_far_bounds(const WorkingProgram&, const ProgramContext&, const Arenas&);
 
 }  // namespace phasetree::pruning

@@ -7,44 +7,45 @@
 
 namespace phasetree::pruning {
 
-/// What a value is wanted for: itself between two numbers, and else which of them it is beyond. If both are a
-/// threshold, its sign relative to that; if they are infinite, itself; if nothing is between, nothing.
+/// What the users of a value need to know of it: its exact value where that lies in the interval [low, high], and
+/// otherwise only on which side of the interval it lies. An interval of one number τ asks for the sign of v − τ alone,
+/// the infinite interval for the value itself; the empty interval, which is the default, asks for nothing.
 class RequiredInterval {
   public:
     RequiredInterval() = default;
-    /// What is not a number is no bound. It is never nothing that is demanded so.
-    RequiredInterval(float least, float most)
-        : least_(std::isnan(least) ? -Bounds::infinity : least),
-          most_(std::max(least_, std::isnan(most) ? Bounds::infinity : most)) {}
+    /// A bound that is NaN counts as infinite. An interval whose bounds are exchanged is that of `low` alone, so the
+    /// result is never empty.
+    RequiredInterval(float low, float high)
+        : low_(std::isnan(low) ? -Bounds::infinity : low),
+          high_(std::max(low_, std::isnan(high) ? Bounds::infinity : high)) {}
     static RequiredInterval threshold(float tau) { return {tau, tau}; }
-    static RequiredInterval value() { return {-Bounds::infinity, Bounds::infinity}; }
+    static RequiredInterval all() { return {-Bounds::infinity, Bounds::infinity}; }
 
-    float least() const { return least_; }
-    float most() const { return most_; }
-    bool is_none() const { return least_ > most_; }
-    /// A zero's sign means nothing.
-    bool is_sign() const { return least_ == 0 && most_ == 0; }
-    /// Both this and another one.
-    RequiredInterval with(const RequiredInterval& other) const {
-        return between(std::min(least_, other.least_), std::max(most_, other.most_));
+    float low() const { return low_; }
+    float high() const { return high_; }
+    bool is_empty() const { return low_ > high_; }
+    /// Whether only the sign is needed. The sign of zero means nothing.
+    bool is_sign() const { return low_ == 0 && high_ == 0; }
+    /// The smallest interval around both.
+    RequiredInterval hull(const RequiredInterval& other) const {
+        return unchecked(std::min(low_, other.low_), std::max(high_, other.high_));
     }
-    /// No more of it than is below or above a number.
-    RequiredInterval below(float most) const { return between(least_, std::max(least_, most < most_ ? most : most_)); }
-    RequiredInterval above(float least) const {
-        return between(std::min(most_, least > least_ ? least : least_), most_);
-    }
-    RequiredInterval negated() const { return between(-most_, -least_); }
+    /// The part below a number, but at least the lower bound; nothing changes if the number is NaN.
+    RequiredInterval below(float bound) const { return unchecked(low_, std::max(low_, bound < high_ ? bound : high_)); }
+    /// The part above a number, but at least the upper bound.
+    RequiredInterval above(float bound) const { return unchecked(std::min(high_, bound > low_ ? bound : low_), high_); }
+    RequiredInterval negated() const { return unchecked(-high_, -low_); }
 
   private:
-    /// Of numbers.
-    static RequiredInterval between(float least, float most) {
-        RequiredInterval d;
-        d.least_ = least;
-        d.most_ = most;
-        return d;
+    /// An interval whose bounds are known not to be NaN.
+    static RequiredInterval unchecked(float low, float high) {
+        RequiredInterval r;
+        r.low_ = low;
+        r.high_ = high;
+        return r;
     }
 
-    float least_ = Bounds::infinity, most_ = -Bounds::infinity;
+    float low_ = Bounds::infinity, high_ = -Bounds::infinity;
 };
 
 }  // namespace phasetree::pruning

@@ -9,37 +9,39 @@
 
 namespace phasetree::rewriting {
 
-/// Memory of one thread that is given back in the reverse order in which it was taken: what a recursion needs at each
-/// of its levels, without a call of the system's allocator at any.
+/// A stack of memory for one thread: what was allocated last is released first. A recursion allocates what it needs at
+/// each of its levels and releases it on its way back, so that no level calls the system's allocator. Blocks double in
+/// size and are reused until the arena is destroyed.
 class Arena {
   public:
+    /// A height of the stack.
     struct Mark {
         std::size_t block = 0;
-        std::byte *next = nullptr, *end = nullptr;  ///< of that block, or null before the first
+        std::byte *next = nullptr, *end = nullptr;  ///< the unused part of that block; null before the first block
     };
 
-    /// Unset; valid until a mark set before is released.
+    /// Memory for `count` objects, which are not initialised. It is valid until a mark that was set before is released.
     template <class T>
-    std::span<T> take(std::size_t count) {
+    std::span<T> allocate(std::size_t count) {
         static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
         const std::size_t bytes = (count * sizeof(T) + alignment - 1) / alignment * alignment;
-        if (bytes > left()) go_on(bytes);
-        std::byte* const start = here_.next;
-        here_.next += bytes;
+        if (bytes > unused_bytes()) open_block(bytes);
+        std::byte* const start = top_.next;
+        top_.next += bytes;
         return {reinterpret_cast<T*>(start), count};
     }
     template <class T>
     std::span<T> copy(std::span<const T> from) {
-        const std::span<T> to = take<T>(from.size());
+        const std::span<T> to = allocate<T>(from.size());
         std::copy(from.begin(), from.end(), to.begin());
         return to;
     }
 
-    Mark mark() const { return here_; }
-    void release(const Mark& m) { here_ = m; }
+    Mark mark() const { return top_; }
+    void release(const Mark& m) { top_ = m; }
 
   private:
-    static constexpr std::size_t alignment = 64, first_block = std::size_t{1} << 16;
+    static constexpr std::size_t alignment = 64, first_block_bytes = std::size_t{1} << 16;
     struct alignas(alignment) Line {
         std::byte bytes[alignment];
     };
@@ -47,23 +49,15 @@ class Arena {
         std::unique_ptr<Line[]> memory;
         std::size_t size;
     };
-    std::size_t left() const { return static_cast<std::size_t>(here_.end - here_.next); }
-    /// To the next block that has so much room, or a new one.
-    void go_on(std::size_t bytes) {
-        std::size_t block = here_.next == nullptr ? 0 : here_.block + 1;
-        while (block < blocks_.size() && blocks_[block].size < bytes) ++block;
-        if (block == blocks_.size()) {
-            const std::size_t size = std::max(bytes, blocks_.empty() ? first_block : 2 * blocks_.back().size);
-            blocks_.push_back({std::make_unique_for_overwrite<Line[]>((size + alignment - 1) / alignment), size});
-        }
-        auto* const start = reinterpret_cast<std::byte*>(blocks_[block].memory.get());
-        here_ = {block, start, start + blocks_[block].size};
-    }
+    std::size_t unused_bytes() const { return static_cast<std::size_t>(top_.end - top_.next); }
+    /// Moves the top to the next block that has this much room, or to a new one.
+    void open_block(std::size_t bytes);
+
     std::vector<Block> blocks_;
-    Mark here_;
+    Mark top_;
 };
 
-/// Gives back at the end of a scope what was taken in it.
+/// Releases at the end of a scope what was allocated in it.
 class ArenaScope {
   public:
     explicit ArenaScope(Arena& arena) : arena_(arena), mark_(arena.mark()) {}
@@ -74,6 +68,12 @@ class ArenaScope {
   private:
     Arena& arena_;
     Arena::Mark mark_;
+};
+
+/// The two arenas of a function that returns something large.
+struct Arenas {
+    Arena& results;  ///< holds what is returned
+    Arena& scratch;  ///< holds what is needed only until the function returns
 };
 
 }  // namespace phasetree::rewriting

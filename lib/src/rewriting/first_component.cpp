@@ -6,24 +6,24 @@
 
 namespace phasetree::rewriting {
 
-FirstComponentFirst first_component_first(const WorkingProgram& program, Arena& keep, Arena& scratch) {
+FirstComponentFirst first_component_first(const WorkingProgram& program, const Arenas& arenas) {
     const std::size_t size = program.code.size();
-    const LiveSet first(program, program.outputs.first(1), scratch);
-    const std::span<std::uint32_t> renumbered = scratch.take<std::uint32_t>(size);
-    const std::span<Instruction> code = keep.take<Instruction>(size);
-    const std::span<float> lipschitz = keep.take<float>(size);
-    const std::span<ProgramOutput> outputs = keep.copy(program.outputs);
+    const LiveSet needed(program, program.outputs.first(1), arenas.scratch);
+    const std::span<std::uint32_t> renumbered = arenas.scratch.allocate<std::uint32_t>(size);
+    const std::span<Instruction> code = arenas.results.allocate<Instruction>(size);
+    const std::span<float> lipschitz = arenas.results.allocate<float>(size);
+    const std::span<ProgramOutput> outputs = arenas.results.copy(program.outputs);
     std::uint32_t count = 0;
-    for (const bool is_first : {true, false})
+    for (const bool is_needed_pass : {true, false})
         for (std::uint32_t i = 0; i < size; ++i) {
-            if (first.has(i) != is_first) continue;
+            if (needed.has(i) != is_needed_pass) continue;
             const Instruction& in = program.code[i];
             renumbered[i] = count;
             code[count] = {in.op, i > 0 ? renumbered[in.a] : 0, i > 0 ? renumbered[in.b] : 0, in.data};
             lipschitz[count++] = program.lipschitz[i];
         }
     for (ProgramOutput& o : outputs) o.value = renumbered[o.value];
-    return {{code, lipschitz, outputs}, static_cast<std::uint32_t>(first.size()), renumbered};
+    return {{code, lipschitz, outputs}, static_cast<std::uint32_t>(needed.size()), renumbered};
 }
 
 }  // namespace phasetree::rewriting

@@ -4,12 +4,15 @@
 
 namespace phasetree::rewriting {
 
-/// A program of more than two phases with what its first component needs before the rest.
+/// A program of more than two phases whose instructions are in another order: those that its first component needs come
+/// first. A ray in the first component's phase evaluates only these until that component says that it may leave.
 struct FirstComponentFirst {
     WorkingProgram program;
-    std::uint32_t leading = 0;                    ///< instructions that it needs, the input not counted
-    std::span<const std::uint32_t> renumbered{};  ///< where each instruction went, in `scratch`; empty if they stayed
+    std::uint32_t leading = 0;                    ///< how many instructions those are, the input not counted
+    std::span<const std::uint32_t> renumbered{};  ///< the new number of each instruction; empty if none has moved
 };
-FirstComponentFirst first_component_first(const WorkingProgram&, Arena& keep, Arena& scratch);
+
+/// The program is in `results`, `renumbered` in `scratch`.
+FirstComponentFirst first_component_first(const WorkingProgram&, const Arenas&);
 
 }  // namespace phasetree::rewriting

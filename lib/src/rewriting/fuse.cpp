@@ -14,11 +14,11 @@ using program::affine_map, program::first_map, program::first_placed, program::g
 
 namespace {
 
-/// The map of the index-th type of a list, if it is affine.
+/// The map that is of the index-th type of a list, if that is an affine map.
 template <class... Ms>
 std::optional<AffineMap> find_affine(TypeList<Ms...>, std::uint32_t index, const float* constants) {
     std::optional<AffineMap> found;
-    const auto read = [&]<class M>() {
+    const auto read_map = [&]<class M>() {
         if constexpr (AffinePointMap<M>) {
             M map;
             std::memcpy(static_cast<void*>(&map), constants, sizeof map);
@@ -26,10 +26,11 @@ std::optional<AffineMap> find_affine(TypeList<Ms...>, std::uint32_t index, const
         }
     };
     std::uint32_t k = 0;
-    (void)((k++ == index ? (read.template operator()<Ms>(), true) : false) || ...);
+    (void)((k++ == index ? (read_map.template operator()<Ms>(), true) : false) || ...);
     return found;
 }
 
+/// How many floats each of these primitives has.
 template <class... Ps>
 constexpr auto floats_of(TypeList<Ps...>) {
     return std::array<std::size_t, sizeof...(Ps)>{sizeof(Ps) / sizeof(float)...};
@@ -45,72 +46,71 @@ bool is_short_primitive(Op op) {
 
 }  // namespace
 
-std::uint32_t Fuser::constant(const void* floats, std::size_t count) {
+std::uint32_t Fuser::intern(const void* floats, std::size_t count) {
     std::string key(count * sizeof(float), '\0');
     std::memcpy(key.data(), floats, key.size());
-    const auto [where, is_new] = known_.try_emplace(std::move(key), static_cast<std::uint32_t>(constants_.size()));
+    const auto [entry, is_new] = interned_.try_emplace(std::move(key), static_cast<std::uint32_t>(constants_.size()));
     if (is_new) {
         constants_.resize(constants_.size() + count);
-        std::memcpy(&constants_[where->second], floats, count * sizeof(float));
+        std::memcpy(&constants_[entry->second], floats, count * sizeof(float));
     }
-    return where->second;
+    return entry->second;
 }
 
-/// What of each value is affine: before it, if it is a point; after it, if it is a primitive's distance.
-void Fuser::follow(std::span<const Instruction> code) {
-    frames_.assign(code.size(), {});
-    groups_.assign(code.size(), {});
+/// Finds which points are affine maps of other points, and which numbers are scaled primitives.
+void Fuser::find_affine_values(std::span<const Instruction> code) {
+    chains_.assign(code.size(), {});
+    scaled_.assign(code.size(), {});
     for (std::uint32_t i = 1; i < code.size(); ++i) {
         const Instruction& in = code[i];
         if (is_map(in.op)) {
             const auto map =
                 find_affine(PointMaps(), static_cast<std::uint32_t>(in.op) - first_map, &constants_[in.data]);
             if (!map) continue;
-            const Frame& before = frames_[in.a];
+            const AffineChain& before = chains_[in.a];
             const auto both = before.maps > 0 ? before.map.then(*map) : std::nullopt;
-            frames_[i] = both ? Frame{before.base, before.maps + 1, *both} : Frame{in.a, 1, *map};
-            continue;
+            chains_[i] = both ? AffineChain{before.base, before.maps + 1, *both} : AffineChain{in.a, 1, *map};
+        } else if (is_short_primitive(in.op)) {
+            scaled_[i].primitive = i;
+        } else if (operands(in.op) == 1 && scaled_[in.a].primitive != 0 && uses_[in.a] == 1) {
+            scaled_[i] = scaled_primitive(in);
         }
-        if (is_short_primitive(in.op)) {
-            groups_[i].primitive = i;
-            continue;
-        }
-        const Group& before = groups_[in.a];
-        if (operands(in.op) != 1 || before.primitive == 0 || uses_[in.a] != 1) continue;
-        const float c = constants_[in.data];
-        const bool is_moved = before.offset != 0, is_scaled = before.scale != 1 && before.scale != -1;
-        Group& g = groups_[i];
-        if (in.op == Op::negate)
-            g = {before.primitive, -before.scale, -before.offset};
-        else if (in.op == Op::add_constant && !is_moved)
-            g = {before.primitive, before.scale, c};
-        else if (in.op == Op::constant_minus && !is_moved)
-            g = {before.primitive, -before.scale, c};
-        else if (in.op == Op::multiply_constant && !is_moved && !is_scaled)
-            g = {before.primitive, before.scale * c, 0};
     }
 }
 
-/// An instruction as it was, or in one with those before it; operands are still old values.
+/// What an instruction makes of its operand, which is a scaled primitive and has no other use. A fused instruction
+/// multiplies once and then adds once, so nothing is joined to an offset but a change of sign.
+Fuser::ScaledPrimitive Fuser::scaled_primitive(const Instruction& in) const {
+    const ScaledPrimitive& before = scaled_[in.a];
+    const float c = constants_[in.data];
+    const bool has_offset = before.offset != 0, has_scale = before.scale != 1 && before.scale != -1;
+    if (in.op == Op::negate) return {before.primitive, -before.scale, -before.offset};
+    if (in.op == Op::add_constant && !has_offset) return {before.primitive, before.scale, c};
+    if (in.op == Op::constant_minus && !has_offset) return {before.primitive, -before.scale, c};
+    if (in.op == Op::multiply_constant && !has_offset && !has_scale) return {before.primitive, before.scale * c, 0};
+    return {};
+}
+
+/// An instruction, fused with those before it where that is possible. Its operands have their old numbers.
 Instruction Fuser::fused(std::span<const Instruction> code, std::uint32_t i) {
-    static constexpr auto size = floats_of(Primitives());
+    static constexpr auto floats_of_primitive = floats_of(Primitives());
     const Instruction& in = code[i];
-    if (frames_[i].maps > 1) {
-        const AffineMap& map = frames_[i].map;
-        return {static_cast<Op>(affine_map), frames_[i].base, 0, constant(&map, sizeof map / sizeof(float))};
+    if (chains_[i].maps > 1) {
+        const AffineMap& map = chains_[i].map;
+        return {static_cast<Op>(affine_map), chains_[i].base, 0, intern(&map, sizeof map / sizeof(float))};
     }
-    const Group& g = groups_[i];
-    if (g.primitive == 0) return in;
-    const Instruction& primitive = code[g.primitive];
-    const Frame& frame = frames_[primitive.a];
-    if (frame.maps == 0 && g.primitive == i) return in;
+    const ScaledPrimitive& scaled = scaled_[i];
+    if (scaled.primitive == 0) return in;
+    const Instruction& primitive = code[scaled.primitive];
+    const AffineChain& chain = chains_[primitive.a];
+    if (chain.maps == 0 && scaled.primitive == i) return in;
     const auto index = static_cast<std::uint32_t>(primitive.op) - static_cast<std::uint32_t>(Op::first_primitive);
-    const PlacedPrimitive placed{frame.map, g.scale, g.offset};
-    std::vector<float> floats(placed_floats + size[index]);
+    const PlacedPrimitive placed{chain.map, scaled.scale, scaled.offset};
+    std::vector<float> floats(placed_floats + floats_of_primitive[index]);
     std::memcpy(floats.data(), &placed, sizeof placed);
-    std::memcpy(floats.data() + placed_floats, &constants_[primitive.data], size[index] * sizeof(float));
-    return {static_cast<Op>(first_placed + index), frame.maps > 0 ? frame.base : primitive.a, 0,
-            constant(floats.data(), floats.size())};
+    std::memcpy(floats.data() + placed_floats, &constants_[primitive.data], floats_of_primitive[index] * sizeof(float));
+    return {static_cast<Op>(first_placed + index), chain.maps > 0 ? chain.base : primitive.a, 0,
+            intern(floats.data(), floats.size())};
 }
 
 const Fuser::Fused& Fuser::operator()(std::span<const Instruction> code, std::span<const ProgramOutput> outputs,
@@ -122,12 +122,12 @@ const Fuser::Fused& Fuser::operator()(std::span<const Instruction> code, std::sp
         if (operands(in.op) > 1) ++uses_[in.b];
     }
     const auto keep = [&](std::uint32_t v) {
-        uses_[v] += 2;  // never in one with another
+        uses_[v] += 2;  // A value with more than one use is never fused with what uses it.
         is_needed_[v] = 1;
     };
     for (const ProgramOutput& o : outputs) keep(o.value);
     for (const std::uint32_t v : kept) keep(v);
-    follow(code);
+    find_affine_values(code);
 
     std::vector<Instruction> made(code.size());
     for (auto i = static_cast<std::uint32_t>(code.size()); i-- > 1;) {
@@ -137,14 +137,14 @@ const Fuser::Fused& Fuser::operator()(std::span<const Instruction> code, std::sp
         if (operands(made[i].op) > 1) is_needed_[made[i].b] = 1;
     }
     fused_.code.assign(1, code[0]);
-    fused_.where.assign(code.size(), 0);
+    fused_.renumbered.assign(code.size(), 0);
     fused_.leading = 0;
     for (std::uint32_t i = 1; i < code.size(); ++i) {
         if (!is_needed_[i]) continue;
-        fused_.where[i] = static_cast<std::uint32_t>(fused_.code.size());
+        fused_.renumbered[i] = static_cast<std::uint32_t>(fused_.code.size());
         Instruction in = made[i];
-        in.a = fused_.where[in.a];
-        in.b = fused_.where[in.b];
+        in.a = fused_.renumbered[in.a];
+        in.b = fused_.renumbered[in.b];
         fused_.code.push_back(in);
         fused_.leading += i <= leading;
     }

@@ -12,48 +12,52 @@ namespace phasetree::rewriting {
 
 using program::ProgramOutput;
 
-/// Writes programs with fewer, larger instructions (program/fused.hpp): maps of space that are affine are composed with
-/// each other and with the primitive behind them, and a scale and an offset with the primitive before them. What an
-/// instruction costs is mostly the way to it and its operands' way through memory. Only where values stay the same to
-/// the last bit, but for the sign of a zero: a cell's labels are the whole object's.
+/// Writes programs with fewer, larger instructions (instruction fusion; the instructions are those of
+/// program/fused.hpp): affine maps of space are composed with each other and with the primitive that follows them, and
+/// a scale and an offset are joined to the primitive that precedes them. This is worth it because most of the time of a
+/// small instruction is its dispatch and the traffic of its operands through memory. Instructions are fused only where
+/// every value stays the same to the last bit, except for the sign of a zero, because a cell must give the same labels
+/// as the whole object.
 class Fuser {
   public:
-    /// New constants are appended to these, equal ones once.
+    /// Constants of fused instructions are appended to `constants`, equal ones once.
     explicit Fuser(std::vector<float>& constants) : constants_(constants) {}
 
     struct Fused {
         std::vector<Instruction> code;
-        std::vector<std::uint32_t> where;  ///< of each value that is still there
-        std::uint32_t leading = 0;         ///< of so many leading instructions
+        std::vector<std::uint32_t> renumbered;  ///< the new number of each value that still exists
+        std::uint32_t leading = 0;              ///< how many instructions the leading ones have become
     };
-    /// `kept` are values that must stay, besides the outputs'. The result holds until the next call.
+    /// Fuses a program whose first `leading` instructions are to stay in front. The values in `kept` stay values of
+    /// their own, as the outputs' do. The result is valid until the next call.
     const Fused& operator()(std::span<const Instruction> code, std::span<const ProgramOutput> outputs,
                             std::span<const std::uint32_t> kept, std::uint32_t leading);
 
-    /// Where these floats are among the constants.
-    std::uint32_t constant(const void* floats, std::size_t count);
+    /// The index of these floats among the constants, to which they are appended unless they are there.
+    std::uint32_t intern(const void* floats, std::size_t count);
 
   private:
-    /// An affine map of the value `base`, or nothing affine.
-    struct Frame {
+    /// A point that is an affine map of the point `base`, composed of this many maps; none if `maps` is 0.
+    struct AffineChain {
         std::uint32_t base = 0;
-        int maps = 0;  ///< how many are in it
+        int maps = 0;
         AffineMap map{};
     };
-    /// scale · a primitive + offset, which is instruction `primitive`, or none.
-    struct Group {
+    /// A number that is scale · (the value of the instruction `primitive`) + offset; none if `primitive` is 0.
+    struct ScaledPrimitive {
         std::uint32_t primitive = 0;
         float scale = 1, offset = 0;
     };
 
-    void follow(std::span<const Instruction> code);
+    void find_affine_values(std::span<const Instruction> code);
+    ScaledPrimitive scaled_primitive(const Instruction&) const;
     Instruction fused(std::span<const Instruction> code, std::uint32_t i);
 
     std::vector<float>& constants_;
-    std::unordered_map<std::string, std::uint32_t> known_;
-    std::vector<Frame> frames_;
-    std::vector<Group> groups_;
-    std::vector<std::uint32_t> uses_;
+    std::unordered_map<std::string, std::uint32_t> interned_;
+    std::vector<AffineChain> chains_;
+    std::vector<ScaledPrimitive> scaled_;
+    std::vector<std::uint32_t> uses_;  ///< of each value, how many instructions and outputs use it
     std::vector<char> is_needed_;
     Fused fused_;
 };

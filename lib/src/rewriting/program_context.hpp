@@ -1,33 +1,21 @@
 #pragma once
 
-#include <algorithm>
-
-#include "rewriting/specialise.hpp"
+#include "phasetree/model/phase.hpp"
+#include "rewriting/working_program.hpp"
 
 namespace phasetree::rewriting {
 
-using program::is_far_bound, program::is_fold;
-
-/// What every part of an object's program has in common with the whole, and what a caller knows of all of them.
+/// What all programs that are derived from an object's program share with it. Some of it is what the caller knows of
+/// the whole object; the rest are questions that need not be asked of a derived program if the whole one says no.
 struct ProgramContext {
-    std::span<const float> constants;  ///< of the whole program; its parts refer to the same
+    std::span<const float> constants;  ///< of the whole program; the instructions of derived programs refer to them
     PhaseSet opaque;                   ///< phases that no ray is ever in
-    float rounding;                    ///< bounds the error of any value
-    /// What no part of the program has if the whole has none.
-    bool has_folds, has_local_primitives, has_far_bounds;
+    float rounding;                    ///< a bound of the rounding error of any value, as a distance
+    bool has_folds;                    ///< whether an instruction folds space
+    bool has_local_primitives;         ///< whether an instruction is a LocalPrimitive
+    bool has_far_bounds;               ///< whether an instruction enlarges distances far from the surface
 
-    ProgramContext(const WorkingProgram& whole, std::span<const float> numbers, PhaseSet opaque_phases, float error)
-        : constants(numbers),
-          opaque(opaque_phases),
-          rounding(error),
-          has_folds(has(whole, is_fold)),
-          has_local_primitives(has_local_primitive(whole)),
-          has_far_bounds(has(whole, is_far_bound)) {}
-
-  private:
-    static bool has(const WorkingProgram& program, bool (*of_kind)(Op)) {
-        return std::ranges::any_of(program.code, [&](const Instruction& in) { return of_kind(in.op); });
-    }
+    ProgramContext(const WorkingProgram& whole, std::span<const float> constants, PhaseSet opaque, float rounding);
 };
 
 }  // namespace phasetree::rewriting

@@ -8,11 +8,12 @@ using program::operands;
 
 namespace {
 
-Op mirrored(Op op) {
+/// The other one of minimum and maximum.
+Op opposite(Op op) {
     return op == Op::minimum ? Op::maximum : Op::minimum;
 }
 
-/// Whether an instruction's data are one constant, whatever its index is.
+/// Whether an operation takes one constant, which is all that matters of its data: two indices may have the same.
 bool has_one_constant(Op op) {
     switch (op) {
         case Op::add_constant:
@@ -31,138 +32,151 @@ bool is_commutative(Op op) {
     return op == Op::minimum || op == Op::maximum || op == Op::add || op == Op::corner;
 }
 
-/// Whether an operation has data; of others the index means nothing.
+/// Whether an operation has data. If it has none, the index of its data means nothing.
 bool has_data(Op op) {
     return has_one_constant(op) || op >= Op::first_primitive;
 }
 
 }  // namespace
 
-Rewriter::Rewriter(std::span<const float> constants, std::size_t instructions, Arena& scratch, std::vector<float>* more)
-    : constants_(constants.data()), more_(more) {
-    const std::size_t most = 3 * instructions + 2;  // each may need its operands negated
-    code_ = scratch.take<Instruction>(most);
-    lipschitz_ = scratch.take<float>(most);
-    twin_ = scratch.take<std::uint32_t>(most);
-    known_ = scratch.take<std::uint32_t>(std::bit_ceil(most + 1));  // mostly a third of it is used
-    std::ranges::fill(known_, 0u);
+Rewriter::Rewriter(std::span<const float> constants, std::size_t instructions, Arena& arena,
+                   std::vector<float>* new_constants)
+    : constants_(constants.data()), new_constants_(new_constants) {
+    const std::size_t capacity = 3 * instructions + 2;  // The negations of both operands may have to be written, too.
+    code_ = arena.allocate<Instruction>(capacity);
+    lipschitz_ = arena.allocate<float>(capacity);
+    negation_ = arena.allocate<std::uint32_t>(capacity);
+    table_ = arena.allocate<std::uint32_t>(std::bit_ceil(capacity + 1));  // About a third of it is used.
+    std::ranges::fill(table_, 0u);
     code_[0] = {};
     lipschitz_[0] = 1;
-    twin_[0] = 0;
+    negation_[0] = 0;
     size_ = 1;
 }
 
-SignedValue Rewriter::append(Op op, std::uint32_t a, std::uint32_t b, std::uint32_t data, float lipschitz) {
-    code_[size_] = {op, a, b, data};
+SignedValue Rewriter::append(const Instruction& in, float lipschitz) {
+    code_[size_] = in;
     lipschitz_[size_] = lipschitz;
-    twin_[size_] = 0;
+    negation_[size_] = 0;
     return {static_cast<std::uint32_t>(size_++), false};
 }
 
-SignedValue Rewriter::emit(Op op, std::uint32_t a, std::uint32_t b, std::uint32_t data, float lipschitz) {
-    // Of a primitive of the input there is but one, unless nobody has looked yet.
-    if (op >= Op::first_primitive && a == 0 && !more_) return append(op, a, b, data, lipschitz);
-    const bool is_constant = has_one_constant(op), is_index = has_data(op);
-    const auto content = [&](std::uint32_t index) {
-        return is_constant ? std::bit_cast<std::uint32_t>(constants_[index]) : is_index ? index : 0u;
+SignedValue Rewriter::emit(const Instruction& in, float lipschitz) {
+    // A program that was rewritten before has each primitive of the input only once, so there is nothing to look up.
+    const bool was_rewritten = new_constants_ == nullptr;
+    if (in.op >= Op::first_primitive && in.a == 0 && was_rewritten) return append(in, lipschitz);
+    const bool is_constant = has_one_constant(in.op), is_index = has_data(in.op);
+    const auto content = [&](std::uint32_t data) {
+        return is_constant ? std::bit_cast<std::uint32_t>(constants_[data]) : is_index ? data : 0u;
     };
-    const bool is_swapped = is_commutative(op) && b < a;
-    const std::uint32_t first = is_swapped ? b : a, second = is_swapped ? a : b;
-    const std::uint32_t known_content = content(data);
-    std::uint64_t hash = static_cast<std::uint64_t>(op) * 0x9e3779b97f4a7c15u +
+    const bool is_swapped = is_commutative(in.op) && in.b < in.a;
+    const std::uint32_t first = is_swapped ? in.b : in.a, second = is_swapped ? in.a : in.b;
+    const std::uint32_t own_content = content(in.data);
+    std::uint64_t hash = static_cast<std::uint64_t>(in.op) * 0x9e3779b97f4a7c15u +
                          std::uint64_t{first} * 0xbf58476d1ce4e5b9u + std::uint64_t{second} * 0x94d049bb133111ebu +
-                         std::uint64_t{known_content} * 0xd6e8feb86659fd93u;
+                         std::uint64_t{own_content} * 0xd6e8feb86659fd93u;
     hash ^= hash >> 32;
-    for (std::size_t at = hash & (known_.size() - 1);; at = (at + 1) & (known_.size() - 1)) {
-        const std::uint32_t found = known_[at];
+    for (std::size_t at = hash & (table_.size() - 1);; at = (at + 1) & (table_.size() - 1)) {
+        const std::uint32_t found = table_[at];
         if (found == 0) {
-            known_[at] = static_cast<std::uint32_t>(size_);
+            table_[at] = static_cast<std::uint32_t>(size_);
             break;
         }
-        const Instruction& in = code_[found];
-        const bool is_same = (in.a == a && in.b == b) || (is_commutative(op) && in.a == b && in.b == a);
-        if (in.op == op && is_same && content(in.data) == known_content) return {found, false};
+        const Instruction& other = code_[found];
+        const bool has_same_operands =
+            (other.a == in.a && other.b == in.b) || (is_commutative(in.op) && other.a == in.b && other.b == in.a);
+        if (other.op == in.op && has_same_operands && content(other.data) == own_content) return {found, false};
     }
-    return append(op, a, b, data, lipschitz);
+    return append(in, lipschitz);
 }
 
-/// −v as a value: of a sum with a constant by the other kind of sum, if constants may be added.
-std::uint32_t Rewriter::negated(std::uint32_t v) {
-    if (twin_[v]) return twin_[v];
+/// The value −v. Of a + c it is (−c) − a, and of c − a it is a + (−c), if constants may be added.
+std::uint32_t Rewriter::emit_negation(std::uint32_t v) {
+    if (negation_[v]) return negation_[v];
     const Instruction in = code_[v];
     const float l = lipschitz_[v];
     std::uint32_t n = 0;
-    if (more_ && (in.op == Op::add_constant || in.op == Op::constant_minus)) {
-        more_->push_back(-constants_[in.data]);
+    if (new_constants_ && (in.op == Op::add_constant || in.op == Op::constant_minus)) {
+        new_constants_->push_back(-constants_[in.data]);
         const Op other = in.op == Op::add_constant ? Op::constant_minus : Op::add_constant;
-        n = emit(other, in.a, 0, static_cast<std::uint32_t>(more_->size() - 1), l).id();
+        n = emit({other, in.a, 0, static_cast<std::uint32_t>(new_constants_->size() - 1)}, l).id();
     } else {
-        n = emit(Op::negate, v, 0, 0, l).id();
+        n = emit({Op::negate, v, 0, 0}, l).id();
     }
-    twin_[v] = n;
-    twin_[n] = v;
+    negation_[v] = n;
+    negation_[n] = v;
     return n;
 }
 
-/// Of a value and its twin the one that was there first.
+/// One of the two ways to write a value for which there is a negation: by the one that was written first.
 SignedValue Rewriter::canonical(const SignedValue& v) const {
-    const std::uint32_t twin = twin_[v.id()];
-    return twin && twin < v.id() ? SignedValue{twin, !v.is_negative()} : v;
+    const std::uint32_t negation = negation_[v.id()];
+    return negation && negation < v.id() ? SignedValue{negation, !v.is_negative()} : v;
 }
 
-/// The operands of a value that is the minimum, or maximum, of two.
-std::optional<Rewriter::Pair> Rewriter::operands_if(Op op, const SignedValue& v) const {
+/// The operands of a value that is the minimum, or the maximum, of two.
+std::optional<Rewriter::Operands> Rewriter::operands_if(Op op, const SignedValue& v) const {
     const Instruction& in = code_[v.id()];
-    if (in.op != (v.is_negative() ? mirrored(op) : op)) return std::nullopt;
-    return Pair{canonical({in.a, v.is_negative()}), canonical({in.b, v.is_negative()})};
+    if (in.op != (v.is_negative() ? opposite(op) : op)) return std::nullopt;
+    return Operands{canonical({in.a, v.is_negative()}), canonical({in.b, v.is_negative()})};
 }
 
-SignedValue Rewriter::extremum(Op op, SignedValue a, SignedValue b, float lipschitz, bool is_sign_enough) {
+/// The minimum, or the maximum, of two values.
+SignedValue Rewriter::write_extremum(Op op, SignedValue a, SignedValue b, float lipschitz, bool is_sign_enough) {
     for (int turn = 0; turn < 2; ++turn, std::swap(a, b)) {
         const auto same = operands_if(op, b);
         if (same && (same->a == a || same->b == a)) return b;
-        const auto inner = operands_if(mirrored(op), b);
+        const auto inner = operands_if(opposite(op), b);
         if (!inner) continue;
         if (inner->a == a || inner->b == a) return a;
+        // Here b is max(−a, c), or min(−a, c), whose place c takes.
         if (is_sign_enough && (inner->a == -a || inner->b == -a)) b = inner->a == -a ? inner->b : inner->a;
     }
     if (a == b) return a;
-    if (a == -b) return {emit(Op::absolute, a.id(), 0, 0, lipschitz).id(), op == Op::minimum};
+    // min(a, −a) is −|a|.
+    if (a == -b) return {emit({Op::absolute, a.id(), 0, 0}, lipschitz).id(), op == Op::minimum};
+    // If the signs differ, one operand must be negated: the one whose negation is there already.
     const bool is_negative = a.is_negative() == b.is_negative() ? a.is_negative()
-                                                                : twin_[(a.is_negative() ? a : b).id()] == 0 &&
-                                                                      twin_[(a.is_negative() ? b : a).id()] != 0;
-    if (!is_negative) return emit(op, plain(a), plain(b), 0, lipschitz);
-    return -emit(mirrored(op), plain(-a), plain(-b), 0, lipschitz);
+                                                                : negation_[(a.is_negative() ? a : b).id()] == 0 &&
+                                                                      negation_[(a.is_negative() ? b : a).id()] != 0;
+    if (!is_negative) {
+        const std::uint32_t right = emit_unsigned(b), left = emit_unsigned(a);
+        return emit({op, left, right, 0}, lipschitz);
+    }
+    const std::uint32_t right = emit_unsigned(-b), left = emit_unsigned(-a);
+    return -emit({opposite(op), left, right, 0}, lipschitz);
 }
 
-SignedValue Rewriter::write(Op op, const SignedValue& left, const SignedValue& right, std::uint32_t data,
-                            float lipschitz, bool is_sign_enough) {
-    if (op >= Op::first_primitive) return emit(op, left.id(), 0, data, lipschitz);  // points have no sign
+SignedValue Rewriter::write(const Instruction& in, const SignedValue& left, const SignedValue& right, float lipschitz,
+                            bool is_sign_enough) {
+    if (in.op >= Op::first_primitive) return emit({in.op, left.id(), 0, in.data}, lipschitz);  // Points have no sign.
     const SignedValue a = canonical(left), b = canonical(right);
-    switch (op) {
+    switch (in.op) {
         case Op::negate:
             return -a;
         case Op::minimum:
         case Op::maximum:
-            return extremum(op, a, b, lipschitz, is_sign_enough);
+            return write_extremum(in.op, a, b, lipschitz, is_sign_enough);
         case Op::add:
         case Op::subtract: {
-            // ±(|a| + |b|) or ±(|a| − |b|)
-            const bool is_difference = a.is_negative() != (b.is_negative() != (op == Op::subtract));
-            if (!is_difference) return {emit(Op::add, a.id(), b.id(), 0, lipschitz).id(), a.is_negative()};
-            return {emit(Op::subtract, a.id(), b.id(), 0, lipschitz).id(), a.is_negative()};
+            // The result is ±(|a| + |b|) or ±(|a| − |b|), where |a| and |b| stand for the values without their signs.
+            const bool is_difference = a.is_negative() != (b.is_negative() != (in.op == Op::subtract));
+            const Op op = is_difference ? Op::subtract : Op::add;
+            return {emit({op, a.id(), b.id(), 0}, lipschitz).id(), a.is_negative()};
         }
         case Op::add_constant:
-            return emit(a.is_negative() ? Op::constant_minus : Op::add_constant, a.id(), 0, data, lipschitz);
+            return emit({a.is_negative() ? Op::constant_minus : Op::add_constant, a.id(), 0, in.data}, lipschitz);
         case Op::constant_minus:
-            return emit(a.is_negative() ? Op::add_constant : Op::constant_minus, a.id(), 0, data, lipschitz);
+            return emit({a.is_negative() ? Op::add_constant : Op::constant_minus, a.id(), 0, in.data}, lipschitz);
         case Op::multiply_constant:
-            return {emit(op, a.id(), 0, data, lipschitz).id(), a.is_negative()};
+            return {emit({in.op, a.id(), 0, in.data}, lipschitz).id(), a.is_negative()};
         case Op::absolute:
             if (code_[a.id()].op == Op::absolute) return {a.id(), false};
-            return emit(op, a.id(), 0, 0, lipschitz);
-        default:
-            return emit(op, plain(a), plain(b), data, lipschitz);
+            return emit({in.op, a.id(), 0, 0}, lipschitz);
+        default: {
+            const std::uint32_t second = emit_unsigned(b), first = emit_unsigned(a);
+            return emit({in.op, first, second, in.data}, lipschitz);
+        }
     }
 }
 
@@ -170,15 +184,14 @@ WorkingProgram rewrite(Program& program, Arena& arena) {
     const std::size_t n = program.instructions.size();
     program.constants.reserve(program.constants.size() + n);
     Rewriter rewriter(program.constants, n, arena, &program.constants);
-    const std::span<SignedValue> written = arena.take<SignedValue>(n);
+    const std::span<SignedValue> written = arena.allocate<SignedValue>(n);
     written[0] = {};
     for (std::size_t i = 1; i < n; ++i) {
         const Instruction& in = program.instructions[i];
-        written[i] =
-            rewriter.write(in.op, operands(in.op) > 0 ? written[in.a] : SignedValue{},
-                           operands(in.op) > 1 ? written[in.b] : SignedValue{}, in.data, program.lipschitz[i], false);
+        written[i] = rewriter.write(in, operands(in.op) > 0 ? written[in.a] : SignedValue{},
+                                    operands(in.op) > 1 ? written[in.b] : SignedValue{}, program.lipschitz[i], false);
     }
-    const std::span<ProgramOutput> outputs = arena.take<ProgramOutput>(program.outputs.size());
+    const std::span<ProgramOutput> outputs = arena.allocate<ProgramOutput>(program.outputs.size());
     for (std::size_t k = 0; k < outputs.size(); ++k) {
         const SignedValue& v = written[program.outputs[k].value];
         outputs[k] = {program.outputs[k].phase, v.id(), v.is_negative()};

@@ -7,11 +7,11 @@
 
 namespace phasetree::rewriting {
 
-WorkingProgram specialised(const WorkingProgram& program, std::span<const LocalValue> values,
+WorkingProgram specialised(const WorkingProgram& program, std::span<const Specialisation> values,
                            std::vector<float>& floats, Arena& scratch) {
     if (values.empty()) return program;
     const std::span<Instruction> code = scratch.copy(program.code);
-    for (const LocalValue& v : values) {
+    for (const Specialisation& v : values) {
         code[v.value].op = v.op;
         code[v.value].data = static_cast<std::uint32_t>(floats.size());
         floats.insert(floats.end(), v.data.begin(), v.data.end());

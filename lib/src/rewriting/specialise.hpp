@@ -5,27 +5,32 @@
 #include "phasetree/nodes/list.hpp"
 #include "rewriting/working_program.hpp"
 
+/// Primitives of which little matters in a small box (LocalPrimitive in model/concepts.hpp). A Voronoi pattern looks at
+/// 125 sites for each point, and in a small box nearly all of them change nothing. There a program has a specialised
+/// primitive in its place, whose data are the few sites that matter; its values are the same to the last bit.
 namespace phasetree::rewriting {
 
 using program::traits;
 
-/// A LocalPrimitive of a program, and what it becomes in a box: nothing if that is no gain.
-struct LocalValue {
+/// What a local primitive of a program becomes in a box.
+struct Specialisation {
     static constexpr std::uint32_t no_source = 0xffffffff;
 
-    std::uint32_t value = 0;
-    std::uint32_t source = no_source;  ///< where the primitive's constants are, if no other value has the same
-    Op op{};                           ///< of P::Specialised
-    std::span<const float> data{};
-    unsigned half_works_saved = 0;
+    std::uint32_t value = 0;  ///< the primitive's instruction
+    std::uint32_t source =
+        no_source;                  ///< where its constants start, if no other instruction of the program has the same
+    Op op{};                        ///< the operation of P::Specialised
+    std::span<const float> data{};  ///< the data of that; empty if the primitive is not replaced
+    unsigned half_works_saved = 0;  ///< by how much it is less work (OpTraits::half_works)
 
     template <LocalPrimitive P>
-    static LocalValue of(std::span<const float> data) {
+    static Specialisation of(std::span<const float> data) {
         constexpr auto first = static_cast<std::size_t>(Op::first_primitive);
-        constexpr std::size_t before = first + index_in<P>(Primitives());
-        constexpr std::size_t near = first + Primitives::size + index_in<typename P::Specialised>(DataPrimitives());
-        const unsigned all = traits(static_cast<Op>(before)).half_works, now = P::Specialised::half_works(data.data());
-        return {0, no_source, static_cast<Op>(near), data, now < all ? all - now : 0};
+        constexpr std::size_t general = first + index_in<P>(Primitives());
+        constexpr std::size_t special = first + Primitives::size + index_in<typename P::Specialised>(DataPrimitives());
+        const unsigned before = traits(static_cast<Op>(general)).half_works;
+        const unsigned after = P::Specialised::half_works(data.data());
+        return {0, no_source, static_cast<Op>(special), data, after < before ? before - after : 0};
     }
 };
 
@@ -33,14 +38,15 @@ inline bool has_local_primitive(const WorkingProgram& program) {
     return std::ranges::any_of(program.code, [](const Instruction& in) { return traits(in.op).is_local; });
 }
 
-/// The program with them in their places, and their data appended to `floats`: there such an instruction's data start.
-WorkingProgram specialised(const WorkingProgram&, std::span<const LocalValue>, std::vector<float>& floats,
+/// The program with specialised primitives in the place of local ones. Their data are appended to `floats`, and that is
+/// what these instructions' indices of data refer to.
+WorkingProgram specialised(const WorkingProgram&, std::span<const Specialisation>, std::vector<float>& floats,
                            Arena& scratch);
 
-/// How large the features of a program's patterns are, at the least; endless if it has none.
+/// The size of the smallest features among a program's patterns, in world units; infinity if it has none.
 float finest_pattern(const WorkingProgram&, std::span<const float> constants);
 
-/// The data of an instruction that specialised() has made.
+/// The data of an instruction that specialised() has made: the first of `floats`.
 std::span<const float> data_of_specialised(Op, std::span<const float> floats);
 
 }  // namespace phasetree::rewriting

@@ -7,12 +7,13 @@
 
 namespace phasetree::rewriting {
 
-/// That a value is above τ, or below, as the same of its only operand.
+/// A comparison of a value with a threshold τ, moved to the value's only operand: v < τ if and only if the operand is
+/// below `tau`, or above it if the operation reverses the order.
 struct Threshold {
     double tau;
-    bool is_mirrored = false;  ///< above became below
+    bool is_reversed = false;
 
-    /// Nothing if the instruction is none that keeps order or mirrors it.
+    /// The comparison of the operand; nothing if the instruction is not monotone in a single operand.
     static std::optional<Threshold> of_operand(const Instruction& in, std::span<const float> constants, double tau) {
         const auto c = [&] { return static_cast<double>(constants[in.data]); };
         switch (in.op) {

@@ -10,11 +10,12 @@ namespace phasetree::rewriting {
 
 using program::ProgramOutput;
 
-/// A program in the course of pruning: as Program, but its constants stay those of the whole, and operands that an
-/// operation does not take are 0, the input. Its memory is an arena's.
+/// A program that is derived from an object's program for a part of space. It is as Program, except that its constants
+/// remain those of the whole program (ProgramContext::constants), and that an operand which an operation does not take
+/// is 0, the input. Copies are cheap and refer to the same arena.
 struct WorkingProgram {
-    std::span<const Instruction> code;
-    std::span<const float> lipschitz;
+    std::span<const Instruction> code;  ///< code[0] is the input point
+    std::span<const float> lipschitz;   ///< a Lipschitz bound of each value
     std::span<const ProgramOutput> outputs;
 };
 

@@ -15,7 +15,7 @@ using enclosure::Enclosure, enclosure::Range;
 using evaluation::active_kernel, evaluation::interpret, evaluation::RoutineSteps;
 using kernel::few_slots, kernel::OutputSlot, kernel::Routine, kernel::Step;
 using program::fold_map;
-using rewriting::Arena, rewriting::ArenaScope, rewriting::LocalValue;
+using rewriting::Arena, rewriting::ArenaScope;
 
 namespace {
 
@@ -91,8 +91,8 @@ class ComponentAlong {
             [&]<class P, class Point>(const float* constants, const Point& q, Enclosure& result) {
                 if constexpr (LongPrimitive<P>) {
                     ArenaScope scope(scratch_);
-                    LocalValue unused;
-                    result = enclose_long_primitive<P>(constants, q, extent, {}, unused, scratch_);
+                    bounding::SpecialisationInBox unused{{}, scratch_};
+                    result = enclose_long_primitive<P>(constants, q, extent, unused);
                 } else {
                     result = enclose_primitive<P>(constants, q);
                     if constexpr (ConvexPrimitive<P>)

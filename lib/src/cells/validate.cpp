@@ -1,4 +1,4 @@
-#include "cells/sound.hpp"
+#include "cells/validate.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -19,7 +19,7 @@ constexpr std::uint32_t first_primitive = static_cast<std::uint32_t>(Op::first_p
 constexpr std::uint32_t first_data_primitive = first_primitive + static_cast<std::uint32_t>(Primitives::size);
 constexpr std::uint32_t operations = first_placed + static_cast<std::uint32_t>(Primitives::size);
 
-/// How many floats each operation takes; one with data of its own says so itself.
+/// How many constants each operation has; 0 for a primitive with data, which has as many as it says itself.
 std::array<std::size_t, operations> all_floats() {
     std::array<std::size_t, operations> all{};
     for (const Op op :
@@ -41,54 +41,58 @@ bool is_known(std::uint32_t op) {
 bool has_data(std::uint32_t op) {
     return op >= first_data_primitive && op < first_map;
 }
-/// A number that is the upper half of a float and no NaN.
+/// Whether the upper half of a float is not NaN.
 bool is_number(std::uint16_t half) {
     return !std::isnan(std::bit_cast<float>(std::uint32_t{half} << 16));
 }
 bool is_phase(float phase) {
     return phase >= 0 && phase < static_cast<float>(Phase::capacity) && phase == std::floor(phase);
 }
+/// Whether a part of a vector of this size lies within it.
 bool fits(std::uint64_t first, std::uint64_t count, std::size_t size) {
     return first <= size && count <= size - first;
 }
 
-class Check {
+class Validation {
   public:
-    Check(const CellTables& t, const Program& program) : t_(t), r_(t.routines), constants_(program.constants) {
+    Validation(const CellTables& t, const Program& program)
+        : tables_(t), routines_(t.routines), constants_(program.constants) {
         for (const Instruction& in : program.instructions)
             if (has_data(static_cast<std::uint32_t>(in.op)))
-                of_object_.push_back({static_cast<std::uint32_t>(in.op), in.data});
-        std::ranges::sort(of_object_);
+                object_data_.push_back({static_cast<std::uint32_t>(in.op), in.data});
+        std::ranges::sort(object_data_);
     }
 
     std::string operator()() {
-        for (const RoutineTables::Shape& s : r_.shapes)
-            if (!is_sound(s)) return "a routine is impossible";
-        if (t_.first_certificate.size() != t_.cells.size() + 1 || t_.first_certificate.front() != 0 ||
-            t_.first_certificate.back() != t_.certificates.size() || !std::ranges::is_sorted(t_.first_certificate))
+        for (const RoutineTables::Shape& s : routines_.shapes)
+            if (!is_valid(s)) return "a routine is impossible";
+        if (tables_.first_certificate.size() != tables_.cells.size() + 1 || tables_.first_certificate.front() != 0 ||
+            tables_.first_certificate.back() != tables_.certificates.size() ||
+            !std::ranges::is_sorted(tables_.first_certificate))
             return "its certificates are not its cells'";
-        for (std::size_t i = 0; i < t_.cells.size(); ++i) {
-            const InterfaceCell& c = t_.cells[i];
-            if (c.shape >= r_.shapes.size() || c.first_phase >= Phase::capacity) return "a cell is impossible";
+        for (std::size_t i = 0; i < tables_.cells.size(); ++i) {
+            const InterfaceCell& c = tables_.cells[i];
+            if (c.shape >= routines_.shapes.size() || c.first_phase >= Phase::capacity) return "a cell is impossible";
             if (!has_constants(c)) return "a routine's constants are missing";
-            if (!is_certificate(t_.first_certificate[i], t_.first_certificate[i + 1], r_.shapes[c.shape].slots))
+            if (!is_certificate(tables_.first_certificate[i], tables_.first_certificate[i + 1],
+                                routines_.shapes[c.shape].slots))
                 return "a certificate is impossible";
         }
         return "";
     }
 
   private:
-    /// A step's operands, from slot `first` on.
+    /// Whether `count` slots from `first` on were written.
     bool is_written(std::uint32_t first, std::uint32_t count) const {
         if (!fits(first, count, written_.size())) return false;
         return std::all_of(written_.begin() + first, written_.begin() + first + count, [](char w) { return w != 0; });
     }
-    bool is_sound(const Step& s) {
+    bool is_valid(const Step& s) {
         if (!is_known(s.op)) return false;
-        const OpTraits& its = traits(static_cast<Op>(s.op));
+        const OpTraits& t = traits(static_cast<Op>(s.op));
         const bool takes_point = s.op >= first_primitive;
-        const std::uint32_t size = its.gives_point ? 3 : 1;
-        // One that takes nothing has 0 there, and nobody reads it.
+        const std::uint32_t size = t.gives_point ? 3 : 1;
+        // An operand that the operation does not take is slot 0, which is written and is not read.
         if (!is_written(s.a, takes_point ? 3 : 1) || !is_written(s.b, 1)) return false;
         if (s.op >= first_placed && traits(static_cast<Op>(s.op - first_placed + first_primitive)).is_long_primitive)
             return false;
@@ -96,52 +100,58 @@ class Check {
         std::fill_n(written_.begin() + s.to, size, char{1});
         return true;
     }
-    bool is_sound(const RoutineTables::Shape& s) {
-        if (!fits(s.first_step, s.steps, r_.steps.size()) || !fits(s.first_output, s.outputs, r_.outputs.size()))
+    bool is_valid(const RoutineTables::Shape& s) {
+        if (!fits(s.first_step, s.steps, routines_.steps.size()) ||
+            !fits(s.first_output, s.outputs, routines_.outputs.size()))
             return false;
-        // Each step writes a point at most, and slots are used again.
+        // There are no more slots than points that the steps write, because slots are reused.
         if (s.slots < 3 || s.slots > 3 + 3 * std::uint64_t{s.steps} || s.leading > s.steps) return false;
         if (s.outputs == 0 || s.outputs > Phase::capacity) return false;
         written_.assign(s.slots, 0);
         std::fill_n(written_.begin(), 3, char{1});
         for (std::uint32_t i = 0; i < s.steps; ++i)
-            if (!is_sound(r_.steps[s.first_step + i])) return false;
+            if (!is_valid(routines_.steps[s.first_step + i])) return false;
         for (std::uint32_t i = 0; i < s.outputs; ++i) {
-            const OutputSlot& o = r_.outputs[s.first_output + i];
+            const OutputSlot& o = routines_.outputs[s.first_output + i];
             if (!is_written(o.slot, 1) || !is_phase(o.phase) || !(o.sign == 1 || o.sign == -1)) return false;
         }
         return true;
     }
 
     bool has_constants(const InterfaceCell& c) const {
-        const RoutineTables::Shape& s = r_.shapes[c.shape];
-        if (!fits(c.first_data, s.steps, r_.data.size())) return false;
+        const RoutineTables::Shape& s = routines_.shapes[c.shape];
+        if (!fits(c.first_data, s.steps, routines_.data.size())) return false;
         for (std::uint32_t i = 0; i < s.steps; ++i)
-            if (!has_constants(r_.steps[s.first_step + i].op, r_.data[c.first_data + i])) return false;
+            if (!has_constants(routines_.steps[s.first_step + i].op, routines_.data[c.first_data + i])) return false;
         return true;
     }
+    /// Whether an operation finds its constants at an index. A primitive with data reads as many as these say
+    /// themselves, so it may refer only to the data of the same primitive in the object's program, which are complete.
     bool has_constants(std::uint32_t op, std::uint32_t at) const {
         static const auto floats = all_floats();
         if (!fits(at, floats[op], constants_.size())) return false;
         if (!has_data(op)) return true;
         if (traits(static_cast<Op>(op)).is_specialised) return is_list_of_sites(at);
-        return std::ranges::binary_search(of_object_, std::pair{op, at});
+        return std::ranges::binary_search(object_data_, std::pair{op, at});
     }
+    /// Whether the data of a specialised pattern are there: its parameters, the number of floats that follow, and
+    /// those.
     bool is_list_of_sites(std::uint32_t at) const {
-        constexpr std::uint32_t before = SpecialisedVoronoi::parameters + 1;
-        if (!fits(at, before, constants_.size())) return false;
-        const float count = constants_[at + before - 1];
-        constexpr auto each = static_cast<float>(VoronoiSites::site_floats);
-        if (!(count >= 0 && count <= each * VoronoiSites::neighbours) || count != each * std::floor(count / each))
+        constexpr std::uint32_t head = SpecialisedVoronoi::parameters + 1;
+        if (!fits(at, head, constants_.size())) return false;
+        const float count = constants_[at + head - 1];
+        constexpr auto site = static_cast<float>(VoronoiSites::site_floats);
+        if (!(count >= 0 && count <= site * VoronoiSites::neighbours) || count != site * std::floor(count / site))
             return false;
-        return fits(at + before, static_cast<std::uint64_t>(count), constants_.size());
+        return fits(at + head, static_cast<std::uint64_t>(count), constants_.size());
     }
 
+    /// Whether these steps are a tree in postfix order, by the depth of the stack that evaluates them.
     bool is_certificate(std::uint32_t first, std::uint32_t end, std::uint32_t slots) const {
         if (end - first > most_certificate_steps) return false;
         std::size_t depth = 0;
         for (std::uint32_t i = first; i < end; ++i) {
-            const PackedCertificateStep& s = t_.certificates[i];
+            const PackedCertificateStep& s = tables_.certificates[i];
             if (s.kind == PackedCertificateStep::leaf) {
                 if (s.slot >= slots || !is_number(s.factor) || !is_number(s.up) || !is_number(s.down)) return false;
                 ++depth;
@@ -153,17 +163,18 @@ class Check {
         return depth == 1 || first == end;
     }
 
-    const CellTables& t_;
-    const RoutineTables& r_;
+    const CellTables& tables_;
+    const RoutineTables& routines_;
     std::span<const float> constants_;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> of_object_;  ///< primitives with data, and where those are
-    std::vector<char> written_;                                       ///< slots, by the steps so far
+    std::vector<std::pair<std::uint32_t, std::uint32_t>>
+        object_data_;            ///< the operation and first constant of each primitive with data
+    std::vector<char> written_;  ///< whether a step so far has written each slot
 };
 
 }  // namespace
 
-std::string what_is_unsound(const CellTables& tables, const Program& program) {
-    return Check(tables, program)();
+std::string describe_damage(const CellTables& tables, const Program& program) {
+    return Validation(tables, program)();
 }
 
 }  // namespace phasetree::cells

@@ -8,26 +8,27 @@
 
 namespace phasetree::cells {
 
-/// What cells were made with, beside the object. Others would be made with anything else.
-struct CellsMade {
+/// What decides, besides the object, which cells are built. Cells of other settings would be others.
+struct BuildSettings {
     float resolution = 0;
     PhaseSet opaque;
     int deepest = 0;
     BuildQuality quality{};
-    std::size_t most_bytes = 0;  ///< the limit that held, also where none was given
+    std::size_t most_bytes = 0;  ///< the limit of memory that held, also where none was given
 };
 
-/// Takes InterfaceCells apart and puts them together for files.
+/// What a file of cells needs of InterfaceCells that nobody else may see.
 struct CellsFile {
     struct Contents {
         const CellTables& tables;
         const Program& program;  ///< with the cells' constants behind its own
-        CellsMade made;
+        BuildSettings settings;
     };
     static Contents contents(const InterfaceCells&);
 
-    /// Gives the tables, and appends the cells' constants to those of the object's program.
-    using Reader = std::function<CellTables(Program&, const CellsMade&)>;
+    /// Returns the tables, and appends the cells' constants to those of the object's program.
+    using Reader = std::function<CellTables(Program&, const BuildSettings&)>;
+    /// The cells of an object, whose tables are read and not built.
     static std::shared_ptr<const InterfaceCells> read(const Phased&, const CellOptions&, const Reader&);
 };
 

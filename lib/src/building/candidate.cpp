@@ -1,0 +1,122 @@
+#include "building/candidate.hpp"
+
+#include <cmath>
+#include <memory>
+
+#include "bounding/enclose.hpp"
+#include "pruning/prune.hpp"
+
+namespace phasetree::building {
+
+using bounding::Encloser, bounding::InterfaceBounds, bounding::ValueRanges;
+using pruning::prune, pruning::without_far_bounds;
+using rewriting::ArenaScope, rewriting::has_local_primitive;
+
+namespace {
+
+/// Finds the cell that a node could become.
+class CandidateSearch {
+  public:
+    CandidateSearch(const BuildNode& node, const BuildContext& context, Worker& worker)
+        : node_(node),
+          context_(context),
+          worker_(worker),
+          region_(node.box.inflated(context.reach)),
+          encloser_(context.program, region_, node.specialisations, worker.scratch) {}
+
+    /// The candidate with what is left of a program; nothing if no ray can meet an interface in the box.
+    ///
+    /// The program is enclosed and pruned in turn, as long as pruning deletes something, for the enclosures of what is
+    /// left are tighter. Then the box is cut to the interfaces, and if that leaves much less of it, all begins again in
+    /// what is left of the box.
+    std::optional<Candidate> find(const WorkingProgram& program) {
+        constexpr int most_rounds = 3;
+        Candidate cell{program, {region_}};
+        Encloser* encloser = &encloser_;
+        for (int round = 0;; ++round) {
+            const std::optional<ValueRanges> ranges = encloser->value_ranges(cell.program);
+            if (!ranges) break;
+            const auto pruned = prune(cell.program, *ranges, context_.program, worker_.arenas());
+            if (!pruned) return std::nullopt;
+            const bool is_all_left = pruned->code.size() == cell.program.code.size() &&
+                                     pruned->outputs.size() == cell.program.outputs.size();
+            if (!is_all_left && round < most_rounds) {
+                cell = {*pruned, {cell.facts.box}};
+                continue;
+            }
+            const Bounds before = cell.facts.box;
+            if (!apply(encloser->interface_bounds(), cell)) return std::nullopt;
+            if (round >= most_rounds || !is_much_smaller(cell, before)) break;
+            encloser = narrower_encloser(cell.facts.box);
+        }
+        price(cell);
+        return cell;
+    }
+
+  private:
+    /// Takes over what is known of the interfaces of a cell, and cuts its box. False if there are none.
+    bool apply(const InterfaceBounds& interface, Candidate& cell) {
+        cell.facts.bound = interface.bound;
+        cell.facts.curvature = interface.curvature;
+        cell.certificate = worker_.programs.copy(interface.certificate);
+        cell.facts.has_certificate = !cell.certificate.empty();
+        const std::span<Specialisation> specialisations = worker_.programs.copy(interface.specialisations);
+        for (Specialisation& s : specialisations) s.data = worker_.programs.copy(s.data);
+        cell.specialisations = specialisations;
+        cell.facts.box = intersect(cell.facts.box, interface.box.inflated(context_.reach));
+        return !interface.box.empty() && !cell.facts.box.empty();
+    }
+    /// Whether the program is worth being enclosed again in what is left of the box. That is not done with local
+    /// primitives, because the parts of the node start from the specialisations in the node's whole box.
+    bool is_much_smaller(const Candidate& cell, const Bounds& before) const {
+        return surface(cell.facts.box) < 0.7f * surface(before) &&
+               !(context_.program.has_local_primitives && has_local_primitive(cell.program));
+    }
+    /// An encloser for a part of the region. It reaches as far around a box as the programs of its parts must be right.
+    Encloser* narrower_encloser(const Bounds& box) {
+        return std::construct_at(worker_.scratch.allocate<Encloser>(1).data(), context_.program,
+                                 intersect(region_, box.inflated(context_.reach)), std::span<const Specialisation>(),
+                                 worker_.scratch);
+    }
+    void price(Candidate& cell) const {
+        // Through endless copies a ray goes on and on, and in a pattern of which nothing is known from block to block.
+        const float size = node_.box.diagonal();
+        const bool has_blocks =
+            std::isfinite(node_.pattern_period) && !(cell.facts.bound.spread < 1) && has_local_primitive(cell.program);
+        const float blocks = has_blocks ? std::max(1.f, size / node_.pattern_period) : 1.f;
+        const float repetitions = (1 + 4 * size / node_.fold_period) * blocks;
+        cell.work = work(cell.program, context_.program.constants, cell.specialisations, worker_.scratch);
+        cell.cost = repetitions * cost(cell.facts, cell.program, cell.work, context_.program.opaque);
+    }
+
+    const BuildNode& node_;
+    const BuildContext& context_;
+    Worker& worker_;
+    Bounds region_;  ///< the node's box, inflated by what its cells reach beyond it
+    Encloser encloser_;
+};
+
+}  // namespace
+
+bool prepare(BuildNode& node, const BuildContext& context, Worker& worker) {
+    const ArenaScope scratch(worker.scratch);
+    CandidateSearch search(node, context, worker);
+    const auto whole = search.find(node.program);
+    if (!whole) return false;
+    node.program = whole->program;
+    node.specialisations = whole->specialisations;
+    node.policy = SubdivisionPolicy(node.program, whole->work.all);
+    node.cell = *whole;
+    node.box = intersect(node.box, whole->facts.box);
+    if (node.box.empty()) return false;
+    if (!context.program.has_far_bounds) return true;
+    // A cell may be cheaper without far bounds. The node keeps them, since they may be of use to its parts.
+    if (const auto near = without_far_bounds(node.program, context.program, worker.arenas())) {
+        const auto other = search.find(*near);
+        if (!other) return false;
+        if (other->cost < node.cell.cost) node.cell = *other;
+    }
+    return true;
+}
+
+}  // namespace phasetree::building

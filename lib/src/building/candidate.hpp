@@ -1,0 +1,41 @@
+#pragma once
+
+#include "building/build_context.hpp"
+#include "building/cost_model.hpp"
+#include "building/subdivision_policy.hpp"
+#include "building/worker_pool.hpp"
+
+namespace phasetree::building {
+
+using rewriting::Specialisation;
+
+/// A cell that a box could become.
+struct Candidate {
+    WorkingProgram program;
+    CellFacts facts{};  ///< its box is around the interfaces, and may be smaller than the one it was made for
+    std::span<const CertificateStep> certificate{};
+    std::span<const Specialisation> specialisations{};
+    Work work{};
+    float cost = 0;
+};
+
+/// A box of the recursive subdivision, with what is left of the object's program in it.
+struct BuildNode {
+    Bounds box;
+    WorkingProgram program;
+    std::span<const Specialisation> specialisations{};  ///< in this box; until prepare(), in the box around it
+    int depth = 0;
+    int futile_divisions = 0;  ///< how many divisions in a row have had no gain
+    SubdivisionPolicy policy{};
+    float cost_ratio = 1;                     ///< the cost over that before those divisions
+    float fold_period = Bounds::infinity;     ///< the smallest period of the folds that still may jump, in metres
+    float pattern_period = Bounds::infinity;  ///< the size of the smallest features of patterns, in metres
+    double share = 1;                         ///< about how much of the whole build the subdivision of this box is
+    Candidate cell{};                         ///< what the box becomes if it is not divided
+};
+
+/// Prunes a node's program in its box, cuts the box to the interfaces, and finds the cell that it could become. False
+/// if no ray can meet an interface there. What is kept is in the worker's arena of programs.
+bool prepare(BuildNode&, const BuildContext&, Worker&);
+
+}  // namespace phasetree::building

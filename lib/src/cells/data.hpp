@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+
+#include "cells/cells_file.hpp"
+#include "cells/curvature_code.hpp"
+#include "phasetree/cells/cells.hpp"
+#include "trace/march.hpp"
+
+namespace phasetree {
+
+/// What InterfaceCells keep: the tables of their cells, the program of the whole object, and what they were built with.
+struct InterfaceCells::Data : cells::CellTables {
+    using Cell = cells::InterfaceCell;
+
+    /// All but what is built.
+    Data(const Phased& object, const CellOptions&);
+
+    std::optional<Evaluator> whole;
+    Bounds bounds;
+    float resolution = 0;
+    std::string warning;
+    float reach = 0;
+    PhaseSet opaque;
+    int deepest = 0;
+    BuildQuality quality{};
+    std::size_t most_bytes = 0;
+    double build_seconds = 0;
+    cells::CurvatureCode curvature_code;
+
+    cells::BuildSettings settings() const { return {resolution, opaque, deepest, quality, most_bytes}; }
+
+    kernel::Routine routine(const Cell& c) const {
+        kernel::Routine r = routines.routine(routines.shapes[c.shape], c.first_data, whole->program().constants.data());
+        r.is_by_own = c.is_by_own;
+        r.is_by_first = c.is_by_first;
+        return r;
+    }
+    std::uint32_t slots(const Cell& c) const { return routines.shapes[c.shape].slots; }
+
+    /// What is asked for along a ray within one cell.
+    struct Search {
+        const TracedRay& ray;
+        float t_min, t_max;
+        std::optional<Phase> carried;
+        const std::optional<LeavingHint>& leaving_hint;
+        Evaluator::Workspace* workspace;  ///< null for the thread's own
+    };
+    std::optional<Crossing> first_crossing(std::size_t cell, const Search&, TraceCounters&) const;
+
+  private:
+    /// Whether the cell's bounds of curvature do not cover all phases that a ray may be in, so that it needs the
+    /// certificate.
+    bool needs_certificate(const Cell&, const kernel::Routine&, const std::optional<Phase>& carried) const;
+};
+
+}  // namespace phasetree

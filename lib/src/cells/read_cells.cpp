@@ -1,0 +1,157 @@
+#include <fmt/format.h>
+
+#include "cells/file_format.hpp"
+#include "cells/validate.hpp"
+#include "files/regular_file.hpp"
+#include "phasetree/cells/file.hpp"
+
+namespace phasetree {
+
+using cells::as_text, cells::describe_damage, cells::header_of, cells::item_bytes, cells::machine;
+using cells::BuildSettings, cells::CellsFile, cells::CellsFileHeader, cells::CellTables, cells::Checksum,
+    cells::InterfaceCell, cells::StoredCell;
+using files::FileError, files::RegularFile;
+
+namespace {
+
+namespace fs = std::filesystem;
+using Reason = CellsFileError::Reason;
+using Header = CellsFileHeader;
+
+/// Reads one file.
+class CellsReader {
+  public:
+    explicit CellsReader(const fs::path& path) : path_(path), file_(open(path)) {}
+
+    /// The tables of a file that fits the program and the settings. The constants of its cells are appended to the
+    /// program's.
+    CellTables read(Program& program, const BuildSettings& settings) {
+        const Header h = header();
+        const Header wanted = header_of(program, program.constants.size(), settings);
+        require_same(h, wanted);
+        require_size(h);
+        using enum CellsFileHeader::Section;
+        CellTables t;
+        t.recorded_constants = program.constants.size();
+        t.routine_count = h.routines;
+        t.is_coarser = h.is_coarser != 0;
+        read(t.cells, h.counts[cells]);
+        read(t.routines.shapes, h.counts[shapes]);
+        read(t.routines.steps, h.counts[steps]);
+        read(t.routines.outputs, h.counts[outputs]);
+        read(t.routines.data, h.counts[data]);
+        read(t.certificates, h.counts[certificates]);
+        read(t.first_certificate, h.counts[first_certificates]);
+        std::vector<float> added;
+        read(added, h.counts[constants]);
+        if (sum_.get() != h.tables_checksum)
+            throw error(Reason::damaged, "it is damaged: its checksum is not that of its contents");
+        program.constants.insert(program.constants.end(), added.begin(), added.end());
+        if (const std::string wrong = describe_damage(t, program); !wrong.empty())
+            throw error(Reason::damaged, "it is damaged: " + wrong);
+        return t;
+    }
+
+  private:
+    CellsFileError error(Reason reason, const std::string& what) const { return {reason, path_, what}; }
+
+    static RegularFile open(const fs::path& path) {
+        try {
+            return RegularFile(path);
+        } catch (const FileError& e) {
+            throw CellsFileError(e.is_missing() ? Reason::missing : Reason::unusable, path, e.what());
+        }
+    }
+    void read_bytes(void* to, std::size_t count) {
+        try {
+            if (!file_.read(to, count)) throw error(Reason::damaged, "it is damaged: it ends too early");
+        } catch (const FileError& e) {
+            throw error(Reason::unusable, e.what());
+        }
+    }
+    template <class T>
+    void read(std::vector<T>& items, std::uint64_t count) {
+        items.resize(count);
+        read_bytes(items.data(), count * sizeof(T));
+        sum_.put(items.data(), count * sizeof(T));
+    }
+    void read(std::vector<InterfaceCell>& cells, std::uint64_t count) {
+        std::vector<StoredCell> stored;
+        read(stored, count);
+        cells.reserve(count);
+        for (const StoredCell& s : stored) cells.push_back(s.cell());
+    }
+
+    Header header() {
+        Header h{};
+        if (file_.size() < sizeof h) {
+            decltype(Header::magic) start{};
+            if (file_.size() >= start.size()) read_bytes(start.data(), start.size());
+            if (start == Header::known_magic) throw error(Reason::damaged, "it is damaged: it ends too early");
+            throw error(Reason::foreign, "it is no file of cells");
+        }
+        read_bytes(&h, sizeof h);
+        if (h.magic != Header::known_magic) throw error(Reason::foreign, "it is no file of cells");
+        if (h.byte_order != Header::own_byte_order) {
+            if (h.byte_order != Header::other_byte_order)
+                throw error(Reason::damaged, "it is damaged: its header is wrong");
+            throw error(Reason::differing, "it was written by a machine of the other byte order");
+        }
+        if (h.format != Header::known_format)
+            throw error(Reason::differing, fmt::format("its format is version {}, and this library reads version {}",
+                                                       h.format, Header::known_format));
+        if (h.header_checksum != h.own_checksum())
+            throw error(Reason::damaged, "it is damaged: its header's checksum is wrong");
+        return h;
+    }
+
+    /// Requires that the header `h` of the file is as `wanted`.
+    void require_same(const Header& h, const Header& wanted) const {
+        const auto differs = [&](const std::string& what) { return error(Reason::differing, what); };
+        if (h.library != wanted.library)
+            throw differs(fmt::format("it was written by version {} of the library, and this is {}", as_text(h.library),
+                                      as_text(wanted.library)));
+        if (h.machine != wanted.machine)
+            throw differs(fmt::format("it was written for {}, and this is {}", as_text(h.machine), machine()));
+        if (h.layout != wanted.layout) throw differs("it was written by a library with other nodes");
+        if (h.program != wanted.program) throw differs("its cells are those of another tree");
+        if (h.resolution != wanted.resolution)
+            throw differs(
+                fmt::format("its cells have the resolution {}, and wanted is {}", h.resolution, wanted.resolution));
+        if (h.quality != wanted.quality) throw differs("its cells were built with another quality");
+        if (h.deepest != wanted.deepest)
+            throw differs(
+                fmt::format("its cells were built with {} divisions, and wanted are {}", h.deepest, wanted.deepest));
+        if (h.opaque != wanted.opaque) throw differs("its cells were built with other phases opaque");
+        // If the cells are not coarser, the limit did not matter, and any higher one gives the same.
+        if (h.is_coarser ? h.most_bytes != wanted.most_bytes : h.most_bytes > wanted.most_bytes)
+            throw differs("its cells were built with another limit of memory");
+    }
+
+    /// Requires that the file has as many bytes as its header says, before memory is allocated for them.
+    void require_size(const Header& h) const {
+        std::uint64_t rest = file_.size() - sizeof(Header);
+        for (std::size_t i = 0; i < CellsFileHeader::sections; ++i) {
+            if (h.counts[i] > rest / item_bytes[i] || h.counts[i] > 0xffffffffu)
+                throw error(Reason::damaged, "it is damaged: it ends too early");
+            rest -= h.counts[i] * item_bytes[i];
+        }
+        if (rest != 0) throw error(Reason::damaged, "it is damaged: something is behind its end");
+    }
+
+    const fs::path& path_;
+    RegularFile file_;
+    Checksum sum_;
+};
+
+}  // namespace
+
+std::shared_ptr<const InterfaceCells> read_cells(const fs::path& path, const Phased& object,
+                                                 const CellOptions& options) {
+    CellsReader reader(path);
+    return CellsFile::read(object, options, [&](Program& program, const BuildSettings& settings) {
+        return reader.read(program, settings);
+    });
+}
+
+}  // namespace phasetree

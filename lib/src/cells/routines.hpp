@@ -1,0 +1,93 @@
+#pragma once
+
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "building/cell_buffer.hpp"
+#include "evaluation/assemble.hpp"
+#include "rewriting/fuse.hpp"
+
+namespace phasetree::cells {
+
+using bounding::CertificateStep;
+using building::CellBuffer;
+using evaluation::Assembly;
+using kernel::OutputSlot, kernel::PackedCertificateStep, kernel::Routine, kernel::Step;
+using rewriting::Fuser;
+
+/// The routines of all cells. Those that differ only in where their constants are have one shape, and there are so few
+/// shapes that the processor's caches hold them.
+struct RoutineTables {
+    /// A routine without its constants: parts of the vectors below.
+    struct Shape {
+        std::uint32_t first_step, steps, leading, first_output, outputs, slots;
+    };
+    std::vector<Shape> shapes;
+    std::vector<Step> steps;
+    std::vector<OutputSlot> outputs;
+    std::vector<std::uint32_t> data;  ///< Routine::data of all routines
+
+    Routine routine(const Shape& s, std::uint32_t first_data, const float* constants) const {
+        Routine r{steps.data() + s.first_step,
+                  data.data() + first_data,
+                  constants,
+                  s.steps,
+                  outputs.data() + s.first_output,
+                  s.outputs};
+        r.leading = s.leading;
+        return r;
+    }
+    std::size_t bytes() const;
+    void shrink_to_fit();
+};
+
+/// Makes the routines of cells: fuses and assembles their programs, equal programs once.
+class RoutineBuilder {
+  public:
+    /// Constants of fused instructions are appended to `constants`.
+    explicit RoutineBuilder(std::vector<float>& constants) : fuse_(constants) {}
+
+    /// A routine, and where its certificate finds its values.
+    struct BuiltRoutine {
+        std::uint32_t shape, first_data;
+        std::uint32_t first_kept_slot;  ///< the first slot of the values of the certificate's leaves, in their order
+    };
+    /// Turns the data of specialised instructions into constants. It must be called once for each buffer, before the
+    /// cells in it are added.
+    void intern_specialised_data(CellBuffer&);
+    /// The routine of a cell. The buffer must stay where it is as long as other cells are added.
+    const BuiltRoutine& add(const CellBuffer&, const CellBuffer::Cell&);
+    /// Appends a certificate for this routine.
+    void pack_certificate(const BuiltRoutine&, std::span<const CertificateStep>,
+                          std::vector<PackedCertificateStep>&) const;
+
+    /// How many different programs were added.
+    std::size_t count() const { return built_.size(); }
+    RoutineTables tables;
+
+  private:
+    BuiltRoutine build(const CellBuffer&, const CellBuffer::Cell&);
+    std::uint32_t intern_shape(const Assembly&, std::uint32_t leading);
+
+    /// The program of a cell, with the values that its certificate needs.
+    struct Key {
+        const CellBuffer* buffer;
+        const CellBuffer::Cell* cell;
+        std::size_t hash;
+
+        bool operator==(const Key&) const;
+    };
+    struct Hash {
+        std::size_t operator()(const Key& key) const { return key.hash; }
+    };
+    static Key key_of(const CellBuffer&, const CellBuffer::Cell&);
+
+    Fuser fuse_;
+    std::unordered_map<Key, BuiltRoutine, Hash> built_;
+    std::unordered_multimap<std::uint64_t, std::uint32_t> shapes_;  ///< the indices of shapes by their hash
+    std::vector<std::uint32_t> kept_values_;                        ///< of the cell that is being added
+    std::vector<std::uint32_t> kept_slots_;                         ///< of all routines
+};
+
+}  // namespace phasetree::cells

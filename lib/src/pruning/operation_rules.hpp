@@ -1,0 +1,211 @@
+#pragma once
+
+#include "pruning/backward_sweep.hpp"
+
+/// The rules of pruning, one function for each operation that has more than one. `r` is the required interval of the
+/// instruction `in` with the number i.
+namespace phasetree::pruning {
+
+template <class Ranges>
+void BackwardSweep<Ranges>::resolve(std::uint32_t i) {
+    const Instruction& in = program_.code[i];
+    const RequiredInterval r = required_[i];
+    if (in.op >= Op::first_primitive) {
+        required_[in.a] = RequiredInterval::all();  // The operand is a point.
+        return;
+    }
+    switch (in.op) {
+        case Op::minimum:
+            return resolve_minimum(i);
+        case Op::far_bound:
+            if (r.is_sign() && drops_far_bounds_) return replace(i, in.a);
+            return resolve_maximum(i);
+        case Op::far_bound_inside:
+            if (r.is_sign() && drops_far_bounds_) return replace(i, in.a);
+            return resolve_minimum(i);
+        case Op::maximum:
+            return resolve_maximum(i);
+        case Op::smooth_minimum:
+            return resolve_smooth_minimum(i);
+        case Op::guarded:
+            return resolve_guarded(i);
+        case Op::falloff:
+            return require(in.a, {-Bounds::infinity, constant(in)});  // Beyond this distance it is zero.
+        case Op::add:
+            return resolve_sum(i);
+        case Op::subtract:
+            return resolve_difference(i);
+        case Op::corner:
+            return resolve_corner(i);
+        case Op::absolute:
+            return resolve_absolute(i);
+        case Op::negate:
+            return require(in.a, r.negated());
+        case Op::add_constant:
+            return require(in.a, {r.low() - constant(in), r.high() - constant(in)});
+        case Op::constant_minus:
+            return require(in.a, {constant(in) - r.high(), constant(in) - r.low()});
+        case Op::multiply_constant:
+            return resolve_product(i);
+        default:
+            if (operands(in.op) > 0) require(in.a, RequiredInterval::all());
+            if (operands(in.op) > 1) require(in.b, RequiredInterval::all());
+    }
+}
+
+template <class Ranges>
+void BackwardSweep<Ranges>::resolve_minimum(std::uint32_t i) {
+    const Instruction& in = program_.code[i];
+    const RequiredInterval r = required_[i];
+    const float low_a = low(in.a), high_a = high(in.a), low_b = low(in.b), high_b = high(in.b);
+    // b is the minimum, or a never lies where it is required.
+    const bool is_b_surely = is_above(in.a, in.b) | bool(low_a > r.high());
+    const bool is_a = is_above(in.b, in.a) | ((!is_b_surely) & (bool(low_b > r.high()) | bool(high_a < r.low())));
+    const bool is_b = is_b_surely | bool(high_b < r.low());
+    // Of either operand nothing matters above the largest value of the other.
+    resolve_extremum(i, {is_a, is_b, r.below(high_b), r.below(high_a)});
+}
+
+template <class Ranges>
+void BackwardSweep<Ranges>::resolve_maximum(std::uint32_t i) {
+    const Instruction& in = program_.code[i];
+    const RequiredInterval r = required_[i];
+    const float low_a = low(in.a), high_a = high(in.a), low_b = low(in.b), high_b = high(in.b);
+    const bool is_b_surely = is_above(in.b, in.a) | bool(high_a < r.low());
+    const bool is_a = is_above(in.a, in.b) | ((!is_b_surely) & (bool(high_b < r.low()) | bool(low_a > r.high())));
+    const bool is_b = is_b_surely | bool(low_b > r.high());
+    resolve_extremum(i, {is_a, is_b, r.above(low_b), r.above(low_a)});
+}
+
+/// Replaces a minimum or maximum by one of its operands, by a if both are possible, or keeps it. This is written
+/// without branches because every other comparison here would be mispredicted; where there is one operand, it is
+/// required twice in the same way.
+template <class Ranges>
+void BackwardSweep<Ranges>::resolve_extremum(std::uint32_t i, const Choice& choice) {
+    const Instruction& in = program_.code[i];
+    const RequiredInterval r = required_[i];
+    const std::uint32_t first = (choice.is_b & (!choice.is_a)) ? in.b : in.a, second = choice.is_a ? in.a : in.b;
+    const bool is_replaced = choice.is_a | choice.is_b;
+    replacement_[i] = is_replaced ? first : i;
+    is_changed_ |= is_replaced;
+    require(first, is_replaced ? r : choice.required_a);
+    require(second, is_replaced ? r : choice.required_b);
+}
+
+template <class Ranges>
+void BackwardSweep<Ranges>::resolve_smooth_minimum(std::uint32_t i) {
+    const Instruction& in = program_.code[i];
+    const RequiredInterval r = required_[i];
+    const float radius = constant(in);
+    if (is_above(in.b, in.a, radius)) return replace(i, in.a);
+    if (is_above(in.a, in.b, radius)) return replace(i, in.b);
+    // Where a is more than the radius above the required interval, blending with it lowers b by less than b lies above
+    // that interval.
+    if (low(in.a) > r.high() + radius) return replace(i, in.b);
+    if (low(in.b) > r.high() + radius) return replace(i, in.a);
+    if (high(in.a) < r.low()) return replace(i, in.a);
+    if (high(in.b) < r.low()) return replace(i, in.b);
+    require(in.a, {r.low(), std::min(r.high(), high(in.b)) + radius});
+    require(in.b, {r.low(), std::min(r.high(), high(in.a)) + radius});
+}
+
+/// max(a, min(b, c − a)), of a field b that may jump and a bound a that is continuous.
+template <class Ranges>
+void BackwardSweep<Ranges>::resolve_guarded(std::uint32_t i) {
+    const Instruction& in = program_.code[i];
+    const RequiredInterval r = required_[i];
+    // Where a > c/2 the second operand is below a, so that the maximum is a.
+    const float half = 0.5f * constant(in);
+    if (low(in.a) > std::min(half, r.high())) return replace(i, in.a);
+    // Where a is negative c − a is positive, so that max(a, b) has the same sign. It may take its place if b does not
+    // jump; if it does, its slope is more than twice that of a by far (FoldMap::jump).
+    if (r.is_sign() && ranges_.slope[in.b] <= 2 * ranges_.slope[in.a]) {
+        change(i, Op::maximum);
+        return resolve_maximum(i);
+    }
+    require(in.a, RequiredInterval::all());
+    require(in.b, {std::max(r.low(), low(in.a)), r.high()});
+}
+
+template <class Ranges>
+void BackwardSweep<Ranges>::resolve_sum(std::uint32_t i) {
+    const Instruction& in = program_.code[i];
+    const RequiredInterval r = required_[i];
+    if (is_zero(in.a)) return replace(i, in.b);
+    if (is_zero(in.b)) return replace(i, in.a);
+    // One operand is required in an interval that is widened by the range of the other, which must then stay as it is.
+    if (is_leaf(in.a)) {
+        require(in.a, RequiredInterval::all());
+        return require(in.b, {r.low() - high(in.a), r.high() - low(in.a)});
+    }
+    require(in.b, RequiredInterval::all());
+    require(in.a, {r.low() - high(in.b), r.high() - low(in.b)});
+}
+
+template <class Ranges>
+void BackwardSweep<Ranges>::resolve_difference(std::uint32_t i) {
+    const Instruction& in = program_.code[i];
+    const RequiredInterval r = required_[i];
+    if (is_leaf(in.a)) {
+        require(in.a, RequiredInterval::all());
+        return require(in.b, {low(in.a) - r.high(), high(in.a) - r.low()});
+    }
+    require(in.b, RequiredInterval::all());
+    require(in.a, {r.low() + low(in.b), r.high() + high(in.b)});
+}
+
+template <class Ranges>
+void BackwardSweep<Ranges>::resolve_corner(std::uint32_t i) {
+    const Instruction& in = program_.code[i];
+    const RequiredInterval r = required_[i];
+    // If one operand is negative and the smaller, the corner is the other.
+    if (high(in.a) < 0 && is_above(in.b, in.a)) return replace(i, in.b);
+    if (high(in.b) < 0 && is_above(in.a, in.b)) return replace(i, in.a);
+    const float least = std::min(r.low(), 0.f);
+    if (high(in.a) < least) return replace(i, in.b);
+    if (high(in.b) < least) return replace(i, in.a);
+    if (low(in.a) > r.high()) return replace(i, in.a);
+    if (low(in.b) > r.high()) return replace(i, in.b);
+    // Above 0 both operands matter, unless one of them is negative and the smaller.
+    require(in.a, {std::max(least, std::min(low(in.b), 0.f)), r.high()});
+    require(in.b, {std::max(least, std::min(low(in.a), 0.f)), r.high()});
+}
+
+template <class Ranges>
+void BackwardSweep<Ranges>::resolve_absolute(std::uint32_t i) {
+    const Instruction& in = program_.code[i];
+    const RequiredInterval r = required_[i];
+    if (low(in.a) > 0) return replace(i, in.a);
+    if (high(in.a) < 0) {
+        change(i, Op::negate);
+        return require(in.a, r.negated());
+    }
+    require(in.a, {-std::max(r.high(), 0.f), std::max(r.high(), 0.f)});
+}
+
+template <class Ranges>
+void BackwardSweep<Ranges>::resolve_product(std::uint32_t i) {
+    const Instruction& in = program_.code[i];
+    const RequiredInterval r = required_[i];
+    const float c = constant(in);
+    if (c == 0) return require(in.a, RequiredInterval::all());
+    const float one = r.low() / c, other = r.high() / c;
+    require(in.a, {std::min(one, other), std::max(one, other)});
+}
+
+/// Whether pruning could delete nothing of what computes a value.
+template <class Ranges>
+bool BackwardSweep<Ranges>::is_leaf(std::uint32_t i) const {
+    const Instruction& in = program_.code[i];
+    return in.op >= Op::first_primitive || (in.op == Op::multiply_constant && is_leaf(in.a));
+}
+
+/// Whether a value is exactly zero in the whole region, as the falloff of a skeleton out of reach is.
+template <class Ranges>
+bool BackwardSweep<Ranges>::is_zero(std::uint32_t i) const {
+    const Instruction& in = program_.code[i];
+    if (in.op == Op::multiply_constant) return is_zero(in.a);
+    return in.op == Op::falloff && low(in.a) > constant(in);
+}
+
+}  // namespace phasetree::pruning
