@@ -1,6 +1,6 @@
 // Files of cells: what is read is what was built, and whatever is done to a file is refused or harmless.
 #include "cells/file_header.hpp"
-#include "cells/sound.hpp"
+#include "cells/validate.hpp"
 #include "phasetree/cells/cells.hpp"
 #include "phasetree/cells/file.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
