@@ -19,10 +19,11 @@
 #include "environment.hpp"
 #include "output/file.hpp"
 #include "phasetree/version.hpp"
-#include "temporary_directory.hpp"
+#include "support/temporary_directory.hpp"
 
 namespace fs = std::filesystem;
 using namespace phasetree::tracer;
+using namespace phasetree::tests;
 using namespace phasetree::tracer::test;
 
 namespace {

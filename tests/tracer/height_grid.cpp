@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <fstream>
 
-#include "output/temporary_directory.hpp"
 #include "phasetree/model/handle.hpp"
 #include "scene/scene.hpp"
+#include "support/temporary_directory.hpp"
 
 using namespace phasetree;
-using tracer::test::TemporaryDirectory;
+using tests::TemporaryDirectory;
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace phasetree::tracer::test {
+namespace phasetree::tests {
 
 /// An empty directory of its own, removed at the end.
 class TemporaryDirectory {
@@ -47,4 +47,4 @@ inline void write_text(const std::filesystem::path& path, const std::string& tex
     std::ofstream(path, std::ios::binary) << text;
 }
 
-}  // namespace phasetree::tracer::test
+}  // namespace phasetree::tests
