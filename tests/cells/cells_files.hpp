@@ -17,14 +17,16 @@
 #include "phasetree/cells/file.hpp"
 #include "phasetree/io/tree.hpp"
 #include "phasetree/model/handle.hpp"
+#include "phasetree_support/temporary_directory.hpp"
 #include "support/random_tree.hpp"
-#include "support/temporary_directory.hpp"
 
 namespace phasetree::tests {
 
 namespace fs = std::filesystem;
 using Bytes = std::vector<unsigned char>;
 using Reason = CellsFileError::Reason;
+using support::bytes_of;
+using support::TemporaryDirectory;
 
 inline Bytes contents(const fs::path& path) {
     const std::string text = bytes_of(path);

@@ -17,12 +17,13 @@
 #include "phasetree/embree.hpp"
 #include "phasetree/model/crossing.hpp"
 #include "phasetree/model/handle.hpp"
+#include "phasetree_support/temporary_directory.hpp"
 #include "source_directory.hpp"
 #include "support/random_tree.hpp"
-#include "support/temporary_directory.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;
+using namespace phasetree::support;
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "phasetree/io/document.hpp"
-#include "support/temporary_directory.hpp"
+#include "phasetree_support/temporary_directory.hpp"
 
 using phasetree::Document;
 using phasetree::SceneError;
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Open to all, because another user reads it, too.
-class Folder : public phasetree::tests::TemporaryDirectory {
+class Folder : public phasetree::support::TemporaryDirectory {
   public:
     Folder() { fs::permissions(path(), fs::perms::all); }
 };

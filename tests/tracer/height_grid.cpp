@@ -6,11 +6,11 @@
 #include <fstream>
 
 #include "phasetree/model/handle.hpp"
+#include "phasetree_support/temporary_directory.hpp"
 #include "scene/scene.hpp"
-#include "support/temporary_directory.hpp"
 
 using namespace phasetree;
-using tests::TemporaryDirectory;
+using support::TemporaryDirectory;
 
 namespace {
 

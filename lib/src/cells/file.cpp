@@ -15,9 +15,9 @@
 #include "cells/file_header.hpp"
 #include "cells/sound.hpp"
 #include "files/regular_file.hpp"
-#include "files/whole_file.hpp"
 #include "phasetree/cells/file.hpp"
 #include "phasetree/version.hpp"
+#include "phasetree_support/whole_file.hpp"
 #include "program/fused.hpp"
 
 namespace phasetree {
@@ -301,7 +301,7 @@ void write_cells(const fs::path& path, const InterfaceCells& cells) {
     h.tables_checksum = sum.get();
     h.header_checksum = h.own_checksum();
     try {
-        WholeFile file(path);
+        support::WholeFile file(path);
         file.write(std::as_bytes(std::span(&h, 1)));
         for (const auto& part : parts) file.write(part);
         file.finish();

@@ -5,10 +5,11 @@
 #include <string>
 
 #include "embree/api/api.hpp"
-#include "support/temporary_directory.hpp"
+#include "phasetree_support/temporary_directory.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;
+using phasetree::support::TemporaryDirectory;
 
 namespace {
 
@@ -121,7 +122,8 @@ TEST_CASE("files of cells that cannot be used") {
     };
     expect_error(phasetreeWriteGeometryCells(nullptr, path.c_str()), no_handle, "geometry is NULL");
     expect_error(phasetreeWriteGeometryCells(built.get(), nullptr), invalid, "path is NULL");
-    expect_error(phasetreeWriteGeometryCells(built.get(), (folder / "no/cells").c_str()), wrong, "No such file");
+    expect_error(phasetreeWriteGeometryCells(built.get(), (folder / "no/cells").c_str()), wrong,
+                 "there is no directory");
     expect_error(phasetreeWriteGeometryCells(built.get(), (folder / "").c_str()), wrong, "directory");
     expect_error(read(path, tree, nullptr), wrong, "No such file");
     built.write_cells(path);

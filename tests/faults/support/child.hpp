@@ -15,16 +15,16 @@
 #include <string>
 #include <vector>
 
-#include "support/temporary_directory.hpp"
+#include "phasetree_support/temporary_directory.hpp"
 
 // The command's main().
 int phasetree_main(int count, char** arguments);
 
 namespace phasetree::tests {
 
-using tests::bytes_of;
-using tests::TemporaryDirectory;
-using tests::write_text;
+using support::bytes_of;
+using support::TemporaryDirectory;
+using support::write_text;
 
 inline bool is_long() {
     return std::getenv("PHASETREE_LONG_TESTS") != nullptr;
