@@ -1,7 +1,6 @@
 // What a host of the C99 interface pays beside its rays: for decoding hits, for cells from a file, for points.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <random>
@@ -9,6 +8,7 @@
 #include "commands/commands.hpp"
 #include "objects/scene_file.hpp"
 #include "phasetree/phasetree_embree.hpp"
+#include "phasetree_support/temporary_directory.hpp"
 #include "rays/camera_rays.hpp"
 #include "trace/many.hpp"
 
@@ -122,15 +122,6 @@ Turns asking(const Host& host, const Settings& settings) {
     return in_turn({{"one at a time", each}, {"at once", all}}, settings.timing_of_one_thread());
 }
 
-// A name for a file that is gone when the benchmark is.
-struct TemporaryFile {
-    std::string name = (std::filesystem::temp_directory_path() / fmt::format("phasetree-bench-{}.cells", ::getpid()));
-    TemporaryFile() = default;
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-    ~TemporaryFile() { std::filesystem::remove(name); }
-};
-
 }  // namespace
 
 Report host(const Settings& settings) {
@@ -149,12 +140,12 @@ Report host(const Settings& settings) {
                  {"point_seconds", "point ns", "{:.0f}", 1e9},
                  {"points_ratio", "at once/one", "{:.2f}"}});
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    const TemporaryFile file;
+    const support::TemporaryDirectory folder;  // gone when the benchmark is
     double decode = 0, read = 0;
     for (const std::string name : {"hourglass", "cable", "drinks", "tentacle"}) {
         const Host host(name);
         const Rays camera = camera_rays(scene_file(name).camera, settings.width, settings.height);
-        const Turns hits = decoding(host, camera, settings), cells = reading(host, file.name, settings),
+        const Turns hits = decoding(host, camera, settings), cells = reading(host, folder / "cells", settings),
                     points = asking(host, settings);
         const auto each = [](const Turns& turns, std::size_t i) {
             return turns.seconds(i).median / static_cast<double>(turns.checksum(i).rays);

@@ -8,20 +8,16 @@
 #include <glm/vec3.hpp>
 #include <numbers>
 
+#include "phasetree_support/split_mix64.hpp"
+
 namespace phasetree::bench {
 
-// SplitMix64 (Steele, Lea, Flood, OOPSLA 2014).
 class Random {
   public:
-    explicit Random(std::uint64_t seed) : state_(seed) {}
+    explicit Random(std::uint64_t seed) : generator_(seed) {}
 
     // In [0, 1).
-    float next() {
-        std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        return static_cast<float>((z ^ (z >> 31)) >> 40) * 0x1p-24f;
-    }
+    float next() { return static_cast<float>(generator_() >> 40) * 0x1p-24f; }
     // One of so many.
     std::size_t below(std::size_t count) {
         return std::min(static_cast<std::size_t>(next() * static_cast<float>(count)), count - 1);
@@ -37,7 +33,7 @@ class Random {
     }
 
   private:
-    std::uint64_t state_;
+    support::SplitMix64 generator_;
 };
 
 }  // namespace phasetree::bench

@@ -20,27 +20,11 @@
 #include "phasetree/nodes/warps/translate.hpp"
 #include "phasetree/nodes/warps/warped.hpp"
 #include "phasetree/trace/tracer.hpp"
-#include "source_directory.hpp"
 #include "support/compared_crossings.hpp"
 #include "support/compared_labels.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;
-
-namespace {
-
-Phased hourglass() {
-    return read_tree(Document::from_file(source_directory() + "/scenes/hourglass.json")).object;
-}
-
-std::vector<std::size_t> cells_at(const InterfaceCells& cells, const glm::vec3& p) {
-    std::vector<std::size_t> found;
-    for (std::size_t i = 0; i < cells.size(); ++i)
-        if (cells.bounds(i).contains(p)) found.push_back(i);
-    return found;
-}
-
-}  // namespace
 
 TEST_CASE("a cell's program gives the whole object's labels in the cell and on its faces") {
     Random rng(7);

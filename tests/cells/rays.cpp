@@ -6,31 +6,14 @@
 
 #include "cells/traceable.hpp"
 #include "phasetree/cells/cells.hpp"
-#include "phasetree/io/tree.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/nodes/fields/sphere.hpp"
 #include "phasetree/nodes/phased/over.hpp"
 #include "phasetree/nodes/phased/set.hpp"
-#include "source_directory.hpp"
 #include "support/compared_crossings.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;
-
-namespace {
-
-Phased hourglass() {
-    return read_tree(Document::from_file(source_directory() + "/scenes/hourglass.json")).object;
-}
-
-std::vector<std::size_t> cells_at(const InterfaceCells& cells, const glm::vec3& p) {
-    std::vector<std::size_t> found;
-    for (std::size_t i = 0; i < cells.size(); ++i)
-        if (cells.bounds(i).contains(p)) found.push_back(i);
-    return found;
-}
-
-}  // namespace
 
 TEST_CASE("the nearest crossing over all cells is the whole object's") {
     Random rng(13);

@@ -15,13 +15,13 @@
 #include <thread>
 #include <vector>
 
-#include "output/temporary_directory.hpp"
+#include "phasetree_support/temporary_directory.hpp"
 
 namespace phasetree::tests {
 
-using tracer::test::bytes_of;
-using tracer::test::TemporaryDirectory;
-using tracer::test::write_text;
+using support::bytes_of;
+using support::TemporaryDirectory;
+using support::write_text;
 
 struct Outcome {
     int code = -1;   // exit code; −1 if a signal ended it

@@ -3,11 +3,12 @@
 
 #include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 #include "fuzz/target.hpp"
+#include "phasetree_support/temporary_directory.hpp"
 
 namespace phasetree::fuzz {
 
@@ -18,16 +19,9 @@ class InputFile {
         const std::filesystem::path memory = "/dev/shm";
         std::error_code none;
         const bool is_there = std::filesystem::is_directory(memory, none) && ::access(memory.c_str(), W_OK) == 0;
-        std::string folder = ((is_there ? memory : std::filesystem::temp_directory_path()) / "phasetree-fuzz-XXXXXX");
-        if (::mkdtemp(folder.data()) == nullptr) broken("there is a temporary folder");
-        path_ = std::filesystem::path(folder) / name;
+        folder_.emplace(is_there ? memory : std::filesystem::temp_directory_path());
+        path_ = *folder_ / name;
     }
-    ~InputFile() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_.parent_path(), ignored);
-    }
-    InputFile(const InputFile&) = delete;
-    InputFile& operator=(const InputFile&) = delete;
 
     const std::filesystem::path& write(Bytes bytes) {
         std::ofstream(path_, std::ios::binary)
@@ -36,6 +30,7 @@ class InputFile {
     }
 
   private:
+    std::optional<support::TemporaryDirectory> folder_;
     std::filesystem::path path_;
 };
 

@@ -7,19 +7,15 @@
 #include <vector>
 
 #include "fuzz/target.hpp"
+#include "phasetree_support/split_mix64.hpp"
 
 namespace phasetree::fuzz {
 
-// SplitMix64 (Steele, Lea, Flood 2014): the same sequence everywhere.
+// The same sequence everywhere.
 class Random {
   public:
-    explicit Random(std::uint64_t seed) : state_(seed) {}
-    std::uint64_t operator()() {
-        std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        return z ^ (z >> 31);
-    }
+    explicit Random(std::uint64_t seed) : generator_(seed) {}
+    std::uint64_t operator()() { return generator_(); }
     std::size_t below(std::size_t n) { return n == 0 ? 0 : static_cast<std::size_t>((*this)() % n); }
     template <class List>
     const auto& of(const List& list) {
@@ -27,7 +23,7 @@ class Random {
     }
 
   private:
-    std::uint64_t state_;
+    support::SplitMix64 generator_;
 };
 
 // One change. `words` are what keys and names may become.

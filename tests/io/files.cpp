@@ -11,6 +11,7 @@
 #include <string>
 
 #include "phasetree/io/document.hpp"
+#include "phasetree_support/temporary_directory.hpp"
 
 using phasetree::Document;
 using phasetree::SceneError;
@@ -18,25 +19,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-class Folder {
+// Open to all, because another user reads it, too.
+class Folder : public phasetree::support::TemporaryDirectory {
   public:
-    Folder() {
-        std::string pattern = (fs::temp_directory_path() / "phasetree-reading-XXXXXX").string();
-        REQUIRE(::mkdtemp(pattern.data()) != nullptr);
-        path_ = pattern;
-        fs::permissions(path_, fs::perms::all);
-    }
-    ~Folder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-
-    fs::path operator/(const std::string& name) const { return path_ / name; }
-
-  private:
-    fs::path path_;
+    Folder() { fs::permissions(path(), fs::perms::all); }
 };
 
 std::string told(const fs::path& path) {

@@ -8,6 +8,9 @@
 #include "phasetree/io/document.hpp"
 #include "phasetree/tree/node.hpp"
 
+#include "phasetree/tree/node.hpp"
+#include "source_directory.hpp"
+
 using namespace phasetree;
 
 namespace {

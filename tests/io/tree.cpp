@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "phasetree/model/handle.hpp"
+#include "phasetree/tree/node.hpp"
 
 using namespace phasetree;
 

@@ -15,10 +15,11 @@
 #include "environment.hpp"
 #include "output/default_config.hpp"
 #include "output/error.hpp"
-#include "temporary_directory.hpp"
+#include "phasetree_support/temporary_directory.hpp"
 
 namespace ocio = OCIO_NAMESPACE;
 using namespace phasetree::tracer;
+using namespace phasetree::support;
 using namespace phasetree::tracer::test;
 
 namespace {

@@ -19,10 +19,12 @@
 #include "environment.hpp"
 #include "output/file.hpp"
 #include "phasetree/version.hpp"
-#include "temporary_directory.hpp"
+#include "phasetree_support/temporary_directory.hpp"
+#include "phasetree_support/whole_file.hpp"
 
 namespace fs = std::filesystem;
 using namespace phasetree::tracer;
+using namespace phasetree::support;
 using namespace phasetree::tracer::test;
 
 namespace {
@@ -406,14 +408,28 @@ TEST_CASE("a file of any kind is written whole or not at all, and never in the p
     CHECK(folder.size() == 3);
 }
 
+namespace {
+
+// The temporary name that the next file will have: what a killed process of the same number may have left. It is that
+// of a file that is begun now, and its number the next.
+std::string next_temporary(const fs::path& folder, const std::string& name) {
+    const WholeFile begun(folder / name);
+    const std::string before = "." + name + "." + std::to_string(::getpid()) + ".";
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const std::string now = entry.path().filename().string();
+        if (now.starts_with(before)) return before + std::to_string(std::stoi(now.substr(before.size())) + 1) + ".tmp";
+    }
+    throw std::logic_error("no temporary file");
+}
+
+}  // namespace
+
 TEST_CASE("writing replaces the old file, and only it") {
     const OcioVariable none;
     const TemporaryDirectory folder;
     write_text(folder / "target.png", "old");
     fs::create_symlink("target.png", folder / "link.png");
-    // What a killed process of the same number may have left.
-    const std::string leftover = ".target.png." + std::to_string(::getpid()) + ".tmp.png";
-    write_text(folder / leftover, "half");
+    write_text(folder / next_temporary(folder.path(), "target.png"), "half");
     check_writable(folder / "link.png");
     CHECK(bytes_of(folder / "target.png") == "old");
     write_image(noise(8, 8), folder / "link.png", metadata, DisplayTransform());

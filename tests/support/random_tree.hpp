@@ -15,20 +15,16 @@
 
 #include "phasetree/math/bounds.hpp"
 #include "phasetree/model/handle.hpp"
+#include "phasetree_support/split_mix64.hpp"
 
 namespace phasetree::tests {
 
-/// SplitMix64 (Steele, Lea, Flood, OOPSLA 2014): the same numbers with every standard library.
+/// The same numbers with every standard library.
 class Random {
   public:
-    explicit Random(std::uint64_t seed) : state_(seed) {}
+    explicit Random(std::uint64_t seed) : generator_(seed) {}
 
-    std::uint64_t bits() {
-        std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        return z ^ (z >> 31);
-    }
+    std::uint64_t bits() { return generator_(); }
     /// In [0, 1).
     double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
     float uniform(float low, float high) { return low + (high - low) * static_cast<float>(unit()); }
@@ -45,7 +41,7 @@ class Random {
     }
 
   private:
-    std::uint64_t state_;
+    support::SplitMix64 generator_;
 };
 
 /// Depth 1 is a primitive; for an object, a primitive with a phase.

@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <fstream>
 
-#include "output/temporary_directory.hpp"
 #include "phasetree/model/handle.hpp"
+#include "phasetree_support/temporary_directory.hpp"
 #include "scene/scene.hpp"
 
 using namespace phasetree;
-using tracer::test::TemporaryDirectory;
+using support::TemporaryDirectory;
 
 namespace {
 

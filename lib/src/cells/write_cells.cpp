@@ -1,14 +1,14 @@
 #include <fmt/format.h>
 
 #include "cells/file_format.hpp"
-#include "files/whole_file.hpp"
 #include "phasetree/cells/file.hpp"
+#include "phasetree_support/whole_file.hpp"
 
 namespace phasetree {
 
 using cells::CellsFile, cells::CellsFileHeader, cells::Checksum, cells::header_of, cells::InterfaceCell,
     cells::item_bytes, cells::StoredCell;
-using files::FileError, files::WholeFile;
+using support::FileError, support::WholeFile;
 
 namespace fs = std::filesystem;
 

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "files/error.hpp"
+#include "phasetree_support/file_error.hpp"
 
 namespace phasetree::files {
+
+using support::FileError;
 
 /// A regular file, open for reading. Directories, pipes and devices are a FileError: to read one may never end.
 class RegularFile {

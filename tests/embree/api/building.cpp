@@ -1,15 +1,15 @@
 // Building: what is told of its progress, and cells that are kept in files.
-#include <unistd.h>
-
 #include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
 #include "embree/api/api.hpp"
+#include "phasetree_support/temporary_directory.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;
+using phasetree::support::TemporaryDirectory;
 
 namespace {
 
@@ -34,22 +34,6 @@ PhasetreeGeometryOptions telling(Told& told) {
     options.progressUserPtr = &told;
     return options;
 }
-
-class Folder {
-  public:
-    Folder() {
-        std::string name = (std::filesystem::temp_directory_path() / "phasetree-built-XXXXXX").string();
-        REQUIRE(::mkdtemp(name.data()) != nullptr);
-        path_ = name;
-    }
-    ~Folder() { std::filesystem::remove_all(path_); }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    std::string operator/(const char* name) const { return (path_ / name).string(); }
-
-  private:
-    std::filesystem::path path_;
-};
 
 }  // namespace
 
@@ -91,7 +75,7 @@ TEST_CASE("a build that its progress ends is cancelled, and leaves what was ther
 }
 
 TEST_CASE("a geometry with cells from a file is the one that was written") {
-    const Folder folder;
+    const TemporaryDirectory folder;
     const std::string path = folder / "cells";
     PhasetreeGeometryOptions options = with_flags(PHASETREE_GEOMETRY_FLAG_EXTENDED_CONTEXT);
     options.opaquePhases = 0b11000;
@@ -125,7 +109,7 @@ TEST_CASE("a geometry with cells from a file is the one that was written") {
 }
 
 TEST_CASE("files of cells that cannot be used") {
-    const Folder folder;
+    const TemporaryDirectory folder;
     const std::string path = folder / "cells";
     Device device;
     const embree::Tree tree = object_tree();
@@ -138,7 +122,8 @@ TEST_CASE("files of cells that cannot be used") {
     };
     expect_error(phasetreeWriteGeometryCells(nullptr, path.c_str()), no_handle, "geometry is NULL");
     expect_error(phasetreeWriteGeometryCells(built.get(), nullptr), invalid, "path is NULL");
-    expect_error(phasetreeWriteGeometryCells(built.get(), (folder / "no/cells").c_str()), wrong, "No such file");
+    expect_error(phasetreeWriteGeometryCells(built.get(), (folder / "no/cells").c_str()), wrong,
+                 "there is no directory");
     expect_error(phasetreeWriteGeometryCells(built.get(), (folder / "").c_str()), wrong, "directory");
     expect_error(read(path, tree, nullptr), wrong, "No such file");
     built.write_cells(path);

@@ -15,16 +15,16 @@
 #include <string>
 #include <vector>
 
-#include "output/temporary_directory.hpp"
+#include "phasetree_support/temporary_directory.hpp"
 
 // The command's main().
 int phasetree_main(int count, char** arguments);
 
 namespace phasetree::tests {
 
-using tracer::test::bytes_of;
-using tracer::test::TemporaryDirectory;
-using tracer::test::write_text;
+using support::bytes_of;
+using support::TemporaryDirectory;
+using support::write_text;
 
 inline bool is_long() {
     return std::getenv("PHASETREE_LONG_TESTS") != nullptr;

@@ -9,13 +9,13 @@
 #include <stdexcept>
 #include <string>
 
-namespace phasetree::tracer::test {
+namespace phasetree::support {
 
 /// An empty directory of its own, removed at the end.
 class TemporaryDirectory {
   public:
-    TemporaryDirectory() {
-        std::string name = (std::filesystem::temp_directory_path() / "phasetree-test-XXXXXX").string();
+    explicit TemporaryDirectory(const std::filesystem::path& within = std::filesystem::temp_directory_path()) {
+        std::string name = (within / "phasetree-XXXXXX").string();
         if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary directory");
         path_ = name;
     }
@@ -47,4 +47,4 @@ inline void write_text(const std::filesystem::path& path, const std::string& tex
     std::ofstream(path, std::ios::binary) << text;
 }
 
-}  // namespace phasetree::tracer::test
+}  // namespace phasetree::support

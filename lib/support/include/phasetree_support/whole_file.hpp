@@ -4,13 +4,14 @@
 #include <filesystem>
 #include <span>
 
-#include "files/error.hpp"
+#include "phasetree_support/file_error.hpp"
 
-namespace phasetree::files {
+namespace phasetree::support {
 
 /// A file that appears whole or not at all: it is written under a temporary name in the same directory and renamed by
-/// finish(); without that it vanishes. A symbolic link stays one, and what it points at is replaced; a directory, a
-/// device or a pipe never is. All throw FileError.
+/// finish(). Without that the temporary file vanishes, and a file that was there is untouched. A symbolic link stays
+/// one, and what it points at is replaced or, if it is not there, made; a directory, a device or a pipe never is. All
+/// functions throw FileError.
 class WholeFile {
   public:
     explicit WholeFile(const std::filesystem::path&);
@@ -27,4 +28,4 @@ class WholeFile {
     bool is_renamed_ = false;
 };
 
-}  // namespace phasetree::files
+}  // namespace phasetree::support

@@ -1,0 +1,106 @@
+#include "phasetree_support/whole_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <string>
+#include <system_error>
+#include <utility>
+
+namespace phasetree::support {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The directory that a file lies in.
+fs::path folder_of(const fs::path& target) {
+    return target.has_parent_path() ? target.parent_path() : fs::path(".");
+}
+
+/// Where a symbolic link leads, and that one, and so on, whether there is a file or not.
+fs::path followed(const fs::path& path) {
+    constexpr int most_links = 40;  // Linux's own limit
+    fs::path target = path;
+    std::error_code error;
+    for (int i = 0; fs::is_symlink(fs::symlink_status(target, error)); ++i) {
+        if (i == most_links) throw FileError(ELOOP, "the symbolic link leads nowhere: in a circle");
+        const fs::path next = fs::read_symlink(target, error);
+        if (error) throw FileError(error.value(), fmt::format("the symbolic link leads nowhere: {}", error.message()));
+        target = target.parent_path() / next;
+    }
+    return target;
+}
+
+/// Where the file really goes, links followed; throws what can be said without creating anything.
+fs::path resolved(const fs::path& path) {
+    std::error_code error;
+    const fs::path target = followed(path);
+    const fs::path folder = folder_of(target);
+    const fs::file_status folder_status = fs::status(folder, error);
+    if (folder_status.type() == fs::file_type::not_found)
+        throw FileError(ENOENT, fmt::format("there is no directory \"{}\"", folder.string()));
+    if (folder_status.type() == fs::file_type::none) throw FileError(error.value(), error.message());
+    if (folder_status.type() != fs::file_type::directory)
+        throw FileError(ENOTDIR, fmt::format("\"{}\" is not a directory", folder.string()));
+    const fs::file_status status = fs::status(target, error);
+    if (status.type() == fs::file_type::directory) throw FileError(EISDIR, "it is a directory");
+    if (fs::exists(status)) {
+        if (status.type() != fs::file_type::regular) throw FileError(EINVAL, "it is not a regular file");
+        // Renaming over a file does not ask for its permissions, but who protects a file means it.
+        if (::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) throw FileError(errno);
+    } else if (status.type() == fs::file_type::none) {
+        throw FileError(error.value(), error.message());
+    }
+    return target;
+}
+
+/// A name in the same directory, another one for each file that this process writes at once.
+fs::path name_beside(const fs::path& target) {
+    static std::atomic<unsigned> written{0};
+    // File systems allow 255 bytes; the rest is for the numbers.
+    const std::string name = target.filename().string().substr(0, 200);
+    fs::path beside = target;
+    beside.replace_filename(fmt::format(".{}.{}.{}.tmp", name, ::getpid(), written++));
+    return beside;
+}
+
+}  // namespace
+
+WholeFile::WholeFile(const fs::path& path) : target_(resolved(path)), temporary_(name_beside(target_)) {
+    ::unlink(temporary_.c_str());  // of a process that was killed and had the same id
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) {
+        const int code = errno;
+        throw FileError(code, fmt::format("no file can be created in the directory \"{}\": {}",
+                                          folder_of(target_).string(), std::generic_category().message(code)));
+    }
+}
+
+WholeFile::~WholeFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!is_renamed_) ::unlink(temporary_.c_str());
+}
+
+void WholeFile::write(std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) throw FileError(errno);
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+}
+
+void WholeFile::finish() {
+    // Network file systems report a full disk only here.
+    if (::close(std::exchange(descriptor_, -1)) != 0) throw FileError(errno);
+    std::error_code error;
+    fs::rename(temporary_, target_, error);
+    if (error) throw FileError(error.value());
+    is_renamed_ = true;
+}
+
+}  // namespace phasetree::support

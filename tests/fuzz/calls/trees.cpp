@@ -1,0 +1,91 @@
+// Trees are made of texts, edited, counted and asked.
+#include <cstdint>
+#include <cstring>
+
+#include "fuzz/calls/calls.hpp"
+
+namespace phasetree::fuzz {
+
+namespace {
+
+constexpr const char* texts[] = {
+    R"({"phases": {"a": {}}, "tree": {"set": {"phase": "a", "of": {"sphere": {"radius": 1}}}}})",
+    R"({"phases": {"a": {}, "b": {}}, "shapes": {"s": {"sphere": {"radius": 0.5}}}, "tree": {"under": [
+        {"set": {"phase": "a", "of": {"box": {"size": [1, 1, 1]}}}}, {"set": {"phase": "b", "of": "s"}}]}})",
+    R"({"phases": {"a": {}, "b": {}, "c": {}}, "tree": {"thin_shell": {"of": {"torus": {"major": 1, "minor": 0.3}},
+        "shell": "a", "inside": "b", "half_thickness": 0.05}}})",
+    R"({"phases": {"a": {}}, "tree": {"set": {"phase": "a", "of": {"plane": {}}}}})",
+    R"({"phases": {"a": {}}, "tree": {"set": {"phase": "a", "of": {"height_map": {"file": "h", "size": [1, 1],
+        "height": 0.5}}}}})",
+    R"({"phases": {"a": {}}, "tree": {"set": {"phase": "b", "of": {"sphere": {"radius": 1}}}}})",
+    "{",
+    "",
+};
+constexpr const char* paths[] = {"/tree/set/of/sphere/radius",
+                                 "/shapes/s/sphere/radius",
+                                 "/tree",
+                                 "",
+                                 "/",
+                                 "/nowhere",
+                                 "/tree/under/0",
+                                 "tree",
+                                 "/~2",
+                                 "/phases"};
+constexpr const char* values[] = {"0.5", "2", "-1", "1e39", "{\"sphere\": {\"radius\": 1}}", "null", "[", "", "\"a\""};
+
+const char* read_image(void* user, const char*, PhasetreeImage image) {
+    const auto kind = reinterpret_cast<std::uintptr_t>(user);
+    if (kind == 0) return "there is no such file";
+    if (kind == 1) return nullptr;
+    if (phasetreeNewImageValues(image, 0, 5) || phasetreeNewImageValues(nullptr, 5, 5)) broken("sizes are checked");
+    float* const heights = phasetreeNewImageValues(image, 3, 2);
+    for (int i = 0; i < 6; ++i) heights[i] = static_cast<float>(i) / 6;
+    return nullptr;
+}
+
+}  // namespace
+
+void Calls::new_tree() {
+    const PhasetreeFileReader reader{c_.rarely() ? nullptr : read_image,
+                                     reinterpret_cast<void*>(std::uintptr_t{c_.below(3)})};
+    const PhasetreeFileReader* const with = c_.below(3) == 0 ? nullptr : &reader;
+    const char* const name = c_.below(2) == 0 ? nullptr : "scene.json";
+    const char* const text = c_.of(texts);
+    const std::size_t length = std::strlen(text) - (c_.rarely() && *text != 0 ? 1 : 0);
+    PhasetreeTree made = nullptr;
+    PhasetreeTree* const to = c_.or_null(&made);
+    const auto error = c_.rarely() ? phasetreeNewTreeFromFile(version(), c_.or_null("/nowhere"), with, to)
+                                   : phasetreeNewTreeFromText(version(), c_.or_null(text), length, name, with, to);
+    check(error);
+    promised((error == PHASETREE_ERROR_NONE) == (made != nullptr), "a handle comes with success and only then");
+    if (made) trees_.push_back({made, 1});
+}
+
+void Calls::new_edited_tree() {
+    const PhasetreeTree of = tree();
+    PhasetreeTree made = nullptr;
+    const char* const path = c_.or_null(c_.of(paths));
+    const char* const value = c_.or_null(c_.of(values));
+    const auto error = phasetreeNewEditedTree(of, path, value, c_.or_null(&made));
+    check_with(of, error);
+    if (error == PHASETREE_ERROR_NONE) trees_.push_back({made, 1});
+}
+
+void Calls::count_tree() {
+    const PhasetreeTree of = tree();
+    const bool more = c_.below(3) == 0;
+    count(trees_, of, more ? phasetreeRetainTree(of) : phasetreeReleaseTree(of), more ? 1 : -1);
+}
+
+void Calls::ask_tree() {
+    const PhasetreeTree of = tree();
+    unsigned phases = 0, phase = 0;
+    const char* name = nullptr;
+    RTCBounds bounds;
+    check_with(of, phasetreeGetTreePhaseCount(of, c_.or_null(&phases)));
+    check_with(of, phasetreeGetTreePhaseName(of, c_.below(5), c_.or_null(&name)));
+    check_with(of, phasetreeGetTreePhaseByName(of, c_.or_null(name ? name : "b"), c_.or_null(&phase)));
+    check_with(of, phasetreeGetTreeBounds(of, c_.or_null(&bounds)));
+}
+
+}  // namespace phasetree::fuzz
