@@ -6,10 +6,10 @@
 
 #include "bounding/convex_in_box.hpp"
 #include "enclosure/difference.hpp"
-#include "phasetree/math/dual.hpp"
+#include "math/dual.hpp"
 #include "phasetree/nodes/copies/endless_grid.hpp"
 #include "phasetree/phasetree.hpp"
-#include "phasetree/tree/walk.hpp"
+#include "tree/walk.hpp"
 #include "support/random_tree.hpp"
 
 using namespace phasetree;

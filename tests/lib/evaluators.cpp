@@ -4,9 +4,9 @@
 
 #include <bit>
 
-#include "phasetree/math/dual.hpp"
+#include "math/dual.hpp"
 #include "phasetree/phasetree.hpp"
-#include "phasetree/tree/walk.hpp"
+#include "tree/walk.hpp"
 #include "support/random_tree.hpp"
 #include "support/set_algebra.hpp"
 

@@ -1,9 +1,9 @@
 // Fractal noise equals its definition by whole numbers, is 1-Lipschitz as claimed, and the claim is sharp.
 #include <doctest/doctest.h>
 
-#include "phasetree/math/dual.hpp"
+#include "math/dual.hpp"
 #include "phasetree/phasetree.hpp"
-#include "phasetree/tree/walk.hpp"
+#include "tree/walk.hpp"
 #include "support/random_tree.hpp"
 #include "support/set_algebra/textures.hpp"
 

@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "phasetree/phasetree.hpp"
-#include "phasetree/tree/walk.hpp"
+#include "tree/walk.hpp"
 #include "support/random_tree.hpp"
 #include "support/set_algebra.hpp"
 

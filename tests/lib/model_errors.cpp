@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "phasetree/io/write.hpp"
-#include "phasetree/math/dual.hpp"
+#include "math/dual.hpp"
 #include "phasetree/phasetree.hpp"
-#include "phasetree/tree/walk.hpp"
+#include "tree/walk.hpp"
 #include "support/random_node.hpp"
 
 using namespace phasetree;

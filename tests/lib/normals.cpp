@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "phasetree/math/dual.hpp"
+#include "math/dual.hpp"
 #include "phasetree/math/float_mode.hpp"
 #include "phasetree/phasetree.hpp"
 #include "support/normal_checks.hpp"

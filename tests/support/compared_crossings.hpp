@@ -11,7 +11,7 @@
 
 #include "phasetree/cells/cells.hpp"
 #include "phasetree/trace/tracer.hpp"
-#include "phasetree/tree/walk.hpp"
+#include "tree/walk.hpp"
 #include "support/random_tree.hpp"
 #include "support/set_algebra.hpp"
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "enclosure/length.hpp"
-#include "phasetree/math/dual.hpp"
+#include "math/dual.hpp"
 #include "phasetree/model/concepts.hpp"
 
 namespace phasetree {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "phasetree/cells/cells.hpp"
+#include "phasetree/building/options.hpp"
 
 namespace phasetree {
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "model/preparation.hpp"
-#include "phasetree/math/dual.hpp"
+#include "math/dual.hpp"
 #include "phasetree/math/spectral.hpp"
 #include "phasetree/nodes/fields/siren.hpp"
 

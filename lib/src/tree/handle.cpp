@@ -4,7 +4,7 @@
 
 #include <unordered_set>
 
-#include "phasetree/tree/walk.hpp"
+#include "tree/walk.hpp"
 
 namespace phasetree {
 

@@ -4,7 +4,7 @@
 
 #include "phasetree/model/concepts.hpp"
 
-/// What the n-ary operators of plain fields share.
+/// What the operators of any number of plain fields share.
 namespace phasetree {
 
 namespace detail {

@@ -22,7 +22,7 @@ Angles<T> angles(const Vec3<T>& p, float period) {
     return {of(p.x), of(p.y), of(p.z)};
 }
 
-/// 1/(√3 k).
+/// The factor 1/(√3 k) that makes g 1-Lipschitz.
 inline float sheet_scale(float period) {
     return period * 0.09188814f;
 }
@@ -30,7 +30,7 @@ inline float sheet_scale(float period) {
 inline constexpr Parameter sheet_period{"period", "m", "Edge of the cube that repeats.", limits::positive};
 inline constexpr Parameter sheet_thickness{"thickness", "m", "Least thickness of the wall.", limits::positive};
 
-/// `most`: the largest value of |g|.
+/// The 1-Lipschitz field of the sheet; `most` is the largest value of |g|.
 inline void check_sheet(std::string_view node, float period, float thickness, float most) {
     require_usable(node, {period, thickness});
     if (thickness * 0.5f >= most * sheet_scale(period))

@@ -125,8 +125,8 @@ template <class Warp>
 struct WarpedField : Warped<Warp, Field> {
     static constexpr bool is_field_node = true;
 };
-/// Objects can be warped in part: W, the warped object of the chosen phases, over or under R, the rest as it was. The
-/// printed equations of D(A, k) are this for one phase, over.
+/// An object can be warped in part: W, the warped object of the chosen phases, is put over or under R, the rest as it
+/// was. The printed equations of D(A, k) are this for one phase, over.
 template <class Warp>
 struct WarpedPhased : Warped<Warp, Phased> {
     static constexpr bool is_phased_node = true;
@@ -162,7 +162,7 @@ struct WarpedPhased : Warped<Warp, Phased> {
     PhaseSet phases() const {
         const PhaseSet there = phasetree::phases(this->of);
         const std::uint64_t materials = there.bits & ~std::uint64_t{1};
-        // Without vacuum it appears where something went or came from.
+        // An object without vacuum gets some, where a phase was before it was warped or comes to lie.
         const bool is_split = (materials & chosen().bits) != 0 && (materials & ~chosen().bits) != 0;
         return is_split ? there | PhaseSet::of(vacuum) : there;
     }
