@@ -1,5 +1,6 @@
-// PhaseTree: multiphase signed distance fields. This header has the nodes of trees, programs, tracing and cells. Files of
-// cells are in phasetree/cells/file.hpp, scene files in phasetree/io, Embree's geometry in phasetree/phasetree_embree.h.
+// PhaseTree: multiphase signed distance fields. This header has the nodes of trees, programs, tracing and cells. Files
+// of cells are in phasetree/cells/file.hpp, scene files in phasetree/io, Embree's geometry in
+// phasetree/phasetree_embree.h.
 #pragma once
 
 #include "phasetree/cells/cells.hpp"

@@ -1,3 +1,7 @@
+// What the nodes that put copies of one child in many places share. In memory the child is there once; in the program
+// each copy has its instructions, so that pruning deletes a copy where it does not matter. Copies of a field are
+// united, of an object each replaces those before it, as in `under`. So copies may overlap, and there is no seam
+// between them.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +13,6 @@
 #include "phasetree/nodes/phased/under.hpp"
 #include "phasetree/nodes/warps/translate.hpp"
 
-/// What the nodes that put copies of one child in many places share. In memory the child is there once; in the program
-/// each copy has its instructions, so that pruning deletes a copy where it does not matter. Copies of a field are
-/// united, of an object each replaces those before it, as in `under`. So copies may overlap, and there is no seam
-/// between them.
 namespace phasetree {
 
 /// p ↦ R(−a)(p − v)/s about the z axis: the inverse of scaling by s, then turning by a, then moving by v.

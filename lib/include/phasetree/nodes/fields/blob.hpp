@@ -14,8 +14,8 @@ namespace phasetree {
 /// bounds Σ wᵢ |gᵢ′| over all of space by subdivision.
 ///
 /// *Outside.* The paper (9.2) adds the distance to the support. A tighter bound is as safe: where b ≥ T, at least one
-/// wᵢ gᵢ is its share wᵢ T/Σw or more, hence some gᵢ ≥ T/Σw, hence dᵢ ≤ rᵢ with gᵢ(rᵢ) = T/Σw. So max((T − b)/λ, min (dᵢ − rᵢ))
-/// has the sign of T − b, and far away the slope 1. rᵢ < Rᵢ, so it is the larger of the two bounds.
+/// wᵢ gᵢ is its share wᵢ T/Σw or more, hence some gᵢ ≥ T/Σw, hence dᵢ ≤ rᵢ with gᵢ(rᵢ) = T/Σw. So max((T − b)/λ, min
+/// (dᵢ − rᵢ)) has the sign of T − b, and far away the slope 1. rᵢ < Rᵢ, so it is the larger of the two bounds.
 struct Blob {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"blob", "7.5, 9.2",

@@ -1,3 +1,4 @@
+// What primitives that are made from a plane profile share.
 #pragma once
 
 #include <initializer_list>
@@ -5,7 +6,6 @@
 
 #include "phasetree/model/concepts.hpp"
 
-/// What primitives that are made from a plane profile share.
 namespace phasetree::detail {
 
 /// A rectangle in the plane, grown by d (or shrunk, if d is negative), at every z.

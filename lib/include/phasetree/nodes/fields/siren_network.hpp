@@ -21,19 +21,19 @@ struct SirenNetwork {
 
     /// Null if the layers fit each other, else a message that says what is wrong.
     const char* mistake() const;
-    /// Π ‖Wᵢ‖₂, rounded upward: a bound of the slope, because the sine's slope is at most 1. (The printed 9.4 has wᵢ for
-    /// the norm.)
+    /// Π ‖Wᵢ‖₂, rounded upward: a bound of the slope, because the sine's slope is at most 1. (The printed 9.4 has wᵢ
+    /// for the norm.)
     double spectral_bound() const;
-    /// The length of the steepest gradient at so many points of the ball, and a tenth more. *Not a bound*: between the points it may be
-    /// steeper.
+    /// The length of the steepest gradient at so many points of the ball, and a tenth more. *Not a bound*: between the
+    /// points it may be steeper.
     double sampled_slope(int points) const;
     std::size_t bytes() const {
         std::size_t numbers = 0;
         for (const Layer& layer : layers) numbers += layer.weights.size() + layer.bias.size();
         return numbers * sizeof(float);
     }
-    /// The network as the program carries it: the number of layers, the radius, and for each layer its inputs, outputs, W
-    /// and b; W and b of the last layer are multiplied by `scale`.
+    /// The network as the program carries it: the number of layers, the radius, and for each layer its inputs, outputs,
+    /// W and b; W and b of the last layer are multiplied by `scale`.
     std::vector<float> table(float scale) const;
 };
 

@@ -1,11 +1,11 @@
+// What the triply periodic sheets share. g is a trigonometric polynomial of k·p, k = 2π/period, whose zero set
+// is near a minimal surface. For each of them sup‖∇g‖ = √3 (in units of k; the proof is at the node), so
+//     f = |g(k p)|/(√3 k) − t/2
+// is 1-Lipschitz, and the wall is nowhere thinner than t, for f changes by t/2 over a distance of t/2 at least.
 #pragma once
 
 #include "phasetree/nodes/fields/profile.hpp"
 
-/// What the triply periodic sheets share. g is a trigonometric polynomial of k·p, k = 2π/period, whose zero set
-/// is near a minimal surface. For each of them sup‖∇g‖ = √3 (in units of k; the proof is at the node), so
-///     f = |g(k p)|/(√3 k) − t/2
-/// is 1-Lipschitz, and the wall is nowhere thinner than t, for f changes by t/2 over a distance of t/2 at least.
 namespace phasetree::detail {
 
 /// Sine and cosine of the three angles k·p; whole periods are taken off first, so that any p will do.

@@ -1,10 +1,10 @@
+// Minimum and maximum of components that may be absent. An absent phase behaves as +∞ without being a number.
 #pragma once
 
 #include <vector>
 
 #include "phasetree/model/concepts.hpp"
 
-/// Minimum and maximum of components that may be absent. An absent phase behaves as +∞ without being a number.
 namespace phasetree::detail {
 
 /// The minimum over the phases of `among`; nothing if none of them is present.

@@ -34,7 +34,8 @@ inline constexpr Parameter contact_alpha{"alpha", "",
 
 /// The printed φᵢ = max(aᵢ, −f), φⱼ = max(bⱼ, f) empty most of A ∪ B; and α → 0 makes f tend to −bⱼ.
 ///
-/// What the contact does not decide is as in A ∪₋ B: the other phases of A and B stay, and those of B replace those of A.
+/// What the contact does not decide is as in A ∪₋ B: the other phases of A and B stay, and those of B replace those of
+/// A.
 struct Contact {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"contact", "4.4",

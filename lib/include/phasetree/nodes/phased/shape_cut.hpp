@@ -1,11 +1,11 @@
+// What the intersection and the difference with a shape share, for all phases or for some (paper, Section 5.1).
+//
+// The vacuum grows by what is cut away: φ₀ = min(a₀, max(aₖ, g) over the cut phases k), g = −f of what is kept
+// being the inside of what goes. For all phases that is min(a₀, g), because outside them the point is vacuum anyway.
 #pragma once
 
 #include "phasetree/nodes/phased/combine.hpp"
 
-/// What the intersection and the difference with a shape share, for all phases or for some (paper, Section 5.1).
-///
-/// The vacuum grows by what is cut away: φ₀ = min(a₀, max(aₖ, g) over the cut phases k), g = −f of what is kept
-/// being the inside of what goes. For all phases that is min(a₀, g), because outside them the point is vacuum anyway.
 namespace phasetree::detail {
 
 /// Cuts the chosen phases down to where kept ≤ 0; vacuum takes the place of what is cut away.

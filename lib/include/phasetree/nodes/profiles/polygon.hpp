@@ -19,8 +19,8 @@ struct Polygon {
                                    "exact."};
     static constexpr std::size_t most_points = 4096;
     std::vector<glm::vec2> points{};
-    std::vector<float> table{};  ///< derived: the number of edges, and for each its start, vector, y of its end and 1 over
-                                 ///< the squared length
+    std::vector<float> table{};  ///< derived: the number of edges, and for each its start, vector, y of its end and 1
+                                 ///< over the squared length
 
     template <class V>
     static void parameters(V&& v) {

@@ -1,23 +1,23 @@
+// A warp deforms space: ω(A) has Φ(p) = Φ_A(ω⁻¹(p)) / λ with λ ≥ sup ‖J of ω⁻¹‖ (paper, Section 6). A warp is written
+// once, as a struct with its parameters and
+//     Map map() const                 p ↦ ω⁻¹(p), a PointMap: one instruction of the program
+//     float value_scale() const       1/λ
+//     Bounds image(Bounds) const      a box around ω(box)
+// and, if it is neither affine nor local, for bounds by directions (BoundsQuery::through),
+//     dvec3 towards(dvec3 d) const,  double beyond(dvec3 d) const
+// and serves plain fields and objects alike through Warped<Warp, Child>.
+//
+// Where ‖J‖ is bounded only on a part of space (`local`), the warp gets the child's bounds first through
+//     void fit(const Bounds& child)   throws ModelError if the child is unbounded
+// and the sup is taken over ω(those bounds). What lies outside is first projected onto that box, a map that lengthens
+// nothing, so Φ∘ω⁻¹∘clamp / λ is 1-Lipschitz everywhere; and because it stays small far away, the distance b
+// to the bounds takes over where it is larger:
+//     φᵢ ← max(b, φᵢ),   φ₀ ← min(−b, φ₀).
 #pragma once
 
 #include "phasetree/nodes/fields/box.hpp"
 #include "phasetree/nodes/phased/under.hpp"
 
-/// A warp deforms space: ω(A) has Φ(p) = Φ_A(ω⁻¹(p)) / λ with λ ≥ sup ‖J of ω⁻¹‖ (paper, Section 6). A warp is written
-/// once, as a struct with its parameters and
-///     Map map() const                 p ↦ ω⁻¹(p), a PointMap: one instruction of the program
-///     float value_scale() const       1/λ
-///     Bounds image(Bounds) const      a box around ω(box)
-/// and, if it is neither affine nor local, for bounds by directions (BoundsQuery::through),
-///     dvec3 towards(dvec3 d) const,  double beyond(dvec3 d) const
-/// and serves plain fields and objects alike through Warped<Warp, Child>.
-///
-/// Where ‖J‖ is bounded only on a part of space (`local`), the warp gets the child's bounds first through
-///     void fit(const Bounds& child)   throws ModelError if the child is unbounded
-/// and the sup is taken over ω(those bounds). What lies outside is first projected onto that box, a map that lengthens
-/// nothing, so Φ∘ω⁻¹∘clamp / λ is 1-Lipschitz everywhere; and because it stays small far away, the distance b
-/// to the bounds takes over where it is larger:
-///     φᵢ ← max(b, φᵢ),   φ₀ ← min(−b, φ₀).
 namespace phasetree {
 
 template <class W>
