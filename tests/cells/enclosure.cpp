@@ -15,6 +15,9 @@
 using namespace phasetree;
 using namespace phasetree::tests;
 
+using bounding::AffinePoint, bounding::enclose_convex;
+using enclosure::Enclosure, enclosure::least_difference, enclosure::Range;
+
 namespace {
 
 struct CellBuffer {
@@ -456,7 +459,7 @@ TEST_CASE("a difference is at least what is said of it, and just that where it b
         const double by_gradient = least_difference(of_a, of_b, half);
         CHECK(by_gradient <= least + 1e-12);
         CHECK(by_gradient > least - 100);
-        of_a.centre_gradient = detail::no_gradient;
+        of_a.centre_gradient = enclosure::detail::no_gradient;
         CHECK(least_difference(of_a, of_b, half) == by_gradient);
     }
     CHECK(exact > 4'000);

@@ -15,6 +15,9 @@
 using namespace phasetree;
 using namespace phasetree::tests;
 
+using enclosure::enclose, enclosure::Enclosure, enclosure::FieldInBox, enclosure::hull, enclosure::Range,
+    enclosure::Region;
+
 namespace {
 
 /// An affine map, and as much of x·y, y·z and z·x.

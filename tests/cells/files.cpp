@@ -21,6 +21,8 @@
 using namespace phasetree;
 using namespace phasetree::tests;
 
+using cells::CellsFileHeader, cells::CellTables, cells::Checksum, cells::InterfaceCell, cells::what_is_unsound;
+
 namespace {
 
 namespace fs = std::filesystem;

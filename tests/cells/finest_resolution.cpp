@@ -11,6 +11,11 @@
 using namespace phasetree;
 using namespace phasetree::tests;
 
+using evaluation::assemble, evaluation::Assembly;
+using kernel::Curvature, kernel::LinearBound, kernel::Routine, kernel::Visit;
+using program::outputs_of;
+using trace::first_crossing;
+
 TEST_CASE("a search ends at any resolution") {
     const Phased ball = Set{.phase = Phase{1}, .of = Sphere{}};
     const Program program = record(ball);

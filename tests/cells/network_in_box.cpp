@@ -13,6 +13,9 @@
 using namespace phasetree;
 using namespace phasetree::tests;
 
+using bounding::network_in_box;
+using enclosure::FieldInBox, enclosure::Range;
+
 namespace {
 
 SirenNetwork random_network(Random& rng, int width, float frequency) {

@@ -6,6 +6,8 @@
 
 using namespace phasetree;
 
+using model::Preparation, model::PreparationTogether;
+
 TEST_CASE("a node, and all nodes of a scene together, may do so much work and no more") {
     Preparation alone("a");
     alone.pay(Preparation::most);

@@ -15,6 +15,10 @@
 using namespace phasetree;
 using namespace phasetree::tests;
 
+using program::ProgramOutput;
+using pruning::prune, pruning::RangesInBall;
+using rewriting::Arena, rewriting::ArenaScope, rewriting::WorkingProgram;
+
 namespace {
 
 template <class P>

@@ -7,7 +7,9 @@
 #include "math/dual.hpp"
 #include "phasetree/model/concepts.hpp"
 
-namespace phasetree {
+namespace phasetree::bounding {
+
+using enclosure::Enclosure, enclosure::limited;
 
 /// A point that is an affine function of a box's points: what convex solids need of it, worked out once for all of
 /// them.
@@ -29,13 +31,14 @@ struct AffinePoint {
     /// Nothing if it is not affine.
     static std::optional<AffinePoint> of(const Vec3<Enclosure>& q, const Enclosure::Vector& half) {
         const std::array<const Enclosure*, 3> x{&q.x, &q.y, &q.z};
-        if (!detail::are_affine(x)) return std::nullopt;
+        if (!enclosure::detail::are_affine(x)) return std::nullopt;
         const auto number = [](const Enclosure& e) {
             return Dual(static_cast<float>(e.centre), static_cast<float>(e.gradient[0].low),
                         static_cast<float>(e.gradient[1].low), static_cast<float>(e.gradient[2].low));
         };
         const glm::dvec3 centre(q.x.centre, q.y.centre, q.z.centre);
-        return AffinePoint({number(q.x), number(q.y), number(q.z)}, centre, detail::squared_stretch_of_affine(x), half);
+        return AffinePoint({number(q.x), number(q.y), number(q.z)}, centre,
+                           enclosure::detail::squared_stretch_of_affine(x), half);
     }
 
   private:
@@ -84,4 +87,4 @@ bool enclose_convex(const P& solid, const AffinePoint& at, Enclosure& e) {
     return true;
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::bounding

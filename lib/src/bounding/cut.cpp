@@ -5,7 +5,9 @@
 #include "bounding/plane_cut.hpp"
 #include "rewriting/threshold.hpp"
 
-namespace phasetree {
+namespace phasetree::bounding {
+
+using rewriting::ArenaScope, rewriting::Threshold;
 
 namespace {
 
@@ -126,4 +128,4 @@ Bounds cut_to_zero(std::uint32_t value, const Bounds& box, const Bounds& all, co
         .bounds();
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::bounding

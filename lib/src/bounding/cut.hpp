@@ -3,9 +3,14 @@
 #include "phasetree/math/bounds.hpp"
 #include "rewriting/working_program.hpp"
 
-namespace phasetree {
-
+namespace phasetree::enclosure {
 struct Enclosure;
+}
+
+namespace phasetree::bounding {
+
+using enclosure::Enclosure;
+using rewriting::Arena, rewriting::WorkingProgram;
 
 /// What floats lose where a box is cut. `rounding` bounds the error of a value.
 float cut_margin(const Bounds& box, float rounding);
@@ -19,4 +24,4 @@ Bounds cut_to_zero(std::uint32_t value, const Bounds& box, const Bounds& all, co
                    std::span<const float> constants, const Enclosure* registers, std::span<const std::uint32_t> slot,
                    float rounding, Arena& scratch);
 
-}  // namespace phasetree
+}  // namespace phasetree::bounding

@@ -10,7 +10,12 @@
 #include "evaluation/interpret.hpp"
 #include "rewriting/readable_steps.hpp"
 
-namespace phasetree {
+namespace phasetree::bounding {
+
+using evaluation::interpret, evaluation::PointInRegisters;
+using kernel::Step;
+using program::gives_point, program::is_fold, program::traits;
+using rewriting::give_slots, rewriting::has_local_primitive;
 
 namespace {
 
@@ -35,7 +40,8 @@ struct StepsToTake {
 Encloser::Encloser(const ProgramContext& context, const Bounds& box, std::span<const LocalValue> around, Arena& scratch)
     : context_(context), box_(box), scratch_(scratch), middle_(box.centre()), around_(around) {
     const glm::vec3 extent = box.extent();
-    half_ = detail::each_number([&](std::size_t i) { return 0.5 * double{extent[static_cast<int>(i)]} * (1 + 1e-6); });
+    half_ = enclosure::detail::each_number(
+        [&](std::size_t i) { return 0.5 * double{extent[static_cast<int>(i)]} * (1 + 1e-6); });
     input_ = std::construct_at(scratch.take<AffinePoint>(1).data(), AffinePoint::of_box(middle_, half_));
 }
 
@@ -90,7 +96,7 @@ void Encloser::compute(const WorkingProgram& program) {
         steps, registers.data(),
         [&]<class P, class Point>(const float* c, const Point& q, Enclosure& to) {
             if constexpr (RoundedPrimitive<P>) {
-                if (!enclose_rounded(detail::read<P>(c), q, to)) {
+                if (!enclose_rounded(program::read<P>(c), q, to)) {
                     to = enclose_primitive<P>(c, q);
                     tighten_by_bend(to, half_);
                 }
@@ -218,4 +224,4 @@ BoxKnowledge Encloser::rest(const WorkingProgram& program) const {
     return result;
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::bounding

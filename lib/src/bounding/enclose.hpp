@@ -8,9 +8,16 @@
 #include "phasetree/math/bounds.hpp"
 #include "rewriting/program_context.hpp"
 
-namespace phasetree {
-
+namespace phasetree::enclosure {
 struct Enclosure;
+}
+
+namespace phasetree::bounding {
+
+using kernel::Curvature, kernel::LinearBound;
+using program::ProgramOutput;
+using rewriting::LocalValue, rewriting::ProgramContext;
+
 struct AffinePoint;
 
 /// What is known of a program in a box, besides its values' ranges.
@@ -57,4 +64,4 @@ class Encloser {
     std::span<const LocalValue> around_, local_;
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::bounding

@@ -9,7 +9,10 @@
 #include "evaluation/interpret.hpp"
 #include "rewriting/specialise.hpp"
 
-namespace phasetree {
+namespace phasetree::bounding {
+
+using enclosure::enclose, enclosure::Range, enclosure::Region, enclosure::within;
+using rewriting::Arena, rewriting::LocalValue;
 
 /// The value at a centre of a long primitive of which little matters in the box; what that is, or nothing, is kept.
 /// `of` is what it was in a box around.
@@ -34,27 +37,27 @@ Enclosure enclose_long_primitive(const float* constants, const Vec3<Enclosure>& 
         if (at.farthest() < static_cast<double>(constants[1]))
             return enclose(network_in_box(constants, at.centre, at.reach), at);
     }
-    if constexpr (std::is_same_v<P, FractalNoise>) return detail::distance_of<P>(constants, q);
+    if constexpr (std::is_same_v<P, FractalNoise>) return program::distance_of<P>(constants, q);
     double value = 0;
     if constexpr (LocalPrimitive<P>)
         value = static_cast<double>(local_value<P>(constants, at, of, kept, scratch));
     else
-        value = static_cast<double>(detail::distance_of<P>(constants, at.point()));
-    const auto slope = detail::each_axis([&](std::size_t i) {
+        value = static_cast<double>(program::distance_of<P>(constants, at.point()));
+    const auto slope = enclosure::detail::each_axis([&](std::size_t i) {
         return within(
             std::hypot(q.x.gradient[i].magnitude(), q.y.gradient[i].magnitude(), q.z.gradient[i].magnitude()));
     });
-    return Enclosure(value, Range::all(), slope, detail::no_gradient, Range::all()).tightened(half);
+    return Enclosure(value, Range::all(), slope, enclosure::detail::no_gradient, Range::all()).tightened(half);
 }
 
 /// One that is not, by its equation.
 template <class P>
 Enclosure enclose_primitive(const float* constants, const Vec3<Enclosure>& q) {
-    const Enclosure e = detail::distance_of<P>(constants, q);
+    const Enclosure e = program::distance_of<P>(constants, q);
     if constexpr (ConvexPrimitive<P>)
         return known_to_be_convex(e, q);
     else
         return e;
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::bounding

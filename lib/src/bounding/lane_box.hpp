@@ -6,7 +6,7 @@
 
 #include "phasetree/math/bounds.hpp"
 
-namespace phasetree {
+namespace phasetree::bounding {
 
 /// A box in two vector registers, for what does little but cut boxes. Of the fourth axis it is {0}.
 struct LaneBox {
@@ -33,4 +33,4 @@ inline LaneBox unite(const LaneBox& a, const LaneBox& b) {
     return {a.low < b.low ? a.low : b.low, a.high > b.high ? a.high : b.high};
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::bounding

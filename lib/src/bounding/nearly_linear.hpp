@@ -6,7 +6,9 @@
 
 #include "enclosure/enclosure.hpp"
 
-namespace phasetree {
+namespace phasetree::bounding {
+
+using enclosure::Enclosure, enclosure::Range;
 
 /// As LinearBound, but about the centre of a box, and in numbers of full length. By the ranges of the gradient about
 /// their middles; or by the gradient at the centre and how f bends from there on, if that says more. Where nothing is
@@ -64,4 +66,4 @@ inline void tighten_by_bend(Enclosure& f, const Enclosure::Vector& half) {
     f.value = {std::min(low, high), std::max(low, high)};  // as tighten() does
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::bounding

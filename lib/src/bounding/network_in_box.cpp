@@ -7,7 +7,11 @@
 #include "evaluation/target.hpp"
 #include "phasetree/nodes/fields/siren_network.hpp"
 
-namespace phasetree {
+namespace phasetree::bounding {
+
+using enclosure::limited, enclosure::Range;
+using evaluation::active_kernel;
+using kernel::absolute_lane, kernel::network_lanes;
 
 namespace {
 
@@ -130,4 +134,4 @@ FieldInBox network_in_box(const float* data, const std::array<double, 3>& centre
     return result;
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::bounding

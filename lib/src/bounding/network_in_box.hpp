@@ -4,7 +4,9 @@
 
 #include "enclosure/field_in_box.hpp"
 
-namespace phasetree {
+namespace phasetree::bounding {
+
+using enclosure::FieldInBox;
 
 /// Of a network as Siren::Network has it in its data, without its cube: the box must lie within that.
 ///
@@ -16,4 +18,4 @@ namespace phasetree {
 /// they are at the centre and what the following ones add.
 FieldInBox network_in_box(const float* data, const std::array<double, 3>& centre, const std::array<double, 3>& half);
 
-}  // namespace phasetree
+}  // namespace phasetree::bounding

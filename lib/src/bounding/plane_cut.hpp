@@ -6,7 +6,7 @@
 #include "bounding/lane_box.hpp"
 #include "bounding/nearly_linear.hpp"
 
-namespace phasetree {
+namespace phasetree::bounding {
 
 /// What a linear bound leaves of boxes:
 ///     |f(p) − (at_middle + normal·(p − middle))| ≤ slack.
@@ -57,4 +57,4 @@ class PlaneCut {
     float at_middle_ = 0, slack_ = Bounds::infinity;
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::bounding

@@ -6,7 +6,12 @@
 #include "enclosure/enclosure.hpp"
 #include "rewriting/threshold.hpp"
 
-namespace phasetree {
+namespace phasetree::bounding {
+
+using enclosure::Range;
+using kernel::most_certificate_steps;
+using program::ProgramOutput;
+using rewriting::Threshold;
 
 namespace {
 
@@ -108,4 +113,4 @@ std::span<const CertificateStep> certify_sign(const WorkingProgram& program, std
     return prover.add(first.value, first.negate ? 1 : -1, 0) ? prover.result() : std::span<const CertificateStep>();
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::bounding

@@ -5,9 +5,15 @@
 #include "kernel/kernel.hpp"
 #include "rewriting/working_program.hpp"
 
-namespace phasetree {
-
+namespace phasetree::enclosure {
 struct Enclosure;
+}
+
+namespace phasetree::bounding {
+
+using enclosure::Enclosure;
+using kernel::PackedCertificateStep;
+using rewriting::Arena, rewriting::WorkingProgram;
 
 /// A step of a certificate (kernel/sign_certificate.inl) in the course of its making: in numbers of full length, and
 /// with the number of a value for its slot. Only leaves have one.
@@ -26,4 +32,4 @@ std::span<const CertificateStep> certify_sign(const WorkingProgram&, std::span<c
                                               const Enclosure* registers, std::span<const std::uint32_t> slot,
                                               Arena& scratch);
 
-}  // namespace phasetree
+}  // namespace phasetree::bounding

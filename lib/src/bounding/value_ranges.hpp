@@ -6,9 +6,13 @@
 
 #include "phasetree/program/program.hpp"
 
-namespace phasetree {
-
+namespace phasetree::enclosure {
 struct Enclosure;
+}
+
+namespace phasetree::bounding {
+
+using enclosure::Enclosure;
 
 /// Bounds of every instruction's value in a box, and of its slope there; and the enclosures that they are of, which
 /// know differences better.
@@ -26,4 +30,4 @@ struct ValueRanges {
     bool is_above(std::uint32_t a, std::uint32_t b, float least, int depth = 1) const;
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::bounding

@@ -7,7 +7,7 @@
 
 #include "phasetree/math/bounds.hpp"
 
-namespace phasetree {
+namespace phasetree::building {
 
 /// Thrown by what finds cells when they would take more memory than they may.
 struct BudgetExceeded {};
@@ -82,4 +82,4 @@ class CellAccount {
     std::size_t has_ = 0, paid_ = 0;
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::building

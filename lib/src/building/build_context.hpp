@@ -4,7 +4,9 @@
 #include "phasetree/building/options.hpp"
 #include "rewriting/program_context.hpp"
 
-namespace phasetree {
+namespace phasetree::building {
+
+using rewriting::ProgramContext;
 
 /// What every step of dividing an object into cells needs to know and none of them changes.
 struct BuildContext {
@@ -15,4 +17,4 @@ struct BuildContext {
     float size;   ///< the diagonal of the object's bounds
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::building

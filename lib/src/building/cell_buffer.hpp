@@ -7,7 +7,12 @@
 #include "kernel/linear_bound.hpp"
 #include "rewriting/working_program.hpp"
 
-namespace phasetree {
+namespace phasetree::building {
+
+using bounding::CertificateStep;
+using kernel::Curvature, kernel::LinearBound;
+using program::ProgramOutput;
+using rewriting::WorkingProgram;
 
 /// Cells found so far, in order, with their programs.
 struct CellBuffer {
@@ -122,4 +127,4 @@ class CellBuffers {
     std::vector<CellBuffer> pieces_ = std::vector<CellBuffer>(1);
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::building

@@ -7,7 +7,11 @@
 #include "rewriting/live_set.hpp"
 #include "rewriting/specialise.hpp"
 
-namespace phasetree {
+namespace phasetree::building {
+
+using kernel::Curvature, kernel::LinearBound;
+using program::OpTraits, program::ProgramOutput, program::traits;
+using rewriting::Arena, rewriting::ArenaScope, rewriting::LiveSet, rewriting::LocalValue, rewriting::WorkingProgram;
 
 /// What rays spend in a cell, in nanoseconds for each unit of surface (which is how many come, up to a factor). Rough:
 /// only what is dearer than what matters.
@@ -101,4 +105,4 @@ inline float least_cost(const Bounds& box) {
     return surface(box) * (cost_model::visit + cost_model::certain * (cost_model::batch + cost_model::step));
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::building

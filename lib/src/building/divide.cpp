@@ -14,7 +14,14 @@
 #include "rewriting/first_component.hpp"
 #include "rewriting/readable_steps.hpp"
 
-namespace phasetree {
+namespace phasetree::building {
+
+using bounding::BoxKnowledge, bounding::Encloser, bounding::ValueRanges;
+using evaluation::active_kernel, evaluation::ValuesAtPoint;
+using pruning::finest_jump, pruning::may_jump, pruning::prune, pruning::RangesInBall, pruning::slopes_in_ball,
+    pruning::without_far_bounds;
+using rewriting::finest_pattern, rewriting::first_component_first, rewriting::FirstComponentFirst,
+    rewriting::has_local_primitive, rewriting::readable_steps, rewriting::ReadableSteps, rewriting::specialised;
 
 namespace {
 
@@ -342,4 +349,4 @@ CellBuffers divide_into_cells(const Bounds& box, const WorkingProgram& program, 
     return std::move(worker.found);
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::building

@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-namespace phasetree {
+namespace phasetree::building {
 
 namespace {
 
@@ -70,4 +70,4 @@ CellsWithinBudget divide_within(std::size_t bytes, const Bounds& box, const Work
     return {std::move(best), true};
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::building

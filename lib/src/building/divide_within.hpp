@@ -2,7 +2,7 @@
 
 #include "building/divide.hpp"
 
-namespace phasetree {
+namespace phasetree::building {
 
 struct CellsWithinBudget {
     CellBuffers found;
@@ -13,4 +13,4 @@ struct CellsWithinBudget {
 /// threads. Throws BuildCancelled.
 CellsWithinBudget divide_within(std::size_t bytes, const Bounds&, const WorkingProgram&, const BuildContext&);
 
-}  // namespace phasetree
+}  // namespace phasetree::building

@@ -5,7 +5,7 @@
 #include <functional>
 #include <mutex>
 
-namespace phasetree {
+namespace phasetree::building {
 
 /// How much of the building is done, told to whoever asked (CellOptions::progress). Any thread adds to it.
 class BuildProgress {
@@ -50,4 +50,4 @@ class BuildProgress {
     double base_ = 0, scale_ = 1, told_ = 0;
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::building

@@ -5,7 +5,7 @@
 
 #include "phasetree/building/options.hpp"
 
-namespace phasetree {
+namespace phasetree::building {
 
 /// The share of what a box's rays need at least (price.hpp) that dividing it must promise to save. `size` is the box's
 /// diagonal over the object's. Small boxes must save more: along an interface there are as many as the square of how
@@ -23,4 +23,4 @@ inline float least_gain(BuildQuality quality, float size, bool is_meeting, bool 
     return quality == BuildQuality::medium ? medium : std::max(medium, fourth_power(0.5f, 0.04f));
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::building

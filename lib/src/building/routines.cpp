@@ -6,7 +6,11 @@
 
 #include "rewriting/specialise.hpp"
 
-namespace phasetree {
+namespace phasetree::building {
+
+using evaluation::assemble, evaluation::KeptValue;
+using program::traits;
+using rewriting::data_of_specialised;
 
 namespace {
 
@@ -139,4 +143,4 @@ void Routines::add_certificate(const Ready& ready, std::span<const CertificateSt
         certificates.push_back(part.step(part.kind == PackedCertificateStep::leaf ? kept_slots_[at++] : 0));
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::building

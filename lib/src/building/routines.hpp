@@ -8,7 +8,11 @@
 #include "evaluation/assemble.hpp"
 #include "rewriting/fuse.hpp"
 
-namespace phasetree {
+namespace phasetree::building {
+
+using evaluation::Assembly;
+using kernel::OutputSlot, kernel::PackedCertificateStep, kernel::Routine, kernel::Step;
+using rewriting::Fuser;
 
 /// Many routines, as steps and as where each step's constants are. Those of one shape differ in the latter only, and
 /// shapes are so few that caches hold them.
@@ -86,4 +90,4 @@ class Routines {
     std::vector<std::uint32_t> kept_, kept_slots_;
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::building

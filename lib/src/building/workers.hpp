@@ -8,7 +8,9 @@
 #include "building/budget.hpp"
 #include "building/cell_buffer.hpp"
 
-namespace phasetree {
+namespace phasetree::building {
+
+using rewriting::Arena;
 
 class Workers;
 
@@ -78,4 +80,4 @@ class Workers {
     std::vector<std::unique_ptr<Worker>> idle_;
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::building

@@ -17,6 +17,14 @@
 
 namespace phasetree {
 
+using building::BuildContext, building::BuildProgress, building::CellBuffer, building::CellBuffers,
+    building::CellsWithinBudget, building::divide_within, building::Routines;
+using cells::CellsFile, cells::CellsMade, cells::CellTables, cells::CurvatureCode, cells::InterfaceCell;
+using evaluation::active_kernel, evaluation::component;
+using kernel::few_slots, kernel::LinearBound, kernel::PackedCertificateStep, kernel::Routine, kernel::Visit;
+using rewriting::Arena, rewriting::ProgramContext, rewriting::rewrite, rewriting::WorkingProgram;
+using trace::carried_by, trace::NormalOf;
+
 namespace {
 
 std::size_t bytes_for(const CellOptions& options) {
@@ -95,7 +103,7 @@ struct InterfaceCells::Data : CellTables {
             __builtin_prefetch(r.certificate);
         }
         const auto many = [&] { return (w ? *w : Evaluator::thread_workspace()).registers(slots(c)); };
-        return phasetree::first_crossing(
+        return trace::first_crossing(
             {.box = &c.box,
              .bound = &c.bound,
              .routine = &r,

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace phasetree {
+namespace phasetree::cells {
 
 /// Of bytes, eight at a time. Each step is a bijection of what it has so far and of the bytes that come, so that a
 /// change within eight bytes is always found, and any other all but once in 2⁶⁴. The result depends on the byte order.
@@ -32,4 +32,4 @@ class Checksum {
     std::uint64_t sum_ = 0x70686173657472u;
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::cells

@@ -5,7 +5,9 @@
 
 #include "kernel/linear_bound.hpp"
 
-namespace phasetree {
+namespace phasetree::cells {
+
+using kernel::Curvature;
 
 /// A curvature in eight bits, rounded up by an eighth at most: a float's exponent and the upper three bits of its
 /// fraction, times what makes it independent of the object's size. 0 is no curvature, 255 an unknown one.
@@ -34,4 +36,4 @@ class CurvatureCode {
     float to_code_, from_code_;
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::cells

@@ -22,6 +22,14 @@
 
 namespace phasetree {
 
+using building::RoutineTables;
+using cells::CellsFile, cells::CellsFileHeader, cells::CellsMade, cells::CellTables, cells::Checksum,
+    cells::InterfaceCell, cells::what_is_unsound;
+using files::FileError, files::RegularFile, files::WholeFile;
+using kernel::few_slots, kernel::LinearBound, kernel::most_certificate_steps, kernel::OutputSlot,
+    kernel::PackedCertificateStep, kernel::Step;
+using program::first_placed, program::placed_floats;
+
 namespace {
 
 namespace fs = std::filesystem;

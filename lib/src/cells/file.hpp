@@ -6,7 +6,7 @@
 #include "cells/tables.hpp"
 #include "phasetree/cells/cells.hpp"
 
-namespace phasetree {
+namespace phasetree::cells {
 
 /// What cells were made with, beside the object. Others would be made with anything else.
 struct CellsMade {
@@ -31,4 +31,4 @@ struct CellsFile {
     static std::shared_ptr<const InterfaceCells> read(const Phased&, const CellOptions&, const Reader&);
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::cells

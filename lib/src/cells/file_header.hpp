@@ -6,7 +6,7 @@
 
 #include "cells/checksum.hpp"
 
-namespace phasetree {
+namespace phasetree::cells {
 
 /// What a file of cells begins with; the sections follow one after another, and nothing behind them.
 struct CellsFileHeader {
@@ -47,4 +47,4 @@ struct CellsFileHeader {
 static_assert(sizeof(CellsFileHeader) == 8 + 2 * 4 + 2 * 24 + 4 * 8 + 4 * 4 + (1 + CellsFileHeader::sections + 2) * 8,
               "no gaps between the members");
 
-}  // namespace phasetree
+}  // namespace phasetree::cells

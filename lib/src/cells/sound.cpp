@@ -7,7 +7,11 @@
 #include "phasetree/nodes/list.hpp"
 #include "program/fused.hpp"
 
-namespace phasetree {
+namespace phasetree::cells {
+
+using kernel::most_certificate_steps, kernel::OutputSlot, kernel::Step;
+using program::affine_map, program::first_map, program::first_placed, program::OpTraits, program::placed_floats,
+    program::traits;
 
 namespace {
 
@@ -162,4 +166,4 @@ std::string what_is_unsound(const CellTables& tables, const Program& program) {
     return Check(tables, program)();
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::cells

@@ -2,7 +2,10 @@
 
 #include "building/routines.hpp"
 
-namespace phasetree {
+namespace phasetree::cells {
+
+using building::RoutineTables;
+using kernel::LinearBound, kernel::PackedCertificateStep;
 
 /// Where a ray may meet a change of phase: one line of the cache.
 struct alignas(64) InterfaceCell {
@@ -25,4 +28,4 @@ struct CellTables {
     bool is_coarser = false;                       ///< for want of memory
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::cells

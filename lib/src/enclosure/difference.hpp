@@ -5,7 +5,7 @@
 
 #include "enclosure/number.hpp"
 
-namespace phasetree {
+namespace phasetree::enclosure {
 
 /// What a − b is at least in a box of these half extents, by their gradients' ranges or by the gradients at the centre
 /// and how both bend from there on. Of solids that continue each other the gradients are nearly the same, and the
@@ -21,4 +21,4 @@ inline double least_difference(const Enclosure& a, const Enclosure& b, const Enc
     return a.centre - b.centre - (by_bend < by_gradient ? by_bend : by_gradient);
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::enclosure

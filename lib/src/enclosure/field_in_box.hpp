@@ -8,7 +8,7 @@
 #include "enclosure/range.hpp"
 #include "phasetree/math/point_range.hpp"
 
-namespace phasetree {
+namespace phasetree::enclosure {
 
 /// What a field does in a box: proven, but for the rounding of doubles.
 struct FieldInBox {
@@ -58,4 +58,4 @@ inline Enclosure enclose(const FieldInBox& f, const Region& at) {
     return e;
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::enclosure

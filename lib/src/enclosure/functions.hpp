@@ -7,13 +7,13 @@
 
 #include "enclosure/length.hpp"
 
-namespace phasetree {
+namespace phasetree::enclosure {
 
 /// As the template, whose seams are none: with h(δ) = |δ|/2 + r/6·max(1 − |δ|/r, 0)³ for δ = b − a it is (a + b)/2 −
 /// h(δ), and 0 ≤ h″ ≤ max(1 − |δ|/r, 0)/r.
 inline Enclosure smooth_min(const Enclosure& a, const Enclosure& b, float r) {
     const Enclosure apart = b - a;
-    Enclosure s = smooth_min<Enclosure>(a, b, r);
+    Enclosure s = phasetree::smooth_min<Enclosure>(a, b, r);
     const double radius = static_cast<double>(r);
     const Range& v = apart.value;
     const double nearest = v.low > 0 ? v.low : v.high < 0 ? -v.high : 0;
@@ -26,7 +26,7 @@ inline Enclosure smooth_min(const Enclosure& a, const Enclosure& b, float r) {
 
 /// As the template: φ(x) = (1 − x²)³ for x = d/R in [0, 1] has φ″ = (1 − u)(30u − 6) with u = x², from −6 to 4.8.
 inline Enclosure falloff(const Enclosure& d, float reach) {
-    Enclosure f = falloff<Enclosure>(d, reach);
+    Enclosure f = phasetree::falloff<Enclosure>(d, reach);
     const double k = 1 / static_cast<double>(reach);
     const auto inside = [&](double x) { return std::clamp(x * k, 0.0, 1.0); };
     const double from = inside(d.value.low), to = inside(d.value.high);
@@ -70,13 +70,13 @@ inline Enclosure convex_combination(Enclosure f, std::initializer_list<const Enc
 /// it is convex: outside the largest sum of the two, weighted by a vector of unit length without negative components.
 inline Enclosure corner(const Enclosure& a, const Enclosure& b) {
     if (a.value.high <= 0 || b.value.high <= 0) return max(a, b);
-    return detail::convex_combination(corner<Enclosure>(a, b), {&a, &b});
+    return detail::convex_combination(phasetree::corner<Enclosure>(a, b), {&a, &b});
 }
 inline Enclosure corner(const Enclosure& a, const Enclosure& b, const Enclosure& c) {
     if (a.value.high <= 0) return max(a, corner(b, c));
     if (b.value.high <= 0) return max(b, corner(a, c));
     if (c.value.high <= 0) return max(c, corner(a, b));
-    return detail::convex_combination(corner<Enclosure>(a, b, c), {&a, &b, &c});
+    return detail::convex_combination(phasetree::corner<Enclosure>(a, b, c), {&a, &b, &c});
 }
 
 /// Slopes agree on the seam, so it bends nothing.
@@ -104,7 +104,7 @@ Enclosure also_known_as(const Enclosure& f, const Other& other) {
 
 /// A squared distance to a convex set is convex, and no more curved than that to a point.
 inline Enclosure squared_distance_to_segment(const Vec3<Enclosure>& q, const glm::vec3& along, float inverse) {
-    Enclosure r = squared_distance_to_segment<Enclosure>(q, along, inverse);
+    Enclosure r = phasetree::squared_distance_to_segment<Enclosure>(q, along, inverse);
     const std::array<const Enclosure*, 3> x{&q.x, &q.y, &q.z};
     const double aside = 2 * std::sqrt(r.value.high) * detail::curvature_of(x);
     const Range curvature = limited(-aside, 2 * detail::squared_stretch(x) + aside);
@@ -122,7 +122,7 @@ inline Enclosure known_to_be_convex(Enclosure f, const Vec3<Enclosure>& q) {
 
 /// As the template, whose seams are none where it stands for sine and cosine.
 inline SineCosine<Enclosure> sine_cosine(const Enclosure& x) {
-    SineCosine<Enclosure> r = sine_cosine<Enclosure>(x);
+    SineCosine<Enclosure> r = phasetree::sine_cosine<Enclosure>(x);
     if (!(x.value.magnitude() < 1e4)) return r;
     const auto cut = [](const Range& v) { return Range{std::max(v.low, -1.0), std::min(v.high, 1.0)}; };
     const Range s = cut(r.sine.value), c = cut(r.cosine.value);
@@ -131,4 +131,4 @@ inline SineCosine<Enclosure> sine_cosine(const Enclosure& x) {
     return r;
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::enclosure

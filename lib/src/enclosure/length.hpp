@@ -3,7 +3,7 @@
 #include "enclosure/number.hpp"
 #include "phasetree/math/vec3.hpp"
 
-namespace phasetree {
+namespace phasetree::enclosure {
 
 namespace detail {
 /// What the square of a vector's derivative by any direction is at most: of its Jacobian J the largest eigenvalue of
@@ -135,4 +135,4 @@ inline Enclosure length(const Enclosure& x, const Enclosure& y) {
     return detail::with_curvature_of_length(sqrt(x * x + y * y), both);
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::enclosure

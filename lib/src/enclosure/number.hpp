@@ -8,7 +8,7 @@
 
 #include "enclosure/range.hpp"
 
-namespace phasetree {
+namespace phasetree::enclosure {
 
 /// What a number may be in a box: its value and gradient at the box's centre (NaN on a seam), and the ranges of its
 /// value, of its gradient's components, and of its second derivatives. A number type as the others (number.hpp): of a
@@ -221,4 +221,4 @@ inline Enclosure floor(const Enclosure& a) {
     return r;
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::enclosure

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace phasetree {
+namespace phasetree::enclosure {
 
 /// All numbers from low to high.
 struct Range {
@@ -51,4 +51,4 @@ struct Range {
     return limited(1 / a.high, 1 / a.low);
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::enclosure

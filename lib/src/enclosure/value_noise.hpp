@@ -7,7 +7,7 @@
 #include "enclosure/field_in_box.hpp"
 #include "phasetree/math/value_noise.hpp"
 
-namespace phasetree {
+namespace phasetree::enclosure {
 
 namespace detail {
 
@@ -206,4 +206,4 @@ inline Enclosure value_noise(const Enclosure& x, const Enclosure& y, float which
     return enclose(f, at);
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::enclosure

@@ -4,7 +4,9 @@
 
 #include "program/op_traits.hpp"
 
-namespace phasetree {
+namespace phasetree::evaluation {
+
+using program::gives_point, program::operands;
 
 namespace {
 
@@ -73,4 +75,4 @@ Assembly assemble(std::span<const Instruction> code, std::span<const ProgramOutp
     return result;
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::evaluation

@@ -3,7 +3,10 @@
 #include "kernel/kernel.hpp"
 #include "program/program_output.hpp"
 
-namespace phasetree {
+namespace phasetree::evaluation {
+
+using kernel::OutputSlot, kernel::Routine, kernel::Step;
+using program::ProgramOutput;
 
 /// Instructions made ready to run: registers assigned, operations resolved.
 struct Assembly {
@@ -25,4 +28,4 @@ struct KeptValue {
 Assembly assemble(std::span<const Instruction> code, std::span<const ProgramOutput> outputs,
                   std::span<KeptValue> kept = {});
 
-}  // namespace phasetree
+}  // namespace phasetree::evaluation

@@ -4,7 +4,9 @@
 
 #include "kernel/kernel.hpp"
 
-namespace phasetree {
+namespace phasetree::evaluation {
+
+using kernel::Routine;
 
 /// A component's value at a point, and its gradient.
 struct Component {
@@ -14,4 +16,4 @@ struct Component {
 /// By dual numbers; zero if the phase is absent.
 Component component(const Routine&, std::uint32_t slots, const glm::vec3& p, Phase);
 
-}  // namespace phasetree
+}  // namespace phasetree::evaluation

@@ -6,6 +6,10 @@
 
 namespace phasetree {
 
+using evaluation::active_kernel, evaluation::assemble, evaluation::Assembly, evaluation::component;
+using kernel::OutputSlot, kernel::Step;
+using program::outputs_of;
+
 Evaluator::Evaluator(Program program)
     : program_(std::move(program)),
       assembly_(std::make_shared<const Assembly>(assemble(program_.instructions, outputs_of(program_)))) {}

@@ -2,7 +2,9 @@
 #include "evaluation/interpret.hpp"
 #include "math/dual.hpp"
 
-namespace phasetree {
+namespace phasetree::evaluation {
+
+using kernel::OutputSlot;
 
 Component component(const Routine& routine, std::uint32_t slots, const glm::vec3& p, Phase phase) {
     const OutputSlot* output = nullptr;
@@ -18,11 +20,11 @@ Component component(const Routine& routine, std::uint32_t slots, const glm::vec3
     interpret(
         RoutineSteps(routine), registers.data(),
         []<class P>(const float* constants, const Vec3<Dual>& q, Dual& to) {
-            to = detail::distance_of<P>(constants, q);
+            to = program::distance_of<P>(constants, q);
         },
         [](const Dual&) {});
     const Dual& found = registers[output->slot];
     return {found.value() * output->sign, found.gradient() * output->sign};
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::evaluation

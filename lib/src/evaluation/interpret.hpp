@@ -5,7 +5,10 @@
 #include "program/fused.hpp"
 
 /// A routine run with any number type, one number at a time: for gradients and enclosures. Kernels have their own.
-namespace phasetree {
+namespace phasetree::evaluation {
+
+using kernel::Routine, kernel::Step;
+using program::affine_map, program::first_map, program::first_placed, program::placed_floats, program::PlacedPrimitive;
 
 /// A point in three registers.
 template <class T>
@@ -101,24 +104,24 @@ void interpret(const Steps& steps, T* registers, Distance&& distance, Done&& don
                 };
                 if (s.op < first_map) {
                     if (index < Primitives::size)
-                        detail::dispatch(Primitives(), index,
-                                         [&]<class P>() { primitive.template operator()<P>(c, input); });
+                        program::dispatch(Primitives(), index,
+                                          [&]<class P>() { primitive.template operator()<P>(c, input); });
                     else
-                        detail::dispatch(DataPrimitives(), index - static_cast<std::uint32_t>(Primitives::size),
-                                         [&]<class P>() { primitive.template operator()<P>(c, input); });
+                        program::dispatch(DataPrimitives(), index - static_cast<std::uint32_t>(Primitives::size),
+                                          [&]<class P>() { primitive.template operator()<P>(c, input); });
                     continue;
                 }
                 if (s.op >= first_placed) {
-                    const auto placed = detail::read<PlacedPrimitive>(c);
-                    detail::dispatch(Primitives(), s.op - first_placed, [&]<class P>() {
+                    const auto placed = program::read<PlacedPrimitive>(c);
+                    program::dispatch(Primitives(), s.op - first_placed, [&]<class P>() {
                         primitive.template operator()<P>(c + placed_floats, placed.map(Vec3<T>(input)));
                     });
                     to = to * placed.scale + placed.offset;
                 } else if (s.op == affine_map) {
-                    set_point(detail::read<AffineMap>(c)(Vec3<T>(input)));
+                    set_point(program::read<AffineMap>(c)(Vec3<T>(input)));
                 } else {
-                    detail::dispatch(PointMaps(), s.op - first_map,
-                                     [&]<class M>() { set_point(detail::read<M>(c)(Vec3<T>(input))); });
+                    program::dispatch(PointMaps(), s.op - first_map,
+                                      [&]<class M>() { set_point(program::read<M>(c)(Vec3<T>(input))); });
                 }
             }
         }
@@ -126,4 +129,4 @@ void interpret(const Steps& steps, T* registers, Distance&& distance, Done&& don
     }
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::evaluation

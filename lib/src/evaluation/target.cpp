@@ -8,6 +8,9 @@
 
 namespace phasetree {
 
+using evaluation::active_kernel;
+using kernel::Kernel;
+
 namespace {
 
 struct Target {
@@ -22,13 +25,13 @@ std::vector<Target> targets() {
     const auto has = [&](std::int64_t target) { return (machine & target) != 0; };
     std::vector<Target> all;
 #ifdef PHASETREE_X86
-    all.push_back({"AVX-512", &kernel_avx512, has(HWY_AVX3)});
-    all.push_back({"AVX2", &kernel_avx2, has(HWY_AVX2)});
-    all.push_back({"SSE4", &kernel_sse4, has(HWY_SSE4)});
-    all.push_back({"SSE2", &kernel_baseline, true});
+    all.push_back({"AVX-512", &kernel::kernel_avx512, has(HWY_AVX3)});
+    all.push_back({"AVX2", &kernel::kernel_avx2, has(HWY_AVX2)});
+    all.push_back({"SSE4", &kernel::kernel_sse4, has(HWY_SSE4)});
+    all.push_back({"SSE2", &kernel::kernel_baseline, true});
 #else
     (void)has;
-    all.push_back({"baseline", &kernel_baseline, true});
+    all.push_back({"baseline", &kernel::kernel_baseline, true});
 #endif
     std::erase_if(all, [](const Target& t) { return !t.supported; });
     return all;
@@ -39,7 +42,7 @@ std::atomic<const Kernel*> chosen{nullptr};
 
 }  // namespace
 
-const Kernel& active_kernel() {
+const Kernel& evaluation::active_kernel() {
     const Kernel* k = chosen.load(std::memory_order_relaxed);
     if (!k) {
         k = targets().front().kernel;

@@ -2,9 +2,11 @@
 
 #include "kernel/kernel.hpp"
 
-namespace phasetree {
+namespace phasetree::evaluation {
+
+using kernel::Kernel;
 
 /// The kernel of the instruction set in use.
 const Kernel& active_kernel();
 
-}  // namespace phasetree
+}  // namespace phasetree::evaluation

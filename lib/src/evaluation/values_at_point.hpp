@@ -4,7 +4,7 @@
 
 #include "phasetree/program/batch.hpp"
 
-namespace phasetree {
+namespace phasetree::evaluation {
 
 /// The values of a program's instructions at one point, as a kernel left them: in one lane of their registers.
 struct ValuesAtPoint {
@@ -15,4 +15,4 @@ struct ValuesAtPoint {
     float operator[](std::size_t instruction) const { return registers[slot[instruction]].lane[lane]; }
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::evaluation

@@ -4,7 +4,7 @@
 #include <string>
 #include <system_error>
 
-namespace phasetree {
+namespace phasetree::files {
 
 /// What the system has against a file. Whoever opened it knows its name.
 class FileError : public std::runtime_error {
@@ -20,4 +20,4 @@ class FileError : public std::runtime_error {
     int code_;
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::files

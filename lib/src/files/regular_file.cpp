@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <utility>
 
-namespace phasetree {
+namespace phasetree::files {
 
 RegularFile::RegularFile(const std::filesystem::path& path) {
     struct stat status {};
@@ -44,4 +44,4 @@ bool RegularFile::read(void* to, std::size_t count) {
     return true;
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::files

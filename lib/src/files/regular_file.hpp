@@ -6,7 +6,7 @@
 
 #include "files/error.hpp"
 
-namespace phasetree {
+namespace phasetree::files {
 
 /// A regular file, open for reading. Directories, pipes and devices are a FileError: to read one may never end.
 class RegularFile {
@@ -28,4 +28,4 @@ class RegularFile {
     std::uint64_t size_ = 0;
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::files

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-namespace phasetree {
+namespace phasetree::files {
 
 namespace {
 
@@ -74,4 +74,4 @@ void WholeFile::finish() {
     is_renamed_ = true;
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::files

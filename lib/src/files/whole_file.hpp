@@ -6,7 +6,7 @@
 
 #include "files/error.hpp"
 
-namespace phasetree {
+namespace phasetree::files {
 
 /// A file that appears whole or not at all: it is written under a temporary name in the same directory and renamed by
 /// finish(); without that it vanishes. A symbolic link stays one, and what it points at is replaced; a directory, a
@@ -27,4 +27,4 @@ class WholeFile {
     bool is_renamed_ = false;
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::files

@@ -22,7 +22,7 @@ struct Complaint {
 using Checked = std::optional<Complaint>;
 
 std::string shown(const Value& value) {
-    return value.is_number() || value.is_boolean() ? reading::printable(value.written(), 40)
+    return value.is_number() || value.is_boolean() ? io::printable(value.written(), 40)
                                                    : std::string(name_of(value.kind()));
 }
 
@@ -161,8 +161,8 @@ glm::vec3 as_colour(const Document& document, Value value, std::string_view what
     if (value.is_string()) {
         const auto colour = linear_of_hexadecimal(value.string());
         if (!colour) {
-            throw document.error(
-                value, fmt::format("{} must be {}, but is {}", what, either, reading::in_quotes(value.string())));
+            throw document.error(value,
+                                 fmt::format("{} must be {}, but is {}", what, either, io::in_quotes(value.string())));
         }
         for (glm::length_t i = 0; i < 3; ++i) {
             if (range.contains(static_cast<double>((*colour)[i]))) continue;

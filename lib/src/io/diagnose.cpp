@@ -9,7 +9,7 @@
 #include "io/utf8.hpp"
 #include "phasetree/io/suggest.hpp"
 
-namespace phasetree::reading {
+namespace phasetree::io {
 
 namespace {
 
@@ -206,4 +206,4 @@ SceneError diagnose(std::string_view name, std::string_view text, const Failure&
     return Diagnosis(name, text, failure)();
 }
 
-}  // namespace phasetree::reading
+}  // namespace phasetree::io

@@ -6,7 +6,7 @@
 
 #include "phasetree/io/error.hpp"
 
-namespace phasetree::reading {
+namespace phasetree::io {
 
 /// Where the parser stood when it could not go on.
 enum class Expecting {
@@ -30,4 +30,4 @@ struct Failure {
 /// The parser only says that the text is wrong; this finds out what is wrong, and where.
 SceneError diagnose(std::string_view name, std::string_view text, const Failure& failure);
 
-}  // namespace phasetree::reading
+}  // namespace phasetree::io

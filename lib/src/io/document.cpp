@@ -113,18 +113,18 @@ std::size_t Value::key_offset() const {
 std::string_view Value::written() const {
     const std::string_view text = data_->text;
     const std::size_t first = offset();
-    return text.substr(first, reading::word_end(text, first) - first);
+    return text.substr(first, io::word_end(text, first) - first);
 }
 
 Document Document::from_file(const std::filesystem::path& path) {
-    return from_text(reading::read_file(path), path.string());
+    return from_text(io::read_file(path), path.string());
 }
 
 Document Document::from_text(std::string text, std::string name) {
     const auto data = std::make_shared<DocumentData>();
     data->name = std::move(name);
     data->text = std::move(text);
-    reading::parse(*data);
+    io::parse(*data);
     return Document(data);
 }
 

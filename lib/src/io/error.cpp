@@ -6,8 +6,8 @@
 
 namespace phasetree {
 
-using reading::CodePoint;
-using reading::decode;
+using io::CodePoint;
+using io::decode;
 
 struct SceneError::Details {
     std::string file;
@@ -35,7 +35,7 @@ bool is_line_end(char c) {
 // The columns a character may take in the window, no less than one so that a window is short in bytes, too.
 std::size_t window_columns(char32_t c) {
     if (c == '\t') return max_tab_columns;
-    return static_cast<std::size_t>(std::max(reading::columns_of(c), 1));
+    return static_cast<std::size_t>(std::max(io::columns_of(c), 1));
 }
 
 // The start of the character before `at`; first <= result < at.
@@ -50,12 +50,12 @@ std::size_t step_back(std::string_view text, std::size_t first, std::size_t at) 
 
 SceneError::SceneError(std::shared_ptr<const Details> details)
     : std::runtime_error([&] {
-          std::string out = reading::printable(details->file);
+          std::string out = io::printable(details->file);
           if (details->line > 0) {
               out += ':' + std::to_string(details->line) + ':' + std::to_string(details->column);
           }
           out += ": " + details->message;
-          if (details->suggestion) out += " (did you mean " + reading::in_quotes(*details->suggestion) + "?)";
+          if (details->suggestion) out += " (did you mean " + io::in_quotes(*details->suggestion) + "?)";
           if (details->line > 0) {
               out += '\n' + std::string(indent) + details->quoted_line;
               out += '\n' + std::string(indent) + details->caret_line;
@@ -66,7 +66,7 @@ SceneError::SceneError(std::shared_ptr<const Details> details)
 
 SceneError::SceneError(std::string file, std::string message, std::optional<std::string> suggestion)
     : SceneError(std::make_shared<const Details>(Details{.file = std::move(file),
-                                                         .message = reading::printable(message),
+                                                         .message = io::printable(message),
                                                          .quoted_line = {},
                                                          .caret_line = {},
                                                          .suggestion = std::move(suggestion)})) {}
@@ -77,10 +77,10 @@ SceneError::SceneError(std::string file, std::string_view text, std::size_t offs
           offset = std::min(offset, text.size());
           auto details = std::make_shared<Details>();
           details->file = std::move(file);
-          details->message = reading::printable(message);
+          details->message = io::printable(message);
           details->suggestion = std::move(suggestion);
 
-          std::size_t first = text.starts_with(reading::byte_order_mark) ? reading::byte_order_mark.size() : 0;
+          std::size_t first = text.starts_with(io::byte_order_mark) ? io::byte_order_mark.size() : 0;
           details->line = 1;
           for (std::size_t at = first; at < offset; ++at) {
               if (!is_line_end(text[at])) continue;
@@ -127,8 +127,8 @@ SceneError::SceneError(std::string file, std::string_view text, std::size_t offs
               }
               // Tabs stay, above and below, so that the caret is under its character however wide a tab is.
               const bool is_tab = c.value == '\t';
-              quoted += is_tab ? "\t" : reading::printable_at(text, at, c);
-              if (at < caret) under += is_tab ? "\t" : std::string(std::max(reading::columns_of(c.value), 0), ' ');
+              quoted += is_tab ? "\t" : io::printable_at(text, at, c);
+              if (at < caret) under += is_tab ? "\t" : std::string(std::max(io::columns_of(c.value), 0), ' ');
               at += c.bytes;
           }
           under += '^';

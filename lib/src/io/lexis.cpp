@@ -6,7 +6,7 @@
 
 #include "io/utf8.hpp"
 
-namespace phasetree::reading {
+namespace phasetree::io {
 
 namespace {
 
@@ -96,4 +96,4 @@ std::string shown_token(std::string_view text, std::size_t at) {
     return fmt::format("'{}'", printable(text.substr(at, end > at ? end - at : 1), longest));
 }
 
-}  // namespace phasetree::reading
+}  // namespace phasetree::io

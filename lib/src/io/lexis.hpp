@@ -5,7 +5,7 @@
 #include <string_view>
 
 // The words of JSON text (RFC 8259) as far as positions and error messages need them. The parser proper has its own.
-namespace phasetree::reading {
+namespace phasetree::io {
 
 /// The first byte at or after `at` that is neither white space nor inside a comment. Stops at the '/' of a comment that
 /// has no end, and of one that is no comment.
@@ -29,4 +29,4 @@ std::size_t string_end(std::string_view text, std::size_t at);
 /// The token at `at` as an error message shows it: '}', 'word', "string".
 std::string shown_token(std::string_view text, std::size_t at);
 
-}  // namespace phasetree::reading
+}  // namespace phasetree::io

@@ -18,7 +18,7 @@ ObjectReader::ObjectReader(const Document& document, Value object, std::string_v
 }
 
 std::string ObjectReader::quoted(std::string_view key) {
-    return reading::in_quotes(key);
+    return io::in_quotes(key);
 }
 
 bool ObjectReader::knows(std::string_view key) const {

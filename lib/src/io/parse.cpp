@@ -20,7 +20,7 @@
 #include "io/lexis.hpp"
 #include "io/utf8.hpp"
 
-namespace phasetree::reading {
+namespace phasetree::io {
 
 namespace {
 
@@ -308,4 +308,4 @@ void parse(DocumentData& data) {
     Builder(data).run();
 }
 
-}  // namespace phasetree::reading
+}  // namespace phasetree::io

@@ -2,9 +2,9 @@
 
 #include "io/document_data.hpp"
 
-namespace phasetree::reading {
+namespace phasetree::io {
 
 /// Parses data.text into the rest of data. SceneError if it is no JSON text as Document describes it.
 void parse(DocumentData& data);
 
-}  // namespace phasetree::reading
+}  // namespace phasetree::io

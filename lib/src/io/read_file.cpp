@@ -13,7 +13,7 @@
 #include "phasetree/io/document.hpp"
 #include "phasetree/io/suggest.hpp"
 
-namespace phasetree::reading {
+namespace phasetree::io {
 
 namespace {
 
@@ -93,4 +93,4 @@ std::string read_file(const std::filesystem::path& path) {
     return content;
 }
 
-}  // namespace phasetree::reading
+}  // namespace phasetree::io

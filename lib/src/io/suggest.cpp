@@ -18,7 +18,7 @@ constexpr std::size_t longest_word = 64;  // nobody misspells longer ones by a l
 std::optional<std::u32string> folded(std::string_view word) {
     std::u32string out;
     for (std::size_t at = 0; at < word.size();) {
-        const reading::CodePoint c = reading::decode(word, at);
+        const io::CodePoint c = io::decode(word, at);
         out += c.value >= 'A' && c.value <= 'Z' ? c.value + ('a' - 'A') : c.value;
         if (out.size() > longest_word) return std::nullopt;
         at += c.bytes;

@@ -11,6 +11,8 @@
 
 namespace phasetree {
 
+using model::PreparationTogether;
+
 namespace {
 
 Range range_of(const Limits& l) {

@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace phasetree::reading {
+namespace phasetree::io {
 
 namespace {
 
@@ -107,4 +107,4 @@ std::string in_quotes(std::string_view text) {
     return '"' + printable(text, 60) + '"';
 }
 
-}  // namespace phasetree::reading
+}  // namespace phasetree::io

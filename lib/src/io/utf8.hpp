@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace phasetree::reading {
+namespace phasetree::io {
 
 /// One step through a UTF-8 text: a code point, or a single byte that begins none.
 struct CodePoint {
@@ -33,4 +33,4 @@ std::string in_quotes(std::string_view text);
 
 inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-}  // namespace phasetree::reading
+}  // namespace phasetree::io

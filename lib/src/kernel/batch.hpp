@@ -9,7 +9,7 @@
 #include "phasetree/math/number.hpp"
 #include "phasetree/program/batch.hpp"
 
-namespace phasetree::HWY_NAMESPACE {
+namespace phasetree::kernel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -196,4 +196,4 @@ HWY_INLINE Batch geometric(const Batch& lane, std::uint32_t a, std::uint32_t ste
 
 #undef PHASETREE_EACH
 
-}  // namespace phasetree::HWY_NAMESPACE
+}  // namespace phasetree::kernel::HWY_NAMESPACE

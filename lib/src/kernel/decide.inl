@@ -1,6 +1,6 @@
 // What counts as a crossing where labels are a matter of rounding (March). Included by kernel.inl.
 
-namespace phasetree::HWY_NAMESPACE {
+namespace phasetree::kernel::HWY_NAMESPACE {
 namespace {
 
 // Whether the change of label at `next` is a crossing; if so, reports it, and if not, moves `here` on to where that is
@@ -68,4 +68,4 @@ bool March::is_entered_late(RayCrossing& result) {
 }
 
 }  // namespace
-}  // namespace phasetree::HWY_NAMESPACE
+}  // namespace phasetree::kernel::HWY_NAMESPACE

@@ -1,6 +1,6 @@
 // What the search along a ray works on: a piece of the ray, and eight samples of it at a time. Included by kernel.inl.
 
-namespace phasetree::HWY_NAMESPACE {
+namespace phasetree::kernel::HWY_NAMESPACE {
 namespace {
 
 // Eight samples of a ray in rising order, and the place that lies before them. Gap i is what lies between sample i − 1
@@ -35,4 +35,4 @@ struct RaySegment {
 };
 
 }  // namespace
-}  // namespace phasetree::HWY_NAMESPACE
+}  // namespace phasetree::kernel::HWY_NAMESPACE

@@ -7,7 +7,7 @@
 #include "phasetree/model/phase.hpp"
 #include "phasetree/model/ray.hpp"
 
-namespace phasetree {
+namespace phasetree::kernel {
 
 /// The largest number of steps of a sign certificate.
 inline constexpr std::size_t most_certificate_steps = 32;
@@ -134,4 +134,4 @@ extern const Kernel kernel_avx2;
 extern const Kernel kernel_avx512;
 #endif
 
-}  // namespace phasetree
+}  // namespace phasetree::kernel

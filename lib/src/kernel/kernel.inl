@@ -9,7 +9,10 @@
 #include "kernel/kernel.hpp"
 #include "program/fused.hpp"
 
-namespace phasetree {
+namespace phasetree::kernel {
+
+using program::placed_floats, program::PlacedPrimitive;
+
 namespace HWY_NAMESPACE {
 namespace {
 
@@ -221,7 +224,7 @@ void sample_ray(const Routine& routine, const float* o, const float* d, const fl
 
 }  // namespace
 }  // namespace HWY_NAMESPACE
-}  // namespace phasetree
+}  // namespace phasetree::kernel
 
 #include "kernel/sign_certificate.inl"
 
@@ -239,9 +242,9 @@ void sample_ray(const Routine& routine, const float* o, const float* d, const fl
 
 #include "kernel/network_layer.inl"
 
-namespace phasetree {
+namespace phasetree::kernel {
 
 const Kernel PHASETREE_KERNEL = {HWY_NAMESPACE::evaluate, HWY_NAMESPACE::sample, HWY_NAMESPACE::sample_ray,
                                  HWY_NAMESPACE::visit, HWY_NAMESPACE::network_layer};
 
-}  // namespace phasetree
+}  // namespace phasetree::kernel

@@ -4,7 +4,7 @@
 
 #include "phasetree/math/bounds.hpp"
 
-namespace phasetree {
+namespace phasetree::kernel {
 
 /// A linear function that a cell's field f differs little from. Where two phases meet, f is negative in one and positive
 /// in the other. Where more phases meet, f is the value of the first component, whose sign may be negated, and the bound
@@ -33,4 +33,4 @@ struct Curvature {
     bool is_by_first = false;  ///< whether the first component gives s in all phases
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::kernel

@@ -13,7 +13,7 @@
 //
 // The class is defined here; its search along the gaps is in search.inl, and what is a crossing in decide.inl.
 
-namespace phasetree::HWY_NAMESPACE {
+namespace phasetree::kernel::HWY_NAMESPACE {
 namespace {
 
 class March {
@@ -182,4 +182,4 @@ class March {
 };
 
 }  // namespace
-}  // namespace phasetree::HWY_NAMESPACE
+}  // namespace phasetree::kernel::HWY_NAMESPACE

@@ -1,6 +1,7 @@
 // A linear layer of a neural network whose neurons have several numbers each: a Taylor polynomial and its error bounds
 // (bounding/network_in_box.hpp). Included by kernel.inl.
-namespace phasetree::HWY_NAMESPACE {
+
+namespace phasetree::kernel::HWY_NAMESPACE {
 namespace {
 
 using Doubles = hn::CappedTag<double, 8>;
@@ -50,4 +51,4 @@ HWY_FLATTEN void network_layer(const float* weights, const float* bias, std::siz
 }
 
 }  // namespace
-}  // namespace phasetree::HWY_NAMESPACE
+}  // namespace phasetree::kernel::HWY_NAMESPACE

@@ -1,5 +1,6 @@
 // Where along a ray to sample, eight places at a time. Included by kernel.inl.
-namespace phasetree::HWY_NAMESPACE {
+
+namespace phasetree::kernel::HWY_NAMESPACE {
 namespace {
 
 // A sample: its distance along the ray, s(p) there, and the phase there.
@@ -113,4 +114,4 @@ HWY_INLINE float predicted_root(const Place& here, const Place& next, const Plac
 }
 
 }  // namespace
-}  // namespace phasetree::HWY_NAMESPACE
+}  // namespace phasetree::kernel::HWY_NAMESPACE

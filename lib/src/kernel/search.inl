@@ -1,6 +1,6 @@
 // The search along the gaps between samples (March). Included by kernel.inl.
 
-namespace phasetree::HWY_NAMESPACE {
+namespace phasetree::kernel::HWY_NAMESPACE {
 namespace {
 
 // Finds the first crossing; returns whether there is one.
@@ -188,4 +188,4 @@ Batch March::places_in_gap(const Frame& f, int lane, const Place& next) const {
 }
 
 }  // namespace
-}  // namespace phasetree::HWY_NAMESPACE
+}  // namespace phasetree::kernel::HWY_NAMESPACE

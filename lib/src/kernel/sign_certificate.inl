@@ -14,7 +14,8 @@
 //    to b, with the slope of the gap behind; each slope is made steeper by κ/2 times the length of both gaps together.
 //    Two lines that fall by p and rise by q leave no place for a zero if a/p + b/q ≥ h. Where nothing is known p and q
 //    are 1, which is the test whether balls cover the gap.
-namespace phasetree::HWY_NAMESPACE {
+
+namespace phasetree::kernel::HWY_NAMESPACE {
 namespace {
 
 // The float of which these are the upper 16 bits.
@@ -87,4 +88,4 @@ std::uint32_t certified_gaps(const Routine& routine, bool is_turned, const float
 }
 
 }  // namespace
-}  // namespace phasetree::HWY_NAMESPACE
+}  // namespace phasetree::kernel::HWY_NAMESPACE

@@ -2,7 +2,7 @@
 // search there. It is part of the kernel, because what comes before a search takes as long as the search. Included by
 // kernel.inl.
 
-namespace phasetree::HWY_NAMESPACE {
+namespace phasetree::kernel::HWY_NAMESPACE {
 namespace {
 
 constexpr double endless = 1.7976931348623157e308;
@@ -171,4 +171,4 @@ bool visit(const Visit& v, RayCrossing& result) {
 }
 
 }  // namespace
-}  // namespace phasetree::HWY_NAMESPACE
+}  // namespace phasetree::kernel::HWY_NAMESPACE

@@ -4,7 +4,7 @@
 
 #include "phasetree/model/handle.hpp"
 
-namespace phasetree {
+namespace phasetree::model {
 
 namespace {
 
@@ -39,4 +39,4 @@ void Preparation::pay(std::uint64_t steps) {
     PreparationTogether::pay(node_, steps);
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::model

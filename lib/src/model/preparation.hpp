@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace phasetree {
+namespace phasetree::model {
 
 /// How much work a node may do to derive what it needs: places on a surface, the bound of a slope. It is counted in
 /// steps, an instruction run for a batch of points or about as much of other work; 4·10⁸ take about a second.
@@ -41,4 +41,4 @@ class PreparationTogether {
     PreparationTogether* around_;
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::model

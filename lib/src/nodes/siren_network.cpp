@@ -10,6 +10,8 @@
 
 namespace phasetree {
 
+using model::Preparation;
+
 namespace {
 
 /// ‖W‖₂, from above: the eigenvalues of WᵀW are the squares of W's singular values.

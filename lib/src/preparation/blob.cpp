@@ -11,6 +11,9 @@
 
 namespace phasetree {
 
+using model::Preparation;
+using preparation::BatchOfPoints, preparation::PreparedField;
+
 namespace {
 
 /// sup over a ball of Σ wᵢ |gᵢ′(dᵢ)|, from the distances at its centre. |gᵢ′| = 6x(1 − x²)²/Rᵢ, x = d/R, rises to

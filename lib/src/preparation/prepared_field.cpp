@@ -5,7 +5,9 @@
 #include "phasetree/nodes/list.hpp"
 #include "program/op_traits.hpp"
 
-namespace phasetree {
+namespace phasetree::preparation {
+
+using program::traits;
 
 namespace {
 
@@ -53,4 +55,4 @@ BatchOfFloats PreparedField::operator()(const BatchOfPoints& p) {
     return out_.back();  // the vacuum comes before
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::preparation

@@ -3,7 +3,9 @@
 #include "model/preparation.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
 
-namespace phasetree {
+namespace phasetree::preparation {
+
+using model::Preparation;
 
 /// Points, one in each lane.
 struct BatchOfPoints {
@@ -35,4 +37,4 @@ class PreparedField {
     std::uint64_t steps_;
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::preparation

@@ -10,6 +10,9 @@
 
 namespace phasetree::detail {
 
+using model::Preparation;
+using preparation::BatchOfPoints, preparation::PreparedField;
+
 namespace {
 
 constexpr double pi = 3.14159265358979323846;

@@ -8,9 +8,7 @@
 #include "phasetree/nodes/list.hpp"
 
 /// From an operation's number to the type of its primitive, and from an instruction's floats to its values.
-namespace phasetree {
-
-namespace detail {
+namespace phasetree::program {
 
 template <std::size_t first, std::size_t count, class... Ts, class Run>
 [[gnu::always_inline]] inline void dispatch_among(TypeList<Ts...> list, std::uint32_t index, Run& run) {
@@ -48,6 +46,4 @@ T distance_of(const float* constants, const Vec3<T>& q) {
     }
 }
 
-}  // namespace detail
-
-}  // namespace phasetree
+}  // namespace phasetree::program

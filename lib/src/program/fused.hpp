@@ -9,7 +9,7 @@
 /// Instructions that only cells have (rewriting/fuse.hpp): what is affine before a
 /// primitive and after it, in one with it, rounded as it would be alone.
 /// Their operations follow those of the maps of space: first a map alone, then one for each primitive.
-namespace phasetree {
+namespace phasetree::program {
 
 /// scale · d(map(p)) + offset: the floats of d follow.
 struct PlacedPrimitive {
@@ -25,4 +25,4 @@ inline constexpr std::uint32_t first_placed = affine_map + 1;
 /// The map that folds space.
 inline constexpr Op fold_map = static_cast<Op>(first_map + static_cast<std::uint32_t>(index_in<FoldMap>(PointMaps())));
 
-}  // namespace phasetree
+}  // namespace phasetree::program

@@ -2,7 +2,7 @@
 
 #include "program/fused.hpp"
 
-namespace phasetree {
+namespace phasetree::program {
 
 namespace {
 
@@ -51,4 +51,4 @@ constexpr auto all_traits() {
 
 constexpr std::array<OpTraits, most_operations> op_traits = all_traits();
 
-}  // namespace phasetree
+}  // namespace phasetree::program

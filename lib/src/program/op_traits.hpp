@@ -5,7 +5,7 @@
 
 #include "phasetree/program/program.hpp"
 
-namespace phasetree {
+namespace phasetree::program {
 
 /// What is known of an operation.
 struct OpTraits {
@@ -43,4 +43,4 @@ inline bool is_far_bound(Op op) {
     return op == Op::far_bound || op == Op::far_bound_inside;
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::program

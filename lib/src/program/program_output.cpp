@@ -1,6 +1,6 @@
 #include "program/program_output.hpp"
 
-namespace phasetree {
+namespace phasetree::program {
 
 std::vector<ProgramOutput> outputs_of(const Program& program) {
     std::vector<ProgramOutput> outputs;
@@ -8,4 +8,4 @@ std::vector<ProgramOutput> outputs_of(const Program& program) {
     return outputs;
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::program

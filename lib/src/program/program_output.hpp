@@ -4,7 +4,7 @@
 
 #include "phasetree/program/program.hpp"
 
-namespace phasetree {
+namespace phasetree::program {
 
 /// An output as it comes out of a program. With `negate` the component is minus the value: where only two phases meet,
 /// one value tells both.
@@ -16,4 +16,4 @@ struct ProgramOutput {
 
 std::vector<ProgramOutput> outputs_of(const Program&);
 
-}  // namespace phasetree
+}  // namespace phasetree::program

@@ -10,6 +10,8 @@
 
 namespace phasetree {
 
+using program::operands;
+
 namespace {
 
 class Recorder;

@@ -6,7 +6,9 @@
 #include "phasetree/nodes/copies/endless_grid.hpp"
 #include "program/fused.hpp"
 
-namespace phasetree {
+namespace phasetree::pruning {
+
+using program::is_fold, program::operands;
 
 namespace {
 
@@ -63,4 +65,4 @@ std::span<const float> slopes_in_ball(const WorkingProgram& program, std::span<c
     return slope;
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::pruning

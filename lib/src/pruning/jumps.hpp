@@ -3,7 +3,7 @@
 #include "pruning/prune.hpp"
 
 /// Folds of space jump, which a program records as a slope of FoldMap::jump; where they do not, that goes.
-namespace phasetree {
+namespace phasetree::pruning {
 
 /// Whether anything in it has a slope that only a jump can have.
 bool may_jump(const WorkingProgram&);
@@ -16,4 +16,4 @@ std::span<const float> slopes_in_ball(const WorkingProgram&, std::span<const flo
 /// pruned of it.
 float finest_jump(const WorkingProgram&, std::span<const float> constants);
 
-}  // namespace phasetree
+}  // namespace phasetree::pruning

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "enclosure/difference.hpp"
 #include "pruning/required_interval.hpp"
 #include "rewriting/live_set.hpp"
 #include "rewriting/rewrite.hpp"
@@ -26,7 +25,10 @@
 ///
 /// A value that stands in has the same sign relative to a threshold and is itself Lipschitz, so its distance from that
 /// still bounds the distance to where the sign changes.
-namespace phasetree {
+namespace phasetree::pruning {
+
+using program::is_far_bound, program::operands, program::ProgramOutput;
+using rewriting::ArenaScope, rewriting::LiveSet, rewriting::Rewriter, rewriting::SignedValue;
 
 namespace {
 
@@ -317,22 +319,6 @@ std::optional<WorkingProgram> pruned(const WorkingProgram& program, std::span<co
 
 }  // namespace
 
-bool ValueRanges::is_above(std::uint32_t a, std::uint32_t b, float least, int depth) const {
-    if (low(a) > high(b) + least) return true;
-    const Enclosure &of_a = registers[slot[a]], &of_b = registers[slot[b]];
-    const double more = static_cast<double>(least) + 2 * margin;
-    if (!(of_a.centre - of_b.centre > more)) return false;
-    if (least_difference(of_a, of_b, half) > more) return true;
-    if (depth == 0) return false;
-    const auto is_so = [&](std::uint32_t x, std::uint32_t y) { return is_above(x, y, least, depth - 1); };
-    const Instruction &in_a = code[a], &in_b = code[b];
-    if (in_b.op == Op::minimum) return is_so(a, in_b.a) || is_so(a, in_b.b);
-    if (in_a.op == Op::maximum) return is_so(in_a.a, b) || is_so(in_a.b, b);
-    if (in_a.op == Op::minimum) return is_so(in_a.a, b) && is_so(in_a.b, b);
-    if (in_b.op == Op::maximum) return is_so(a, in_b.a) && is_so(a, in_b.b);
-    return false;
-}
-
 std::optional<WorkingProgram> prune(const WorkingProgram& program, std::span<const float> constants,
                                     const ValueRanges& ranges, PhaseSet opaque, Arena& keep, Arena& scratch) {
     return pruned(program, constants, ranges, opaque, false, keep, scratch);
@@ -350,4 +336,4 @@ std::optional<WorkingProgram> without_far_bounds(const WorkingProgram& program, 
     return pruned(program, constants, RangesAnywhere{program.lipschitz}, opaque, true, keep, scratch);
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::pruning

@@ -7,7 +7,11 @@
 #include "evaluation/values_at_point.hpp"
 #include "rewriting/working_program.hpp"
 
-namespace phasetree {
+namespace phasetree::pruning {
+
+using bounding::ValueRanges;
+using evaluation::ValuesAtPoint;
+using rewriting::Arena, rewriting::WorkingProgram;
 
 /// Bounds of every value in a ball, by values at its centre and Lipschitz bounds; worked out for those that are asked.
 struct RangesInBall {
@@ -38,4 +42,4 @@ std::optional<WorkingProgram> prune(const WorkingProgram&, std::span<const float
 std::optional<WorkingProgram> without_far_bounds(const WorkingProgram&, std::span<const float> constants,
                                                  PhaseSet opaque, Arena& keep, Arena& scratch);
 
-}  // namespace phasetree
+}  // namespace phasetree::pruning

@@ -5,7 +5,7 @@
 
 #include "phasetree/math/bounds.hpp"
 
-namespace phasetree {
+namespace phasetree::pruning {
 
 /// What a value is wanted for: itself between two numbers, and else which of them it is beyond. If both are a
 /// threshold, its sign relative to that; if they are infinite, itself; if nothing is between, nothing.
@@ -47,4 +47,4 @@ class RequiredInterval {
     float least_ = Bounds::infinity, most_ = -Bounds::infinity;
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::pruning

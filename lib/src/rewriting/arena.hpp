@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace phasetree {
+namespace phasetree::rewriting {
 
 /// Memory of one thread that is given back in the reverse order in which it was taken: what a recursion needs at each
 /// of its levels, without a call of the system's allocator at any.
@@ -76,4 +76,4 @@ class ArenaScope {
     Arena::Mark mark_;
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::rewriting

@@ -4,7 +4,7 @@
 
 #include "rewriting/live_set.hpp"
 
-namespace phasetree {
+namespace phasetree::rewriting {
 
 FirstComponentFirst first_component_first(const WorkingProgram& program, Arena& keep, Arena& scratch) {
     const std::size_t size = program.code.size();
@@ -26,4 +26,4 @@ FirstComponentFirst first_component_first(const WorkingProgram& program, Arena& 
     return {{code, lipschitz, outputs}, static_cast<std::uint32_t>(first.size()), renumbered};
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::rewriting

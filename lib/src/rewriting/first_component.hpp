@@ -2,7 +2,7 @@
 
 #include "rewriting/working_program.hpp"
 
-namespace phasetree {
+namespace phasetree::rewriting {
 
 /// A program of more than two phases with what its first component needs before the rest.
 struct FirstComponentFirst {
@@ -12,4 +12,4 @@ struct FirstComponentFirst {
 };
 FirstComponentFirst first_component_first(const WorkingProgram&, Arena& keep, Arena& scratch);
 
-}  // namespace phasetree
+}  // namespace phasetree::rewriting

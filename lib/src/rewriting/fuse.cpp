@@ -7,7 +7,10 @@
 #include "program/fused.hpp"
 #include "program/op_traits.hpp"
 
-namespace phasetree {
+namespace phasetree::rewriting {
+
+using program::affine_map, program::first_map, program::first_placed, program::gives_point, program::is_long_primitive,
+    program::operands, program::placed_floats, program::PlacedPrimitive;
 
 namespace {
 
@@ -148,4 +151,4 @@ const Fuser::Fused& Fuser::operator()(std::span<const Instruction> code, std::sp
     return fused_;
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::rewriting

@@ -8,7 +8,9 @@
 #include "phasetree/math/affine_map.hpp"
 #include "program/program_output.hpp"
 
-namespace phasetree {
+namespace phasetree::rewriting {
+
+using program::ProgramOutput;
 
 /// Writes programs with fewer, larger instructions (program/fused.hpp): maps of space that are affine are composed with
 /// each other and with the primitive behind them, and a scale and an offset with the primitive before them. What an
@@ -56,4 +58,4 @@ class Fuser {
     Fused fused_;
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::rewriting

@@ -2,7 +2,7 @@
 
 #include "rewriting/working_program.hpp"
 
-namespace phasetree {
+namespace phasetree::rewriting {
 
 /// Only what some outputs reach, of a program that is otherwise unchanged.
 class LiveSet {
@@ -49,4 +49,4 @@ class LiveSet {
     std::size_t size_ = 0;
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::rewriting

@@ -4,7 +4,9 @@
 
 #include "rewriting/specialise.hpp"
 
-namespace phasetree {
+namespace phasetree::rewriting {
+
+using program::is_far_bound, program::is_fold;
 
 /// What every part of an object's program has in common with the whole, and what a caller knows of all of them.
 struct ProgramContext {
@@ -28,4 +30,4 @@ struct ProgramContext {
     }
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::rewriting

@@ -2,7 +2,10 @@
 
 #include "rewriting/working_program.hpp"
 
-namespace phasetree {
+namespace phasetree::rewriting {
+
+using kernel::Routine, kernel::Step;
+using program::gives_point, program::operands;
 
 /// A register of its own for every value, so that all can be read afterwards; a point takes three. Returns how many.
 inline std::uint32_t give_slots(const WorkingProgram& program, std::span<std::uint32_t> slot) {
@@ -42,4 +45,4 @@ inline ReadableSteps readable_steps(const WorkingProgram& program, Arena& scratc
     return {steps.first(count), data.first(count), slot, slots};
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::rewriting

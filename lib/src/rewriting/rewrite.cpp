@@ -2,7 +2,9 @@
 
 #include <bit>
 
-namespace phasetree {
+namespace phasetree::rewriting {
+
+using program::operands;
 
 namespace {
 
@@ -184,4 +186,4 @@ WorkingProgram rewrite(Program& program, Arena& arena) {
     return {rewriter.code(), rewriter.lipschitz(), outputs};
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::rewriting

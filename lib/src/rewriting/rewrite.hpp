@@ -3,7 +3,7 @@
 #include "phasetree/program/program.hpp"
 #include "rewriting/working_program.hpp"
 
-namespace phasetree {
+namespace phasetree::rewriting {
 
 /// A value as another one and a sign: in one word, which is written and read again as a whole.
 class SignedValue {
@@ -67,4 +67,4 @@ class Rewriter {
 /// The whole of a program rewritten; constants that are new are appended to the program's.
 WorkingProgram rewrite(Program&, Arena&);
 
-}  // namespace phasetree
+}  // namespace phasetree::rewriting

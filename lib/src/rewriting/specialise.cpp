@@ -5,7 +5,7 @@
 
 #include "program/dispatch.hpp"
 
-namespace phasetree {
+namespace phasetree::rewriting {
 
 WorkingProgram specialised(const WorkingProgram& program, std::span<const LocalValue> values,
                            std::vector<float>& floats, Arena& scratch) {
@@ -26,7 +26,7 @@ float finest_pattern(const WorkingProgram& program, std::span<const float> const
     for (const Instruction& in : program.code) {
         if (!traits(in.op).is_pattern) continue;
         const auto op = static_cast<std::uint32_t>(in.op) - static_cast<std::uint32_t>(Op::first_primitive);
-        detail::dispatch(Primitives(), op, [&]<class P>() {
+        program::dispatch(Primitives(), op, [&]<class P>() {
             if constexpr (PatternPrimitive<P>) {
                 P primitive;
                 std::memcpy(static_cast<void*>(&primitive), &constants[in.data], sizeof primitive);
@@ -40,10 +40,10 @@ float finest_pattern(const WorkingProgram& program, std::span<const float> const
 std::span<const float> data_of_specialised(Op op, std::span<const float> floats) {
     std::size_t count = 0;
     const std::uint32_t index = static_cast<std::uint32_t>(op) - static_cast<std::uint32_t>(Op::first_primitive);
-    detail::dispatch(DataPrimitives(), index - static_cast<std::uint32_t>(Primitives::size), [&]<class D>() {
+    program::dispatch(DataPrimitives(), index - static_cast<std::uint32_t>(Primitives::size), [&]<class D>() {
         if constexpr (requires { D::floats(floats.data()); }) count = D::floats(floats.data());
     });
     return floats.first(count);
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::rewriting

@@ -5,7 +5,9 @@
 #include "phasetree/nodes/list.hpp"
 #include "rewriting/working_program.hpp"
 
-namespace phasetree {
+namespace phasetree::rewriting {
+
+using program::traits;
 
 /// A LocalPrimitive of a program, and what it becomes in a box: nothing if that is no gain.
 struct LocalValue {
@@ -41,4 +43,4 @@ float finest_pattern(const WorkingProgram&, std::span<const float> constants);
 /// The data of an instruction that specialised() has made.
 std::span<const float> data_of_specialised(Op, std::span<const float> floats);
 
-}  // namespace phasetree
+}  // namespace phasetree::rewriting

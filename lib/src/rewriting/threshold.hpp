@@ -5,7 +5,7 @@
 
 #include "rewriting/working_program.hpp"
 
-namespace phasetree {
+namespace phasetree::rewriting {
 
 /// That a value is above τ, or below, as the same of its only operand.
 struct Threshold {
@@ -31,4 +31,4 @@ struct Threshold {
     }
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::rewriting

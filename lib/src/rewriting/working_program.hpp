@@ -6,7 +6,9 @@
 #include "program/program_output.hpp"
 #include "rewriting/arena.hpp"
 
-namespace phasetree {
+namespace phasetree::rewriting {
+
+using program::ProgramOutput;
 
 /// A program in the course of pruning: as Program, but its constants stay those of the whole, and operands that an
 /// operation does not take are 0, the input. Its memory is an arena's.
@@ -16,4 +18,4 @@ struct WorkingProgram {
     std::span<const ProgramOutput> outputs;
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::rewriting

@@ -8,7 +8,14 @@
 #include "evaluation/target.hpp"
 #include "phasetree/program/batch.hpp"
 
-namespace phasetree {
+namespace phasetree::trace {
+
+using bounding::enclose_long_primitive, bounding::enclose_primitive;
+using enclosure::Enclosure, enclosure::Range;
+using evaluation::active_kernel, evaluation::interpret, evaluation::RoutineSteps;
+using kernel::few_slots, kernel::OutputSlot, kernel::Routine, kernel::Step;
+using program::fold_map;
+using rewriting::Arena, rewriting::ArenaScope, rewriting::LocalValue;
 
 namespace {
 
@@ -32,7 +39,7 @@ class StepsAlong {
     const Step& step(std::size_t i) const {
         const Step& s = steps_.step(i);
         if (s.op == static_cast<std::uint32_t>(fold_map)) {
-            const auto fold = detail::read<FoldMap>(steps_.constants(i));
+            const auto fold = program::read<FoldMap>(steps_.constants(i));
             for (int axis = 0; axis < 3; ++axis) {
                 const Range& x = registers_[s.a + static_cast<std::uint32_t>(axis)].value;
                 const auto cell = [&](double at) {
@@ -106,13 +113,14 @@ class ComponentAlong {
     /// lines.
     template <class P>
     static void tighten_by_convexity(const float* constants, const Vec3<Enclosure>& q, double half, Enclosure& f) {
-        if (!detail::are_affine<3>({&q.x, &q.y, &q.z})) return;
+        if (!enclosure::detail::are_affine<3>({&q.x, &q.y, &q.z})) return;
         const auto at = [&](double t) {
             const auto coordinate = [t](const Enclosure& e) {
                 const double x = e.centre + t * e.gradient[0].low;
                 return Enclosure(x, {x, x}, {}, {}, {});
             };
-            return detail::distance_of<P>(constants, Vec3<Enclosure>{coordinate(q.x), coordinate(q.y), coordinate(q.z)})
+            return program::distance_of<P>(constants,
+                                           Vec3<Enclosure>{coordinate(q.x), coordinate(q.y), coordinate(q.z)})
                 .centre;
         };
         const double far = 2 * half, begin = at(-half), end = at(half);
@@ -245,4 +253,4 @@ bool finish_search(const Visit& visit, RayCrossing& c, TraceCounters& counters) 
     return Creep(visit, c, counters).finish();
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::trace

@@ -18,9 +18,11 @@
 /// object has half a million resolutions, as they are chosen; after so many batches (most_batches) steps double every
 /// 256 batches until the ray is away from the interface, so that no ray takes forever at any resolution. What it
 /// meets there is searched for at the resolution again.
-namespace phasetree {
+namespace phasetree::trace {
+
+using kernel::RayCrossing, kernel::Visit;
 
 /// Ends a search that the kernel has left unfinished; whether there is a crossing.
 bool finish_search(const Visit&, RayCrossing&, TraceCounters&);
 
-}  // namespace phasetree
+}  // namespace phasetree::trace

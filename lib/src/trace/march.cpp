@@ -13,6 +13,10 @@ TracedRay::TracedRay(const glm::vec3& o, const glm::vec3& d) : origin(o), direct
     is_traceable = std::abs(glm::dot(unit, unit) - 1) < 1e-3 && std::isfinite(glm::dot(glm::dvec3(o), glm::dvec3(1)));
 }
 
+namespace trace {
+
+using evaluation::active_kernel;
+
 std::optional<Crossing> first_crossing(const Visit& visit, TraceCounters& counters) {
     RayCrossing c;
     bool is_hit = active_kernel().visit(visit, c);
@@ -29,5 +33,7 @@ std::optional<Crossing> first_crossing(const Visit& visit, TraceCounters& counte
                     Phase{static_cast<std::uint8_t>(c.from)},
                     Phase{static_cast<std::uint8_t>(c.to)}};
 }
+
+}  // namespace trace
 
 }  // namespace phasetree

@@ -3,7 +3,9 @@
 #include "kernel/kernel.hpp"
 #include "phasetree/model/crossing.hpp"
 
-namespace phasetree {
+namespace phasetree::trace {
+
+using kernel::Visit;
 
 /// The first change of label of a routine within a box, searched for from the ray's entry on, so that t is small and
 /// exact there; and only where the field's linear bound leaves an interface possible. A ray that starts inside keeps
@@ -14,4 +16,4 @@ inline float carried_by(const std::optional<Phase>& phase) {
     return phase ? static_cast<float>(phase->index) : -1.f;
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::trace

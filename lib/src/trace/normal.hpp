@@ -6,7 +6,9 @@
 #include "evaluation/component.hpp"
 #include "phasetree/model/crossing.hpp"
 
-namespace phasetree {
+namespace phasetree::trace {
+
+using evaluation::Component;
 
 /// The normal of a crossing, from the gradients of the components on its two sides.
 ///
@@ -130,4 +132,4 @@ class NormalOf {
     const Holds& holds_;
 };
 
-}  // namespace phasetree
+}  // namespace phasetree::trace

@@ -6,6 +6,10 @@
 
 namespace phasetree {
 
+using evaluation::Assembly, evaluation::component;
+using kernel::Curvature, kernel::LinearBound, kernel::Routine, kernel::Visit;
+using trace::carried_by, trace::NormalOf;
+
 InterfaceTracer::InterfaceTracer(const Phased& object, float resolution) {
     const TraceableObject t = prepare_to_trace(object, resolution);
     bounds_ = t.bounds;
@@ -24,18 +28,18 @@ std::optional<Crossing> InterfaceTracer::first_crossing(const glm::vec3& origin,
     const Routine routine = assembly.routine(evaluator_->program().constants.data());
     const TracedRay ray(origin, direction);
     const LinearBound none;
-    return phasetree::first_crossing({.box = &bounds_,
-                                      .bound = &none,
-                                      .routine = &routine,
-                                      .ray = &ray,
-                                      .registers = w.registers(assembly.slots),
-                                      .curvature = {Curvature::unknown, Curvature::unknown},
-                                      .t_min = t_min,
-                                      .t_max = t_max,
-                                      .resolution = resolution_,
-                                      .carried = carried_by(carried),
-                                      .rise = Visit::no_leaving_hint},
-                                     c);
+    return trace::first_crossing({.box = &bounds_,
+                                  .bound = &none,
+                                  .routine = &routine,
+                                  .ray = &ray,
+                                  .registers = w.registers(assembly.slots),
+                                  .curvature = {Curvature::unknown, Curvature::unknown},
+                                  .t_min = t_min,
+                                  .t_max = t_max,
+                                  .resolution = resolution_,
+                                  .carried = carried_by(carried),
+                                  .rise = Visit::no_leaving_hint},
+                                 c);
 }
 
 glm::vec3 InterfaceTracer::normal(const Crossing& c, const glm::vec3& direction) const {

@@ -8,6 +8,8 @@
 
 namespace phasetree {
 
+using model::PreparationTogether;
+
 namespace {
 
 void mix(std::size_t& hash, std::size_t value) {

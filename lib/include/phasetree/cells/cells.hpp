@@ -10,6 +10,10 @@
 
 namespace phasetree {
 
+namespace cells {
+struct CellsFile;
+}
+
 /// An object divided into cells: boxes around its interfaces, each with the few instructions that matter there. A ray
 /// meets a change of phase only inside a cell. The caller finds the cells along a ray, with Embree for instance.
 ///
@@ -64,7 +68,7 @@ class InterfaceCells {
     CellStatistics statistics() const;
 
   private:
-    friend struct CellsFile;  // cells/file.hpp
+    friend struct cells::CellsFile;
     struct Data;
     explicit InterfaceCells(std::unique_ptr<const Data>);
     std::unique_ptr<const Data> data_;

@@ -11,6 +11,10 @@
 
 namespace phasetree {
 
+namespace evaluation {
+struct Assembly;
+}
+
 /// A program that is ready to run: each value has a register and each operation its code. It is immutable; any thread
 /// may run it, each with a Workspace of its own.
 class Evaluator {
@@ -57,7 +61,7 @@ class Evaluator {
   private:
     friend class InterfaceTracer;
     Program program_;
-    std::shared_ptr<const struct Assembly> assembly_;
+    std::shared_ptr<const evaluation::Assembly> assembly_;
 };
 
 /// The SIMD instruction sets that both this build and this machine have, best first: "AVX-512", "AVX2", "SSE4", "SSE2".

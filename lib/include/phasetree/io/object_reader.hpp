@@ -13,7 +13,7 @@
 
 namespace phasetree {
 
-namespace reading {
+namespace io {
 template <class T, class... Ts>
 concept one_of = (std::same_as<T, Ts> || ...);
 template <class T>
@@ -23,12 +23,12 @@ template <class T>
 inline constexpr bool is_list = false;
 template <readable_item T>
 inline constexpr bool is_list<std::vector<T>> = true;
-}  // namespace reading
+}  // namespace io
 
 /// The types a value can be read as: bool, int, unsigned, float, double, std::string, glm vectors of float and double,
 /// and a std::vector of any of these.
 template <class T>
-concept Readable = reading::readable_item<T> || reading::is_list<T>;
+concept Readable = io::readable_item<T> || io::is_list<T>;
 
 /// The value as a T, or a SceneError at the value (at the item, for one inside an array) that says what is wrong.
 /// `what` begins the sentence, e.g. `"radius"`. Every number read, also those inside vectors and lists, must be in the
