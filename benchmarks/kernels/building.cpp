@@ -4,7 +4,9 @@
 
 #include "objects/cluster.hpp"
 #include "objects/tentacle.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/cells/cells.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/program/program.hpp"
 
 namespace phasetree::bench {
 

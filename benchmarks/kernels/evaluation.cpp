@@ -2,7 +2,23 @@
 // what it takes is the price of a call.
 #include <benchmark/benchmark.h>
 
-#include "phasetree/phasetree.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/blob.hpp"
+#include "phasetree/nodes/fields/box.hpp"
+#include "phasetree/nodes/fields/displace.hpp"
+#include "phasetree/nodes/fields/ellipsoid.hpp"
+#include "phasetree/nodes/fields/gyroid.hpp"
+#include "phasetree/nodes/fields/round_cone.hpp"
+#include "phasetree/nodes/fields/smooth_union.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/fields/torus.hpp"
+#include "phasetree/nodes/fields/union.hpp"
+#include "phasetree/nodes/fields/voronoi_cells.hpp"
+#include "phasetree/nodes/warps/rotate.hpp"
+#include "phasetree/nodes/warps/twist.hpp"
+#include "phasetree/nodes/warps/warped.hpp"
+#include "phasetree/program/program.hpp"
 #include "rays/random.hpp"
 
 namespace phasetree::bench {

@@ -1,6 +1,14 @@
 #include "objects/cluster.hpp"
 
-#include "phasetree/phasetree.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/rounded_box.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/fields/union.hpp"
+#include "phasetree/nodes/phased/over.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/nodes/warps/rotate.hpp"
+#include "phasetree/nodes/warps/translate.hpp"
+#include "phasetree/nodes/warps/warped.hpp"
 #include "rays/random.hpp"
 
 namespace phasetree::bench {

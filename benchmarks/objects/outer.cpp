@@ -1,6 +1,12 @@
 #include "objects/outer.hpp"
 
-#include "phasetree/phasetree.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/box.hpp"
+#include "phasetree/nodes/fields/difference.hpp"
+#include "phasetree/nodes/fields/merge.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/nodes/warps/translate.hpp"
+#include "phasetree/nodes/warps/warped.hpp"
 
 namespace phasetree::bench {
 

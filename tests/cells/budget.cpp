@@ -6,7 +6,14 @@
 #include <atomic>
 #include <memory>
 
-#include "phasetree/tree/node.hpp"
+#include "phasetree/cells/cells.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/box.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/phased/intersect_shape.hpp"
+#include "phasetree/nodes/phased/voronoi.hpp"
+#include "phasetree/trace/tracer.hpp"
 #include "support/compared_crossings.hpp"
 #include "support/compared_labels.hpp"
 

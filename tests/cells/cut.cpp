@@ -2,9 +2,23 @@
 // has none. That they hold every interface is for the comparisons of rays (cells.cpp), and for random points here.
 #include <doctest/doctest.h>
 
+#include <glm/trigonometric.hpp>
+
 #include "phasetree/cells/cells.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/io/tree.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/box.hpp"
+#include "phasetree/nodes/fields/intersection.hpp"
+#include "phasetree/nodes/fields/offset.hpp"
+#include "phasetree/nodes/fields/plane.hpp"
+#include "phasetree/nodes/fields/shell.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/fields/union.hpp"
+#include "phasetree/nodes/phased/intersect_shape.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/nodes/warps/translate.hpp"
+#include "phasetree/nodes/warps/warped.hpp"
 #include "source_directory.hpp"
 #include "support/random_tree.hpp"
 

@@ -7,7 +7,19 @@
 #include <numbers>
 
 #include "phasetree/cells/cells.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/box.hpp"
+#include "phasetree/nodes/fields/difference.hpp"
+#include "phasetree/nodes/fields/intersection.hpp"
+#include "phasetree/nodes/fields/plane.hpp"
+#include "phasetree/nodes/fields/round_cone.hpp"
+#include "phasetree/nodes/fields/smooth_union.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/fields/union.hpp"
+#include "phasetree/nodes/phased/layered_sequence.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/nodes/warps/translate.hpp"
+#include "phasetree/nodes/warps/warped.hpp"
 #include "support/compared_crossings.hpp"
 #include "support/random_tree.hpp"
 

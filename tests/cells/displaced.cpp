@@ -1,7 +1,12 @@
 // Solids displaced by noise, whose cells know its slope and how it bends: rays must find what marching the whole finds.
 #include <doctest/doctest.h>
 
-#include "phasetree/phasetree.hpp"
+#include "phasetree/cells/cells.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/displace.hpp"
+#include "phasetree/nodes/fields/round_cone.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/phased/set.hpp"
 #include "support/compared_crossings.hpp"
 
 using namespace phasetree;

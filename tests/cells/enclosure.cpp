@@ -7,8 +7,10 @@
 #include "bounding/convex_in_box.hpp"
 #include "enclosure/difference.hpp"
 #include "math/dual.hpp"
+#include "phasetree/model/concepts.hpp"
+#include "phasetree/model/handle.hpp"
 #include "phasetree/nodes/copies/endless_grid.hpp"
-#include "phasetree/phasetree.hpp"
+#include "tree/node.hpp"
 #include "tree/walk.hpp"
 #include "support/random_tree.hpp"
 

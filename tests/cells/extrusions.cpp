@@ -3,7 +3,20 @@
 #include <doctest/doctest.h>
 
 #include "phasetree/cells/cells.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/offset.hpp"
+#include "phasetree/nodes/fields/shell.hpp"
+#include "phasetree/nodes/fields/smooth_union.hpp"
+#include "phasetree/nodes/fields/union.hpp"
+#include "phasetree/nodes/phased/layered.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/nodes/profiles/circle.hpp"
+#include "phasetree/nodes/profiles/extrude.hpp"
+#include "phasetree/nodes/profiles/rectangle.hpp"
+#include "phasetree/nodes/warps/rotate.hpp"
+#include "phasetree/nodes/warps/translate.hpp"
+#include "phasetree/nodes/warps/warped.hpp"
 #include "support/random_tree.hpp"
 
 using namespace phasetree;

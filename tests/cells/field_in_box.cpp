@@ -9,6 +9,7 @@
 
 #include "enclosure/value_noise.hpp"
 #include "math/dual.hpp"
+#include "phasetree/model/handle.hpp"
 #include "phasetree/nodes/fields/fractal_noise.hpp"
 #include "support/compared_crossings.hpp"
 

@@ -1,5 +1,16 @@
 // Files of cells: what is read is what was built, and whatever is done to a file is refused or harmless.
+#include "cells/file_header.hpp"
+#include "cells/sound.hpp"
+#include "phasetree/cells/cells.hpp"
 #include "phasetree/cells/file.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/io/tree.hpp"
+#include "phasetree/model/crossing.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/model/ray.hpp"
+#include "phasetree/nodes/list.hpp"
+#include "phasetree/program/program.hpp"
+#include "support/random_tree.hpp"
 
 #include <doctest/doctest.h>
 #include <sys/resource.h>
@@ -10,13 +21,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-
-#include "cells/file_header.hpp"
-#include "cells/sound.hpp"
-#include "phasetree/io/tree.hpp"
-#include "phasetree/nodes/list.hpp"
-#include "phasetree/phasetree.hpp"
-#include "support/random_tree.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;

@@ -4,7 +4,13 @@
 
 #include "evaluation/assemble.hpp"
 #include "kernel/linear_bound.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/model/crossing.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/model/ray.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/program/program.hpp"
 #include "support/random_tree.hpp"
 #include "trace/march.hpp"
 

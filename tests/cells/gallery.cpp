@@ -4,7 +4,9 @@
 
 #include <filesystem>
 
+#include "phasetree/cells/cells.hpp"
 #include "phasetree/io/tree.hpp"
+#include "phasetree/model/handle.hpp"
 #include "source_directory.hpp"
 #include "support/compared_crossings.hpp"
 

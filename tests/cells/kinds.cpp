@@ -6,7 +6,7 @@
 
 #include "cells/traceable.hpp"
 #include "phasetree/cells/cells.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/model/handle.hpp"
 #include "support/compared_labels.hpp"
 
 using namespace phasetree;

@@ -2,7 +2,20 @@
 // the whole object finds, which looks at all sites.
 #include <doctest/doctest.h>
 
-#include "phasetree/phasetree.hpp"
+#include "phasetree/cells/cells.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/box.hpp"
+#include "phasetree/nodes/fields/intersection.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/fields/union.hpp"
+#include "phasetree/nodes/fields/voronoi_cells.hpp"
+#include "phasetree/nodes/phased/intersect_shape.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/nodes/phased/voronoi.hpp"
+#include "phasetree/nodes/warps/rotate.hpp"
+#include "phasetree/nodes/warps/translate.hpp"
+#include "phasetree/nodes/warps/twist.hpp"
+#include "phasetree/nodes/warps/warped.hpp"
 #include "support/compared_crossings.hpp"
 
 using namespace phasetree;

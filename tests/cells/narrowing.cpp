@@ -4,7 +4,11 @@
 #include <cmath>
 
 #include "phasetree/cells/cells.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/model/crossing.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/phased/set.hpp"
 #include "support/random_tree.hpp"
 
 using namespace phasetree;

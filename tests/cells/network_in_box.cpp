@@ -7,7 +7,10 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "phasetree/phasetree.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/siren.hpp"
+#include "phasetree/nodes/fields/siren_network.hpp"
+#include "phasetree/nodes/phased/set.hpp"
 #include "support/compared_crossings.hpp"
 
 using namespace phasetree;

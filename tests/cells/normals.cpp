@@ -2,8 +2,12 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include "phasetree/cells/cells.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/math/float_mode.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/model/crossing.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/trace/tracer.hpp"
 #include "support/normal_checks.hpp"
 
 using namespace phasetree;

@@ -6,7 +6,10 @@
 #include <string>
 
 #include "phasetree/cells/cells.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/io/tree.hpp"
+#include "phasetree/model/crossing.hpp"
+#include "phasetree/model/handle.hpp"
 #include "source_directory.hpp"
 #include "support/compared_crossings.hpp"
 

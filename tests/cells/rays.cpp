@@ -7,7 +7,10 @@
 #include "cells/traceable.hpp"
 #include "phasetree/cells/cells.hpp"
 #include "phasetree/io/tree.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/phased/over.hpp"
+#include "phasetree/nodes/phased/set.hpp"
 #include "source_directory.hpp"
 #include "support/compared_crossings.hpp"
 

@@ -7,8 +7,10 @@
 #include <bit>
 #include <cstring>
 
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/model/handle.hpp"
 #include "phasetree/nodes/list.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/program/program.hpp"
 #include "pruning/prune.hpp"
 #include "support/random_tree.hpp"
 

@@ -1,7 +1,9 @@
 // Random objects that can be cut into cells.
 #pragma once
 
-#include "phasetree/phasetree.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/box.hpp"
+#include "phasetree/nodes/phased/intersect_shape.hpp"
 #include "support/random_tree.hpp"
 
 namespace phasetree::tests {

@@ -9,7 +9,7 @@
 
 #include "command.hpp"
 #include "phasetree/io/tree.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/model/handle.hpp"
 
 using namespace phasetree::tests;
 

@@ -1,5 +1,7 @@
 // Rays that tell which phase they are in.
 #include "embree/alone.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/trace/tracer.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;

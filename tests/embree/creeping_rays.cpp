@@ -3,6 +3,8 @@
 #include "support/creeping_rays.hpp"
 
 #include "embree/cell_tracer.hpp"
+#include "phasetree/cells/cells.hpp"
+#include "phasetree/model/handle.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;

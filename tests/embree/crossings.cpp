@@ -1,6 +1,9 @@
 // Tracing through Embree and cells against analytic roots: see support/crossing_checks.hpp. A ninth of the rays run
 // along faces of cells, where two cells have to agree.
 #include "embree/cell_tracer.hpp"
+#include "phasetree/cells/cells.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/trace/tracer.hpp"
 #include "support/crossing_checks.hpp"
 
 using namespace phasetree;

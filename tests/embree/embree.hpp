@@ -9,7 +9,7 @@
 
 #include "phasetree/embree_version.hpp"
 #include "phasetree/io/tree.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/model/handle.hpp"
 
 namespace phasetree::tests {
 

@@ -10,7 +10,10 @@
 #include <map>
 
 #include "embree/embree.hpp"
+#include "phasetree/cells/cells.hpp"
 #include "phasetree/embree.hpp"
+#include "phasetree/model/crossing.hpp"
+#include "phasetree/model/handle.hpp"
 #include "source_directory.hpp"
 #include "support/random_tree.hpp"
 

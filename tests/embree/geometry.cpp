@@ -1,6 +1,10 @@
 // A PhaseTree in an Embree scene: what an application sees that knows only Embree. The yardstick is InterfaceTracer,
 // which marches through the whole object by its whole program.
 #include "embree/alone.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/trace/tracer.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;

@@ -2,14 +2,14 @@
 //     phasetree nodes --markdown > scenes/nodes.md; phasetree nodes --json-schema > scenes/scene.schema.json
 
 #include "phasetree/io/reference.hpp"
+#include "phasetree/model/handle.hpp"
+#include "tree/node.hpp"
 #include "source_directory.hpp"
 
 #include <doctest/doctest.h>
 
 #include <fstream>
 #include <sstream>
-
-#include "phasetree/tree/node.hpp"
 
 using namespace phasetree;
 

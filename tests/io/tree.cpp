@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "phasetree/tree/node.hpp"
+#include "phasetree/model/handle.hpp"
 
 using namespace phasetree;
 

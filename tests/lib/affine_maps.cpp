@@ -2,15 +2,14 @@
 // one instruction where the whole object's runs several.
 
 #include "phasetree/math/affine_map.hpp"
+#include "phasetree/nodes/list.hpp"
+#include "support/random_tree.hpp"
 
 #include <doctest/doctest.h>
 
 #include <bit>
 #include <cstdint>
 #include <type_traits>
-
-#include "phasetree/nodes/list.hpp"
-#include "support/random_tree.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;

@@ -1,6 +1,9 @@
 #include <doctest/doctest.h>
 
-#include "phasetree/phasetree.hpp"
+#include "phasetree/cells/cells.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/blob.hpp"
+#include "phasetree/nodes/phased/set.hpp"
 #include "support/random_tree.hpp"
 
 using namespace phasetree;

@@ -2,6 +2,11 @@
 // support/creeping_rays.hpp.
 #include "support/creeping_rays.hpp"
 
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/model/crossing.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/trace/tracer.hpp"
+
 using namespace phasetree;
 using namespace phasetree::tests;
 

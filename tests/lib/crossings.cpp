@@ -1,4 +1,8 @@
 // Tracing of whole programs against analytic roots: see support/crossing_checks.hpp.
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/model/crossing.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/trace/tracer.hpp"
 #include "support/crossing_checks.hpp"
 
 using namespace phasetree;

@@ -4,7 +4,11 @@
 #include <cstring>
 #include <thread>
 
-#include "phasetree/phasetree.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/model/crossing.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/program/program.hpp"
+#include "phasetree/trace/tracer.hpp"
 #include "support/random_tree.hpp"
 
 using namespace phasetree;

@@ -4,9 +4,11 @@
 
 #include <bit>
 
+#include "phasetree/evaluation/evaluator.hpp"
 #include "math/dual.hpp"
-#include "phasetree/phasetree.hpp"
-#include "tree/walk.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/program/program.hpp"
+#include "support/dual_distances.hpp"
 #include "support/random_tree.hpp"
 #include "support/set_algebra.hpp"
 
@@ -150,8 +152,7 @@ TEST_CASE("dual numbers carry the same values, and the program's gradients are t
         for (int n = 0; n < 10; ++n) {
             const glm::vec3 p = random_point(rng, region);
             const Phases<float> plain = distances(object, p);
-            const Phases<Dual> dual =
-                Walk<Dual>().phases(object, {Dual(p.x, 1, 0, 0), Dual(p.y, 0, 1, 0), Dual(p.z, 0, 0, 1)});
+            const Phases<Dual> dual = dual_distances(object, p);
             REQUIRE(plain.present == dual.present);
             for_each_phase(plain.present, [&](int i) {
                 REQUIRE(same_bits(plain[i], dual[i].value()));

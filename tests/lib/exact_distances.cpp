@@ -2,8 +2,36 @@
 // which is searched for by membership alone.
 #include <doctest/doctest.h>
 
-#include "phasetree/phasetree.hpp"
-#include "tree/walk.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/bowl.hpp"
+#include "phasetree/nodes/fields/box.hpp"
+#include "phasetree/nodes/fields/box_frame.hpp"
+#include "phasetree/nodes/fields/capped_cone.hpp"
+#include "phasetree/nodes/fields/capped_torus.hpp"
+#include "phasetree/nodes/fields/cylinder.hpp"
+#include "phasetree/nodes/fields/displace.hpp"
+#include "phasetree/nodes/fields/dodecahedron.hpp"
+#include "phasetree/nodes/fields/ellipsoid.hpp"
+#include "phasetree/nodes/fields/gyroid.hpp"
+#include "phasetree/nodes/fields/heightfield.hpp"
+#include "phasetree/nodes/fields/helix.hpp"
+#include "phasetree/nodes/fields/icosahedron.hpp"
+#include "phasetree/nodes/fields/link.hpp"
+#include "phasetree/nodes/fields/octahedron.hpp"
+#include "phasetree/nodes/fields/prism.hpp"
+#include "phasetree/nodes/fields/pyramid.hpp"
+#include "phasetree/nodes/fields/round_cone.hpp"
+#include "phasetree/nodes/fields/rounded_cylinder.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/fields/spherical_cap.hpp"
+#include "phasetree/nodes/fields/tetrahedron.hpp"
+#include "phasetree/nodes/fields/tube.hpp"
+#include "phasetree/nodes/fields/wedge.hpp"
+#include "phasetree/nodes/profiles/circle.hpp"
+#include "phasetree/nodes/profiles/extrude.hpp"
+#include "phasetree/nodes/profiles/rectangle.hpp"
+#include "phasetree/nodes/profiles/revolve.hpp"
+#include "phasetree/nodes/profiles/star.hpp"
 #include "support/random_tree.hpp"
 #include "support/set_algebra.hpp"
 
@@ -53,7 +81,7 @@ Agreement compare(const Field& f, Random& rng, int points) {
     const Bounds region = bounds(f).inflated(0.3f * bounds(f).diagonal());
     for (int n = 0; n < points;) {
         const glm::vec3 p = rng.in(region);
-        const double claimed = std::abs(Walk<float>().field(f, {p.x, p.y, p.z}));
+        const double claimed = std::abs(distance(f, p));
         if (claimed < 0.02 * region.diagonal()) continue;
         ++n;
         const double found = search(f, p, rng);

@@ -2,8 +2,13 @@
 #include <doctest/doctest.h>
 
 #include "math/dual.hpp"
-#include "phasetree/phasetree.hpp"
-#include "tree/walk.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/displace.hpp"
+#include "phasetree/nodes/fields/fractal_noise.hpp"
+#include "phasetree/nodes/fields/gyroid.hpp"
+#include "phasetree/nodes/fields/schwarz_d.hpp"
+#include "phasetree/nodes/fields/schwarz_p.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
 #include "support/random_tree.hpp"
 #include "support/set_algebra/textures.hpp"
 
@@ -120,7 +125,7 @@ TEST_CASE("a displaced field keeps its slope away from the surface, and its nois
     Random rng(154);
     for (int n = 0; n < 10'000; ++n) {
         const glm::vec3 p = rng.direction() * rng.uniform(0.01f, 3);
-        const float ball = glm::length(p) - 1, v = Walk<float>().field(f, {p.x, p.y, p.z});
+        const float ball = glm::length(p) - 1, v = distance(f, p);
         REQUIRE(v >= ball - 0.1f - 1e-6f);
         REQUIRE(v <= ball + 0.1f + 1e-6f);
         if (ball > 0.25f) REQUIRE(v > 0.5f * ball);

@@ -2,8 +2,8 @@
 // for tight and steep coils, few turns and many, near and far.
 #include <doctest/doctest.h>
 
-#include "phasetree/phasetree.hpp"
-#include "tree/walk.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/helix.hpp"
 #include "support/random_tree.hpp"
 #include "support/set_algebra.hpp"
 
@@ -23,7 +23,7 @@ TEST_CASE("the coil's distance is that of a search along its line") {
             // Beyond the ends, and about the axis, where turns are equally near.
             if (n % 5 == 0) p.z = (rng.chance(0.5) ? b.high.z : b.low.z) + rng.uniform(-1, 1) * std::abs(pitch);
             if (n % 7 == 0) p *= glm::vec3(0.05f, 0.05f, 1);
-            const double expected = value(f, glm::dvec3(p)), got = Walk<float>().field(f, {p.x, p.y, p.z});
+            const double expected = value(f, glm::dvec3(p)), got = distance(f, p);
             const double error = std::abs(got - expected) / (1 + glm::length(p) + std::abs(pitch));
             worst = std::max(worst, error);
             CAPTURE(turns);

@@ -3,7 +3,23 @@
 
 #include <limits>
 
-#include "phasetree/phasetree.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/model/crossing.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/box.hpp"
+#include "phasetree/nodes/fields/cylinder.hpp"
+#include "phasetree/nodes/fields/pyramid.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/fields/union.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/nodes/phased/under.hpp"
+#include "phasetree/nodes/profiles/extrude.hpp"
+#include "phasetree/nodes/profiles/polygon.hpp"
+#include "phasetree/nodes/warps/rotate.hpp"
+#include "phasetree/nodes/warps/translate.hpp"
+#include "phasetree/nodes/warps/twist.hpp"
+#include "phasetree/nodes/warps/warped.hpp"
+#include "phasetree/trace/tracer.hpp"
 #include "support/random_tree.hpp"
 
 using namespace phasetree;

@@ -8,7 +8,13 @@
 
 #include <sstream>
 
-#include "phasetree/phasetree.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/box.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/nodes/phased/subtract_shape.hpp"
+#include "phasetree/nodes/phased/under.hpp"
+#include "phasetree/program/program.hpp"
 #include "support/random_tree.hpp"
 #include "support/set_algebra.hpp"
 

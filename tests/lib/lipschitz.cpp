@@ -2,7 +2,10 @@
 // exactly one is negative away from interfaces. They do not tell whether an operator is the right one; labels.cpp does.
 #include <doctest/doctest.h>
 
-#include "phasetree/phasetree.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/list.hpp"
+#include "phasetree/program/program.hpp"
 #include "support/random_tree.hpp"
 #include "support/set_algebra.hpp"
 

@@ -7,7 +7,11 @@
 
 #include "math/dual.hpp"
 #include "phasetree/math/float_mode.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/model/concepts.hpp"
+#include "phasetree/model/crossing.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/list.hpp"
+#include "phasetree/trace/tracer.hpp"
 #include "support/normal_checks.hpp"
 
 using namespace phasetree;

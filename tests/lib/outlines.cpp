@@ -2,7 +2,9 @@
 // curves. Refusals of what is no outline.
 #include <doctest/doctest.h>
 
-#include "phasetree/phasetree.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/profiles/bezier.hpp"
+#include "phasetree/nodes/profiles/polygon.hpp"
 #include "support/random_tree.hpp"
 #include "support/set_algebra/outlines.hpp"
 

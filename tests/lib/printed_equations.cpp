@@ -5,7 +5,17 @@
 
 #include <functional>
 
-#include "phasetree/phasetree.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/box.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/phased/change.hpp"
+#include "phasetree/nodes/phased/contact.hpp"
+#include "phasetree/nodes/phased/intersect_shape.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/nodes/phased/under.hpp"
+#include "phasetree/nodes/phased/unite_shape_below.hpp"
+#include "phasetree/nodes/warps/translate.hpp"
+#include "phasetree/nodes/warps/warped.hpp"
 #include "support/random_tree.hpp"
 #include "support/set_algebra.hpp"
 

@@ -5,7 +5,10 @@
 #include <set>
 #include <tuple>
 
-#include "phasetree/phasetree.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/list.hpp"
+#include "phasetree/program/program.hpp"
 #include "support/random_tree.hpp"
 
 using namespace phasetree;

@@ -5,7 +5,14 @@
 #include <limits>
 
 #include "phasetree/cells/cells.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/model/crossing.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/nodes/warps/translate.hpp"
+#include "phasetree/nodes/warps/warped.hpp"
+#include "phasetree/trace/tracer.hpp"
 #include "support/random_tree.hpp"
 
 using namespace phasetree;

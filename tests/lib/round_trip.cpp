@@ -3,6 +3,10 @@
 #include <algorithm>
 
 #include "phasetree/io/write.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/nodes/phased/under.hpp"
 #include "phasetree/program/program.hpp"
 #include "support/random_tree.hpp"
 

@@ -2,7 +2,15 @@
 
 #include <cmath>
 
-#include "phasetree/tree/node.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/copies/scatter.hpp"
+#include "phasetree/nodes/fields/box.hpp"
+#include "phasetree/nodes/fields/difference.hpp"
+#include "phasetree/nodes/fields/intersection.hpp"
+#include "phasetree/nodes/fields/plane.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/warps/translate.hpp"
+#include "phasetree/nodes/warps/warped.hpp"
 
 using namespace phasetree;
 

@@ -4,7 +4,9 @@
 #include <doctest/doctest.h>
 
 #include "phasetree/io/write.hpp"
+#include "phasetree/model/handle.hpp"
 #include "phasetree/program/program.hpp"
+#include "tree/node.hpp"
 #include "support/random_node.hpp"
 
 using namespace phasetree;

@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "phasetree/io/tree.hpp"
-#include "phasetree/tree/node.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/siren.hpp"
+#include "phasetree/nodes/fields/siren_network.hpp"
 #include "source_directory.hpp"
 
 using namespace phasetree;

@@ -5,7 +5,8 @@
 #include <tuple>
 
 #include "phasetree/io/tree.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/phased/checker.hpp"
 
 using namespace phasetree;
 

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "phasetree/tree/node.hpp"
+#include "phasetree/nodes/fields/voronoi_sites.hpp"
 #include "support/random_tree.hpp"
 #include "support/set_algebra/patterns.hpp"
 

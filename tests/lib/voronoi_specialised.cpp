@@ -3,7 +3,9 @@
 
 #include <cstring>
 
-#include "phasetree/phasetree.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/voronoi_cells.hpp"
+#include "phasetree/nodes/phased/voronoi.hpp"
 #include "support/random_tree.hpp"
 
 using namespace phasetree;

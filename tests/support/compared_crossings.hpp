@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "phasetree/cells/cells.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/model/crossing.hpp"
+#include "phasetree/model/handle.hpp"
 #include "phasetree/trace/tracer.hpp"
-#include "tree/walk.hpp"
 #include "support/random_tree.hpp"
 #include "support/set_algebra.hpp"
 

@@ -3,6 +3,9 @@
 #include <limits>
 
 #include "phasetree/cells/cells.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/program/program.hpp"
 #include "support/random_tree.hpp"
 
 namespace phasetree::tests {

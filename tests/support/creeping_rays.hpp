@@ -13,9 +13,28 @@
 #include <algorithm>
 #include <sstream>
 
-#include "phasetree/phasetree.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/model/crossing.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/box.hpp"
+#include "phasetree/nodes/fields/difference.hpp"
+#include "phasetree/nodes/fields/intersection.hpp"
+#include "phasetree/nodes/fields/shell.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/fields/union.hpp"
+#include "phasetree/nodes/phased/change.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/nodes/phased/under.hpp"
+#include "phasetree/nodes/warps/rotate.hpp"
+#include "phasetree/nodes/warps/stretch.hpp"
+#include "phasetree/nodes/warps/taper.hpp"
+#include "phasetree/nodes/warps/translate.hpp"
+#include "phasetree/nodes/warps/twist.hpp"
+#include "phasetree/nodes/warps/warped.hpp"
+#include "phasetree/trace/tracer.hpp"
 #include "support/analytic_roots.hpp"
 #include "support/random_tree.hpp"
+#include "support/set_algebra.hpp"
 
 namespace phasetree::tests::creeping {
 

@@ -18,8 +18,11 @@
 
 #include <sstream>
 
-#include "phasetree/phasetree.hpp"
+#include "phasetree/model/crossing.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/trace/tracer.hpp"
 #include "support/analytic_roots.hpp"
+#include "support/set_algebra.hpp"
 #include "support/traced_scenes.hpp"
 
 /// A tracer under test has a type Hit, which is a Crossing, and

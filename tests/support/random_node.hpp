@@ -1,8 +1,11 @@
 #pragma once
 
-/// How a node of a given type is drawn.
+/// How a node of a given type is drawn, and what the tests over all nodes ask of its type. The drawing itself is
+/// compiled once, in random_tree.cpp.
 
+#include "tree/node.hpp"
 #include "support/random_tree.hpp"
+#include "support/random_value.hpp"
 
 namespace phasetree::tests {
 
@@ -23,131 +26,19 @@ concept NeedsBoundedChild = IsEndlessGrid<Node> || requires(Node n) {
     requires LocalWarp<decltype(n.warp)>;
 };
 
-namespace detail {
-
-inline float allowed(float v, const Limits& l, Random& rng) {
-    if (l.contains(v)) return v;
-    const float low = std::max(l.low, -1.f), high = std::min(l.high, 1.f);
-    return rng.uniform(low + 0.01f * (high - low), high - 0.01f * (high - low));
-}
-
-/// A number that suits its unit and limits; mostly small sizes, a few large ones.
-inline float random_number(Random& rng, const Parameter& p) {
-    const bool negative = p.limits.contains(-0.01f), round = rng.chance(0.3);
-    const auto rounded = [&](float v, float unit) { return round ? std::round(v / unit) * unit : v; };
-    if (p.unit == "degrees") return allowed(rounded(rng.uniform(-180, 180), 45), p.limits, rng);
-    if (p.unit == "degrees/m") return allowed(rounded(rng.uniform(-150, 150), 45), p.limits, rng);
-    // Counts; and waves long enough that an object has not thousands of them.
-    if (p.unit.empty() && p.limits.low > 2) return std::floor(rng.uniform(p.limits.low, p.limits.low + 6));
-    if (p.name == "period" || p.name == "scale") return rounded(rng.uniform(0.4f, 1.5f), 0.25f);
-    if (p.unit == "m" && !negative) {
-        const float u = rng.uniform(0, 1);
-        return allowed(rounded(0.04f + 1.2f * u * u, 0.25f), p.limits, rng);
-    }
-    if (p.unit == "m") return allowed(rounded(rng.uniform(-0.6f, 0.6f), 0.25f), p.limits, rng);
-    if (negative) return allowed(rounded(rng.uniform(-1, 1), 1), p.limits, rng);
-    return allowed(rounded(rng.uniform(0.4f, 2.2f), 0.5f), p.limits, rng);
-}
-
-inline Field bounded(Random& rng, Field f) {
-    if (bounds(f).finite()) return f;
-    return Intersection{.of = {std::move(f), Sphere{.radius = rng.uniform(0.8f, 1.6f)}}};
-}
-inline Phased bounded(Random& rng, Phased a) {
-    if (bounds(a).finite()) return a;
-    return IntersectShape{.of = std::move(a), .shape = Sphere{.radius = rng.uniform(0.8f, 1.6f)}, .phases_cut = {}};
-}
-
+/// A random value of a node's parameter.
 template <class Node, class Value>
 void fill(Random& rng, Value& value, const Parameter& p, int depth) {
-    const auto draw = [&](auto& child) {
-        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(child)>, Field>)
-            child = random_field(rng, depth);
-        else
-            child = random_object(rng, depth);
-        if constexpr (NeedsBoundedChild<Node>) child = phasetree::tests::detail::bounded(rng, child);
-    };
-    if (p.optional && rng.chance(0.3)) return;
-    if constexpr (std::is_same_v<Value, float>) {
-        value = random_number(rng, p);
-    } else if constexpr (std::is_same_v<Value, int>) {
-        // Counts multiply, in a grid and down the tree. A slope that is only sampled is not proven.
-        value = p.name == "samples" ? 0 : 1 + rng.below(2);
-    } else if constexpr (std::is_same_v<Value, glm::vec3>) {
-        for (int i = 0; i < 3; ++i) value[i] = random_number(rng, p);
-    } else if constexpr (std::is_same_v<Value, glm::vec2>) {
-        for (int i = 0; i < 2; ++i) value[i] = random_number(rng, p);
-    } else if constexpr (std::is_same_v<Value, Phase>) {
-        value = Phase{static_cast<std::uint8_t>(1 + rng.below(random_phases))};
-    } else if constexpr (std::is_same_v<Value, PhaseSet>) {
-        value = PhaseSet{(rng.bits() & ((1u << (random_phases + 1)) - 1)) & ~std::uint64_t{rng.chance(0.8)}};
-    } else if constexpr (std::is_same_v<Value, Field> || std::is_same_v<Value, Phased>) {
-        draw(value);
-    } else if constexpr (std::is_same_v<Value, FromFile<SirenNetwork>>) {
-        SirenNetwork network;
-        network.radius = rng.uniform(0.5f, 1.2f);
-        for (const auto& [inputs, outputs] : {std::pair(3, 7), std::pair(7, 5), std::pair(5, 1)}) {
-            SirenNetwork::Layer layer{inputs, outputs, {}, {}};
-            for (int i = 0; i < inputs * outputs; ++i) layer.weights.push_back(rng.uniform(-0.9f, 0.9f));
-            for (int o = 0; o < outputs; ++o) layer.bias.push_back(rng.uniform(-0.9f, 0.5f));
-            network.layers.push_back(std::move(layer));
-        }
-        value.content = std::make_shared<const SirenNetwork>(std::move(network));
-    } else if constexpr (std::is_same_v<Value, FromFile<HeightGrid>>) {
-        HeightGrid grid{2 + rng.below(4), 2 + rng.below(4), {}};
-        for (int i = 0; i < grid.width * grid.height; ++i) grid.values.push_back(rng.uniform(0, 1));
-        value.content = std::make_shared<const HeightGrid>(std::move(grid));
-    } else if constexpr (std::is_same_v<Value, std::vector<float>> || std::is_same_v<Value, std::vector<Phase>>) {
-        // A node's lists belong together, one as long as the other, or one shorter, or one for all: it refuses the
-        // rest.
-        value.resize(static_cast<std::size_t>(1 + rng.below(3)));
-        Parameter each = p;
-        each.optional = false;
-        for (auto& item : value) fill<Node>(rng, item, each, depth);
-    } else {
-        // Mostly two or three, now and then the single child that a fold over the rest must survive.
-        using Entry = typename Value::value_type;
-        const bool is_outline = std::is_same_v<Entry, glm::vec2>;
-        value.resize(static_cast<std::size_t>(is_outline ? 3 + rng.below(4) : rng.chance(0.1) ? 1 : 2 + rng.below(2)));
-        if constexpr (std::is_same_v<Entry, Field> || std::is_same_v<Entry, Phased>) {
-            for (auto& child : value) draw(child);
-        } else {
-            Parameter each = p;
-            each.optional = false;
-            for (auto& v : value) fill<Node>(rng, v, each, depth);
-        }
-    }
+    detail::fill(rng, value, p, depth, NeedsBoundedChild<Node>);
 }
 
-template <class... Nodes, class F>
-void with_random_type(Random& rng, TypeList<Nodes...>, F&& f) {
-    int chosen = rng.below(static_cast<int>(sizeof...(Nodes)));
-    ((chosen-- == 0 ? f.template operator()<Nodes>() : void()), ...);
-}
-
-}  // namespace detail
-
-/// One random instance with this node at its root.
+/// One random instance with this node at its root: its kind's.
 template <class Node>
 auto random_rooted(Random& rng, int depth) {
-    using Handle = std::conditional_t<IsFieldNode<Node>, Field, Phased>;
-    for (int attempt = 0;; ++attempt) {
-        Node node;
-        // What a shallow tree never has, such as two phases, a deeper one has.
-        const int below = depth - 1 + attempt / 20;
-        for_each_parameter(node, [&](auto& value, const Parameter& p) { detail::fill<Node>(rng, value, p, below); });
-        if constexpr (IsEndlessGrid<Node>) {
-            // Copies must not touch. Small ones, so that several are near the origin.
-            const glm::vec3 extent = bounds(node.of).extent();
-            for (int i = 0; i < 3; ++i)
-                node.spacing[i] = i < 2 && rng.chance(0.3) ? 0.f : (extent[i] + 0.01f) * rng.uniform(1.02f, 1.8f);
-        }
-        try {
-            return Handle(node);
-        } catch (const ModelError&) {
-            if (attempt == 200) throw;
-        }
-    }
+    if constexpr (IsFieldNode<Node>)
+        return node_kinds()[index_in<Node>(FieldNodes())].field(rng, depth);
+    else
+        return node_kinds()[FieldNodes::size + index_in<Node>(PhasedNodes())].object(rng, depth);
 }
 
 }  // namespace phasetree::tests

@@ -8,25 +8,58 @@
 
 namespace phasetree::tests {
 
+namespace {
+
+template <class... Nodes, class F>
+void with_random_type(Random& rng, TypeList<Nodes...>, F&& f) {
+    int chosen = rng.below(static_cast<int>(sizeof...(Nodes)));
+    ((chosen-- == 0 ? f.template operator()<Nodes>() : void()), ...);
+}
+
+// One random instance with this node at its root.
+template <class Node>
+auto drawn(Random& rng, int depth) {
+    using Handle = std::conditional_t<IsFieldNode<Node>, Field, Phased>;
+    for (int attempt = 0;; ++attempt) {
+        Node node;
+        // What a shallow tree never has, such as two phases, a deeper one has.
+        const int below = depth - 1 + attempt / 20;
+        for_each_parameter(node, [&](auto& value, const Parameter& p) { fill<Node>(rng, value, p, below); });
+        if constexpr (IsEndlessGrid<Node>) {
+            // Copies must not touch. Small ones, so that several are near the origin.
+            const glm::vec3 extent = bounds(node.of).extent();
+            for (int i = 0; i < 3; ++i)
+                node.spacing[i] = i < 2 && rng.chance(0.3) ? 0.f : (extent[i] + 0.01f) * rng.uniform(1.02f, 1.8f);
+        }
+        try {
+            return Handle(node);
+        } catch (const ModelError&) {
+            if (attempt == 200) throw;
+        }
+    }
+}
+
+}  // namespace
+
 Field random_field(Random& rng, int depth) {
     Field result;
-    const auto make = [&]<class Node>() { result = random_rooted<Node>(rng, depth); };
+    const auto make = [&]<class Node>() { result = drawn<Node>(rng, depth); };
     if (depth <= 1)
-        detail::with_random_type(rng, phasetree::detail::OnlyPrimitives<PlainFields>::type(), make);
+        with_random_type(rng, phasetree::detail::OnlyPrimitives<PlainFields>::type(), make);
     else
-        detail::with_random_type(rng, FieldNodes(), make);
+        with_random_type(rng, FieldNodes(), make);
     return result;
 }
 
 Phased random_object(Random& rng, int depth) {
     Phased result;
-    const auto make = [&]<class Node>() { result = random_rooted<Node>(rng, depth); };
+    const auto make = [&]<class Node>() { result = drawn<Node>(rng, depth); };
     if (depth <= 1)
-        result = random_rooted<Set>(rng, 2);
+        result = drawn<Set>(rng, 2);
     else if (rng.chance(0.3))
-        result = random_rooted<Under>(rng, depth);  // else chains of unary nodes with one phase would prevail
+        result = drawn<Under>(rng, depth);  // else chains of unary nodes with one phase would prevail
     else
-        detail::with_random_type(rng, PhasedNodes(), make);
+        with_random_type(rng, PhasedNodes(), make);
     return result;
 }
 
@@ -36,13 +69,13 @@ std::span<const NodeKind> node_kinds() {
         for_each_type(FieldNodes(), [&]<class Node>() {
             all.push_back({Node::info.name, true,
                            [](Random& rng, int depth) -> Phased {
-                               return Set{.phase = Phase{1}, .of = random_rooted<Node>(rng, depth - 1)};
+                               return Set{.phase = Phase{1}, .of = drawn<Node>(rng, depth - 1)};
                            },
-                           [](Random& rng, int depth) { return random_rooted<Node>(rng, depth); }});
+                           [](Random& rng, int depth) { return drawn<Node>(rng, depth); }});
         });
         for_each_type(PhasedNodes(), [&]<class Node>() {
-            all.push_back({Node::info.name, false,
-                           [](Random& rng, int depth) { return random_rooted<Node>(rng, depth); }, nullptr});
+            all.push_back(
+                {Node::info.name, false, [](Random& rng, int depth) { return drawn<Node>(rng, depth); }, nullptr});
         });
         return all;
     }();

@@ -13,7 +13,8 @@
 #include <span>
 #include <string_view>
 
-#include "phasetree/tree/node.hpp"
+#include "phasetree/math/bounds.hpp"
+#include "phasetree/model/handle.hpp"
 
 namespace phasetree::tests {
 

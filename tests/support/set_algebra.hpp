@@ -15,7 +15,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "phasetree/tree/node.hpp"
+#include "phasetree/model/handle.hpp"
 
 namespace phasetree::tests {
 

@@ -3,6 +3,27 @@
 /// Scenes that the analytic roots know, and rays through them, of which a third look for trouble: axis-parallel ones,
 /// through junctions and corners, starting on interfaces, grazing them.
 
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/box.hpp"
+#include "phasetree/nodes/fields/capped_cone.hpp"
+#include "phasetree/nodes/fields/cylinder.hpp"
+#include "phasetree/nodes/fields/difference.hpp"
+#include "phasetree/nodes/fields/intersection.hpp"
+#include "phasetree/nodes/fields/plane.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/phased/change.hpp"
+#include "phasetree/nodes/phased/intersect_shape.hpp"
+#include "phasetree/nodes/phased/over.hpp"
+#include "phasetree/nodes/phased/remove.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/nodes/phased/subtract_shape.hpp"
+#include "phasetree/nodes/phased/thin_shell.hpp"
+#include "phasetree/nodes/phased/under.hpp"
+#include "phasetree/nodes/warps/rotate.hpp"
+#include "phasetree/nodes/warps/scale.hpp"
+#include "phasetree/nodes/warps/translate.hpp"
+#include "phasetree/nodes/warps/warped.hpp"
 #include "phasetree/trace/tracer.hpp"
 #include "support/random_tree.hpp"
 

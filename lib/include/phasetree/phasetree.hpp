@@ -9,5 +9,5 @@
 #include "phasetree/model/handle.hpp"
 #include "phasetree/program/program.hpp"
 #include "phasetree/trace/tracer.hpp"
-#include "phasetree/tree/node.hpp"
+#include "phasetree/nodes/list.hpp"
 #include "phasetree/version.hpp"

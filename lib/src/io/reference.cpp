@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "phasetree/tree/node.hpp"
+#include "tree/node.hpp"
 
 namespace phasetree {
 

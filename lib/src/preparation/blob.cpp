@@ -6,7 +6,7 @@
 #include <queue>
 #include <span>
 
-#include "phasetree/tree/node.hpp"
+#include "tree/node.hpp"
 #include "preparation/prepared_field.hpp"
 
 namespace phasetree {

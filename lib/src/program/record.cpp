@@ -5,7 +5,7 @@
 #include <unordered_map>
 
 #include "phasetree/program/program.hpp"
-#include "phasetree/tree/node.hpp"
+#include "tree/node.hpp"
 #include "program/op_traits.hpp"
 
 namespace phasetree {

@@ -4,7 +4,7 @@
 #include <unordered_set>
 
 #include "model/preparation.hpp"
-#include "phasetree/tree/node.hpp"
+#include "tree/node.hpp"
 
 namespace phasetree {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "phasetree/tree/node.hpp"
+#include "tree/node.hpp"
 
 namespace phasetree {
 

@@ -3,7 +3,10 @@
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/io/tree.hpp"
 #include "phasetree/math/float_mode.hpp"
-#include "phasetree/phasetree.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/siren.hpp"
+#include "phasetree/nodes/fields/siren_network.hpp"
+#include "phasetree/program/program.hpp"
 
 namespace phasetree::fuzz {
 

@@ -2,6 +2,7 @@
 
 /// Operators of plain fields.
 
+#include "tree/node.hpp"
 #include "support/set_algebra.hpp"
 
 namespace phasetree::tests::oracle {

@@ -1,4 +1,6 @@
 #include "command/commands.hpp"
+
+#include <CLI/CLI.hpp>
 #include "command/empty_object.hpp"
 #include "command/load.hpp"
 #include "command/streams.hpp"

@@ -1,5 +1,7 @@
 #include "command/commands.hpp"
 
+#include <CLI/CLI.hpp>
+
 namespace phasetree::tracer {
 
 void add_commands(CLI::App& app, Run& run) {

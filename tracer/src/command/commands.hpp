@@ -3,8 +3,11 @@
 // of `check` for a scene that is only a tree.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
+
+namespace CLI {
+class App;
+}
 
 namespace phasetree::tracer {
 

@@ -1,4 +1,6 @@
 #include "command/commands.hpp"
+
+#include <CLI/CLI.hpp>
 #include "command/streams.hpp"
 #include "phasetree/io/reference.hpp"
 

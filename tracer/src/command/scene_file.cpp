@@ -1,6 +1,7 @@
 #include "command/scene_file.hpp"
 
 #include <unistd.h>
+#include <CLI/CLI.hpp>
 
 #include <cerrno>
 #include <system_error>

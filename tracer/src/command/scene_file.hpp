@@ -1,12 +1,15 @@
 // Which scene a subcommand reads, and from where it may read files.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "phasetree/io/document.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace phasetree::tracer {
 

@@ -5,6 +5,8 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <typeinfo>
+#include <utility>
 
 #include "phasetree/math/bounds.hpp"
 #include "phasetree/math/vec3.hpp"
@@ -23,6 +25,13 @@ class ModelError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+namespace detail {
+/// Makes the content of a handle from the node that `node` points to, which is of the given type and is moved from. Only
+/// the library knows the variant over all nodes, so that a program which makes a few needs no other headers than theirs.
+std::shared_ptr<const FieldNode> make_field_node(const std::type_info& type, void* node);
+std::shared_ptr<const PhasedNode> make_phased_node(const std::type_info& type, void* node);
+}  // namespace detail
+
 /// A plain distance field: one 1-Lipschitz value in metres, negative inside. It is a cheap handle of an immutable tree,
 /// which copies share; any thread may read it. It is made from a node, `Field ball = Sphere{.radius = 2};`, and throws
 /// ModelError if a parameter of the node is out of its limits. A default-made handle is empty and means nothing.
@@ -31,7 +40,8 @@ class Field {
     Field() = default;
     template <class Node>
     requires requires { Node::is_field_node; }
-    Field(Node node);  // NOLINT: conversion intended
+    Field(Node node)  // NOLINT: conversion intended
+        : node_(detail::make_field_node(typeid(Node), &node)) {}
 
     explicit operator bool() const { return node_ != nullptr; }
     const FieldNode* node() const { return node_.get(); }
@@ -48,7 +58,8 @@ class Phased {
     Phased() = default;
     template <class Node>
     requires requires { Node::is_phased_node; }
-    Phased(Node node);  // NOLINT: conversion intended
+    Phased(Node node)  // NOLINT: conversion intended
+        : node_(detail::make_phased_node(typeid(Node), &node)) {}
 
     explicit operator bool() const { return node_ != nullptr; }
     const PhasedNode* node() const { return node_.get(); }

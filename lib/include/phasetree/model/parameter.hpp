@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <string>
 #include <string_view>
 
 namespace phasetree {
@@ -24,6 +25,11 @@ inline constexpr Limits positive{.low = 0, .low_open = true};
 inline constexpr Limits non_negative{.low = 0};
 inline constexpr Limits fraction{.low = 0, .high = 1};
 }  // namespace limits
+
+namespace detail {
+/// The limits as text for people: "positive", "at least 2 and less than 5".
+std::string describe(const Limits&);
+}  // namespace detail
 
 /// One parameter of a node, as the scene reader, the writer, the reference page and the checks see it. All of these are
 /// derived from the list that a node gives in a static function:
