@@ -104,8 +104,8 @@ HWY_INLINE BatchMask less(const Batch& a, const Batch& b) {
 HWY_INLINE Batch select(const BatchMask& m, const Batch& yes, const Batch& no) {
     return each([&](std::size_t i) { return hn::IfThenElse(m.m[i], yes.v[i], no.v[i]); });
 }
-// As in number.hpp these are a comparison and a choice. The instructions of x86 do exactly that; those of others may not
-// for equal or unordered operands.
+// As in number.hpp these are a comparison and a choice. The instructions of x86 do exactly that; those of others may
+// not for equal or unordered operands.
 HWY_INLINE Batch min(const Batch& a, const Batch& b) {
 #if HWY_ARCH_X86
     return each([&](std::size_t i) { return hn::Min(a.v[i], b.v[i]); });

@@ -7,9 +7,9 @@ namespace {
 // known.
 //
 // Within rounding of an interface labels mean little: between solids that abut there are slivers of other phases, and
-// along a face the label flickers. So a change counts only once it is decided: once s(p) is above rounding, or once there
-// was no place in the ray's phase for one and a half resolutions. Until then the ray stays in its phase. The bracket
-// goes from the last place in that phase to the first one in the phase that follows.
+// along a face the label flickers. So a change counts only once it is decided: once s(p) is above rounding, or once
+// there was no place in the ray's phase for one and a half resolutions. Until then the ray stays in its phase. The
+// bracket goes from the last place in that phase to the first one in the phase that follows.
 bool March::is_crossing(const Place& next, RayCrossing& result) {
     const float resolution = ray_.resolution;
     const auto is_decided = [&](const Place& p) {

@@ -48,8 +48,8 @@ struct PackedCertificateStep {
     bool operator==(const PackedCertificateStep&) const = default;
 };
 
-/// What a kernel runs. It has plain pointers, because kernels are compiled for several instruction sets and must not share
-/// inline functions of the standard library with other code, which may run on machines without these sets.
+/// What a kernel runs. It has plain pointers, because kernels are compiled for several instruction sets and must not
+/// share inline functions of the standard library with other code, which may run on machines without these sets.
 struct Routine {
     const Step* steps;
     const std::uint32_t* data;  ///< for each step, the index of its first constant
@@ -60,11 +60,11 @@ struct Routine {
     /// Which lower bound of the distance to a change of label is used where each component has a value of its own:
     /// minus the component of the label (true), or the smallest of the others (false).
     bool is_by_own = false;
-    /// Whether the first component alone tells where rays may be: there are two phases, or no ray is in any of the other
-    /// phases, because these are opaque.
+    /// Whether the first component alone tells where rays may be: there are two phases, or no ray is in any of the
+    /// other phases, because these are opaque.
     bool is_by_first = false;
-    /// The first `leading` steps compute the first component, which is enough for a ray that is in its phase; 0 if there
-    /// is no such number.
+    /// The first `leading` steps compute the first component, which is enough for a ray that is in its phase; 0 if
+    /// there is no such number.
     std::size_t leading = 0;
     /// A certificate that the first component stays negative, for where its curvature is not known; null if there is
     /// none.
@@ -88,7 +88,8 @@ struct Visit {
     float resolution;
     float carried;  ///< the phase that the ray is in; negative: the label at its start
     float rise;     ///< LeavingHint::rise, or no_leaving_hint
-    /// Where an unfinished search goes on: a place in the ray's phase, as a distance from where the search began; else 0.
+    /// Where an unfinished search goes on: a place in the ray's phase, as a distance from where the search began; else
+    /// 0.
     float from = 0;
 
     static constexpr float no_leaving_hint = -2;
@@ -96,12 +97,13 @@ struct Visit {
 
 /// The first change of label of a visit, as a Crossing. If there is none, only the counters are set.
 struct RayCrossing {
-    double start;       ///< the distance along the ray of the place where the search began
-    float origin[3];    ///< that place
-    float t_in, t_out;  ///< distances from that place
-    float from, to;     ///< phases
+    double start;                     ///< the distance along the ray of the place where the search began
+    float origin[3];                  ///< that place
+    float t_in, t_out;                ///< distances from that place
+    float from, to;                   ///< phases
     std::uint32_t batches, phantoms;  ///< see TraceCounters
-    /// The search was left unfinished: there is no change up to t_in, which is in the phase `from`. See trace/creep.hpp.
+    /// The search was left unfinished: there is no change up to t_in, which is in the phase `from`. See
+    /// trace/creep.hpp.
     bool is_unfinished;
     float length;  ///< of the piece of the ray that is searched
 };

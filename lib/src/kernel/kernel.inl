@@ -96,8 +96,8 @@ struct Placed {
     }
 };
 
-// Runs a step and then those behind it up to the end. Each step ends with a jump to the next one (threaded code), so that
-// there is no loop, and the processor learns which step follows which.
+// Runs a step and then those behind it up to the end. Each step ends with a jump to the next one (threaded code), so
+// that there is no loop, and the processor learns which step follows which.
 using Handler = void (*)(const Step*, const std::uint32_t* data, const float* constants, float* registers,
                          const Step* end);
 HWY_INLINE Handler handler(std::uint32_t op);

@@ -6,9 +6,9 @@
 
 namespace phasetree::kernel {
 
-/// A linear function that a cell's field f differs little from. Where two phases meet, f is negative in one and positive
-/// in the other. Where more phases meet, f is the value of the first component, whose sign may be negated, and the bound
-/// is used only for rays in the phase of that component.
+/// A linear function that a cell's field f differs little from. Where two phases meet, f is negative in one and
+/// positive in the other. Where more phases meet, f is the value of the first component, whose sign may be negated, and
+/// the bound is used only for rays in the phase of that component.
 ///     |f(p) − (normal·p + offset)| ≤ slack     for all p in the cell
 ///     |∂f/∂d − normal·d| ≤ spread              for all directions d of unit length
 /// The bounds include rounding. If the slack is infinite nothing is known but that f is 1-Lipschitz.
@@ -26,8 +26,8 @@ struct Curvature {
     static constexpr float unknown = Bounds::infinity;
 
     /// The bound in the phase of the first output, and that in the other phases. In the first phase s is minus the
-    /// first component if more than two phases meet. If no ray is in the other phases, because they are opaque, s is the
-    /// first component there.
+    /// first component if more than two phases meet. If no ray is in the other phases, because they are opaque, s is
+    /// the first component there.
     std::array<float, 2> bound{unknown, unknown};
     bool is_by_own = false;    ///< Routine::is_by_own in the other phases
     bool is_by_first = false;  ///< whether the first component gives s in all phases

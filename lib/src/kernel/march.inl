@@ -5,8 +5,8 @@
 // the gap between them prove it free of interfaces; that is one comparison for a whole frame. The first gap in doubt is
 // sampled again, at eight points inside it: evenly spread; or, where the label differs at its end, gathered around the
 // place where the distances predict the interface; or, where the ray starts on an interface, spread out geometrically
-// from there (places.inl). A gap no longer than the resolution is the crossing if the labels at its ends differ; else it
-// is passed.
+// from there (places.inl). A gap no longer than the resolution is the crossing if the labels at its ends differ; else
+// it is passed.
 //
 // A hit is a change of label, never a small distance: phantom zeros, where components vanish without a change, cost
 // samples but are never hits.
@@ -52,8 +52,8 @@ class March {
     }
     HWY_INLINE Classified sample_whole(const Batch& t) { return sample(t, true); }
 
-    // Samples a frame behind the place `from` and finds its gaps in doubt. Returns false, and leaves the frame as it is,
-    // if no sample lies strictly between `from` and `to`, because there is no float between them.
+    // Samples a frame behind the place `from` and finds its gaps in doubt. Returns false, and leaves the frame as it
+    // is, if no sample lies strictly between `from` and `to`, because there is no float between them.
     bool fill(Frame& f, const Batch& t, const Place& from, float to, bool is_whole = false) {
         const Classified c = sample(t, is_whole);
         if (!(bits(less(Batch(from.t), t)) & bits(less(t, Batch(to))))) return false;
@@ -110,14 +110,14 @@ class March {
         const float missing = gap * gap * half_curvature_ - a - b;
         return missing <= 0 || 4 * a * b >= missing * missing;
     }
-    // Whether the distances at a gap's ends, between which the label changes, tell to within a resolution where it does;
-    // if so, reports that. Let g be s at `here` and −s at `next`, a and b the distances, h the gap, and g″ between −2k′
-    // and 2k. Then
+    // Whether the distances at a gap's ends, between which the label changes, tell to within a resolution where it
+    // does; if so, reports that. Let g be s at `here` and −s at `next`, a and b the distances, h the gap, and g″
+    // between −2k′ and 2k. Then
     //     a − (a + b)t/h − k t(h − t) ≤ g(t) ≤ a − (a + b)t/h + k′t(h − t).
     // The left side is convex, so it is above its tangent at the chord's zero r; the right side is concave, so it is
     // below its tangent there. So the label is that of `here` up to r − e, where e is k r(h − r), the left side's
-    // distance below the chord, over its tangent's slope (a + b)/h + k(h − 2r). From r + e′ on it is another one: that of
-    // `next`, if no third component vanishes on the way there. `next` is a lane of the last batch of samples.
+    // distance below the chord, over its tangent's slope (a + b)/h + k(h − 2r). From r + e′ on it is another one: that
+    // of `next`, if no third component vanishes on the way there. `next` is a lane of the last batch of samples.
     bool is_located(const Place& next, int lane, RayCrossing& c) const {
         if (!can_locate_ || next.label == another_phase) return false;
         const auto value = [&](const OutputSlot& o) {

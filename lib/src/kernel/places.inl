@@ -52,10 +52,10 @@ HWY_INLINE Batch spread_from_interface(float high, float smallest) {
     return ending_at(select(less(lanes(), Batch(0.5f)), Batch(0.f), t), high);
 }
 
-// Places from `low` on, in steps that the distance from an interface is expected to cover. It is s at `low` and grows by
-// `slope` for each unit of length. The balls at both ends cover a step d if d ≤ s + (s + slope·d); steps are a tenth
-// shorter, in case the distance does not grow linearly. From step to step s grows by the same factor, so the ends of the
-// steps are a geometric sum.
+// Places from `low` on, in steps that the distance from an interface is expected to cover. It is s at `low` and grows
+// by `slope` for each unit of length. The balls at both ends cover a step d if d ≤ s + (s + slope·d); steps are a tenth
+// shorter, in case the distance does not grow linearly. From step to step s grows by the same factor, so the ends of
+// the steps are a geometric sum.
 HWY_INLINE Batch spread_growing(float low, float high, float s, float slope) {
     const float growth = 1.8f / (1.f - 0.9f * slope);
     float factor = 1.f + slope * growth;
@@ -85,8 +85,8 @@ HWY_INLINE Batch gather_around(float root, float low, float high, float smallest
     return has_low ? select(less(lanes(), Batch(0.5f)), Batch(low), t) : t;
 }
 
-// Predicts where the label changes between two places, from the distances at both, and from those at one place before and
-// one after if their labels are the same as at the end next to them.
+// Predicts where the label changes between two places, from the distances at both, and from those at one place before
+// and one after if their labels are the same as at the end next to them.
 HWY_INLINE float predicted_root(const Place& here, const Place& next, const Place& before, const Place& after) {
     const float gap = next.t - here.t, sum = here.distance + next.distance;
     if (!(sum > 0)) return here.t + 0.5f * gap;

@@ -18,8 +18,8 @@ bool March::find(RayCrossing& result) {
     return search_gaps(frames, depth, is_aligned, result);
 }
 
-// Samples the whole segment, and sets `here` to its start and what is known of the ray's phase. Returns whether a gap is
-// in doubt.
+// Samples the whole segment, and sets `here` to its start and what is known of the ray's phase. Returns whether a gap
+// is in doubt.
 HWY_INLINE bool March::start(Frame& f) {
     for (;;) {
         const bool is_curvature_known = ray_.curvature[routine_.outputs[0].phase == ray_.carried ? 0 : 1] < 1e30f;

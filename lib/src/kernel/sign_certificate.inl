@@ -41,7 +41,7 @@ HWY_INLINE Gaps gaps_between(const Batch& t, float rounding) {
 // Bit i tells whether the leaf is proven to be positive in the gap that ends at lane i. It is never set for the first
 // lane, where a is 0.
 HWY_INLINE std::uint32_t certified_by_leaf(const PackedCertificateStep& s, bool is_turned, const float* registers,
-                                        const Gaps& gaps) {
+                                           const Gaps& gaps) {
     const float factor = float_of_half(s.factor);
     const float up = float_of_half(is_turned ? s.down : s.up), down = float_of_half(is_turned ? s.up : s.down);
     const Batch zero(0.f), one(1.f), unknown(1e30f);
@@ -65,9 +65,10 @@ HWY_INLINE std::uint32_t certified_by_leaf(const PackedCertificateStep& s, bool 
     return free & bits(less(zero, min(a, b)));
 }
 
-// Bit i tells whether the first component is proven to keep its sign in the gap that ends at lane i: the sign that it has
-// in the phase of the first output, or, if `is_turned`, in the other phase.
-std::uint32_t certified_gaps(const Routine& routine, bool is_turned, const float* registers, const Batch& t, float rounding) {
+// Bit i tells whether the first component is proven to keep its sign in the gap that ends at lane i: the sign that it
+// has in the phase of the first output, or, if `is_turned`, in the other phase.
+std::uint32_t certified_gaps(const Routine& routine, bool is_turned, const float* registers, const Batch& t,
+                             float rounding) {
     const Gaps gaps = gaps_between(t, rounding);
     std::uint32_t stack[most_certificate_steps];
     std::uint32_t* top = stack;

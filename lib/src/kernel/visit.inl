@@ -1,6 +1,6 @@
-// A ray's visit to a cell: where the ray is inside the cell's box, what the field's linear bound leaves of that, and the
-// search there. It is part of the kernel, because what comes before a search takes as long as the search. Included by
-// kernel.inl.
+// A ray's visit to a cell: where the ray is inside the cell's box, what the field's linear bound leaves of that, and
+// the search there. It is part of the kernel, because what comes before a search takes as long as the search. Included
+// by kernel.inl.
 
 namespace phasetree::kernel::HWY_NAMESPACE {
 namespace {
@@ -86,7 +86,8 @@ class Approach {
     HWY_INLINE bool enter_slab() {
         const LinearBound& bound = *visit_.bound;
         if (!(bound.slack < 3.402823466e38f && (routine_.output_count == 2 || is_in_first_))) return true;
-        // Along the ray the field is within the slack of value + rise·t. Where that excludes zero there is no interface.
+        // Along the ray the field is within the slack of value + rise·t. Where that excludes zero there is no
+        // interface.
         const auto& direction = ray_.direction;
         const float value = bound.normal.x * x_ + bound.normal.y * y_ + bound.normal.z * z_ + bound.offset;
         const float rise = bound.normal.x * direction.x + bound.normal.y * direction.y + bound.normal.z * direction.z;
