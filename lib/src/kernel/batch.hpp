@@ -3,7 +3,6 @@
 #pragma once
 
 #include <hwy/highway.h>
-
 #include <cstring>
 
 #include "phasetree/math/number.hpp"

@@ -1,7 +1,6 @@
 #include "program/instruction_list.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 #include <cstring>

@@ -17,8 +17,8 @@ void mix(std::size_t& hash, std::size_t value) {
     hash ^= hash >> 29;
 }
 
-/// Of a box's sides, those of the tighter box that are tighter by a hundredth of its size: a side that differs only as
-/// the two are rounded stays where it is.
+// A box with those sides of a tighter box that are tighter by more than a hundredth of its size. Other sides stay where
+// they are, so that rounding does not move them.
 Bounds tightened(const Bounds& box, const Bounds& tighter) {
     if (tighter.empty()) return {};
     Bounds result = box;
@@ -59,11 +59,11 @@ struct BoundsQuery::Memory {
     };
     std::unordered_map<Key, Bounds, Hash> boxes;
     std::unordered_map<DirectedKey, Bounds, Hash> directed;
-    std::unordered_map<const void*, std::unordered_set<float>> levels;  ///< that each node was asked for
-    std::size_t asked = 0;                                              ///< by directions
+    std::unordered_map<const void*, std::unordered_set<float>> levels;  // for which each node was asked
+    std::size_t asked = 0;  // the number of subtrees that were asked by directions
 
-    /// A tree of offsets of shared subtrees can ask exponentially many levels. Past some, they are rounded up to a few:
-    /// the box of a higher level holds that of a lower one.
+    // The level for which a node is asked. A tree of offsets of shared subtrees can ask for exponentially many levels,
+    // so beyond the first few they are rounded up to few numbers: the box of a higher level contains that of a lower.
     float usual(const void* node, float level) {
         std::unordered_set<float>& known = levels[node];
         if (known.contains(level)) return level;
@@ -80,7 +80,7 @@ struct BoundsQuery::Memory {
 BoundsQuery::BoundsQuery() : memory_(std::make_unique<Memory>()) {}
 BoundsQuery::~BoundsQuery() = default;
 
-/// With a margin for rounding: coordinates are rounded along each direction by what they are along all.
+// The box of six supports, with a margin for rounding, which grows with the largest of them.
 Bounds BoundsQuery::gathered(const Reaches& reach) {
     double largest = 0;
     for (const double r : reach)
@@ -108,7 +108,7 @@ Bounds BoundsQuery::moved(const Bounds& box, const Reaches& more) {
 Bounds BoundsQuery::placed(const Bounds& box) const {
     if (is_by_boxes()) return box;
     if (box.empty()) return {};
-    // A side at infinity matters only along directions that are not across it.
+    // A side at infinity counts only for directions that are not parallel to it.
     Reaches reach{};
     for (std::size_t k = 0; k < reach.size(); ++k) {
         for (int i = 0; i < 3; ++i) {
@@ -121,7 +121,7 @@ Bounds BoundsQuery::placed(const Bounds& box) const {
 
 template <class Handle>
 Bounds BoundsQuery::by_boxes(const Handle& handle, float level) {
-    // Nodes ask when they are made, too, each anew; a question is about so many steps.
+    // Nodes also ask when they are made, each with a new query. A question costs about so many steps.
     PreparationTogether::pay("bounds", 60);
     const typename Memory::Key key{handle.node(), memory_->usual(handle.node(), level)};
     if (const auto found = memory_->boxes.find(key); found != memory_->boxes.end()) return found->second;

@@ -1,7 +1,6 @@
 // The variants that hold a node of a tree, and the functions that are derived from a node's list of parameters.
 #pragma once
 
-
 #include "phasetree/nodes/list.hpp"
 
 namespace phasetree {
