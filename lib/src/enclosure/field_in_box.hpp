@@ -10,7 +10,7 @@
 
 namespace phasetree::enclosure {
 
-/// What is proven of a field in a box, except for the rounding of doubles.
+/// Proven bounds of a field in a box, except for the rounding of doubles.
 struct FieldInBox {
     double value = 0;                  ///< at the box's centre
     std::array<double, 3> gradient{};  ///< at the box's centre
@@ -19,7 +19,7 @@ struct FieldInBox {
     Range values = Range::all();       ///< what is known of the value beyond what follows from the gradients
 };
 
-/// Where the point may be at which a field is evaluated, when its coordinates are known as enclosures.
+/// The region in which the point lies at which a field is evaluated, when its coordinates are known as enclosures.
 struct Region : PointRange {
     std::array<const Enclosure*, 3> x;
 

@@ -23,7 +23,7 @@ struct Step {
     bool operator==(const Step&) const = default;
 };
 
-/// Where a component is found after the steps have run: it is sign (1 or −1) times the slot's value.
+/// The place of a component after the steps have run: it is sign (1 or −1) times the slot's value.
 struct OutputSlot {
     std::uint32_t slot;
     float phase;
@@ -108,7 +108,7 @@ struct RayCrossing {
     float length;  ///< of the piece of the ray that is searched
 };
 
-/// How many numbers a neuron has in network_layer(), and the first of those that are error bounds.
+/// The number of doubles of a neuron in network_layer(), and the index of the first of those that are error bounds.
 inline constexpr std::size_t network_lanes = 24, absolute_lane = 20;
 
 /// The functions that are compiled once for each instruction set. Arrays of points have batch_size floats for each

@@ -1,4 +1,5 @@
-// The interpreter, compiled once for each instruction set with that set's compiler flags (see lib/CMakeLists.txt).
+// The interpreter of routines. This file is compiled once for each instruction set, with that set's compiler flags (see
+// lib/CMakeLists.txt).
 // The including file names the kernel: #define PHASETREE_KERNEL kernel_avx2
 #define HWY_COMPILE_ONLY_STATIC
 #include <cstring>

@@ -1,4 +1,4 @@
-// Where along a ray to sample, eight places at a time. Included by kernel.inl.
+// The places along a ray that are sampled, eight at a time. Included by kernel.inl.
 
 namespace phasetree::kernel::HWY_NAMESPACE {
 namespace {

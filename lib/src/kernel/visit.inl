@@ -117,7 +117,7 @@ class Approach {
         return true;
     }
 
-    // What is left.
+    // The piece of the ray that is left.
     HWY_INLINE RaySegment segment() const {
         return {{x_, y_, z_},
                 {ray_.direction.x, ray_.direction.y, ray_.direction.z},
@@ -131,7 +131,7 @@ class Approach {
                 is_monotone_,
                 on_interface_ && visit_.from == 0};
     }
-    // The distance along the ray at which the segment starts.
+    // The distance along the ray at which that piece starts.
     HWY_INLINE double start() const { return span_.low; }
 
   private:

@@ -9,7 +9,7 @@ namespace phasetree {
 
 namespace {
 
-// How far a site may be from where it is computed here, in cubes, because values are computed in floats.
+// The error of positions, in cubes: here they are doubles, but values are computed with floats.
 double margin(const std::array<double, 3>& p) {
     return 1e-3 + 1e-5 * (std::abs(p[0]) + std::abs(p[1]) + std::abs(p[2]));
 }

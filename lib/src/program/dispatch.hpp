@@ -1,4 +1,4 @@
-// From an operation's number to the type of its primitive, and from an instruction's floats to its values.
+// The ways from the number of an operation to the type of its primitive, and from an instruction's floats to a struct.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
-// How finely an object can be traced. A coordinate has an error of half a unit in the last place, which is at most
-// 6·10⁻⁸ of the largest one; a field's value has an error of a few such units of the coordinates that it depends on.
+// The resolution at which an object can be traced. A coordinate has an error of half a unit in the last place, which is
+// at most 6·10⁻⁸ of the largest one; a field's value has an error of a few such units of the coordinates that it
+// depends on.
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>

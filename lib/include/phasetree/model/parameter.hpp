@@ -49,7 +49,7 @@ struct Parameter {
     bool one_for_all = false;
 };
 
-/// How a node is described in the reference.
+/// The description of a node in the reference.
 struct NodeInfo {
     std::string_view name;
     std::string_view section;  ///< of the paper; empty for the standard vocabulary of distance fields

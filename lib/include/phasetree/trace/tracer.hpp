@@ -9,7 +9,7 @@
 
 namespace phasetree {
 
-/// What is found out about an object before it is traced.
+/// The bounds and the resolution with which an object is traced.
 struct TraceableObject {
     Bounds bounds;         ///< of the object, with a margin of a few resolutions of vacuum
     float resolution = 0;  ///< in metres

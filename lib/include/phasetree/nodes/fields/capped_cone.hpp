@@ -49,7 +49,7 @@ struct CappedCone {
         // A point is inside if and only if it is within the slab and on the axis' side of the slanted line.
         const T side = max(cap_z, qx * -ez + qz * ex);
         const T d = sqrt(min(to_cap, to_side));
-        // Where the side is nearest, and not its ends, it is a plane in ρ and z.
+        // Where the inside of the side is nearest, and not one of its ends, the distance is linear in ρ and z.
         return also_known_as(select(less(side, zero), -d, d), [&](const auto& certainly) {
             const bool is_side = certainly(less(cap_z, zero)) && certainly(less(to_side, to_cap)) &&
                                  certainly(less(zero, s)) && certainly(less(s, T(1.f)));
