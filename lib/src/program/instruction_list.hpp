@@ -31,7 +31,9 @@ class InstructionList {
   private:
     bool is_same(std::uint32_t value, Op op, std::uint32_t a, std::uint32_t b, std::span<const float> constants) const;
 
-    static constexpr std::size_t most_work_for_one = 16, most_constants = std::size_t{1} << 28;
+    /// A program of the largest size takes at most so many steps of work for each instruction.
+    static constexpr std::size_t most_work_for_one = 16;
+    static constexpr std::size_t most_constants = std::size_t{1} << 28;
 
     Program& program_;
     std::size_t limit_, work_ = 0;
