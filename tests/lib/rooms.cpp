@@ -18,7 +18,7 @@ namespace {
 const fs::path library = fs::path(source_directory()) / "lib";
 const fs::path public_half = library / "include" / "phasetree", private_half = library / "src";
 
-/// The lines of a file.
+// The lines of a file.
 std::vector<std::string> lines_of(const fs::path& file) {
     std::ifstream in(file);
     REQUIRE_MESSAGE(in.good(), file);
@@ -27,7 +27,7 @@ std::vector<std::string> lines_of(const fs::path& file) {
     return lines;
 }
 
-/// The first words of the lines of a block ```name in lib/README.md.
+// The first words of the lines of a block ```name in lib/README.md.
 std::vector<std::string> words_of_block(const std::string& name) {
     std::vector<std::string> words;
     bool is_inside = false;
@@ -44,7 +44,7 @@ std::vector<std::string> words_of_block(const std::string& name) {
     return words;
 }
 
-/// What a file includes in quotes, as it is written.
+// What a file includes in quotes, as it is written.
 std::vector<std::string> includes_of(const fs::path& file) {
     std::vector<std::string> found;
     const std::string start = "#include \"";
@@ -53,7 +53,7 @@ std::vector<std::string> includes_of(const fs::path& file) {
     return found;
 }
 
-/// The room of a path relative to one of the halves, or of an include; empty for a file that is in none.
+// The room of a path relative to one of the halves, or of an include; empty for a file that is in none.
 std::string room_of(std::string path) {
     if (path.starts_with("phasetree/")) path = path.substr(std::string("phasetree/").size());
     const std::size_t slash = path.find('/');
@@ -76,8 +76,9 @@ TEST_CASE("every room of the library is drawn, and every drawn room is there") {
     for (const fs::path& half : {public_half, private_half})
         for (const fs::path& file : files_below(half)) there.insert(room_of(file.lexically_relative(half).string()));
     there.erase("");
-    CHECK(std::set<std::string>(drawn.begin(), drawn.end()) == there);
-    CHECK(drawn.size() == there.size());
+    for (const std::string& room : drawn) CHECK_MESSAGE(there.contains(room), room << " is drawn but is not there");
+    for (const std::string& room : there)
+        CHECK_MESSAGE(std::ranges::count(drawn, room) == 1, room << " is there but is not drawn once");
 }
 
 TEST_CASE("a file includes only what is in its own room or in a room that is drawn before") {
@@ -93,7 +94,7 @@ TEST_CASE("a file includes only what is in its own room or in a room that is dra
             for (const std::string& include : includes_of(file)) {
                 if (include == "phasetree/version.hpp") continue;
                 const std::string target = room_of(include);
-                INFO(name << " includes \"" << include << '"');
+                INFO(name << " includes \"" << include << "\"");
                 CHECK_MESSAGE(position(target) < static_cast<std::ptrdiff_t>(drawn.size()),
                               "it must name a file of a room by its path");
                 CHECK_MESSAGE(position(target) <= position(room), "room " << target << " comes after " << room);
