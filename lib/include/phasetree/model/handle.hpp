@@ -26,8 +26,9 @@ class ModelError : public std::runtime_error {
 };
 
 namespace detail {
-/// Makes the content of a handle from the node that `node` points to, which is of the given type and is moved from. Only
-/// the library knows the variant over all nodes, so that a program which makes a few needs no other headers than theirs.
+/// Makes the content of a handle from the node that `node` points to, which is of the given type and is moved from.
+/// Only the library knows the variant over all nodes, so that a program which makes a few needs no other headers than
+/// theirs.
 std::shared_ptr<const FieldNode> make_field_node(const std::type_info& type, void* node);
 std::shared_ptr<const PhasedNode> make_phased_node(const std::type_info& type, void* node);
 }  // namespace detail
