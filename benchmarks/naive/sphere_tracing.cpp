@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "phasetree/tree/walk.hpp"
+#include "tree/walk.hpp"
 
 namespace phasetree::bench {
 

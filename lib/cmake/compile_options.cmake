@@ -52,7 +52,7 @@ if(PHASETREE_FUZZ)
 endif()
 
 # How often each line of these folders runs, for gcov: see tests/coverage.sh. All else is compiled as ever.
-set(PHASETREE_COVERAGE "" CACHE STRING "Folders whose lines are counted: lib/src/reading;tracer/src/scene …")
+set(PHASETREE_COVERAGE "" CACHE STRING "Folders whose lines are counted: lib/src/io;tracer/src/scene …")
 if(PHASETREE_COVERAGE)
     add_link_options(--coverage)
 endif()

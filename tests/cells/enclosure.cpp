@@ -6,12 +6,12 @@
 
 #include "bounding/convex_in_box.hpp"
 #include "enclosure/difference.hpp"
-#include "phasetree/math/dual.hpp"
+#include "math/dual.hpp"
 #include "phasetree/model/concepts.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/nodes/copies/endless_grid.hpp"
-#include "phasetree/tree/node.hpp"
-#include "phasetree/tree/walk.hpp"
+#include "tree/node.hpp"
+#include "tree/walk.hpp"
 #include "support/random_tree.hpp"
 
 using namespace phasetree;

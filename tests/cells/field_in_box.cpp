@@ -8,7 +8,7 @@
 #include <glm/matrix.hpp>
 
 #include "enclosure/value_noise.hpp"
-#include "phasetree/math/dual.hpp"
+#include "math/dual.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/nodes/fields/fractal_noise.hpp"
 #include "support/compared_crossings.hpp"

@@ -6,10 +6,9 @@
 #include <doctest/doctest.h>
 
 #include "phasetree/io/document.hpp"
-#include "phasetree/tree/node.hpp"
-
-#include "phasetree/tree/node.hpp"
+#include "phasetree/model/handle.hpp"
 #include "source_directory.hpp"
+#include "tree/node.hpp"
 
 using namespace phasetree;
 

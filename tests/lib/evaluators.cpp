@@ -5,7 +5,7 @@
 #include <bit>
 
 #include "phasetree/evaluation/evaluator.hpp"
-#include "phasetree/math/dual.hpp"
+#include "math/dual.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/program/program.hpp"
 #include "support/dual_distances.hpp"

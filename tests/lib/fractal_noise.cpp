@@ -1,7 +1,7 @@
 // Fractal noise equals its definition by whole numbers, is 1-Lipschitz as claimed, and the claim is sharp.
 #include <doctest/doctest.h>
 
-#include "phasetree/math/dual.hpp"
+#include "math/dual.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/nodes/fields/displace.hpp"
 #include "phasetree/nodes/fields/fractal_noise.hpp"

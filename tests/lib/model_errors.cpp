@@ -6,11 +6,11 @@
 
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/io/write.hpp"
-#include "phasetree/math/dual.hpp"
+#include "math/dual.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/program/program.hpp"
 #include "phasetree/trace/tracer.hpp"
-#include "phasetree/tree/node.hpp"
+#include "tree/node.hpp"
 #include "support/dual_distances.hpp"
 #include "support/random_node.hpp"
 

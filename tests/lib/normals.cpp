@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "phasetree/math/dual.hpp"
+#include "math/dual.hpp"
 #include "phasetree/math/float_mode.hpp"
 #include "phasetree/model/concepts.hpp"
 #include "phasetree/model/crossing.hpp"

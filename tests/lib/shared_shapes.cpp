@@ -6,7 +6,7 @@
 #include "phasetree/io/write.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/program/program.hpp"
-#include "phasetree/tree/node.hpp"
+#include "tree/node.hpp"
 #include "support/random_node.hpp"
 
 using namespace phasetree;

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "phasetree/math/dual.hpp"
+#include "math/dual.hpp"
 #include "phasetree/math/number.hpp"
 #include "support/random_tree.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "phasetree/tree/node.hpp"
+#include "tree/node.hpp"
 #include "support/set_algebra.hpp"
 #include "support/set_algebra/transforms.hpp"
 

@@ -1,6 +1,6 @@
 #include "support/dual_distances.hpp"
 
-#include "phasetree/tree/walk.hpp"
+#include "tree/walk.hpp"
 
 namespace phasetree::tests {
 

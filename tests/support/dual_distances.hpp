@@ -1,6 +1,6 @@
 #pragma once
 
-#include "phasetree/math/dual.hpp"
+#include "math/dual.hpp"
 #include "phasetree/model/handle.hpp"
 
 namespace phasetree::tests {

@@ -3,7 +3,7 @@
 /// How a node of a given type is drawn, and what the tests over all nodes ask of its type. The drawing itself is
 /// compiled once, in random_tree.cpp.
 
-#include "phasetree/tree/node.hpp"
+#include "tree/node.hpp"
 #include "support/random_tree.hpp"
 #include "support/random_value.hpp"
 

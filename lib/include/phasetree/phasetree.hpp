@@ -1,12 +1,13 @@
+// PhaseTree: multiphase signed distance fields. This header has the nodes of trees, programs, tracing and cells. Files
+// of cells are in phasetree/cells/file.hpp, scene files in phasetree/io, Embree's geometry in
+// phasetree/phasetree_embree.h.
 #pragma once
-
-/// PhaseTree: multiphase signed distance fields. This header is the model, its program and tracing; scene files are in
-/// phasetree/io, Embree geometry in phasetree/phasetree_embree.hpp.
 
 #include "phasetree/cells/cells.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/math/float_mode.hpp"
 #include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/list.hpp"
 #include "phasetree/program/program.hpp"
 #include "phasetree/trace/tracer.hpp"
-#include "phasetree/tree/node.hpp"
 #include "phasetree/version.hpp"

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "enclosure/length.hpp"
-#include "phasetree/math/dual.hpp"
+#include "math/dual.hpp"
 #include "phasetree/model/concepts.hpp"
 
 /// The distance to a rounded convex solid in a box, by its value and gradient at the centre alone. If a ball of radius

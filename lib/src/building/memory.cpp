@@ -10,7 +10,7 @@
 #include <limits>
 #include <string>
 
-#include "phasetree/cells/cells.hpp"
+#include "phasetree/building/options.hpp"
 
 namespace phasetree {
 

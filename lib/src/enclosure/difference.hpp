@@ -7,9 +7,9 @@
 
 namespace phasetree::enclosure {
 
-/// What a − b is at least in a box of these half extents, by their gradients' ranges or by the gradients at the centre
-/// and how both bend from there on. Of solids that continue each other the gradients are nearly the same, and the
-/// difference is known far better than either value.
+/// A lower bound of a − b in a box of the given half extents. It is the better of two: by the ranges of the gradients,
+/// and by the gradients at the centre with the bounds of curvature. Where one solid continues another their gradients
+/// are nearly the same, so that the difference is known far better than either value.
 inline double least_difference(const Enclosure& a, const Enclosure& b, const Enclosure::Vector& half) {
     double by_gradient = 0, by_bend = 0, squared_half = 0;
     for (std::size_t i = 0; i < 3; ++i) {

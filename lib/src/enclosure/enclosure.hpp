@@ -1,6 +1,5 @@
+// Interval arithmetic with gradients and curvatures: a number type as those of phasetree/math/number.hpp.
 #pragma once
-
-/// Interval arithmetic with gradients and curvature: a number type as the others (number.hpp).
 
 #include "enclosure/functions.hpp"    // IWYU pragma: export
 #include "enclosure/length.hpp"       // IWYU pragma: export

@@ -10,16 +10,16 @@
 
 namespace phasetree::enclosure {
 
-/// What a field does in a box: proven, but for the rounding of doubles.
+/// Proven bounds of a field in a box, except for the rounding of doubles.
 struct FieldInBox {
     double value = 0;                  ///< at the box's centre
-    std::array<double, 3> gradient{};  ///< there
+    std::array<double, 3> gradient{};  ///< at the box's centre
     std::array<Range, 3> gradients{};  ///< anywhere in the box
-    Range curvature{};                 ///< of d²f/dt² along straight lines of unit speed
-    Range values = Range::all();       ///< what else is known of the value
+    Range curvature{};                 ///< d²f/dt² along straight lines of unit speed
+    Range values = Range::all();       ///< what is known of the value beyond what follows from the gradients
 };
 
-/// Where a point may be that a field is given.
+/// The region in which the point lies at which a field is evaluated, when its coordinates are known as enclosures.
 struct Region : PointRange {
     std::array<const Enclosure*, 3> x;
 
@@ -29,16 +29,18 @@ struct Region : PointRange {
             reach[i] = std::max(x[i]->value.high - centre[i], centre[i] - x[i]->value.low);
         }
     }
+    /// The largest absolute value of a coordinate.
     double farthest() const {
         return std::max({x[0]->value.magnitude(), x[1]->value.magnitude(), x[2]->value.magnitude()});
     }
+    /// The centre.
     Vec3<float> point() const {
         return {static_cast<float>(centre[0]), static_cast<float>(centre[1]), static_cast<float>(centre[2])};
     }
 };
 
-/// What a field that is known where its point may be is as a function of the box's points. Along a line
-/// (f∘q)″ = q′ᵀf″q′ + f′·q″.
+/// The enclosure of f(q), where f is known in the region of q, and q is known as a function of the box's points. Along
+/// a line (f∘q)″ = q′ᵀf″q′ + f′·q″.
 inline Enclosure enclose(const FieldInBox& f, const Region& at) {
     Enclosure e;
     e.centre = f.value;

@@ -9,8 +9,8 @@
 
 namespace phasetree::enclosure {
 
-/// As the template, whose seams are none: with h(δ) = |δ|/2 + r/6·max(1 − |δ|/r, 0)³ for δ = b − a it is (a + b)/2 −
-/// h(δ), and 0 ≤ h″ ≤ max(1 − |δ|/r, 0)/r.
+/// The template's minimum and maximum look like seams, but the sum has none: for δ = b − a it is (a + b)/2 − h(δ) with
+/// h(δ) = |δ|/2 + r/6·max(1 − |δ|/r, 0)³, and 0 ≤ h″ ≤ max(1 − |δ|/r, 0)/r.
 inline Enclosure smooth_min(const Enclosure& a, const Enclosure& b, float r) {
     const Enclosure apart = b - a;
     Enclosure s = phasetree::smooth_min<Enclosure>(a, b, r);
@@ -24,7 +24,8 @@ inline Enclosure smooth_min(const Enclosure& a, const Enclosure& b, float r) {
     return s;
 }
 
-/// As the template: φ(x) = (1 − x²)³ for x = d/R in [0, 1] has φ″ = (1 − u)(30u − 6) with u = x², from −6 to 4.8.
+/// The curvature follows from the falloff's own derivatives: φ(x) = (1 − x²)³ for x = d/R in [0, 1] has
+/// φ″ = (1 − u)(30u − 6) with u = x², from −6 to 4.8.
 inline Enclosure falloff(const Enclosure& d, float reach) {
     Enclosure f = phasetree::falloff<Enclosure>(d, reach);
     const double k = 1 / static_cast<double>(reach);
@@ -50,8 +51,8 @@ inline Enclosure falloff(const Enclosure& d, float reach) {
 }
 
 namespace detail {
-/// Of a convex function that grows with each of these and is 1-Lipschitz in them: its derivatives by them are weights
-/// from 0 to 1.
+/// Improves the enclosure of a convex function of the numbers x that grows with each of them and is 1-Lipschitz: its
+/// derivatives by them are weights from 0 to 1.
 inline Enclosure convex_combination(Enclosure f, std::initializer_list<const Enclosure*> x) {
     double sum = 0;
     for (const Enclosure* e : x) sum += std::min(e->curvature.low, 0.0) * std::min(e->curvature.low, 0.0);
@@ -66,8 +67,9 @@ inline Enclosure convex_combination(Enclosure f, std::initializer_list<const Enc
 }
 }  // namespace detail
 
-/// Where one of them is never positive, it is the larger of it and the others' corner, by the template's equation. And
-/// it is convex: outside the largest sum of the two, weighted by a vector of unit length without negative components.
+/// Where one operand is never positive, the result is the maximum of it and the corner of the others, by the template's
+/// equation. And the function is convex: outside it is the largest sum of its operands weighted by a vector of unit
+/// length without negative components.
 inline Enclosure corner(const Enclosure& a, const Enclosure& b) {
     if (a.value.high <= 0 || b.value.high <= 0) return max(a, b);
     return detail::convex_combination(phasetree::corner<Enclosure>(a, b), {&a, &b});
@@ -79,7 +81,7 @@ inline Enclosure corner(const Enclosure& a, const Enclosure& b, const Enclosure&
     return detail::convex_combination(phasetree::corner<Enclosure>(a, b, c), {&a, &b, &c});
 }
 
-/// Slopes agree on the seam, so it bends nothing.
+/// The slopes of both operands agree on the seam, so the seam adds no curvature.
 inline Enclosure select_smoothly(const Decision& d, const Enclosure& yes, const Enclosure& no) {
     Enclosure r = select(d, yes, no);
     r.set_curvature(!d.can_be_false  ? yes.curvature
@@ -88,7 +90,7 @@ inline Enclosure select_smoothly(const Decision& d, const Enclosure& yes, const 
     return r;
 }
 
-/// Where a comparison is decided there is only one branch.
+/// Where a comparison is decided for the whole box only one branch is evaluated.
 template <class Yes, class No>
 Enclosure choose_smoothly(const Decision& d, const Yes& yes, const No& no) {
     if (!d.can_be_false) return yes();
@@ -102,7 +104,7 @@ Enclosure also_known_as(const Enclosure& f, const Other& other) {
     return is_certain ? g : f;
 }
 
-/// A squared distance to a convex set is convex, and no more curved than that to a point.
+/// The squared distance to a convex set is convex, and no more curved than that to a point.
 inline Enclosure squared_distance_to_segment(const Vec3<Enclosure>& q, const glm::vec3& along, float inverse) {
     Enclosure r = phasetree::squared_distance_to_segment<Enclosure>(q, along, inverse);
     const std::array<const Enclosure*, 3> x{&q.x, &q.y, &q.z};
@@ -112,7 +114,8 @@ inline Enclosure squared_distance_to_segment(const Vec3<Enclosure>& q, const glm
     return r;
 }
 
-/// A 1-Lipschitz function that is convex in q falls off a straight line only as q does.
+/// Improves the enclosure of a 1-Lipschitz function that is convex in q: its curvature is negative only as far as q
+/// itself curves.
 inline Enclosure known_to_be_convex(Enclosure f, const Vec3<Enclosure>& q) {
     const double aside = detail::curvature_of<3>({&q.x, &q.y, &q.z});
     f.curvature.low = std::max(f.curvature.low, -aside);
@@ -120,7 +123,7 @@ inline Enclosure known_to_be_convex(Enclosure f, const Vec3<Enclosure>& q) {
     return f;
 }
 
-/// As the template, whose seams are none where it stands for sine and cosine.
+/// The template's choice of quadrants looks like seams, but sine and cosine have none.
 inline SineCosine<Enclosure> sine_cosine(const Enclosure& x) {
     SineCosine<Enclosure> r = phasetree::sine_cosine<Enclosure>(x);
     if (!(x.value.magnitude() < 1e4)) return r;

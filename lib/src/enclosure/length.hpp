@@ -6,8 +6,8 @@
 namespace phasetree::enclosure {
 
 namespace detail {
-/// What the square of a vector's derivative by any direction is at most: of its Jacobian J the largest eigenvalue of
-/// JᵀJ, which is within the sums of rows.
+/// An upper bound of |dx/dv|² for a vector x and any direction v of unit length. That is the largest eigenvalue of JᵀJ,
+/// where J is the Jacobian, and is at most the largest sum of absolute values in a row of it (Gershgorin).
 template <std::size_t n>
 double squared_stretch(const std::array<const Enclosure*, n>& x) {
     std::array<std::array<Range, 3>, 3> squared{};
@@ -23,14 +23,14 @@ double squared_stretch(const std::array<const Enclosure*, n>& x) {
     }
     return most;
 }
-/// How long the vector's second derivative is at most.
+/// An upper bound of the length of the second derivative of a vector along any line.
 template <std::size_t n>
 double curvature_of(const std::array<const Enclosure*, n>& x) {
     double sum = 0;
     for (const Enclosure* e : x) sum += e->curvature.magnitude() * e->curvature.magnitude();
     return std::min(std::sqrt(sum), Range::most);
 }
-/// Of the length of a vector whose length was found: for f = |x|, f″ = (|x′|² − f′² + x·x″)/f with 0 ≤ f′² ≤ |x′|².
+/// Improves the gradient and curvature of f = |x|: f″ = (|x′|² − f′² + x·x″)/f with 0 ≤ f′² ≤ |x′|².
 template <std::size_t n>
 Enclosure with_curvature_of_length(Enclosure f, const std::array<const Enclosure*, n>& x) {
     Range along{};
@@ -46,7 +46,7 @@ Enclosure with_curvature_of_length(Enclosure f, const std::array<const Enclosure
     f.set_curvature({std::max(f.curvature.low, curvature.low), std::min(f.curvature.high, curvature.high)});
     return f;
 }
-/// The same of a vector whose gradients are constant.
+/// As squared_stretch(), for a vector whose gradients are constant.
 template <std::size_t n>
 double squared_stretch_of_affine(const std::array<const Enclosure*, n>& x) {
     double most = 0;
@@ -61,7 +61,7 @@ double squared_stretch_of_affine(const std::array<const Enclosure*, n>& x) {
     }
     return most;
 }
-/// Whether their gradients are constant, as a point's coordinates' mostly are.
+/// Whether the gradients of all these numbers are constant, as those of a point's coordinates mostly are.
 template <std::size_t n>
 bool are_affine(const std::array<const Enclosure*, n>& x) {
     double width = 0;
@@ -71,8 +71,8 @@ bool are_affine(const std::array<const Enclosure*, n>& x) {
     }
     return width == 0;
 }
-/// The length of a vector of such, without the detour over its square. Of four numbers for three axes, because these
-/// loops are what vector registers are for.
+/// The length of a vector whose gradients are constant, computed without its square as an intermediate result. Arrays
+/// have four numbers for three axes, so that the loops fit vector registers.
 template <std::size_t n>
 Enclosure length_of_affine(const std::array<const Enclosure*, n>& x) {
     using Axes = std::array<double, 4>;
@@ -87,8 +87,8 @@ Enclosure length_of_affine(const std::array<const Enclosure*, n>& x) {
         at_centre += e.centre * e.centre;
         slope[k] = {e.gradient[0].low, e.gradient[1].low, e.gradient[2].low, 0};
     }
-    std::array<Axes, 3> product{};  // of the Jacobian with itself
-    Axes low{}, high{}, middle{};   // of the vector's product with it
+    std::array<Axes, 3> product{};  // JᵀJ, where J is the Jacobian
+    Axes low{}, high{}, middle{};   // Jᵀx: its range in the box, and at the centre
     for (std::size_t k = 0; k < n; ++k) {
         const Enclosure& e = *x[k];
         for (std::size_t i = 0; i < 3; ++i)

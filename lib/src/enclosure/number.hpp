@@ -10,19 +10,23 @@
 
 namespace phasetree::enclosure {
 
-/// What a number may be in a box: its value and gradient at the box's centre (NaN on a seam), and the ranges of its
-/// value, of its gradient's components, and of its second derivatives. A number type as the others (number.hpp): of a
-/// field's equation it makes certain statements about all points of a box. Both branches count where a comparison is
-/// undecided.
+/// The enclosure of a number that varies in a box: its value and gradient at the box's centre (the gradient is NaN on a
+/// seam), and the ranges of its value, of its gradient's components and of its second derivatives. It is a number type
+/// as those of phasetree/math/number.hpp: evaluated with it, a field's equation gives bounds for all points of a box.
+/// Where a comparison is undecided both branches count.
+///
+/// A *seam* is a surface on which the equation changes from one branch to another, as a minimum does where its operands
+/// are equal.
 ///
 /// For a continuous field that is differentiable but on seams, the gradient's ranges hold every one-sided gradient, so
 /// that f(p) − f(centre) lies in their product with p − centre (tightened()). `curvature` holds d²f/dt² along every
-/// straight line of unit speed; a seam across which the slope jumps up or down counts as an endless one. So, for points
-/// a distance h apart, f half way lies above the mean of f at both by −curvature.high·h²/8 to −curvature.low·h²/8; and
-/// f is semiconcave with the constant curvature.high: minima of such fields are so too, whatever their seams.
+/// straight line of unit speed; a seam across which the slope jumps up or down counts as an infinite one. So, for
+/// points a distance h apart, f half way lies above the mean of f at both by −curvature.high·h²/8 to
+/// −curvature.low·h²/8; and f is semiconcave with the constant curvature.high: minima of such fields are so too,
+/// whatever their seams.
 ///
-/// In double, without directed rounding: who uses it allows for the rounding of floats, which is larger; twice, for
-/// primitives may be known at the centre by floats.
+/// It is computed in double without directed rounding. Its users must allow for the rounding of floats, which is
+/// larger, and twice, because primitives may be known at the centre by floats.
 struct Enclosure {
     using Vector = std::array<double, 3>;
 
@@ -39,7 +43,7 @@ struct Enclosure {
                                      const Range& b)
         : centre(c), value(v), gradient(g), centre_gradient(cg), curvature(b), value_curvature(v * b) {}
 
-    /// A coordinate of a point of the box.
+    /// The coordinate of a point of the box along an axis; `middle` and `half` are those of the box.
     [[gnu::always_inline]] static Enclosure coordinate(int axis, double middle, double half) {
         Enclosure e;
         e.centre = middle;
@@ -51,7 +55,7 @@ struct Enclosure {
         }
         return e;
     }
-    /// Cuts the value's range to what the gradient allows in a box of these half extents.
+    /// Cuts the value's range to what the value at the centre and the gradient allow in a box of these half extents.
     void tighten(const Vector& half) {
         const double reach =
             gradient[0].magnitude() * half[0] + gradient[1].magnitude() * half[1] + gradient[2].magnitude() * half[2];
@@ -67,7 +71,7 @@ struct Enclosure {
         curvature = c;
         value_curvature = value * c;
     }
-    /// What the gradient's squared length is at most.
+    /// An upper bound of the gradient's squared length.
     double squared_slope() const {
         double sum = 0;
         for (const Range& g : gradient) sum += g.magnitude() * g.magnitude();
@@ -84,7 +88,7 @@ template <class F>
 [[gnu::always_inline]] inline Enclosure::Vector each_number(F&& f) {
     return {f(std::size_t{0}), f(std::size_t{1}), f(std::size_t{2})};
 }
-/// Of the products of two numbers' slopes.
+/// The range of the product of the slopes of a and b along any line; and that of the square of the slope of a.
 inline Range products_of_slopes(const Enclosure& a, const Enclosure& b) {
     return within(std::sqrt(a.squared_slope() * b.squared_slope()));
 }
@@ -92,7 +96,7 @@ inline Range squares_of_slope(const Enclosure& a) {
     return limited(0, a.squared_slope());
 }
 
-/// On a seam of several there need be none that all agree on.
+/// The gradient at the centre where that lies on a seam: the branches need not agree on one.
 inline constexpr Enclosure::Vector no_gradient{std::numeric_limits<double>::quiet_NaN(),
                                                std::numeric_limits<double>::quiet_NaN(),
                                                std::numeric_limits<double>::quiet_NaN()};
@@ -119,7 +123,7 @@ inline constexpr Enclosure::Vector no_gradient{std::numeric_limits<double>::quie
 [[gnu::always_inline]] inline Enclosure operator*(const Enclosure& a, const Enclosure& b) {
     const auto at_centre = detail::each_number(
         [&](std::size_t i) { return a.centre_gradient[i] * b.centre + b.centre_gradient[i] * a.centre; });
-    // A square is known better than a product.
+    // A square has a smaller range than a product of two numbers.
     if (&a == &b)
         return {a.centre * a.centre, square(a.value),
                 detail::each_axis([&](std::size_t i) { return a.gradient[i] * a.value * 2; }), at_centre,
@@ -162,8 +166,8 @@ inline constexpr Enclosure::Vector no_gradient{std::numeric_limits<double>::quie
     return b * a;
 }
 
-/// A comparison over a box: what it is at the centre, whether the two are equal there, and whether it can be true, or
-/// false.
+/// A comparison over a box: whether it is true at the centre, whether the two are equal there, and whether it can be
+/// true or false anywhere in the box.
 struct Decision {
     bool centre, is_tie, can_be_true, can_be_false;
 };
@@ -184,7 +188,7 @@ struct Decision {
     const Decision d = less(a, b);
     Enclosure r = select(d, a, b);
     r.value = {std::min(a.value.low, b.value.low), std::min(a.value.high, b.value.high)};
-    // On the seam the slope falls.
+    // On the seam of a minimum the slope falls, which bounds the curvature from above.
     if (d.can_be_true && d.can_be_false) r.set_curvature({-Range::most, std::max(a.curvature.high, b.curvature.high)});
     return r;
 }

@@ -4,11 +4,11 @@
 
 namespace phasetree::enclosure {
 
-/// All numbers from low to high.
+/// The interval of all numbers from low to high.
 struct Range {
     double low = 0, high = 0;
 
-    /// Stands for every number; finite, so that no product of it with zero is NaN.
+    /// Stands for infinity. It is finite, so that its product with zero is not NaN.
     static constexpr double most = 1e100;
     static constexpr Range all() { return {-most, most}; }
 
@@ -42,7 +42,7 @@ struct Range {
     const double p = a.low * a.low, q = a.high * a.high;
     return limited(a.low <= 0 && a.high >= 0 ? 0 : std::min(p, q), std::max(p, q));
 }
-/// [−a, a].
+/// The interval [−a, a].
 [[gnu::always_inline]] inline Range within(double a) {
     return limited(-a, a);
 }

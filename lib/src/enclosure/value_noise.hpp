@@ -11,7 +11,7 @@ namespace phasetree::enclosure {
 
 namespace detail {
 
-/// The derivatives of lattice::fade over a part of [0, 1].
+/// The ranges of the first and second derivatives of lattice::fade over a part of [0, 1].
 struct FadeRange {
     Range first, second;
 
@@ -33,10 +33,11 @@ struct FadeRange {
 template <std::size_t dimensions>
 using Corners = std::array<double, std::size_t{1} << dimensions>;
 
-/// Value noise and its derivatives in a region that touches few cells of the lattice, by the values at their corners:
-/// between those all is a product of one-dimensional blends,
+/// Bounds value noise and its derivatives in a region that touches few cells of the lattice, by the values at the
+/// corners of these cells. Between the corners noise is a product of one-dimensional blends,
 ///     ∂f/∂xᵢ = F′ᵢ · E[Δᵢw],   ∂²f/∂xᵢ² = F″ᵢ · E[Δᵢw],   ∂²f/∂xᵢ∂xⱼ = F′ᵢ F′ⱼ · E[ΔᵢΔⱼw],
-/// with means E of differences Δ of corners, which are between the smallest and the largest.
+/// where E are means of differences Δ of the corners' values, so they lie between the smallest and the largest of
+/// these.
 template <std::size_t dimensions>
 class NoiseInBox {
   public:
@@ -51,7 +52,7 @@ class NoiseInBox {
         is_large_ = is_large_ || all_ > 8;
     }
 
-    /// `corners(cell)` gives their values.
+    /// `corners(cell)` gives the values at the corners of a cell of the lattice.
     template <class F>
     FieldInBox operator()(F&& corners) const {
         FieldInBox f;
@@ -85,7 +86,7 @@ class NoiseInBox {
             }
             f.gradients[i] = {std::max(d.first[i].low, f.gradient[i] - change),
                               std::min(d.first[i].high, f.gradient[i] + change)};
-            // By Gershgorin's rows.
+            // The eigenvalues of the matrix of second derivatives lie within Gershgorin's circles.
             f.curvature.low = std::min(f.curvature.low, d.second[i][i].low - mixed);
             f.curvature.high = std::max(f.curvature.high, d.second[i][i].high + mixed);
         }
@@ -142,7 +143,7 @@ class NoiseInBox {
 
     static bool is_upper(std::size_t corner, std::size_t axis) { return (corner >> axis & 1) != 0; }
 
-    /// Of the corners' differences along one axis, or of those along another.
+    /// The range of the corners' differences along one axis; or, with `other`, of the second differences along both.
     static Range of_differences(const Corners<dimensions>& w, std::size_t axis, std::size_t other) {
         Range all{Range::most, -Range::most};
         for (std::size_t corner = 0; corner < w.size(); ++corner) {

@@ -10,7 +10,7 @@ using program::gives_point, program::operands;
 
 namespace {
 
-/// Hands out register slots; a freed one is used again.
+// Hands out register slots; a freed one is used again.
 class Slots {
   public:
     std::uint32_t take(std::uint32_t size) {
@@ -47,7 +47,7 @@ Assembly assemble(std::span<const Instruction> code, std::span<const ProgramOutp
         if (operands(code[i].op) > 0) last_use[code[i].a] = i;
         if (operands(code[i].op) > 1) last_use[code[i].b] = i;
     }
-    last_use[0] = forever;  // the input keeps slots 0 … 2
+    last_use[0] = forever;  // the input point keeps slots 0 … 2
     for (const ProgramOutput& o : outputs) last_use[o.value] = forever;
     for (const KeptValue& k : kept) last_use[k.value] = forever;
 

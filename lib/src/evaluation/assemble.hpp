@@ -8,23 +8,24 @@ namespace phasetree::evaluation {
 using kernel::OutputSlot, kernel::Routine, kernel::Step;
 using program::ProgramOutput;
 
-/// Instructions made ready to run: registers assigned, operations resolved.
+/// Instructions that are ready to run: each value has a slot among the registers.
 struct Assembly {
     std::vector<Step> steps;
-    std::vector<std::uint32_t> data;  ///< for each step where its constants are
+    std::vector<std::uint32_t> data;  ///< for each step, the index of its first constant
     std::vector<OutputSlot> outputs;
-    std::uint32_t slots = 0;
+    std::uint32_t slots = 0;  ///< how many slots the registers must have
 
+    /// The routine, which refers to this assembly and to the constants.
     Routine routine(const float* constants) const {
         return {steps.data(), data.data(), constants, steps.size(), outputs.data(), outputs.size()};
     }
 };
 
-/// A value that is read after the program has run, though it is no output, and where it is then found.
+/// A value that is not an output but is read after the program has run, and the slot in which it is then found.
 struct KeptValue {
     std::uint32_t value = 0, slot = 0;
 };
-/// Values whose last use is past give their register to later ones.
+/// Assigns slots to the values of a program. A value whose last use is past gives its slot to later ones.
 Assembly assemble(std::span<const Instruction> code, std::span<const ProgramOutput> outputs,
                   std::span<KeptValue> kept = {});
 

@@ -1,6 +1,6 @@
 #include "evaluation/component.hpp"
 #include "evaluation/interpret.hpp"
-#include "phasetree/math/dual.hpp"
+#include "math/dual.hpp"
 
 namespace phasetree::evaluation {
 

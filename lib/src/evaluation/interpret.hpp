@@ -1,10 +1,11 @@
+// Runs a routine with any number type, one number at a time: for gradients and enclosures. Kernels have an interpreter
+// of their own (kernel/kernel.inl).
 #pragma once
 
 #include "kernel/kernel.hpp"
 #include "program/dispatch.hpp"
 #include "program/fused.hpp"
 
-/// A routine run with any number type, one number at a time: for gradients and enclosures. Kernels have their own.
 namespace phasetree::evaluation {
 
 using kernel::Routine, kernel::Step;
@@ -19,7 +20,7 @@ struct PointInRegisters {
     operator Vec3<T>() const { return {registers[slot], registers[slot + 1], registers[slot + 2]}; }
 };
 
-/// A routine's steps, for interpret().
+/// The steps of a routine in the form that interpret() takes.
 class RoutineSteps {
   public:
     explicit RoutineSteps(const Routine& routine) : routine_(routine) {}
@@ -32,9 +33,10 @@ class RoutineSteps {
     const Routine& routine_;
 };
 
-/// Registers 0 … 2 hold the point. `distance.template operator()<P>(constants, point, to)` sets that of a primitive,
-/// whose point is a Vec3<T> or in registers; `done(number)` is called with each number that a step of any other kind
-/// has made.
+/// Runs the steps that are not left out. Registers 0 … 2 hold the point.
+/// `distance.template operator()<P>(constants, point, to)` is called for a primitive P and must set `to` to its
+/// distance; the point is a Vec3<T> or PointInRegisters<T>. `done(number)` is called with each number that any other
+/// step, or a fused primitive, has computed.
 template <class Steps, class T, class Distance, class Done>
 void interpret(const Steps& steps, T* registers, Distance&& distance, Done&& done) {
     constexpr auto first_primitive = static_cast<std::uint32_t>(Op::first_primitive);

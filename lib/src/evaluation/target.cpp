@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <hwy/targets.h>
-
 #include <atomic>
 #include <stdexcept>
 
@@ -19,7 +18,8 @@ struct Target {
     bool supported;
 };
 
-/// Best first. Highway tells what the machine has, and honours hwy::DisableTargets.
+// The kernels that this machine can run, the fastest first. Highway tells what the machine has, and honours
+// hwy::DisableTargets.
 std::vector<Target> targets() {
     const auto machine = static_cast<std::int64_t>(hwy::SupportedTargets());
     const auto has = [&](std::int64_t target) { return (machine & target) != 0; };
@@ -37,7 +37,8 @@ std::vector<Target> targets() {
     return all;
 }
 
-/// The one process-wide choice. It never changes a result, only the time it takes.
+// The kernel in use, for the whole process; null until it is first asked for. No result depends on it, only the time
+// that it takes.
 std::atomic<const Kernel*> chosen{nullptr};
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <cctype>
 #include <nlohmann/json.hpp>
 
-#include "phasetree/tree/node.hpp"
+#include "tree/node.hpp"
 
 namespace phasetree {
 

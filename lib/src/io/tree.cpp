@@ -7,7 +7,7 @@
 #include "model/preparation.hpp"
 #include "phasetree/io/object_reader.hpp"
 #include "phasetree/io/suggest.hpp"
-#include "phasetree/tree/node.hpp"
+#include "tree/node.hpp"
 
 namespace phasetree {
 

@@ -1,10 +1,8 @@
+// The number type of a kernel: eight floats in as many SIMD registers as the instruction set needs. All of it is in a
+// namespace of the instruction set, so that the linker cannot mix two of them.
 #pragma once
 
-/// The number type of a kernel: eight floats in as many SIMD registers as the instruction set needs. Everything is
-/// in a namespace of the instruction set, so that the linker cannot mix two of them.
-
 #include <hwy/highway.h>
-
 #include <cstring>
 
 #include "phasetree/math/number.hpp"
@@ -22,7 +20,7 @@ inline constexpr std::size_t parts = batch_size / width;
 
 #define PHASETREE_EACH _Pragma("GCC unroll 2") for (std::size_t i = 0; i < parts; ++i)
 
-/// Of a register's lanes: from so many on, and around.
+/// The indices of a register's lanes, rotated so that lane `first` comes first.
 template <std::size_t first>
 HWY_INLINE const std::int32_t* turn_indices() {
     struct Table {
@@ -46,6 +44,7 @@ struct BatchMask {
     RegisterMask m[parts];
 };
 
+/// Reads eight floats.
 HWY_INLINE Batch load(const float* from) {
     Batch r;
     PHASETREE_EACH r.v[i] = hn::Load(Tag(), from + i * width);
@@ -104,7 +103,8 @@ HWY_INLINE BatchMask less(const Batch& a, const Batch& b) {
 HWY_INLINE Batch select(const BatchMask& m, const Batch& yes, const Batch& no) {
     return each([&](std::size_t i) { return hn::IfThenElse(m.m[i], yes.v[i], no.v[i]); });
 }
-// As in number.hpp: a comparison and a choice, whatever the instruction set's own minimum does with equals.
+// As in number.hpp these are a comparison and a choice. The instructions of x86 do exactly that; those of others may
+// not for equal or unordered operands.
 HWY_INLINE Batch min(const Batch& a, const Batch& b) {
 #if HWY_ARCH_X86
     return each([&](std::size_t i) { return hn::Min(a.v[i], b.v[i]); });
@@ -138,12 +138,12 @@ HWY_INLINE Batch lookup(const float* table, const Batch& index) {
     });
 }
 
-/// The lanes' numbers: 0 … 7.
+/// The numbers of the lanes, 0 … 7.
 HWY_INLINE Batch lanes() {
     alignas(Batch) static constexpr float numbers[batch_size] = {0, 1, 2, 3, 4, 5, 6, 7};
     return load(numbers);
 }
-/// Lane i becomes that of lane i − 1; the first one `before`.
+/// Lane i gets the value of lane i − 1; the first lane gets `before`.
 HWY_INLINE Batch shifted(const Batch& a, float before) {
     Batch r;
     Register carry = hn::Set(Tag(), before);
@@ -156,7 +156,7 @@ HWY_INLINE Batch shifted(const Batch& a, float before) {
     }
     return r;
 }
-/// Lane i becomes that of lane i + 1; the last one `after`.
+/// Lane i gets the value of lane i + 1; the last lane gets `after`.
 HWY_INLINE Batch shifted_back(const Batch& a, float after) {
     Batch r;
     Register carry = hn::Set(Tag(), after);
@@ -169,7 +169,7 @@ HWY_INLINE Batch shifted_back(const Batch& a, float after) {
     }
     return r;
 }
-/// Bit i: lane i is true.
+/// A mask whose bit i tells whether lane i is true.
 HWY_INLINE std::uint32_t bits(const BatchMask& m) {
     std::uint32_t all = 0;
     PHASETREE_EACH {
@@ -182,8 +182,8 @@ HWY_INLINE std::uint32_t bits(const BatchMask& m) {
     return all;
 }
 
-/// Numbers a and on, in nearly equal ratios: lane i has a's bits and `step` times i, for a float's bits are nearly its
-/// logarithm.
+/// Numbers in nearly equal ratios: lane i has the float whose bits are those of a plus i times `step`, because the bits
+/// of a float are nearly its logarithm.
 HWY_INLINE Batch geometric(const Batch& lane, std::uint32_t a, std::uint32_t step) {
     const hn::RebindToSigned<Tag> whole;
     return each([&](std::size_t i) {

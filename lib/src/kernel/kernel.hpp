@@ -9,21 +9,21 @@
 
 namespace phasetree::kernel {
 
-/// A certificate is no longer than this.
+/// The largest number of steps of a sign certificate.
 inline constexpr std::size_t most_certificate_steps = 32;
 
-/// A resolved instruction. Slots count batches in the register file; a point takes three. Where its constants are is
-/// kept apart, so that many routines share their steps.
+/// An instruction that is ready to run. Slots count batches among the registers; a point takes three. The places of the
+/// constants are kept apart (Routine::data), so that routines which differ only in constants share their steps.
 struct Step {
-    std::uint32_t op;
-    std::uint32_t to;
-    std::uint32_t a;
+    std::uint32_t op;  ///< an Op
+    std::uint32_t to;  ///< the slot of the result
+    std::uint32_t a;   ///< the slots of the operands
     std::uint32_t b;
 
     bool operator==(const Step&) const = default;
 };
 
-/// Where a component is found after the steps: sign (1 or −1) times the slot's value.
+/// The place of a component after the steps have run: it is sign (1 or −1) times the slot's value.
 struct OutputSlot {
     std::uint32_t slot;
     float phase;
@@ -32,90 +32,99 @@ struct OutputSlot {
     bool operator==(const OutputSlot&) const = default;
 };
 
-/// A step of a certificate, on a stack, that a field keeps its sign between samples: see certificate.inl. A leaf speaks
-/// of
+/// A step of a certificate, in postfix order, that a field keeps its sign between samples: see sign_certificate.inl. A
+/// leaf is the field
 ///     g = factor · (the slot's value − threshold),
-/// which is 1-Lipschitz; 16-bit numbers are the upper halves of floats.
+/// which is 1-Lipschitz. Numbers of 16 bits are the upper halves of floats.
 struct PackedCertificateStep {
     enum Kind : std::uint32_t { leaf, both, either, either_one_way };
 
     float threshold;
     std::uint32_t slot : 30, kind : 2;
     std::uint16_t factor;
-    std::uint16_t up, down;  ///< how much g and −g curve upward at most, infinite if that is not known
+    std::uint16_t up, down;  ///< bounds of the second derivatives of g and of −g; infinite if unknown
     std::uint16_t unused = 0;
 
     bool operator==(const PackedCertificateStep&) const = default;
 };
 
-/// What a kernel runs: plain pointers, because kernels are compiled for several instruction sets and must not share
-/// inline functions of the standard library with the rest.
+/// What a kernel runs. It has plain pointers, because kernels are compiled for several instruction sets and must not
+/// share inline functions of the standard library with other code, which may run on machines without these sets.
 struct Routine {
     const Step* steps;
-    const std::uint32_t* data;  ///< for each step where its constants are among these:
+    const std::uint32_t* data;  ///< for each step, the index of its first constant
     const float* constants;
-    std::size_t count;
+    std::size_t count;  ///< of steps
     const OutputSlot* outputs;
     std::size_t output_count;
-    /// Which lower bound of the distance to where the label changes is used where each component has a value of its
-    /// own: minus the label's component, or the least of the others'.
+    /// Which lower bound of the distance to a change of label is used where each component has a value of its own:
+    /// minus the component of the label (true), or the smallest of the others (false).
     bool is_by_own = false;
-    /// One value tells where rays may be and where not: that of two phases, or the first, if no ray is in the others.
+    /// Whether the first component alone tells where rays may be: there are two phases, or no ray is in any of the
+    /// other phases, because these are opaque.
     bool is_by_first = false;
-    /// So many steps give the first component alone, 0 if that is not known: enough for a ray that is in its phase.
+    /// The first `leading` steps compute the first component, which is enough for a ray that is in its phase; 0 if
+    /// there is no such number.
     std::size_t leading = 0;
-    /// Of the first component, where its curvature is not known: that it stays negative.
+    /// A certificate that the first component stays negative, for where its curvature is not known; null if there is
+    /// none.
     const PackedCertificateStep* certificate = nullptr;
     std::size_t certificate_steps = 0;
 };
 
-/// Routines that need no more batches bring no registers.
+/// A routine that needs no more slots than this runs in registers of the kernel's own; others must bring theirs.
 inline constexpr std::uint32_t few_slots = 48;
 
-/// A cell that a ray visits, or a whole object.
+/// A ray's visit to a cell, or to a whole object.
 struct Visit {
     const Bounds* box;
-    const LinearBound* bound;
+    const LinearBound* bound;  ///< of the field in the box
     const Routine* routine;
     const TracedRay* ray;
-    float* registers;  ///< for the routine's batches, or null for few of them
-    float
-        curvature[2];  ///< as Curvature: of the distance along the ray, in the phase of the first output and in others
+    float* registers;  ///< the routine's slots; null if they are at most few_slots
+    /// The bounds of Curvature: in the phase of the first output, and in the others.
+    float curvature[2];
     float t_min, t_max;
     float resolution;
     float carried;  ///< the phase that the ray is in; negative: the label at its start
-    float rise;     ///< of a LeavingHint, or none
-    /// Where an unfinished search goes on, counted from where it began: a place in the ray's phase; or 0.
+    float rise;     ///< LeavingHint::rise, or no_leaving_hint
+    /// Where an unfinished search goes on: a place in the ray's phase, as a distance from where the search began; else
+    /// 0.
     float from = 0;
 
     static constexpr float no_leaving_hint = -2;
 };
 
-/// The first change of label there; see Crossing. Without one, only what it cost.
+/// The first change of label of a visit, as a Crossing. If there is none, only the counters are set.
 struct RayCrossing {
-    double start;     ///< how far along the ray this is, where the search began:
-    float origin[3];  ///< and from there
-    float t_in, t_out;
-    float from, to;
-    std::uint32_t batches, phantoms;
-    /// It was given up for now: no change was found up to t_in, which is in the phase `from`. See trace/creep.hpp.
+    double start;                     ///< the distance along the ray of the place where the search began
+    float origin[3];                  ///< that place
+    float t_in, t_out;                ///< distances from that place
+    float from, to;                   ///< phases
+    std::uint32_t batches, phantoms;  ///< see TraceCounters
+    /// The search was left unfinished: there is no change up to t_in, which is in the phase `from`. See
+    /// trace/creep.hpp.
     bool is_unfinished;
-    float length;  ///< of what is searched
+    float length;  ///< of the piece of the ray that is searched
 };
 
-/// Of a neuron's numbers in network_layer().
+/// The number of doubles of a neuron in network_layer(), and the index of the first of those that are error bounds.
 inline constexpr std::size_t network_lanes = 24, absolute_lane = 20;
 
-/// A kernel: the same functions for one instruction set. Slot 0 … 2 is the input point.
+/// The functions that are compiled once for each instruction set. Arrays of points have batch_size floats for each
+/// coordinate. Registers are the slots of a routine, batch_size floats each; slots 0 … 2 hold the point.
 struct Kernel {
+    /// All outputs of a routine, one batch after another.
     void (*evaluate)(const Routine&, const float* x, const float* y, const float* z, float* registers, float* out);
+    /// The labels and interface distances.
     void (*sample)(const Routine&, const float* x, const float* y, const float* z, float* registers, float* label,
                    float* distance);
+    /// The same at the points origin + t·direction of a ray.
     void (*sample_ray)(const Routine&, const float* origin, const float* direction, const float* t, float* registers,
                        float* label, float* distance);
-    /// Whether the label changes where the ray is in the box, and where first: visit.inl.
+    /// Whether the label changes where the ray is in the box, and where it first does: see visit.inl.
     bool (*visit)(const Visit&, RayCrossing&);
-    /// A linear layer of a network whose neurons have several lanes: network_layer.inl.
+    /// A linear layer of a network whose neurons have several numbers each: see network_layer.inl.
     void (*network_layer)(const float* weights, const float* bias, std::size_t inputs, std::size_t outputs,
                           const double* in, double* out);
 };

@@ -1,6 +1,6 @@
-/// The interpreter, compiled once for each instruction set with that set's compiler flags (see lib/CMakeLists.txt).
-/// The including file names the kernel: #define PHASETREE_KERNEL kernel_avx2
-
+// The interpreter of routines. This file is compiled once for each instruction set, with that set's compiler flags (see
+// lib/CMakeLists.txt).
+// The including file names the kernel: #define PHASETREE_KERNEL kernel_avx2
 #define HWY_COMPILE_ONLY_STATIC
 #include <cstring>
 #include <type_traits>
@@ -21,8 +21,8 @@ HWY_INLINE float* at(float* registers, std::uint32_t slot) {
     return registers + std::size_t{slot} * batch_size;
 }
 
-/// In place: a copy would be written and read again before its numbers can be used. The file is compiled without
-/// strict aliasing.
+// An instruction's constants as the struct that they are. They are read in place, because a copy would be written and
+// read again before its numbers can be used; therefore the file is compiled without strict aliasing.
 template <class Struct>
 HWY_INLINE const Struct& constants_of(const float* constants) {
     static_assert(std::is_trivially_copyable_v<Struct> && alignof(Struct) <= alignof(float));
@@ -34,7 +34,7 @@ HWY_INLINE Vec3<Batch> load_point(float* registers, std::uint32_t slot) {
     return {load(p), load(p + batch_size), load(p + 2 * batch_size)};
 }
 
-/// What a step does, with its own constants.
+// The steps of a routine do one of the following, each with its own constants. First the operations on numbers:
 template <Op op>
 struct Simple {
     HWY_INLINE static void run(const Step& s, const float* constants, float* registers) {
@@ -57,6 +57,7 @@ struct Simple {
     }
 };
 
+// A primitive whose parameters are the constants.
 template <class P>
 struct OfPrimitive {
     HWY_INLINE static void run(const Step& s, const float* constants, float* registers) {
@@ -64,6 +65,7 @@ struct OfPrimitive {
     }
 };
 
+// A primitive with data.
 template <class P>
 struct OfDataPrimitive {
     HWY_INLINE static void run(const Step& s, const float* constants, float* registers) {
@@ -71,6 +73,7 @@ struct OfDataPrimitive {
     }
 };
 
+// A map of space.
 template <class M>
 struct OfMap {
     HWY_INLINE static void run(const Step& s, const float* constants, float* registers) {
@@ -82,6 +85,7 @@ struct OfMap {
     }
 };
 
+// A primitive together with the affine maps before and after it (program/fused.hpp).
 template <class P>
 struct Placed {
     HWY_INLINE static void run(const Step& s, const float* constants, float* registers) {
@@ -93,8 +97,8 @@ struct Placed {
     }
 };
 
-/// Runs a step, and then those behind it up to the end: the last thing that each does is to jump to the next, so that
-/// there is no loop, and that the processor learns which step comes after which.
+// Runs a step and then those behind it up to the end. Each step ends with a jump to the next one (threaded code), so
+// that there is no loop, and the processor learns which step follows which.
 using Handler = void (*)(const Step*, const std::uint32_t* data, const float* constants, float* registers,
                          const Step* end);
 HWY_INLINE Handler handler(std::uint32_t op);
@@ -123,11 +127,11 @@ HWY_INLINE Handler handler(std::uint32_t op) {
     return Table<std::make_index_sequence<simple>, Primitives, DataPrimitives, PointMaps>::handlers[op];
 }
 
-/// The first `count` steps.
+// Runs the first `count` steps of a routine, for the point that is in slots 0 … 2.
 HWY_INLINE void run(const Routine& routine, std::size_t count, float* registers) {
     const Step* first = routine.steps;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || HWY_IS_ASAN || HWY_IS_TSAN  // GCC's, Clang's
-    // A sanitizer's calls stay on the stack, which ends before a long program does: so one at a time.
+    // With a sanitizer calls are not turned into jumps, and the stack would overflow, so steps are run one at a time.
     for (std::size_t i = 0; i < count; ++i)
         handler(first[i].op)(first + i, routine.data + i, routine.constants, registers, first + i + 1);
 #else
@@ -135,36 +139,39 @@ HWY_INLINE void run(const Routine& routine, std::size_t count, float* registers)
 #endif
 }
 
+// Puts the points of a batch into slots 0 … 2.
 HWY_INLINE void place(const Batch& x, const Batch& y, const Batch& z, float* registers) {
     store(x, registers);
     store(y, registers + batch_size);
     store(z, registers + 2 * batch_size);
 }
 
+// What a batch of samples tells.
 struct Classified {
-    Batch label;     ///< the smallest component's phase
-    Batch distance;  ///< the second smallest component
+    Batch label;     // the phase of the smallest component
+    Batch distance;  // s(p): the label is the same within this radius
 };
 
-/// The label where there is only the first component, and it is positive.
+// The label of a sample of which only the first component was evaluated, and is positive.
 constexpr float another_phase = -2;
 
-/// Whether one value tells both components.
+// Whether there are two components and one is the other one's negative.
 HWY_INLINE bool is_shared(const Routine& routine) {
     return routine.output_count == 2 && routine.outputs[0].slot == routine.outputs[1].slot;
 }
 
+// The values of output i.
 HWY_INLINE Batch component(const Routine& routine, std::size_t i, float* registers) {
     return load(at(registers, routine.outputs[i].slot)) * routine.outputs[i].sign;
 }
 
-/// By the first component alone.
+// Label and distance by the first component alone.
 HWY_INLINE Classified classify_first(const Routine& routine, float* registers) {
     const Batch first = component(routine, 0, registers), zero(0.f);
     return {select(less(first, zero), Batch(routine.outputs[0].phase), Batch(another_phase)), max(first, -first)};
 }
 
-/// For `is_by_own` see Routine.
+// Label and distance by all components. For `is_by_own` see Routine.
 HWY_INLINE Classified classify(const Routine& routine, bool is_by_own, float* registers) {
     Batch lowest = component(routine, 0, registers);
     if (is_shared(routine)) {
@@ -184,9 +191,12 @@ HWY_INLINE Classified classify(const Routine& routine, bool is_by_own, float* re
     return {phase, is_by_own ? -lowest : second};
 }
 
+// Puts the points o + t·d of a ray into slots 0 … 2.
 HWY_INLINE void place_along(const float* o, const float* d, const Batch& t, float* registers) {
     place(Batch(o[0]) + t * d[0], Batch(o[1]) + t * d[1], Batch(o[2]) + t * d[2], registers);
 }
+
+// The functions of a Kernel follow; see kernel.hpp.
 
 void evaluate(const Routine& routine, const float* x, const float* y, const float* z, float* registers, float* out) {
     place(load(x), load(y), load(z), registers);
@@ -221,7 +231,13 @@ void sample_ray(const Routine& routine, const float* o, const float* d, const fl
 
 #include "kernel/places.inl"
 
+#include "kernel/frame.inl"
+
 #include "kernel/march.inl"
+
+#include "kernel/search.inl"
+
+#include "kernel/decide.inl"
 
 #include "kernel/visit.inl"
 

@@ -6,11 +6,12 @@
 
 namespace phasetree::kernel {
 
-/// What is known of a cell's field f: nearly linear. Where two phases meet, f < 0 in one and f > 0 in the other; where
-/// more do, f is the first component, but for its sign, and concerns rays in its phase.
+/// A linear function that a cell's field f differs little from. Where two phases meet, f is negative in one and
+/// positive in the other. Where more phases meet, f is the value of the first component, whose sign may be negated, and
+/// the bound is used only for rays in the phase of that component.
 ///     |f(p) − (normal·p + offset)| ≤ slack     for all p in the cell
 ///     |∂f/∂d − normal·d| ≤ spread              for all directions d of unit length
-/// Rounding is allowed for. Without bounds (slack infinite) nothing is known but that f is 1-Lipschitz.
+/// The bounds include rounding. If the slack is infinite nothing is known but that f is 1-Lipschitz.
 struct LinearBound {
     glm::vec3 normal{0};
     float offset = 0;
@@ -18,17 +19,18 @@ struct LinearBound {
     float spread = Bounds::infinity;
 };
 
-/// How much s, the distance that the label is the same within, curves upward in a cell: d²s/dt² along any straight line
-/// of unit speed, at most. Seams count where the slope rises. Where more than one component is left there are two
-/// choices of s: see Routine::is_by_own.
+/// An upper bound of d²s/dt² along any straight line of unit speed in a cell, where s is the distance within which the
+/// label is the same. Where the slope jumps upward there is no such bound. If a cell has more than one component there
+/// are two choices of s: see Routine::is_by_own.
 struct Curvature {
     static constexpr float unknown = Bounds::infinity;
 
-    /// In the phase of the first output, where it is by its own component if more than two phases meet; and in the
-    /// others. Where those are opaque, so that no ray is in them, s is the first component there, too.
+    /// The bound in the phase of the first output, and that in the other phases. In the first phase s is minus the
+    /// first component if more than two phases meet. If no ray is in the other phases, because they are opaque, s is
+    /// the first component there.
     std::array<float, 2> bound{unknown, unknown};
-    bool is_by_own = false;    ///< in the others
-    bool is_by_first = false;  ///< the first component tells s on both sides
+    bool is_by_own = false;    ///< Routine::is_by_own in the other phases
+    bool is_by_first = false;  ///< whether the first component gives s in all phases
 };
 
 }  // namespace phasetree::kernel

@@ -1,5 +1,5 @@
-/// A linear layer of a network for numbers of several lanes (bounding/network_in_box.hpp). Included by
-/// kernel.inl.
+// A linear layer of a neural network whose neurons have several numbers each: a Taylor polynomial and its error bounds
+// (bounding/network_in_box.hpp). Included by kernel.inl.
 
 namespace phasetree::kernel::HWY_NAMESPACE {
 namespace {
@@ -8,7 +8,7 @@ using Doubles = hn::CappedTag<double, 8>;
 constexpr std::size_t double_lanes = hn::MaxLanes(Doubles());
 constexpr std::size_t neuron_registers = network_lanes / double_lanes;
 
-/// So many outputs at a time, because one sum alone waits for each of its additions.
+// Computes `count` outputs at a time, because a single sum would wait for each of its additions.
 template <std::size_t count>
 HWY_INLINE void outputs_of_layer(const float* weights, const float* bias, std::size_t inputs, const double* in,
                                  double* out) {
@@ -36,13 +36,14 @@ HWY_INLINE void outputs_of_layer(const float* weights, const float* bias, std::s
             hn::Store(sum[o][k], tag, out + o * network_lanes + k * double_lanes);
 }
 
-/// out = W·in + bias, of `network_lanes` doubles a neuron; the bias goes to the first, and those from
-/// `absolute_lane` on are sums by |W|. Sums run over the inputs in their order, for every instruction set the same.
+// out = W·in + bias, with `network_lanes` doubles for each neuron. The bias is added to the first of them; those from
+// `absolute_lane` on are error bounds, which are summed with |W| in place of W. Sums run over the inputs in their
+// order, which is the same for every instruction set.
 HWY_FLATTEN void network_layer(const float* weights, const float* bias, std::size_t inputs, std::size_t outputs,
                                const double* in, double* out) {
     constexpr std::size_t together = neuron_registers > 6   ? 1
                                      : neuron_registers > 3 ? 2
-                                                            : 4;  // what registers there are
+                                                            : 4;  // as many as the registers hold
     std::size_t o = 0;
     for (; o + together <= outputs; o += together)
         outputs_of_layer<together>(weights + o * inputs, bias + o, inputs, in, out + o * network_lanes);

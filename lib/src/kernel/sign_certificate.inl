@@ -1,22 +1,24 @@
-/// Whether a field keeps its sign between neighbouring samples along a ray, where its own curvature is not known: by
-/// the fields that it is the minimum or maximum of. Included by kernel.inl.
-///
-/// A minimum is positive where both operands are; a maximum is, for one, between two samples between which one of its
-/// operands is. So a certificate is a tree of such choices, in the order of a stack, over leaves; what is passed around
-/// is a mask of gaps. The same certificate, with signs and choices turned, is that of the other side; but for a step
-/// that implies what it stands for and is not implied by it.
-///
-/// A leaf g, 1-Lipschitz, is known at the samples. It is positive in a gap of length h between a and b
-///  * if g″ ≤ K and √a + √b ≥ h √(K/2): see March::is_bridged;
-///  * or if g″ ≥ −κ. Then g + κt²/2 is convex and lies, outside two samples, above the line through them: within the
-///    gap g is above a line that falls from a, by the slope before it, and above one that rises to b, by the slope
-///    behind it; each taken steeper by κ/2 times the distance from that slope's far end to the gap's. Two lines that
-///    fall by p and rise by q leave no place for a zero if a/p + b/q ≥ h. Where nothing is known p and q are 1, and
-///    that is what balls cover.
+// Certificates that a field keeps its sign between neighbouring samples along a ray. They are for fields whose own
+// curvature is not known, and use the fields of which it is the minimum or maximum. Included by kernel.inl.
+//
+// A minimum is positive where both operands are. A maximum is positive between two samples if one of its operands is
+// positive all the way between them. So a certificate is a tree of "both" and "either" over leaves, stored in postfix
+// order and evaluated on a stack of masks with a bit for each gap. With the signs of the leaves negated and "both" and
+// "either" exchanged it certifies that the field is negative. Exchanging is not valid for a step that only implies what
+// it stands for (either_one_way): in that direction the step proves nothing.
+//
+// A leaf g, 1-Lipschitz, is known at the samples. It is positive in a gap of length h between a and b
+//  * if g″ ≤ K and √a + √b ≥ h √(K/2): see March::is_free_by_curvature;
+//  * or if g″ ≥ −κ. Then g + κt²/2 is convex, so outside of two samples it lies above the line through them. Within the
+//    gap, therefore, g lies above a line that falls from a, with the slope of the gap before, and above one that rises
+//    to b, with the slope of the gap behind; each slope is made steeper by κ/2 times the length of both gaps together.
+//    Two lines that fall by p and rise by q leave no place for a zero if a/p + b/q ≥ h. Where nothing is known p and q
+//    are 1, which is the test whether balls cover the gap.
 
 namespace phasetree::kernel::HWY_NAMESPACE {
 namespace {
 
+// The float of which these are the upper 16 bits.
 HWY_INLINE float float_of_half(std::uint16_t upper) {
     const std::uint32_t bits = std::uint32_t{upper} << 16;
     float x;
@@ -24,11 +26,11 @@ HWY_INLINE float float_of_half(std::uint16_t upper) {
     return x;
 }
 
-/// What a certificate needs to know of the samples' places: for each the gap before it.
+// The gaps between samples: lane i has the one that ends at sample i.
 struct Gaps {
-    Batch length, inverse;
-    Batch with_last, with_next;  ///< its length and that of the gap before it, or behind it
-    float rounding;              ///< of a field's value
+    Batch length, inverse;       // the length and 1/length
+    Batch with_last, with_next;  // its length plus that of the gap before it, or behind it
+    float rounding;              // the error of a field's value
 };
 
 HWY_INLINE Gaps gaps_between(const Batch& t, float rounding) {
@@ -36,9 +38,10 @@ HWY_INLINE Gaps gaps_between(const Batch& t, float rounding) {
     return {length, Batch(1.f) / length, length + shifted(length, 0), length + shifted_back(length, 0), rounding};
 }
 
-/// Bit i: the leaf is positive in the gap that ends at lane i; never for the first, where a is 0.
-HWY_INLINE std::uint32_t proven_by_leaf(const PackedCertificateStep& s, bool is_turned, const float* registers,
-                                        const Gaps& gaps) {
+// Bit i tells whether the leaf is proven to be positive in the gap that ends at lane i. It is never set for the first
+// lane, where a is 0.
+HWY_INLINE std::uint32_t certified_by_leaf(const PackedCertificateStep& s, bool is_turned, const float* registers,
+                                           const Gaps& gaps) {
     const float factor = float_of_half(s.factor);
     const float up = float_of_half(is_turned ? s.down : s.up), down = float_of_half(is_turned ? s.up : s.down);
     const Batch zero(0.f), one(1.f), unknown(1e30f);
@@ -62,15 +65,16 @@ HWY_INLINE std::uint32_t proven_by_leaf(const PackedCertificateStep& s, bool is_
     return free & bits(less(zero, min(a, b)));
 }
 
-/// Bit i: the first component keeps its sign in the gap that ends at lane i, which is that of a ray in the first phase;
-/// or, turned, in the other.
-std::uint32_t proven(const Routine& routine, bool is_turned, const float* registers, const Batch& t, float rounding) {
+// Bit i tells whether the first component is proven to keep its sign in the gap that ends at lane i: the sign that it
+// has in the phase of the first output, or, if `is_turned`, in the other phase.
+std::uint32_t certified_gaps(const Routine& routine, bool is_turned, const float* registers, const Batch& t,
+                             float rounding) {
     const Gaps gaps = gaps_between(t, rounding);
     std::uint32_t stack[most_certificate_steps];
     std::uint32_t* top = stack;
     for (const PackedCertificateStep *s = routine.certificate, *end = s + routine.certificate_steps; s != end; ++s) {
         if (s->kind == PackedCertificateStep::leaf) {
-            *top++ = proven_by_leaf(*s, is_turned, registers, gaps);
+            *top++ = certified_by_leaf(*s, is_turned, registers, gaps);
             continue;
         }
         --top;

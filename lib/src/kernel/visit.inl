@@ -1,5 +1,6 @@
-/// A ray's visit to a cell: where it is inside, what the field's linear bound leaves of that, and the search there.
-/// Included by kernel.inl: what comes before a search takes as long as the search.
+// A ray's visit to a cell: where the ray is inside the cell's box, what the field's linear bound leaves of that, and
+// the search there. It is part of the kernel, because what comes before a search takes as long as the search. Included
+// by kernel.inl.
 
 namespace phasetree::kernel::HWY_NAMESPACE {
 namespace {
@@ -20,8 +21,8 @@ HWY_INLINE float magnitude(float x) {
     return x < 0 ? -x : x;
 }
 
-/// Where a ray is between two planes across an axis. In double, so that an origin far from the object costs no
-/// accuracy.
+// Cuts a span of a ray to what lies between two planes across an axis; the span becomes empty if nothing does. It is
+// computed in double, so that an origin far from the object costs no accuracy.
 HWY_INLINE void clip(Interval& span, float low, float high, float origin, float direction, double inverse) {
     const double from = static_cast<double>(low) - static_cast<double>(origin);
     const double to = static_cast<double>(high) - static_cast<double>(origin);
@@ -34,95 +35,139 @@ HWY_INLINE void clip(Interval& span, float low, float high, float origin, float 
     span.high = at_most(at_least(a, b), span.high);
 }
 
-/// Of a ray that leaves an interface; below, rounding has more to say.
+// A LeavingHint whose rise is smaller is not used: its rounding would be too large a part of it.
 constexpr float least_rise = 0.02f;
 
-bool visit(const Visit& v, RayCrossing& result) {
-    result.batches = result.phantoms = 0;
-    result.is_unfinished = false;
-    const TracedRay& ray = *v.ray;
-    if (!ray.is_traceable) return false;
-    const auto &origin = ray.origin, &direction = ray.direction;
-    Interval span{static_cast<double>(v.t_min), static_cast<double>(v.t_max)};
-    clip(span, v.box->low.x, v.box->high.x, origin.x, direction.x, ray.inverse.x);
-    clip(span, v.box->low.y, v.box->high.y, origin.y, direction.y, ray.inverse.y);
-    clip(span, v.box->low.z, v.box->high.z, origin.z, direction.z, ray.inverse.z);
-    if (!(span.low <= span.high) || !(span.high < endless)) return false;
+// The part of a ray that has to be searched in a cell, made smaller step by step. Each step returns whether anything is
+// left to search.
+class Approach {
+  public:
+    explicit Approach(const Visit& visit)
+        : visit_(visit),
+          ray_(*visit.ray),
+          routine_(*visit.routine),
+          span_{static_cast<double>(visit.t_min), static_cast<double>(visit.t_max)},
+          carried_(visit.carried),
+          is_leaving_(visit.rise != Visit::no_leaving_hint),
+          is_in_first_(visit.routine->outputs[0].phase == visit.carried) {}
 
-    const Routine& routine = *v.routine;
-    float x, y, z;
-    const auto start_at = [&](double t) {
-        x = static_cast<float>(static_cast<double>(origin.x) + t * static_cast<double>(direction.x));
-        y = static_cast<float>(static_cast<double>(origin.y) + t * static_cast<double>(direction.y));
-        z = static_cast<float>(static_cast<double>(origin.z) + t * static_cast<double>(direction.z));
-    };
-    start_at(span.low);
-    float carried = v.carried;
-    const bool is_departure = v.rise != Visit::no_leaving_hint, has_two = routine.output_count == 2;
-    const bool is_in_first = routine.outputs[0].phase == carried;
-    // What starts here and carries a phase has mostly just crossed or left an interface.
-    bool on_interface = carried >= 0 && span.low == static_cast<double>(v.t_min);
-    if (is_departure && on_interface && v.rise > least_rise && routine.is_by_first) {
-        // From an interface s = rise·t − K/2·t² at least, where K is how much s curves downward: as much as upward in
-        // the other phase. A tenth is left for what the rise is off. That is positive up to here:
-        const double safe =
-            1.8 * static_cast<double>(v.rise) / at_least(static_cast<double>(v.curvature[is_in_first ? 1 : 0]), 1e-30);
-        if (safe >= span.high - span.low) return false;
-        if (safe > 8 * static_cast<double>(v.resolution)) {
-            span.low += safe;
-            start_at(span.low);
-            on_interface = false;
-        }
+    // Cuts the ray to the cell's box.
+    HWY_INLINE bool enter_box() {
+        const auto &origin = ray_.origin, &direction = ray_.direction;
+        const Bounds& box = *visit_.box;
+        clip(span_, box.low.x, box.high.x, origin.x, direction.x, ray_.inverse.x);
+        clip(span_, box.low.y, box.high.y, origin.y, direction.y, ray_.inverse.y);
+        clip(span_, box.low.z, box.high.z, origin.z, direction.z, ray_.inverse.z);
+        if (!(span_.low <= span_.high) || !(span_.high < endless)) return false;
+        start_at(span_.low);
+        // A ray that starts here and carries a phase has mostly just crossed or left an interface.
+        on_interface_ = carried_ >= 0 && span_.low == static_cast<double>(visit_.t_min);
+        return true;
     }
-    float slope = 1;
-    bool is_monotone = false;
-    const LinearBound& bound = *v.bound;
-    if (bound.slack < 3.402823466e38f && (has_two || is_in_first)) {
-        // The field along the ray is value + rise·t within the slack: where that is not zero, there is no interface.
-        const float value = bound.normal.x * x + bound.normal.y * y + bound.normal.z * z + bound.offset;
+
+    // Moves the start of a ray that leaves an interface to where the ray may come back to it.
+    HWY_INLINE bool leave_interface() {
+        if (!(is_leaving_ && on_interface_ && visit_.rise > least_rise && routine_.is_by_first)) return true;
+        // From an interface on s ≥ rise·t − K/2·t², where K bounds how much s curves downward, which is as much as it
+        // curves upward in the other phase. That is positive up to 2·rise/K, of which a tenth is left for the error of
+        // the rise.
+        const double safe = 1.8 * static_cast<double>(visit_.rise) /
+                            at_least(static_cast<double>(visit_.curvature[is_in_first_ ? 1 : 0]), 1e-30);
+        if (safe >= span_.high - span_.low) return false;
+        if (safe > 8 * static_cast<double>(visit_.resolution)) {
+            span_.low += safe;
+            start_at(span_.low);
+            on_interface_ = false;
+        }
+        return true;
+    }
+
+    // Cuts the ray to the slab outside of which the field cannot vanish, by its linear bound.
+    HWY_INLINE bool enter_slab() {
+        const LinearBound& bound = *visit_.bound;
+        if (!(bound.slack < 3.402823466e38f && (routine_.output_count == 2 || is_in_first_))) return true;
+        // Along the ray the field is within the slack of value + rise·t. Where that excludes zero there is no
+        // interface.
+        const auto& direction = ray_.direction;
+        const float value = bound.normal.x * x_ + bound.normal.y * y_ + bound.normal.z * z_ + bound.offset;
         const float rise = bound.normal.x * direction.x + bound.normal.y * direction.y + bound.normal.z * direction.z;
-        const float steep = magnitude(rise), length = static_cast<float>(span.high - span.low);
-        slope = smaller(1.f, steep + bound.spread);
-        is_monotone = steep > bound.spread;
-        // A ray that has left the interface for the phase that the field grows into stays there.
-        if (is_departure && on_interface && is_monotone && routine.outputs[is_in_first ? 0 : 1].sign * rise < 0)
+        const float steep = magnitude(rise), length = static_cast<float>(span_.high - span_.low);
+        slope_ = smaller(1.f, steep + bound.spread);
+        is_monotone_ = steep > bound.spread;
+        // A ray that has left the interface into the phase in which the field grows along it stays there.
+        if (is_leaving_ && on_interface_ && is_monotone_ && routine_.outputs[is_in_first_ ? 0 : 1].sign * rise < 0)
             return false;
         const float per_rise = 1 / larger(steep, 1e-20f), depth = rise < 0 ? value : -value;
         const float enter = (depth - bound.slack) * per_rise, leave = (depth + bound.slack) * per_rise;
         if (enter > 0 || leave < 0) {
-            // It starts where the label is known.
+            // The ray starts outside of the slab, where the label is known.
             const bool is_below = value < 0;
-            const float here = routine.outputs[(routine.outputs[0].sign > 0) == is_below ? 0 : 1].phase;
-            if (carried < 0 || here == carried) {
+            const float here = routine_.outputs[(routine_.outputs[0].sign > 0) == is_below ? 0 : 1].phase;
+            if (carried_ < 0 || here == carried_) {
                 if (leave < 0 || enter > length) return false;
-                span.low += static_cast<double>(enter);
-                start_at(span.low);
-                carried = here;
-                on_interface = false;
-                span.high = at_most(span.high, span.low + static_cast<double>(leave - enter));
+                span_.low += static_cast<double>(enter);
+                start_at(span_.low);
+                carried_ = here;
+                on_interface_ = false;
+                span_.high = at_most(span_.high, span_.low + static_cast<double>(leave - enter));
             }
         } else {
-            span.high = at_most(span.high, span.low + static_cast<double>(leave));
+            span_.high = at_most(span_.high, span_.low + static_cast<double>(leave));
         }
+        return true;
     }
-    const RaySegment segment{{x, y, z},
-                             {direction.x, direction.y, direction.z},
-                             static_cast<float>(span.high - span.low),
-                             v.from,
-                             static_cast<float>(span.low) - v.t_min,
-                             v.resolution,
-                             slope,
-                             {v.curvature[0], v.curvature[1]},
-                             carried,
-                             is_monotone,
-                             on_interface && v.from == 0};
+
+    // The piece of the ray that is left.
+    HWY_INLINE RaySegment segment() const {
+        return {{x_, y_, z_},
+                {ray_.direction.x, ray_.direction.y, ray_.direction.z},
+                static_cast<float>(span_.high - span_.low),
+                visit_.from,
+                static_cast<float>(span_.low) - visit_.t_min,
+                visit_.resolution,
+                slope_,
+                {visit_.curvature[0], visit_.curvature[1]},
+                carried_,
+                is_monotone_,
+                on_interface_ && visit_.from == 0};
+    }
+    // The distance along the ray at which that piece starts.
+    HWY_INLINE double start() const { return span_.low; }
+
+  private:
+    HWY_INLINE void start_at(double t) {
+        x_ = static_cast<float>(static_cast<double>(ray_.origin.x) + t * static_cast<double>(ray_.direction.x));
+        y_ = static_cast<float>(static_cast<double>(ray_.origin.y) + t * static_cast<double>(ray_.direction.y));
+        z_ = static_cast<float>(static_cast<double>(ray_.origin.z) + t * static_cast<double>(ray_.direction.z));
+    }
+
+    const Visit& visit_;
+    const TracedRay& ray_;
+    const Routine& routine_;
+    Interval span_;
+    float carried_;     // the phase that the ray is in; negative if it is not known
+    bool is_leaving_;   // whether there is a LeavingHint
+    bool is_in_first_;  // whether the ray is in the phase of the first output
+    bool on_interface_ = false;
+    bool is_monotone_ = false;
+    float slope_ = 1;
+    float x_ = 0, y_ = 0, z_ = 0;  // the start
+};
+
+bool visit(const Visit& v, RayCrossing& result) {
+    result.batches = result.phantoms = 0;
+    result.is_unfinished = false;
+    if (!v.ray->is_traceable) return false;
+    Approach approach(v);
+    if (!approach.enter_box() || !approach.leave_interface() || !approach.enter_slab()) return false;
+    const RaySegment segment = approach.segment();
     alignas(64) float registers[few_slots * batch_size];
-    const bool is_hit = March(routine, segment, v.registers ? v.registers : registers).search(result);
+    const bool is_hit = March(*v.routine, segment, v.registers ? v.registers : registers).search(result);
     if (!is_hit && !result.is_unfinished) return false;
-    result.start = span.low;
-    result.origin[0] = x;
-    result.origin[1] = y;
-    result.origin[2] = z;
+    result.start = approach.start();
+    result.origin[0] = segment.origin[0];
+    result.origin[1] = segment.origin[1];
+    result.origin[2] = segment.origin[2];
     return is_hit;
 }
 

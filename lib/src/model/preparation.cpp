@@ -8,6 +8,7 @@ namespace phasetree::model {
 
 namespace {
 
+// The budget that this thread holds.
 thread_local PreparationTogether* held = nullptr;
 
 }  // namespace

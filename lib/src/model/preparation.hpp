@@ -5,14 +5,17 @@
 
 namespace phasetree::model {
 
-/// How much work a node may do to derive what it needs: places on a surface, the bound of a slope. It is counted in
-/// steps, an instruction run for a batch of points or about as much of other work; 4·10⁸ take about a second.
+/// The budget of work that a node may spend to derive what it needs from its parameters, such as places on a surface or
+/// the bound of a slope. Work is counted in steps: an instruction that is run for a batch of points is one, and so is
+/// about as much of other work. 4·10⁸ steps take about a second.
 class Preparation {
   public:
     explicit Preparation(std::string_view node) : node_(node) {}
 
-    /// Before the work is done. Throws ModelError if it is too much for the node, or for the scene that is being read.
+    /// Pays for work, and must be called before the work is done. Throws ModelError if it is too much for the node, or
+    /// for the scene that is being read.
     void pay(std::uint64_t steps);
+    /// The steps that are left.
     std::uint64_t left() const { return most - paid_; }
 
     static constexpr std::uint64_t most = 400'000'000;
@@ -22,8 +25,8 @@ class Preparation {
     std::uint64_t paid_ = 0;
 };
 
-/// As long as it exists, all nodes that this thread makes may do so much work together: what reads a scene holds one,
-/// because a file of a thousand lines can ask for all that a node may do a thousand times.
+/// The budget of all nodes together that this thread makes while the object exists. The reader of scenes holds one,
+/// because a file of a thousand lines could ask a thousand times for all that one node may do.
 class PreparationTogether {
   public:
     PreparationTogether();
@@ -31,14 +34,15 @@ class PreparationTogether {
     PreparationTogether(const PreparationTogether&) = delete;
     PreparationTogether& operator=(const PreparationTogether&) = delete;
 
-    /// The one that this thread holds, if it does, pays so much; throws ModelError, said of the node.
+    /// Pays for work from the budget that this thread holds, if there is one. Throws ModelError, which names the node,
+    /// if it is too much.
     static void pay(std::string_view node, std::uint64_t steps);
 
     static constexpr std::uint64_t most = 10 * Preparation::most;
 
   private:
     std::uint64_t paid_ = 0;
-    PreparationTogether* around_;
+    PreparationTogether* around_;  ///< the budget that the thread held before
 };
 
 }  // namespace phasetree::model

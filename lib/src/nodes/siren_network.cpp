@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "math/dual.hpp"
 #include "model/preparation.hpp"
-#include "phasetree/math/dual.hpp"
 #include "phasetree/math/spectral.hpp"
 #include "phasetree/nodes/fields/siren.hpp"
 
@@ -14,11 +14,12 @@ using model::Preparation;
 
 namespace {
 
-/// ‖W‖₂, from above: the eigenvalues of WᵀW are the squares of W's singular values.
+// An upper bound of ‖W‖₂: the eigenvalues of WᵀW are the squares of the singular values of W.
 double spectral_norm(const SirenNetwork::Layer& layer) {
     const auto n = static_cast<std::size_t>(std::min(layer.inputs, layer.outputs));
     const auto inputs = static_cast<std::size_t>(layer.inputs), outputs = static_cast<std::size_t>(layer.outputs);
-    const bool wide = layer.inputs > layer.outputs;  // then W Wᵀ, which is smaller and has the same norm
+    // W Wᵀ has the same norm as WᵀW, so the smaller of the two is taken.
+    const bool wide = layer.inputs > layer.outputs;
     const auto at = [&](std::size_t row, std::size_t column) {
         return static_cast<double>(layer.weights[row * inputs + column]);
     };
@@ -32,7 +33,7 @@ double spectral_norm(const SirenNetwork::Layer& layer) {
 
 constexpr std::uint64_t multiplications_a_step = 8;
 
-/// The van der Corput sequence.
+// The n-th number of the van der Corput sequence in a base; three bases make a Halton sequence in space.
 double radical_inverse(unsigned n, unsigned base) {
     double result = 0, digit = 1.0 / base;
     for (; n > 0; n /= base, digit /= base) result += digit * (n % base);
@@ -45,7 +46,7 @@ const char* SirenNetwork::mistake() const {
     if (!(radius >= 1e-6f && radius <= 1e6f)) return "the radius must be between 1e-6 and 1e6 m";
     if (layers.empty()) return "the network has no layers";
     int width = 3;
-    double reach = static_cast<double>(radius);  // of the coordinates that come in
+    double reach = static_cast<double>(radius);  // bounds each input of the layer
     for (std::size_t n = 0; n < layers.size(); ++n) {
         const Layer& layer = layers[n];
         if (layer.inputs != width)
@@ -60,7 +61,7 @@ const char* SirenNetwork::mistake() const {
             for (std::size_t i = 0; i < static_cast<std::size_t>(layer.inputs); ++i)
                 sum += std::abs(static_cast<double>(layer.weights[o * static_cast<std::size_t>(layer.inputs) + i])) *
                        reach;
-            // sine() is exact so far.
+            // sine() is exact for arguments up to 10⁴.
             if (!(sum < 9000)) return "a layer's weights are too large";
         }
         width = layer.outputs;

@@ -9,14 +9,16 @@ namespace phasetree {
 
 namespace {
 
-/// Positions are computed in floats where they are used.
+// The error of positions, in cubes: here they are doubles, but values are computed with floats.
 double margin(const std::array<double, 3>& p) {
     return 1e-3 + 1e-5 * (std::abs(p[0]) + std::abs(p[1]) + std::abs(p[2]));
 }
-/// Beyond, the lists would be long, and the pattern must not have ended.
+// Larger boxes would have long lists. Farther from the origin the pattern is not what it is elsewhere: it ends at
+// 65536.
 constexpr double longest_reach = 1, farthest = 60000;
 constexpr std::size_t most_sites = 100;
 
+// A box measured in cubes of the lattice.
 PointRange in_cubes(PointRange r, float size) {
     for (int i = 0; i < 3; ++i) {
         r.centre[i] /= static_cast<double>(size);
@@ -32,10 +34,11 @@ bool is_small(const PointRange& r) {
            std::abs(r.centre[0]) + std::abs(r.centre[1]) + std::abs(r.centre[2]) < farthest;
 }
 
-/// Those of what append() has made.
+// The list of sites in the floats that append() has made; empty if there are none.
 std::span<const float> sites_of(std::span<const float> of) {
     return of.empty() ? of : SpecialisedVoronoi::list(of.data());
 }
+// Appends the data of a SpecialisedVoronoi; returns false, and appends nothing, if there are too many sites.
 bool append(std::span<const VoronoiSites::Site> sites, std::array<float, SpecialisedVoronoi::parameters> parameters,
             std::vector<float>& floats) {
     if (sites.size() > most_sites) return false;
@@ -76,7 +79,7 @@ void VoronoiSites::find(const Search& search, std::span<const float> list, std::
         std::array<float, 3> own;
         for (std::size_t axis = 0; axis < 3; ++axis) own[axis] = static_cast<float>(std::floor(centre[axis]));
         const int steps = static_cast<int>(std::ceil(search.most));
-        // The square of how far the sites of a layer of cubes are along an axis at the least.
+        // A lower bound of the squared distance along an axis to the sites of a layer of cubes.
         const auto away = [&](std::size_t axis, int step) {
             const double low = static_cast<double>(own[axis]) + step + corner - centre[axis];
             const double high = static_cast<double>(own[axis]) + step + reach - centre[axis];
@@ -108,7 +111,7 @@ bool VoronoiCells::specialise(const PointRange& range, std::span<const float> of
     if (!is_small(box)) return false;
     const VoronoiSites sites{jitter, seed};
     const double extra = 2 * (radius(box) + margin(box.centre)), far = static_cast<double>(seen());
-    // A bisector is at least half of the difference of the distances away.
+    // The bisector of two sites is at least half the difference of their distances away.
     std::vector<VoronoiSites::Site> found;
     sites.find({.centre = box.centre,
                 .most = static_cast<double>(sites.nearest()) + extra + 2 * far,
@@ -117,7 +120,8 @@ bool VoronoiCells::specialise(const PointRange& range, std::span<const float> of
     const auto nearest = std::ranges::min_element(found, {}, &VoronoiSites::Site::distance);
     const auto may_be_nearest = [&](const VoronoiSites::Site& s) { return s.distance <= nearest->distance + extra; };
     if (std::ranges::count_if(found, may_be_nearest) == 1) {
-        // Of one site the bisectors are planes.
+        // Only one site can be the nearest in the box, so its bisectors are planes, whose distance from the box is
+        // exact.
         const VoronoiSites::Site s = *nearest;
         std::erase_if(found, [&](const VoronoiSites::Site& t) {
             std::array<double, 3> between;

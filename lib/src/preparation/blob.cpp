@@ -6,8 +6,8 @@
 #include <queue>
 #include <span>
 
-#include "phasetree/tree/node.hpp"
 #include "preparation/prepared_field.hpp"
+#include "tree/node.hpp"
 
 namespace phasetree {
 
@@ -16,8 +16,8 @@ using preparation::BatchOfPoints, preparation::PreparedField;
 
 namespace {
 
-/// sup over a ball of Σ wᵢ |gᵢ′(dᵢ)|, from the distances at its centre. |gᵢ′| = 6x(1 − x²)²/Rᵢ, x = d/R, rises to
-/// x² = 1/5 and falls from there.
+// sup over a ball of Σ wᵢ |gᵢ′(dᵢ)|, from the distances at its centre. |gᵢ′| = 6x(1 − x²)²/Rᵢ, x = d/R, rises to
+// x² = 1/5 and falls from there.
 double steepness(const Blob& blob, const std::vector<double>& distances, double radius) {
     double sum = 0;
     for (std::size_t i = 0; i < distances.size(); ++i) {
@@ -30,7 +30,7 @@ double steepness(const Blob& blob, const std::vector<double>& distances, double 
     return sum;
 }
 
-/// The distances to a blob's skeletons.
+// Finds the distances to a blob's skeletons.
 class Skeletons {
   public:
     Skeletons(const Blob& blob, Preparation& preparation) : blob_(blob), preparation_(preparation) {
@@ -38,7 +38,7 @@ class Skeletons {
         for (const Field& f : blob.of) fields_.emplace_back(Blob::info.name, f, preparation);
     }
 
-    /// At each point of a batch, of which so many count.
+    // Finds the distances at the first `count` points of a batch.
     void find(const BatchOfPoints& p, std::size_t count) {
         preparation_.pay(count * own_steps_);
         values_.clear();
@@ -57,8 +57,9 @@ class Skeletons {
             for (const BatchOfFloats& v : values_) all.push_back(static_cast<double>(v[lane]));
         }
     }
+    // The distances at one point, to the skeletons in their order.
     const std::vector<double>& at(std::size_t lane) const { return at_[lane]; }
-    /// Of one call of find().
+    // The work of one call of find().
     std::uint64_t steps() const {
         std::uint64_t steps = batch_size * (1 + own_steps_);
         for (const PreparedField& f : fields_) steps += f.steps();
@@ -74,8 +75,8 @@ class Skeletons {
     std::array<std::vector<double>, batch_size> at_;
 };
 
-/// A bound of sup ‖∇b‖ over all of space, close to Σ wᵢ |gᵢ′| at its worst place: cubes over the supports, of which the
-/// one that allows most is divided until that no longer helps.
+// A bound of sup ‖∇b‖ over all of space, which is close to Σ wᵢ |gᵢ′| where that is largest. The supports are covered
+// by cubes, and the cube with the largest bound is divided until that no longer helps (branch and bound).
 double blob_slope(const Blob& blob) {
     double everywhere = 0;
     for (std::size_t i = 0; i < blob.count(); ++i)
@@ -96,11 +97,11 @@ double blob_slope(const Blob& blob) {
     struct Cube {
         double bound;
         glm::vec3 centre;
-        float half;  ///< of the edge
+        float half;  // of the edge
         bool operator<(const Cube& o) const { return bound < o.bound; }
     };
     std::priority_queue<Cube> cubes;
-    double reached = 0;  // somewhere, the sum is that much
+    double reached = 0;  // the largest value of the sum at a cube's centre
     Preparation preparation(Blob::info.name);
     Skeletons skeletons(blob, preparation);
     const auto add = [&](std::span<const glm::vec3> centres, float half) {
@@ -117,7 +118,7 @@ double blob_slope(const Blob& blob) {
     };
     const glm::vec3 extent = support.extent(), middle = support.centre();
     add({&middle, 1}, 0.5f * std::max({extent.x, extent.y, extent.z}) * (1 + 1e-6f));
-    // Skeletons of many instructions are asked less often, and what is found is a bound all the same.
+    // Skeletons of many instructions are evaluated less often; the result is a bound all the same.
     const std::uint64_t affordable = batch_size * (preparation.left() / 8 / skeletons.steps());
     const std::size_t most =
         std::min<std::uint64_t>(std::clamp<std::size_t>(2'000'000 / blob.count(), 2'000, 50'000), affordable);

@@ -11,7 +11,7 @@ using program::traits;
 
 namespace {
 
-/// What it takes to record an instruction.
+// The work of recording an instruction, in steps.
 constexpr std::uint64_t recording = 100;
 
 Program recorded(std::string_view node, const Field& field) {
@@ -25,10 +25,10 @@ Program recorded(std::string_view node, const Field& field) {
 constexpr auto height_map = static_cast<Op>(static_cast<std::size_t>(Op::first_primitive) + Primitives::size +
                                             index_in<HeightMap>(DataPrimitives()));
 
-/// A long primitive counts for more than one, and one with data for a quarter of them; but of a height map an
-/// evaluation looks at nine.
+// The work of an evaluation. A long primitive counts for several steps, and a primitive with data for a quarter of its
+// floats; except that an evaluation of a height map reads only nine of them.
 std::uint64_t steps_of(const Program& program) {
-    std::uint64_t steps = 20;  // to call it
+    std::uint64_t steps = 20;  // for the call
     for (std::size_t i = 1; i < program.instructions.size(); ++i) {
         const Instruction& in = program.instructions[i];
         const std::size_t end =
@@ -52,7 +52,7 @@ PreparedField::PreparedField(std::string_view node, const Field& field, Preparat
 BatchOfFloats PreparedField::operator()(const BatchOfPoints& p) {
     preparation_.pay(steps_);
     evaluator_.evaluate(p.x, p.y, p.z, out_, registers_);
-    return out_.back();  // the vacuum comes before
+    return out_.back();  // the outputs are the vacuum and the field
 }
 
 }  // namespace phasetree::preparation

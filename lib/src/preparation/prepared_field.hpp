@@ -7,7 +7,7 @@ namespace phasetree::preparation {
 
 using model::Preparation;
 
-/// Points, one in each lane.
+/// A batch of points.
 struct BatchOfPoints {
     BatchOfFloats x{}, y{}, z{};
 
@@ -18,15 +18,16 @@ struct BatchOfPoints {
     }
 };
 
-/// A field as a node evaluates it to prepare itself: by its program, in which a shared shape counts once a place, where
-/// a walk through the tree might never end. What it does is paid for.
+/// A field that a node evaluates to derive what it needs. It is evaluated by its program, in which a shared shape
+/// counts once for each place; a walk through the tree could take exponentially long. Its work is paid for from a
+/// Preparation.
 class PreparedField {
   public:
     /// Throws ModelError, said of the node, if the field takes too many instructions.
     PreparedField(std::string_view node, const Field&, Preparation&);
 
     BatchOfFloats operator()(const BatchOfPoints&);
-    /// Of one evaluation.
+    /// The work of one evaluation.
     std::uint64_t steps() const { return steps_; }
 
   private:

@@ -17,11 +17,12 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// The accepted points, so that those near a place are found without asking all.
+// The points that were accepted, in a hashed grid, so that those near a place are found without a look at all.
 class Neighbourhood {
   public:
     explicit Neighbourhood(float spacing) : spacing_(spacing) {}
 
+    // Whether no point is nearer than the spacing.
     bool is_free(const glm::vec3& p) const {
         if (spacing_ == 0) return true;
         const glm::ivec3 cell = cell_of(p);
@@ -49,19 +50,23 @@ class Neighbourhood {
     std::unordered_multimap<std::uint64_t, glm::vec3> cells_;
 };
 
-/// A straight line through the ball around the surface, and where the field changes its sign along it.
+// A straight line through the ball around the surface, and how far it was searched for changes of the field's sign.
 struct Line {
     glm::vec3 origin{}, direction{};
-    float before = 0, value = 0, t = 0;  ///< up to `before`, where the field has this value, it is searched; t is next
+    float before = 0;  // it was searched up to here,
+    float value = 0;   // where the field has this value
+    float t = 0;       // where it is evaluated next
 
     glm::vec3 at(float along) const { return origin + along * direction; }
 };
+// A change of the field's sign along a line, between two places.
 struct Change {
     std::size_t line = 0;
     float low = 0, high = 0;
-    bool is_negative = false;  ///< the field at `low`
+    bool is_negative = false;  // whether the field is negative at `low`
 };
 
+// Finds points of a surface along random lines, eight lines at a time.
 class Search {
   public:
     Search(const Field& surface, const glm::vec3& centre, float radius, int seed)
@@ -72,7 +77,7 @@ class Search {
           smallest_(2e-4f * radius),
           state_(0x5851f42d4c957f2du + static_cast<std::uint64_t>(seed)) {}
 
-    /// Where the next lines cross the surface, line after line.
+    // The points where the next eight lines cross the surface, line after line.
     std::vector<glm::vec3> crossings() {
         for (Line& line : lines_) line = random_line();
         std::vector<Change> changes = march();
@@ -83,6 +88,7 @@ class Search {
         for (const Change& c : changes) found.push_back(lines_[c.line].at(0.5f * (c.low + c.high)));
         return found;
     }
+    // The unit normal of the surface near a point, by central differences.
     glm::dvec3 normal_at(const glm::vec3& p) {
         BatchOfPoints around;
         for (std::size_t lane = 0; lane < batch_size; ++lane) {
@@ -100,7 +106,7 @@ class Search {
     }
 
   private:
-    /// A uniform direction, and a uniform point of the disk across it.
+    // A line of uniformly random direction through a uniformly random point of the disk across it.
     Line random_line() {
         const double z = 2 * next_random(state_) - 1, a = 2 * pi * next_random(state_), rho = std::sqrt(1 - z * z);
         const glm::dvec3 d(rho * std::cos(a), rho * std::sin(a), z);
@@ -111,13 +117,14 @@ class Search {
                      angle = 2 * pi * next_random(state_);
         return {glm::vec3(glm::dvec3(centre_) + r * (std::cos(angle) * u + std::sin(angle) * v)), glm::vec3(d)};
     }
+    // The field at one place of each line.
     BatchOfFloats along_lines(float Line::*t) {
         BatchOfPoints points;
         for (std::size_t i = 0; i < lines_.size(); ++i) points.set(i, lines_[i].at(lines_[i].*t));
         return surface_(points);
     }
     float step(float value) const { return std::max(std::abs(value), smallest_); }
-    /// All lines at once, each with its own steps.
+    // The changes of sign along all lines, which are sphere-traced at once, each with its own steps.
     std::vector<Change> march() {
         std::vector<Change> changes;
         for (Line& line : lines_) line.before = -radius_;
@@ -139,6 +146,7 @@ class Search {
         }
         return changes;
     }
+    // Narrows changes of sign, at most eight, by bisection.
     void bisect(std::span<Change> changes) {
         for (int n = 0; n < 24; ++n) {
             BatchOfPoints points;
@@ -171,7 +179,7 @@ std::vector<SurfacePoint> scattered(const Field& surface, int count, float spaci
     const float radius = 0.5f * b.diagonal() * (1 + 1e-4f);
     if (!(radius > 1e-9f && radius < 1e9f))
         throw ModelError("scatter: the surface must be between 1e-9 and 1e9 m large");
-    // A multiple of the bounds' size, so that no cell's number overflows.
+    // A smaller spacing would overflow the numbers of the grid's cells; at this size it excludes nothing.
     if (spacing > 0 && spacing < 1e-4f * radius) spacing = 0;
     Neighbourhood taken(spacing);
     std::vector<SurfacePoint> found;

@@ -1,3 +1,4 @@
+// The ways from the number of an operation to the type of its primitive, and from an instruction's floats to a struct.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +8,6 @@
 
 #include "phasetree/nodes/list.hpp"
 
-/// From an operation's number to the type of its primitive, and from an instruction's floats to its values.
 namespace phasetree::program {
 
 template <std::size_t first, std::size_t count, class... Ts, class Run>
@@ -22,8 +22,8 @@ template <std::size_t first, std::size_t count, class... Ts, class Run>
             dispatch_among<first + half, count - half>(list, index, run);
     }
 }
-/// Calls run.template operator()<T>() for the index-th type of a list. It is found by halves, and what is called is
-/// inline.
+/// Calls run.template operator()<T>() for the index-th type of a list, and nothing for an index past its end. The type
+/// is found by bisection, so that the call can be inlined.
 template <class... Ts, class Run>
 void dispatch(TypeList<Ts...> list, std::uint32_t index, Run&& run) {
     if (index < sizeof...(Ts)) dispatch_among<0, sizeof...(Ts)>(list, index, run);
@@ -36,7 +36,7 @@ Struct read(const float* constants) {
     return result;
 }
 
-/// The distance of a primitive of either kind, whose floats are at `constants`.
+/// The distance of a primitive P, with or without data, whose floats are at `constants`.
 template <class P, class T>
 T distance_of(const float* constants, const Vec3<T>& q) {
     if constexpr (DataPrimitive<P>) {

@@ -1,3 +1,6 @@
+// Instructions that only the programs of cells have (rewriting/fuse.hpp): a primitive fused with the affine maps before
+// and after it, rounded as they would be alone. Their operations follow those of the maps of space: first an affine map
+// alone, then one operation for each primitive.
 #pragma once
 
 #include <array>
@@ -6,12 +9,9 @@
 #include "phasetree/nodes/list.hpp"
 #include "phasetree/program/program.hpp"
 
-/// Instructions that only cells have (rewriting/fuse.hpp): what is affine before a
-/// primitive and after it, in one with it, rounded as it would be alone.
-/// Their operations follow those of the maps of space: first a map alone, then one for each primitive.
 namespace phasetree::program {
 
-/// scale · d(map(p)) + offset: the floats of d follow.
+/// The constants of scale · d(map(p)) + offset. Those of the primitive d follow.
 struct PlacedPrimitive {
     AffineMap map;
     float scale = 1, offset = 0;
@@ -22,7 +22,7 @@ inline constexpr std::uint32_t first_map = static_cast<std::uint32_t>(Op::first_
                                            static_cast<std::uint32_t>(Primitives::size + DataPrimitives::size);
 inline constexpr std::uint32_t affine_map = first_map + static_cast<std::uint32_t>(PointMaps::size);
 inline constexpr std::uint32_t first_placed = affine_map + 1;
-/// The map that folds space.
+/// The operation that folds space.
 inline constexpr Op fold_map = static_cast<Op>(first_map + static_cast<std::uint32_t>(index_in<FoldMap>(PointMaps())));
 
 }  // namespace phasetree::program

@@ -8,11 +8,13 @@ namespace {
 
 static_assert(first_placed + Primitives::size <= most_operations);
 
+// For each primitive of a list, whether it is long.
 template <class... Ps>
 constexpr auto long_ones(TypeList<Ps...>) {
     return std::array<bool, sizeof...(Ps)>{LongPrimitive<Ps>...};
 }
 
+// Sets what is special of patterns, and of those that can be specialised.
 template <class... Ps>
 constexpr void mark_patterns(TypeList<Ps...>, auto& all) {
     constexpr auto first = static_cast<std::size_t>(Op::first_primitive);
@@ -21,7 +23,7 @@ constexpr void mark_patterns(TypeList<Ps...>, auto& all) {
         if constexpr (LocalPrimitive<P>) {
             OpTraits& local = all[first + index_in<P>(Primitives())];
             local.is_local = true;
-            local.half_works = 800;  // as long as all of it may matter
+            local.half_works = 800;  // the cost of all its sites
             all[first + Primitives::size + index_in<typename P::Specialised>(DataPrimitives())].is_specialised = true;
         }
     };
@@ -38,7 +40,8 @@ constexpr auto all_traits() {
         of(op).operands = 2;
     constexpr auto is_long = long_ones(Primitives());
     for (std::size_t i = 0; i < Primitives::size + DataPrimitives::size; ++i)
-        all[first_primitive + i].is_long_primitive = i >= is_long.size() || is_long[i];  // then come those with data
+        all[first_primitive + i].is_long_primitive =
+            i >= is_long.size() || is_long[i];  // primitives with data follow, and all count as long
     for (std::size_t i = first_primitive; i < first_placed + Primitives::size; ++i)
         all[i].half_works = all[i].is_long_primitive ? 120 : 3;
     for (std::size_t i = first_map; i < first_placed; ++i) all[i].gives_point = true;

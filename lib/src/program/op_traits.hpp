@@ -7,19 +7,19 @@
 
 namespace phasetree::program {
 
-/// What is known of an operation.
+/// The properties of an operation.
 struct OpTraits {
-    std::uint8_t operands = 1;       ///< how many values it takes
-    std::uint16_t half_works = 2;    ///< how much work it is, in halves of a simple one
+    std::uint8_t operands = 1;       ///< the number of values it takes
+    std::uint16_t half_works = 2;    ///< its cost, in halves of that of a simple operation
     bool gives_point = false;        ///< its result is a point and not a number
     bool is_long_primitive = false;  ///< a primitive whose equation is long (concepts.hpp)
     bool is_network = false;         ///< a neural field: Siren::Network
-    bool is_fold = false;            ///< a fold of space, which jumps
+    bool is_fold = false;            ///< it folds space, so it is not continuous
     bool is_pattern = false;         ///< a PatternPrimitive
     bool is_local = false;           ///< a LocalPrimitive
-    bool is_specialised = false;     ///< and what it becomes in a small box
+    bool is_specialised = false;     ///< the form that a LocalPrimitive takes in a small box
 };
-/// Of every operation, those of fused.hpp too.
+/// The properties of all operations, those of fused.hpp included, by their number.
 inline constexpr std::size_t most_operations = 256;
 extern const std::array<OpTraits, most_operations> op_traits;
 
@@ -38,7 +38,7 @@ inline bool is_long_primitive(Op op) {
 inline bool is_fold(Op op) {
     return traits(op).is_fold;
 }
-/// Whether an operation makes distances larger far from the surface.
+/// Whether an operation adds a far bound, which makes distances larger far from the surface and nothing else.
 inline bool is_far_bound(Op op) {
     return op == Op::far_bound || op == Op::far_bound_inside;
 }

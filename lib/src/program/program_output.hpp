@@ -6,14 +6,15 @@
 
 namespace phasetree::program {
 
-/// An output as it comes out of a program. With `negate` the component is minus the value: where only two phases meet,
-/// one value tells both.
+/// An output of a program in a cell: the component of a phase is the value, or, with `negate`, minus the value. Where
+/// only two phases meet one value gives both components.
 struct ProgramOutput {
     Phase phase;
     std::uint32_t value = 0;
     bool negate = false;
 };
 
+/// The outputs of a whole object's program, none of them negated.
 std::vector<ProgramOutput> outputs_of(const Program&);
 
 }  // namespace phasetree::program

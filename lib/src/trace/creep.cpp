@@ -2,146 +2,37 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include "bounding/enclose_primitive.hpp"
 #include "evaluation/target.hpp"
 #include "phasetree/program/batch.hpp"
+#include "trace/component_along_ray.hpp"
 
 namespace phasetree::trace {
 
-using bounding::enclose_long_primitive, bounding::enclose_primitive;
-using enclosure::Enclosure, enclosure::Range;
-using evaluation::active_kernel, evaluation::interpret, evaluation::RoutineSteps;
-using kernel::few_slots, kernel::OutputSlot, kernel::Routine, kernel::Step;
-using program::fold_map;
-using rewriting::Arena, rewriting::ArenaScope;
+using evaluation::active_kernel;
+using kernel::few_slots, kernel::RayCrossing, kernel::Visit;
 
 namespace {
 
-/// In resolutions: shorter stretches are sampled in the time that it takes to enclose them.
+// The lengths, in resolutions, of the first stretch that is enclosed and of the shortest. Shorter ones are sampled in
+// the time that it takes to enclose them.
 constexpr float first_stretch = 1024, shortest_stretch = 256;
-/// What enclosing a stretch costs, in batches.
+// What enclosing a stretch costs, in batches of samples.
 constexpr std::uint64_t batches_to_enclose = 32;
+// The batches of one walk, and those of a search after which steps become longer than the resolution.
 constexpr std::uint64_t batches_of_walk = 256, most_batches = 524'288;
-/// In resolutions: so far from an interface a ray creeps no more.
+// A ray that is farther than this from an interface, in resolutions, does not creep.
 constexpr float away = 16;
-/// Of a resolution: a step's length, with room for the rounding of places.
+// The length of a step of a walk, in resolutions. It is below 1, because places are rounded.
 constexpr float step_length = 0.95f;
 
-/// A routine's steps with the numbers that they work on, because a fold of space is none where it jumps.
-class StepsAlong {
-  public:
-    StepsAlong(const Routine& routine, const Enclosure* registers)
-        : steps_(routine), registers_(registers), size_(routine.count) {}
-    std::size_t size() const { return has_jumped_ ? 0 : size_; }
-    static bool is_left_out(std::size_t) { return false; }
-    const Step& step(std::size_t i) const {
-        const Step& s = steps_.step(i);
-        if (s.op == static_cast<std::uint32_t>(fold_map)) {
-            const auto fold = program::read<FoldMap>(steps_.constants(i));
-            for (int axis = 0; axis < 3; ++axis) {
-                const Range& x = registers_[s.a + static_cast<std::uint32_t>(axis)].value;
-                const auto cell = [&](double at) {
-                    return std::floor(
-                        (at - static_cast<double>(fold.centre[axis])) * static_cast<double>(fold.inverse[axis]) + 0.5);
-                };
-                has_jumped_ = has_jumped_ || cell(x.low) != cell(x.high);
-            }
-        }
-        return s;
-    }
-    const float* constants(std::size_t i) const { return steps_.constants(i); }
-    bool has_jumped() const { return has_jumped_; }
-
-  private:
-    RoutineSteps steps_;
-    const Enclosure* registers_;
-    std::size_t size_;
-    mutable bool has_jumped_ = false;
-};
-
-/// A component along a ray.
-class ComponentAlong {
-  public:
-    ComponentAlong(const Visit& visit, const RayCrossing& c)
-        : routine_(*visit.routine), direction_(visit.ray->direction), origin_(c.origin[0], c.origin[1], c.origin[2]) {
-        for (std::size_t i = 0; i < routine_.output_count; ++i)
-            if (routine_.outputs[i].phase == c.from) output_ = &routine_.outputs[i];
-        std::uint32_t slots = 3;
-        for (std::size_t i = 0; i < routine_.count; ++i) slots = std::max(slots, routine_.steps[i].to + 3);
-        registers_.resize(slots);
-    }
-
-    /// What it is at most between two places, to about so much; endless if that is not known.
-    double most(float from, float to, double precision) {
-        if (!output_) return Range::most;
-        const double middle = 0.5 * (double{from} + double{to}), half = 0.5 * (double{to} - double{from});
-        for (int i = 0; i < 3; ++i) {
-            const auto along = static_cast<double>(direction_[i]);
-            const double centre = static_cast<double>(origin_[i]) + middle * along, reach = half * std::abs(along);
-            registers_[static_cast<std::size_t>(i)] =
-                Enclosure(centre, {centre - reach, centre + reach}, {Range{along, along}}, {along}, {});
-        }
-        // Functions of the one variable t.
-        const Enclosure::Vector extent{half, 0, 0};
-        StepsAlong steps(routine_, registers_.data());
-        interpret(
-            steps, registers_.data(),
-            [&]<class P, class Point>(const float* constants, const Point& q, Enclosure& result) {
-                if constexpr (LongPrimitive<P>) {
-                    ArenaScope scope(scratch_);
-                    bounding::SpecialisationInBox unused{{}, scratch_};
-                    result = enclose_long_primitive<P>(constants, q, extent, unused);
-                } else {
-                    result = enclose_primitive<P>(constants, q);
-                    if constexpr (ConvexPrimitive<P>)
-                        if (result.value.high - result.value.low > precision)
-                            tighten_by_convexity<P>(constants, q, half, result);
-                }
-                result.tighten(extent);
-            },
-            [&](Enclosure& e) { e.tighten(extent); });
-        const Range& value = registers_[output_->slot].value;
-        const double most = output_->sign < 0 ? -value.low : value.high;
-        return steps.has_jumped() || std::isnan(most) ? Range::most : most;
-    }
-
-  private:
-    /// A convex function of t lies below its chord, and above the lines through two values on either side: what is
-    /// known where an equation's derivatives are not, as of a square root at zero. Of points that go along straight
-    /// lines.
-    template <class P>
-    static void tighten_by_convexity(const float* constants, const Vec3<Enclosure>& q, double half, Enclosure& f) {
-        if (!enclosure::detail::are_affine<3>({&q.x, &q.y, &q.z})) return;
-        const auto at = [&](double t) {
-            const auto coordinate = [t](const Enclosure& e) {
-                const double x = e.centre + t * e.gradient[0].low;
-                return Enclosure(x, {x, x}, {}, {}, {});
-            };
-            return program::distance_of<P>(constants,
-                                           Vec3<Enclosure>{coordinate(q.x), coordinate(q.y), coordinate(q.z)})
-                .centre;
-        };
-        const double far = 2 * half, begin = at(-half), end = at(half);
-        const double falls = std::min(begin - at(-half - far), 0.0), rises = std::max(at(half + far) - end, 0.0);
-        const double low = std::max(begin + falls, end - rises), high = std::max(begin, end);
-        f.value = {std::max(f.value.low, low), std::min(f.value.high, high)};
-    }
-
-    const Routine& routine_;
-    glm::vec3 direction_, origin_;
-    const OutputSlot* output_ = nullptr;
-    std::vector<Enclosure> registers_;
-    Arena scratch_;
-};
-
-/// The rest of a search.
+// The rest of an unfinished search.
 class Creep {
   public:
     Creep(const Visit& visit, RayCrossing& c, TraceCounters& counters)
         : visit_(visit), crossing_(c), counters_(counters), component_(visit, c), place_(c.t_in) {}
 
+    // Alternates enclosed stretches, walks and searches by the kernel until one of these finishes.
     bool finish() {
         Visit rest = visit_;
         for (float step = visit_.resolution;;) {
@@ -164,12 +55,12 @@ class Creep {
         spent_ += batches;
         counters_.batches += batches;
     }
-    struct Sampled {
+    struct Batch {
         BatchOfFloats t, label, distance;
     };
-    /// At eight places behind one, so far apart, up to the end.
-    Sampled sample(float from, float step, float end) {
-        Sampled s;
+    // Samples eight places behind `from`, `step` apart, none beyond `end`.
+    Batch sample(float from, float step, float end) {
+        Batch s;
         for (std::size_t i = 0; i < batch_size; ++i) s.t[i] = std::min(from + step * static_cast<float>(i + 1), end);
         alignas(64) float registers[few_slots * batch_size];
         active_kernel().sample_ray(*visit_.routine, crossing_.origin, &visit_.ray->direction.x, s.t.lane.data(),
@@ -178,9 +69,10 @@ class Creep {
         spend(1);
         return s;
     }
-    /// To the last of eight places up to an end that has the ray's label, if there is one.
+    // Samples eight places between `from` and `end`, and goes to the last of them that has the label of the ray's
+    // phase. Returns whether there is one.
     bool go_to(float from, float end) {
-        const Sampled s = sample(from, (end - from) / batch_size, end);
+        const Batch s = sample(from, (end - from) / batch_size, end);
         for (std::size_t i = batch_size; i-- > 0;)
             if (s.label[i] == crossing_.from && s.t[i] > place_) {
                 place_ = s.t[i];
@@ -189,7 +81,8 @@ class Creep {
         return false;
     }
 
-    /// Goes on behind stretches in which no other phase is deeper than rounding.
+    // Goes on behind stretches in which no other phase is deeper than rounding. Their length doubles while that is
+    // proven, and is halved where it is not.
     void pass_enclosed() {
         const float resolution = visit_.resolution;
         float end = place_;
@@ -199,24 +92,25 @@ class Creep {
             if (!(next > end)) break;
             spend(batches_to_enclose);
             const double rounding = static_cast<double>(resolution) / 16;
-            const bool is_free = component_.most(end, next, 0.1 * rounding) < rounding;
+            const bool is_free = component_.upper_bound(end, next, 0.1 * rounding) < rounding;
             if (is_free) end = next;
             step *= is_free ? 2 : 0.5f;
         }
         if (end > place_ && !go_to(std::max(place_, end - 8 * resolution), end)) go_to(place_, end);
     }
-    /// Goes on by steps while the label stays and the interface is near; true if it may go on after some.
+    // Walks in steps while the label stays the same and the interface is near. Returns whether the ray still creeps, so
+    // that a stretch may be enclosed again.
     bool walk(float& step) {
         if (spent_ > most_batches) step *= 2;
         const float resolution = visit_.resolution, length = step_length * step;
         float from = place_;
         for (std::uint64_t n = 0; n < batches_of_walk; ++n) {
-            const Sampled s = sample(from, length, crossing_.length);
+            const Batch s = sample(from, length, crossing_.length);
             bool is_other = false;
             for (std::size_t i = 0; i < batch_size; ++i) {
                 const bool was_other = is_other;
                 is_other = s.label[i] != crossing_.from;
-                // One that is no deeper than rounding is undecided, if no other follows.
+                // A single sample of another label that is no deeper than rounding is not decided.
                 if (is_other && (was_other || !(s.distance[i] < resolution / 16))) return false;
                 if (!is_other) place_ = s.t[i];
             }
@@ -230,7 +124,8 @@ class Creep {
         }
         return true;
     }
-    /// Passes a place that nothing else passes.
+    // Goes on from a place from which neither a walk nor a search went on, by longer and longer steps. Returns false at
+    // the ray's end.
     bool leap(float& step) {
         do {
             if (go_to(place_, std::min(place_ + batch_size * step, crossing_.length))) return true;
@@ -242,9 +137,9 @@ class Creep {
     const Visit& visit_;
     RayCrossing& crossing_;
     TraceCounters& counters_;
-    ComponentAlong component_;
-    float place_;  ///< in the ray's phase; no change of that up to there
-    std::uint64_t spent_ = 0;
+    ComponentAlongRay component_;
+    float place_;              // a place in the ray's phase; there is no crossing up to it
+    std::uint64_t spent_ = 0;  // in batches
 };
 
 }  // namespace

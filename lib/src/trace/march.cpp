@@ -16,6 +16,7 @@ TracedRay::TracedRay(const glm::vec3& o, const glm::vec3& d) : origin(o), direct
 namespace trace {
 
 using evaluation::active_kernel;
+using kernel::RayCrossing;
 
 std::optional<Crossing> first_crossing(const Visit& visit, TraceCounters& counters) {
     RayCrossing c;

@@ -7,11 +7,12 @@ namespace phasetree::trace {
 
 using kernel::Visit;
 
-/// The first change of label of a routine within a box, searched for from the ray's entry on, so that t is small and
-/// exact there; and only where the field's linear bound leaves an interface possible. A ray that starts inside keeps
-/// its very origin. The search itself is the kernel's: src/kernel/visit.inl.
+/// The first change of label along a ray within a box, which the kernel finds (kernel/visit.inl); a search that the
+/// kernel leaves unfinished is finished. It starts where the ray enters the box, so that t is small and exact there. A
+/// ray that starts inside keeps its own origin. The counters are added to.
 std::optional<Crossing> first_crossing(const Visit&, TraceCounters&);
 
+/// A phase in the form of Visit::carried.
 inline float carried_by(const std::optional<Phase>& phase) {
     return phase ? static_cast<float>(phase->index) : -1.f;
 }

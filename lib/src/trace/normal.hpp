@@ -12,13 +12,14 @@ using evaluation::Component;
 
 /// The normal of a crossing, from the gradients of the components on its two sides.
 ///
-/// At the bracket's ends components are mostly half a resolution from zero, and sometimes zero to rounding. There a
-/// gradient may be of anything: a distance √(x² + z²) of coordinates that are an ulp each points along an axis, one of
-/// zeros nowhere; and by an edge it may be a face's that the ray does not cross. So a gradient is believed if the
-/// component's value is what it says: that of a plane which the ray crosses within the bracket. If the one at the near
-/// end is not, it is sought before the bracket, aside, away from the interface, and on its other side.
+/// At the bracket's ends components are mostly half a resolution from zero, but sometimes zero to rounding, where the
+/// gradient is meaningless: that of √(x² + z²) is along an axis if the coordinates are an ulp each, and zero if they
+/// are zero; and near an edge it may belong to a face that the ray does not cross. So a gradient is accepted only if it
+/// agrees with the component's value: a plane with this normal and distance must cross the ray within the bracket. If
+/// the gradient at the near end does not, others are tried: before the bracket, to the side, away from the interface,
+/// and behind the interface.
 ///
-/// `component(p, phase)` gives a component, and `holds(p)` tells whether it can at that point.
+/// `component(p, phase)` gives a component and its gradient, and `holds(p)` tells whether it can do so at p.
 template <class ComponentAt, class Holds>
 class NormalOf {
   public:
@@ -36,28 +37,28 @@ class NormalOf {
         if (s.is_sound && s.cosine > 0) [[likely]]
             return {s.normal, s.steepness * s.normal};
         const glm::vec3 found = sought(s);
-        // Of two that agree the near end's, which is where the ray is reflected.
+        // If both agree, that of the near end is taken, because the ray is reflected there.
         return {along_the_ray(glm::dot(s.normal, found) > 0.9999f ? s.normal : found)};
     }
 
   private:
-    /// Where a component is asked for: `from` about the near end, where it grows along the normal, or `to` about the
-    /// far end, where it falls.
+    /// The side on which a component is evaluated: that of `from` about the near end, which grows along the normal, or
+    /// that of `to` about the far end, which falls.
     enum Side { near_side, far_side };
-    /// A ray that creeps along an interface, where its label is a matter of rounding, may cross it against its normal
-    /// by so little.
+    /// The smallest cosine of a normal to the ray that is accepted. It is below zero, because a ray that creeps along
+    /// an interface, where its label is a matter of rounding, may cross it slightly against its normal.
     static constexpr float least_cosine = -0.1f;
 
     struct Sample {
         glm::vec3 normal{0};
-        float steepness = 0;  ///< the gradient's length
-        float depth = 0;      ///< how far the component is below zero
-        float cosine = -2;    ///< of the normal to the ray; less than any if there is no normal
-        bool is_sound = false;
+        float steepness = 0;    ///< the gradient's length
+        float depth = 0;        ///< how far the component is below zero
+        float cosine = -2;      ///< between the normal and the ray; below −1 if there is no normal
+        bool is_sound = false;  ///< whether the gradient agrees with the value
     };
 
-    /// The component of a side, so far away from that end of the bracket. It is sound if a field of this slope that is
-    /// zero within the bracket has the value, but for rounding, and if it is farther from zero than that.
+    /// The component of a side at an offset from that end of the bracket. It is sound if its value is farther from zero
+    /// than rounding, and if the plane of this value and gradient crosses the ray within the bracket, but for rounding.
     Sample sample(Side side, const glm::vec3& away) const {
         const bool is_near = side == near_side;
         const Component c = component_((is_near ? c_.p_in : c_.p_out) + away, is_near ? c_.from : c_.to);
@@ -67,7 +68,7 @@ class NormalOf {
         s.normal = c.gradient * ((is_near ? 1 : -1) / s.steepness);
         s.cosine = glm::dot(s.normal, direction_);
         s.depth = -c.value / s.steepness;
-        // What is asked for at an end of the bracket must be all the more certain.
+        // At an end of the bracket the gradient is wrong more often, so the test is stricter.
         const bool is_end = away == glm::vec3(0);
         const float rounding = (is_end ? 1.f / 16 : 1.f / 8) * resolution_, across = glm::dot(s.normal, away);
         const float at_end = s.depth + (is_near ? across : -across), most = width_ * s.cosine;
@@ -76,7 +77,7 @@ class NormalOf {
         return s;
     }
 
-    /// Where the near end does not tell.
+    /// The normal where the gradient at the near end is not sound.
     glm::vec3 sought(const Sample& near) const {
         Sample best = near;
         const auto is_found = [&](const Sample& s) {
@@ -102,7 +103,7 @@ class NormalOf {
         const Sample beyond = at(far_side, glm::vec3(0)), behind = at(far_side, far * direction_);
         if (is_found(beyond) || is_found(behind) || is_found(aside(far_side, behind))) return best.normal;
 
-        // Not where either's gradient leads: then all around, as deep as can be.
+        // If none of these is sound, the deepest sound one along the coordinate axes is taken.
         Sample deepest;
         for (const Side side : {near_side, far_side})
             for (int i = 0; i < 6; ++i) {
@@ -114,12 +115,12 @@ class NormalOf {
         return deepest.is_sound ? deepest.normal : best.normal;
     }
 
-    /// Normals point along the ray. One that does not by rounding is turned by as little as that takes; one that points
-    /// back is of the other face of something thin.
+    /// Normals must point along the ray. One that does not because of rounding is turned as little as needed; one that
+    /// clearly points back belongs to the other face of something thin, and is reversed.
     glm::vec3 along_the_ray(const glm::vec3& n) const {
         const float cosine = glm::dot(n, direction_);
         if (cosine > 0) return n;
-        if (n == glm::vec3(0)) return direction_;  // nothing around has a gradient
+        if (n == glm::vec3(0)) return direction_;  // no gradient was found at all
         if (cosine < least_cosine) return -n;
         return glm::normalize(n + (1e-6f - cosine) * direction_);
     }

@@ -1,23 +1,26 @@
+// The resolution at which an object can be traced. A coordinate has an error of half a unit in the last place, which is
+// at most 6·10⁻⁸ of the largest one; a field's value has an error of a few such units of the coordinates that it
+// depends on.
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "phasetree/trace/tracer.hpp"
 
-/// How finely an object can be traced. Coordinates are known to half a unit in the last place, 6·10⁻⁸ of the farthest
-/// one's size at most; a field's value to a few such units of the coordinates it is made of.
 namespace phasetree {
 
 namespace {
 
-/// Of the farthest coordinate: two to four units in the last place. Finer than that there are no places to look at.
+// The finest resolution, in parts of the farthest coordinate: two to four units in the last place. There are no floats
+// to sample at a finer one.
 constexpr float finest = 2.5e-7f;
-/// Of the farthest coordinate, and of the diagonal: what is chosen, so that values' rounding does not show either.
+// The resolution that is chosen, in parts of the farthest coordinate and of the diagonal, the larger of the two. The
+// rounding of values does not show at it.
 constexpr float rounding = 1e-6f, usual = 2e-6f;
-/// Of the diagonal: a coarser resolution would see little of the object.
+// The coarsest resolution, in parts of the diagonal: a coarser one would miss much of the object.
 constexpr float coarsest = 0.01f;
-/// Of the diagonal: what is chosen is finer unless the object is too far from the origin.
+// A resolution coarser than this, in parts of the diagonal, is warned of. One is chosen only if the object is far from
+// the origin.
 constexpr float poor = 1e-3f;
 
 }  // namespace

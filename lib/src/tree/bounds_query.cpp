@@ -4,7 +4,7 @@
 #include <unordered_set>
 
 #include "model/preparation.hpp"
-#include "phasetree/tree/node.hpp"
+#include "tree/node.hpp"
 
 namespace phasetree {
 
@@ -12,13 +12,14 @@ using model::PreparationTogether;
 
 namespace {
 
+// Adds a value to a hash.
 void mix(std::size_t& hash, std::size_t value) {
     hash = (hash ^ value) * 0x9e3779b97f4a7c15u;
     hash ^= hash >> 29;
 }
 
-/// Of a box's sides, those of the tighter box that are tighter by a hundredth of its size: a side that differs only as
-/// the two are rounded stays where it is.
+// A box with those sides of a tighter box that are tighter by more than a hundredth of its size. Other sides stay where
+// they are, so that rounding does not move them.
 Bounds tightened(const Bounds& box, const Bounds& tighter) {
     if (tighter.empty()) return {};
     Bounds result = box;
@@ -57,14 +58,15 @@ struct BoundsQuery::Memory {
             return hash;
         }
     };
-    std::unordered_map<Key, Bounds, Hash> boxes;
-    std::unordered_map<DirectedKey, Bounds, Hash> directed;
-    std::unordered_map<const void*, std::unordered_set<float>> levels;  ///< that each node was asked for
-    std::size_t asked = 0;                                              ///< by directions
+    std::unordered_map<Key, Bounds, Hash> boxes;                        // the answers by boxes
+    std::unordered_map<DirectedKey, Bounds, Hash> directed;             // the answers by directions
+    std::unordered_map<const void*, std::unordered_set<float>> levels;  // for which each node was asked
+    std::size_t asked = 0;  // the number of subtrees that were asked by directions since the root was
 
-    /// A tree of offsets of shared subtrees can ask exponentially many levels. Past some, they are rounded up to a few:
-    /// the box of a higher level holds that of a lower one.
-    float usual(const void* node, float level) {
+    // The level for which a node is asked in place of the given one. A tree of offsets of shared subtrees can ask for
+    // exponentially many levels, so beyond the first few they are rounded up to few numbers: the box of a higher level
+    // contains that of a lower.
+    float rounded_level(const void* node, float level) {
         std::unordered_set<float>& known = levels[node];
         if (known.contains(level)) return level;
         if (known.size() < 16) {
@@ -80,7 +82,7 @@ struct BoundsQuery::Memory {
 BoundsQuery::BoundsQuery() : memory_(std::make_unique<Memory>()) {}
 BoundsQuery::~BoundsQuery() = default;
 
-/// With a margin for rounding: coordinates are rounded along each direction by what they are along all.
+// The box of six supports, with a margin for rounding, which grows with the largest of them.
 Bounds BoundsQuery::gathered(const Reaches& reach) {
     double largest = 0;
     for (const double r : reach)
@@ -94,6 +96,7 @@ Bounds BoundsQuery::gathered(const Reaches& reach) {
     return b;
 }
 
+// The box of a child's six supports, with what a map of space adds to each.
 Bounds BoundsQuery::moved(const Bounds& box, const Reaches& more) {
     if (box.low.x == Bounds::infinity) return {};
     Reaches reach;
@@ -105,10 +108,11 @@ Bounds BoundsQuery::moved(const Bounds& box, const Reaches& more) {
     return gathered(reach);
 }
 
+// The supports of a box along the six directions.
 Bounds BoundsQuery::placed(const Bounds& box) const {
     if (is_by_boxes()) return box;
     if (box.empty()) return {};
-    // A side at infinity matters only along directions that are not across it.
+    // A side at infinity counts only for directions that are not parallel to it.
     Reaches reach{};
     for (std::size_t k = 0; k < reach.size(); ++k) {
         for (int i = 0; i < 3; ++i) {
@@ -121,9 +125,10 @@ Bounds BoundsQuery::placed(const Bounds& box) const {
 
 template <class Handle>
 Bounds BoundsQuery::by_boxes(const Handle& handle, float level) {
-    // Nodes ask when they are made, too, each anew; a question is about so many steps.
+    // Nodes also ask when they are made, each with a new query, so questions are paid for: one by boxes counts as 60
+    // steps, one by directions as 120.
     PreparationTogether::pay("bounds", 60);
-    const typename Memory::Key key{handle.node(), memory_->usual(handle.node(), level)};
+    const typename Memory::Key key{handle.node(), memory_->rounded_level(handle.node(), level)};
     if (const auto found = memory_->boxes.find(key); found != memory_->boxes.end()) return found->second;
     Bounds b = std::visit([&](const auto& n) { return n.bounds(*this, key.level); }, handle.node()->node);
     if (b.empty()) b = {};
@@ -134,7 +139,7 @@ Bounds BoundsQuery::by_boxes(const Handle& handle, float level) {
 template <class Handle>
 Bounds BoundsQuery::by_directions(const Handle& handle, float level) {
     PreparationTogether::pay("bounds", 120);
-    const typename Memory::DirectedKey key{{handle.node(), memory_->usual(handle.node(), level)}, directions_};
+    const typename Memory::DirectedKey key{{handle.node(), memory_->rounded_level(handle.node(), level)}, directions_};
     if (const auto found = memory_->directed.find(key); found != memory_->directed.end()) return found->second;
     if (++memory_->asked > most_asked) {
         way_ = Way::by_boxes;
@@ -167,6 +172,7 @@ Bounds BoundsQuery::along_own_axes(const Handle& handle, float level) {
     return b;
 }
 
+// The answer in the way that is asked for. The root is asked in both ways, and gets the intersection.
 template <class Handle>
 Bounds BoundsQuery::answer(const Handle& handle, float level) {
     if (way_ == Way::by_boxes) return by_boxes(handle, level);

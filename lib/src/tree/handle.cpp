@@ -1,10 +1,9 @@
 #include "phasetree/model/handle.hpp"
 
 #include <fmt/format.h>
-
 #include <unordered_set>
 
-#include "phasetree/tree/walk.hpp"
+#include "tree/walk.hpp"
 
 namespace phasetree {
 
@@ -31,14 +30,14 @@ void count(const Handle& handle, std::unordered_set<const void*>& seen, TreeStat
     s.depth = std::max(s.depth, handle.node()->depth);
     std::visit(
         [&](const auto& n) {
-            // The node's own struct, not the variant's largest alternative, plus its list of children.
+            // The node's own struct counts, not the variant's largest alternative, and the pointers of its handle.
             s.nodes += 1;
             s.bytes += sizeof(n) + 2 * sizeof(void*);
             for_each_parameter(n, [&](const auto& value, const Parameter&) {
                 if constexpr (requires { value.capacity(); }) s.bytes += value.size() * sizeof(value[0]);
                 if constexpr (requires { value.content; }) s.bytes += value.content->bytes();
             });
-            // What is derived and kept.
+            // What nodes derive from their parameters and keep counts, too.
             if constexpr (requires { n.data(); }) s.bytes += n.data().size_bytes();
             if constexpr (requires { n.network; }) s.bytes += n.network.data().size_bytes();
             if constexpr (requires { n.found; }) s.bytes += n.found.size() * sizeof(n.found[0]);

@@ -1,11 +1,11 @@
-// Nodes become handles here, once for all of the list: their parameters are checked, what they derive is prepared.
+// Nodes become handles here, for all types of the list: their parameters are checked, and what they derive from them is
+// prepared.
 #include <fmt/format.h>
-
 #include <stdexcept>
 #include <typeindex>
 #include <unordered_map>
 
-#include "phasetree/tree/node.hpp"
+#include "tree/node.hpp"
 
 namespace phasetree {
 

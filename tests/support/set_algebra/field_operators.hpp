@@ -2,7 +2,7 @@
 
 /// Operators of plain fields.
 
-#include "phasetree/tree/node.hpp"
+#include "tree/node.hpp"
 #include "support/set_algebra.hpp"
 
 namespace phasetree::tests::oracle {

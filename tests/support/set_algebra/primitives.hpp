@@ -2,7 +2,7 @@
 
 /// Primitives: membership by textbook inequalities, signed distances from their parts in double.
 
-#include "phasetree/tree/node.hpp"
+#include "tree/node.hpp"
 #include "support/set_algebra.hpp"
 
 namespace phasetree::tests::oracle {

@@ -2,7 +2,7 @@
 
 /// Fields that are numbers by their meaning: periodic walls and noise.
 
-#include "phasetree/tree/node.hpp"
+#include "tree/node.hpp"
 #include "support/set_algebra.hpp"
 
 namespace phasetree::tests::oracle {

@@ -14,39 +14,42 @@ class BuildCancelled : public std::runtime_error {
     BuildCancelled() : std::runtime_error("the building of cells was cancelled") {}
 };
 
-/// How much is built before rays are traced. What they find is the same.
+/// How long cells are built before rays are traced. What rays find does not depend on it.
 enum class BuildQuality {
-    low,    ///< for objects that are built anew all the time: a quarter to two thirds of the time, slower rays
-    medium  ///< for most
+    low,    ///< for objects that are built again and again: a quarter to two thirds of the time, slower rays
+    medium  ///< for most objects
 };
 
+/// How cells are built.
 struct CellOptions {
-    float resolution = 0;  ///< see InterfaceTracer
-    int deepest = 14;      ///< divisions from the bounds to the smallest cell
+    float resolution = 0;  ///< in metres; 0 chooses one: see InterfaceTracer
+    int deepest = 14;      ///< the most divisions from the bounds to the smallest cell
     BuildQuality quality = BuildQuality::medium;
-    /// Phases that no ray is ever in, because they are opaque to it. Where two of them meet nothing is looked for, and
-    /// no cells are made for it; what is found for a ray that is in one all the same means nothing.
+    /// Phases that no ray is ever in, because they are opaque. Where two of them meet no interface is looked for and no
+    /// cells are made. What is found for a ray that is in one of them all the same means nothing.
     PhaseSet opaque{};
-    std::function<bool()> cancelled{};  ///< asked now and then, by any thread; true ends the build
-    /// Told now and then how much is done, in (0, 1]: by any of the threads that build, but by one at a time, and each
-    /// time more than before; 1 is the last. The building waits for it.
+    std::function<bool()> cancelled{};  ///< called now and then, by any thread; true ends the build
+    /// Called now and then with the share of the build that is done, in (0, 1], by any of the threads that build, but
+    /// by one at a time. Each share is more than the one before; 1 is the last. The build waits for it.
     std::function<void(float)> progress{};
-    /// About how many bytes of memory the cells may take while they are built and later, Embree's tree over them
-    /// included; 0 for default_cell_bytes(). If they would take more, boxes below some size are not divided: rays find
-    /// the same, more slowly. One cell there is, whatever it takes. The cells do not depend on the number of threads.
+    /// About how many bytes the cells may take while they are built and later, Embree's tree over them included; 0 for
+    /// default_cell_bytes(). If they would take more, boxes below some size are not divided, and rays find the same
+    /// more slowly. There is always one cell at least. The cells do not depend on the number of threads.
     std::size_t most_bytes = 0;
 };
 
-/// Two gigabytes, or a quarter of the memory that the machine has or that this process may use, if that is less.
+/// The default of CellOptions::most_bytes: two gigabytes, or a quarter of the memory that the machine has or that this
+/// process may use, if that is less.
 std::size_t default_cell_bytes();
 
+/// What was built.
 struct CellStatistics {
     std::size_t cells = 0;
-    std::size_t routines = 0;  ///< different programs among the cells
+    std::size_t routines = 0;  ///< different programs among those of the cells
     std::size_t bytes = 0;     ///< cells, routines and the constants they share
     std::size_t median_instructions = 0, percentile90_instructions = 0, most_instructions = 0;
     double build_seconds = 0;
-    bool is_coarser = false;  ///< CellOptions::most_bytes left boxes undivided
+    bool is_coarser = false;  ///< whether boxes were left undivided because of CellOptions::most_bytes
 };
 
 }  // namespace phasetree

@@ -15,13 +15,13 @@ namespace evaluation {
 struct Assembly;
 }
 
-/// A program made ready to run: registers assigned, operations resolved. Immutable; any thread may run it, each with
-/// its own Workspace.
+/// A program that is ready to run: each value has a register and each operation its code. It is immutable; any thread
+/// may run it, each with a Workspace of its own.
 class Evaluator {
   public:
     explicit Evaluator(Program program);
 
-    /// Scratch of one thread; grows to the largest evaluator it serves.
+    /// The registers of one thread. They grow to those of the largest evaluator that uses them.
     class Workspace {
       public:
         float* registers(std::size_t slots) {
@@ -33,27 +33,29 @@ class Evaluator {
         std::vector<BatchOfFloats> values_;
     };
 
-    /// Φ at the points of a batch; out has a batch for each of program().outputs, in their order.
+    /// Evaluates Φ at the points of a batch. `out` must have a batch for each of program().outputs, and gets their
+    /// values in this order.
     void evaluate(const BatchOfFloats& x, const BatchOfFloats& y, const BatchOfFloats& z, std::span<BatchOfFloats> out,
                   Workspace&) const;
-    /// Phase and interface distance at the points of a batch.
+    /// Evaluates the phase and the interface distance at the points of a batch.
     void sample(const BatchOfFloats& x, const BatchOfFloats& y, const BatchOfFloats& z, Samples& out, Workspace&) const;
-    /// The same along a ray, at origin + t·direction (a multiplication, then an addition, each rounded).
+    /// As sample(), at the points origin + t·direction of a ray (a multiplication and an addition, each rounded).
     void sample_ray(const glm::vec3& origin, const glm::vec3& direction, const BatchOfFloats& t, Samples& out,
                     Workspace&) const;
 
-    /// Φ at one point. Present phases only.
+    /// Φ at one point; it has the phases that are present in the object.
     Phases<float> distances(const glm::vec3& p, Workspace&) const;
+    /// The phase at one point.
     Phase label(const glm::vec3& p, Workspace&) const;
 
-    /// Gradient of one component at p, zero if the phase is absent: by dual numbers, exact up to rounding; not
-    /// normalised (a warp divides by λ).
+    /// The gradient of one component at p, exact up to rounding (by dual numbers); zero if the phase is absent. Its
+    /// length may be below 1, because a warp divides by λ.
     glm::vec3 gradient(const glm::vec3& p, Phase) const;
 
     const Program& program() const { return program_; }
     std::size_t bytes() const;
 
-    /// The scratch of one thread that all tracing shares.
+    /// A workspace of the calling thread, which all tracing in this thread may share.
     static Workspace& thread_workspace();
 
   private:
@@ -62,12 +64,12 @@ class Evaluator {
     std::shared_ptr<const evaluation::Assembly> assembly_;
 };
 
-/// The SIMD instruction sets that this build and this machine share, best first: "AVX-512", "AVX2", "SSE4", "SSE2".
+/// The SIMD instruction sets that both this build and this machine have, best first: "AVX-512", "AVX2", "SSE4", "SSE2".
 std::vector<std::string> simd_targets();
-/// The one in use.
+/// The instruction set in use.
 std::string simd_target();
-/// Uses another one of simd_targets(), for tests and benchmarks; results do not change. Not while evaluators run.
-/// Throws std::invalid_argument for a name that is not among them.
+/// Uses another of simd_targets(), for tests and benchmarks; no result depends on it. It must not be called while
+/// evaluators run. Throws std::invalid_argument for a name that is not among them.
 void use_simd_target(std::string_view name);
 
 }  // namespace phasetree

@@ -9,8 +9,8 @@
 
 namespace phasetree {
 
-/// p ↦ A (p − before) − after, in this order, where A has these rows. Where one of them does nothing the others are
-/// rounded as if it were not there.
+/// The affine map p ↦ A (p − before) − after, computed in this order, where A has the given rows. A step that does
+/// nothing does not change how the others are rounded, so that maps can be composed without a change of their values.
 struct AffineMap {
     glm::vec3 row[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     glm::vec3 before{0}, after{0};
@@ -21,10 +21,10 @@ struct AffineMap {
         return Vec3<T>{dot(q, row[0]), dot(q, row[1]), dot(q, row[2])} - after;
     }
 
-    /// Its inverse, p ↦ M p + v.
+    /// The inverse map, p ↦ M p + v.
     struct Inverse {
         glm::dmat3 matrix;
-        glm::dvec3 by;
+        glm::dvec3 by;  ///< v
     };
     Inverse inverse() const {
         const glm::dmat3 m = glm::inverse(glm::transpose(glm::dmat3(row[0], row[1], row[2])));
@@ -36,7 +36,8 @@ struct AffineMap {
     bool turns() const {
         return row[0] != glm::vec3(1, 0, 0) || row[1] != glm::vec3(0, 1, 0) || row[2] != glm::vec3(0, 0, 1);
     }
-    /// This one, then the next, if one map does the same to the last bit (but for the sign of a zero).
+    /// The map that applies this one and then `next`; nothing if no single map gives the same values to the last bit
+    /// (except for the sign of a zero).
     std::optional<AffineMap> then(const AffineMap& next) const {
         if (!turns() && !moves_after() && !(moves_before() && next.moves_before()))
             return AffineMap{

@@ -4,9 +4,9 @@
 
 namespace phasetree {
 
-/// The angle of the direction (x, y) against the x axis, in [−π, π], within 3 ulp of π; 0 for the zero vector. Our own
-/// for the reason that sine_cosine is: a polynomial through the Chebyshev nodes of atan(√z)/√z on [0, 1], z = (y/x)²,
-/// good to 5·10⁻⁹, its derivative to 7·10⁻⁸.
+/// The angle in radians from the x axis to the direction (x, y), in [−π, π], with an error of at most 3 ulp of π; 0 for
+/// the zero vector. It is computed here for the same reason as sine_cosine(): by a polynomial through the Chebyshev
+/// nodes of atan(√z)/√z on [0, 1], z = (y/x)², good to 5·10⁻⁹, its derivative to 7·10⁻⁸.
 template <class T>
 T angle_of(const T& x, const T& y) {
     constexpr float pi = 3.14159265358979f;

@@ -11,7 +11,7 @@
 
 namespace phasetree {
 
-/// An axis-aligned box, closed; empty when low > high on some axis, and possibly infinite.
+/// A closed axis-aligned box. It is empty if low > high on some axis, and its sides may be infinite.
 struct Bounds {
     static constexpr float infinity = std::numeric_limits<float>::infinity();
 
@@ -44,7 +44,7 @@ struct Bounds {
     }
 };
 
-/// An empty one of the two must be Bounds{}.
+/// The smallest box around both. If one of the two is empty it must be Bounds{}.
 inline Bounds unite(const Bounds& a, const Bounds& b) {
     return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
 }
@@ -53,8 +53,8 @@ inline Bounds intersect(const Bounds& a, const Bounds& b) {
     return {glm::max(a.low, b.low), glm::min(a.high, b.high)};
 }
 
-/// The box of a box under a linear map, with a margin for rounding. A side at infinity makes infinite what the map
-/// makes depend on it, and nothing else: a profile without end in z stays bounded when it is turned about z.
+/// A box around the image of a box under a linear map, with a margin for rounding. A side at infinity makes only those
+/// sides infinite that the map makes depend on it: a profile without end in z stays bounded when it is turned about z.
 inline Bounds image_of(const Bounds& box, const glm::mat3& map) {
     if (box.empty()) return {};
     Bounds result{glm::vec3(0), glm::vec3(0)};

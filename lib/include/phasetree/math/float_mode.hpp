@@ -6,8 +6,9 @@
 
 namespace phasetree {
 
-/// While it lives, this thread takes subnormal numbers for zero, in operands and results: they cost time and carry no
-/// information in a distance. It must stand at the start of every task that traces, so that all threads compute alike.
+/// While an object of this class lives, its thread takes subnormal numbers for zero, as operands and as results,
+/// because they cost time and carry no information in a distance. Every task that traces rays must hold one, so that
+/// all threads compute alike.
 class FlushSubnormals {
   public:
 #if defined(__SSE__) || defined(_M_X64)

@@ -1,14 +1,14 @@
+// The functions that every number type of the project provides, here for `float`.
+//
+// An equation is written once, as a template over its number type T. T is `float` (the reference evaluator), `Batch`
+// (SIMD, eight points at once), `Dual` (value and gradient) or `Recorded` (emits instructions). `select` takes the
+// place of a branch. All four types give the same value bit for bit, because they do the same IEEE operations in the
+// same order. For the same reason min and max are defined here: their result for equal or unordered arguments is fixed.
+// The fifth type, `Enclosure`, gives the range of the value in a box.
 #pragma once
 
 #include <cmath>
 
-/// The functions that every number type of the project provides, here for `float`.
-///
-/// An equation is written once, as a template over its number type T. T is `float` (the reference evaluator), `Batch`
-/// (SIMD, eight points at once), `Dual` (value and gradient) or `Recorded` (emits instructions). Where a
-/// branch would stand, `select` chooses. All four give the same value bit for bit, because they do the same IEEE
-/// operations in the same order; hence also our own min and max, whose result for equal or unordered arguments is
-/// fixed. `Enclosure` gives what the value can be in a box.
 namespace phasetree {
 
 [[gnu::always_inline]] inline bool less(float a, float b) {
@@ -18,7 +18,7 @@ namespace phasetree {
     return condition ? yes : no;
 }
 
-/// As the SSE instructions do it: the second operand if the comparison is false.
+/// The result is the second operand if the comparison is false, as with the SSE instructions.
 [[gnu::always_inline]] inline float min(float a, float b) {
     return a < b ? a : b;
 }
@@ -35,14 +35,14 @@ namespace phasetree {
     return std::floor(a);
 }
 
-/// Rounded down, as a number without derivatives: of dual numbers a float.
+/// The largest whole number that is not above a, as a number without derivatives (of a Dual it is a float).
 template <class T>
 T whole_part(const T& a) {
     return floor(a);
 }
 
-/// a·b + c, rounded once or twice, as the processor does it faster. Only for what is the same either way, such as whole
-/// numbers below 2²⁴.
+/// a·b + c, rounded once or twice, whichever is faster on the processor. It is only for numbers with which both give
+/// the same result, such as whole numbers below 2²⁴.
 template <class T>
 T multiply_add(const T& a, float b, const T& c) {
     return a * b + c;
@@ -53,7 +53,7 @@ T multiply_add(const T& a, float b, const T& c) {
     return table[static_cast<int>(index)];
 }
 
-/// A NaN becomes `low`, because comparisons with it are false.
+/// x limited to [low, high]. A NaN becomes `low`, because comparisons with it are false.
 template <class T>
 T clamp(const T& x, const T& low, const T& high) {
     return min(max(x, low), high);
@@ -80,13 +80,13 @@ T guarded(const T& bound, const T& f, float far) {
     return max(bound, min(f, far - bound));
 }
 
-/// A field f and a bound b that is farther from zero far away: max(f, b), where {f ≤ 0} ⊂ {b ≤ 0}. So f alone has the
-/// sign, and near the surface it will do.
+/// A field f with a far bound b: max(f, b), where {f ≤ 0} ⊂ {b ≤ 0} and b is larger than f far away. f alone has the
+/// sign, so near the surface b can be left out.
 template <class T>
 T far_bound(const T& f, const T& bound) {
     return max(f, bound);
 }
-/// The same inside: min(f, b), where {f ≥ 0} ⊂ {b ≥ 0}.
+/// A field f with a far bound b of the inside: min(f, b), where {f ≥ 0} ⊂ {b ≥ 0}.
 template <class T>
 T far_bound_inside(const T& f, const T& bound) {
     return min(f, bound);
@@ -100,12 +100,13 @@ T falloff(const T& d, float reach) {
     const T y = max(1.f - x * x, T(0.f));
     return y * y * y;
 }
-/// sup of |derivative| of falloff times R: at x² = 1/5, 6x(1 − x²)².
+/// The largest slope of falloff() times R, which is 6x(1 − x²)² at x² = 1/5.
 inline constexpr float steepest_falloff = 1.7172838f;
 
-/// Signed distances a and b along orthogonal directions, each exact, give that of the intersection: for a profile and
-/// the slab of an extrusion, or for the two sides of a rectangle. Its gradient is a combination of theirs whose
-/// weights' squares sum to 1 at most; so it is no steeper than the steeper of the two. Its sign is that of max(a, b).
+/// The exact signed distance to an intersection of two solids, from their exact signed distances a and b, which vary
+/// along orthogonal directions: a profile and the slab of an extrusion, or the two sides of a rectangle. Its gradient
+/// is a combination of theirs with weights whose squares sum to at most 1, so it is no steeper than the steeper of the
+/// two. Its sign is that of max(a, b).
 template <class T>
 T corner(const T& a, const T& b) {
     const T zero(0.f);
@@ -113,7 +114,7 @@ T corner(const T& a, const T& b) {
     return sqrt(past_a * past_a + past_b * past_b) + min(max(a, b), zero);
 }
 
-/// Of three.
+/// The exact signed distance to an intersection of three solids, whose distances vary along orthogonal directions.
 template <class T>
 T corner(const T& a, const T& b, const T& c) {
     const T zero(0.f);
@@ -121,13 +122,14 @@ T corner(const T& a, const T& b, const T& c) {
     return sqrt(past_a * past_a + past_b * past_b + past_c * past_c) + min(max(a, max(b, c)), zero);
 }
 
-/// select(), where both and their slopes agree on the seam: for who wants to know (Enclosure).
+/// As select(), but the caller vouches that both operands and their slopes agree where the condition changes. Number
+/// types that bound derivatives (Enclosure) make use of that.
 template <class Condition, class T>
 T select_smoothly(const Condition& condition, const T& yes, const T& no) {
     return select(condition, yes, no);
 }
 
-/// The same of functions that give the two: a number type that knows which one it is asks only that.
+/// As select_smoothly(), with functions that give the operands: if the condition is known only one of them is called.
 template <class Condition, class Yes, class No>
 [[gnu::always_inline]] inline auto choose_smoothly(const Condition& condition, const Yes& yes, const No& no) {
     return select_smoothly(condition, yes(), no());
@@ -137,8 +139,9 @@ template <class Yes, class No>
     return condition ? yes() : no();
 }
 
-/// What else f is, where that is certain: for who wants to know. `other(certainly)` gives whether and what, asking
-/// certainly(comparison).
+/// Returns f. A number type that bounds values in a box (Enclosure) may return a second expression for f, which holds
+/// only where some comparisons do: `other(certainly)` returns a pair, whether they hold, which it asks by
+/// certainly(comparison), and that expression.
 template <class T, class Other>
 T also_known_as(const T& f, const Other&) {
     return f;
@@ -149,12 +152,13 @@ struct SineCosine {
     T sine, cosine;
 };
 
-/// Sine and cosine together, for |x| up to 10⁴ within 2 ulp of 1. Our own, because a library's differ between scalar
-/// and SIMD. Cody and Waite's reduction to |r| ≤ π/4, then the Taylor polynomials shortened by Chebyshev economisation.
+/// The sine and cosine of x in radians, for |x| up to 10⁴ with an error of at most 2 ulp of 1. They are computed here
+/// because those of libraries differ between scalar and SIMD code: by Cody and Waite's reduction to |r| ≤ π/4, then by
+/// Taylor polynomials shortened by Chebyshev economisation.
 template <class T>
 SineCosine<T> sine_cosine(const T& x) {
     const T k = floor(x * 0.636619772367581343f + 0.5f);
-    // π/2 in three parts of few bits, so that k times the first two is exact.
+    // π/2 is split into three parts of few bits, so that k times the first two is exact.
     const T r = ((x - k * 1.5703125f) - k * 4.837512969970703125e-4f) - k * 7.549789948768648e-8f;
     const T z = r * r;
     const T s = r + r * z * (-1.6666654611e-1f + z * (8.3321608736e-3f + z * -1.9515295891e-4f));
@@ -165,12 +169,12 @@ SineCosine<T> sine_cosine(const T& x) {
     const auto is_odd = less(T(0.25f), half - floor(half));
     const T sine = select(is_odd, c, s);
     const T cosine = select(is_odd, s, c);
-    // sine is negative in quadrants 2 and 3, cosine in 1 and 2.
+    // The sine is negative in quadrants 2 and 3, the cosine in 1 and 2.
     return {select(less(T(1.5f), quadrant), -sine, sine), select(less(abs(quadrant - 1.5f), T(1.f)), -cosine, cosine)};
 }
 
-/// The sine alone, for |x| up to 10⁴ within 2 ulp of 1, at half the price: reduced to |r| ≤ π/2, where a polynomial
-/// through the Chebyshev nodes of (sin √z/√z − 1)/z is within 3·10⁻⁸.
+/// The sine alone, with the same range and error at half the cost: x is reduced to |r| ≤ π/2, where a polynomial
+/// through the Chebyshev nodes of (sin √z/√z − 1)/z has an error of at most 3·10⁻⁸.
 template <class T>
 T sine(const T& x) {
     const T k = floor(x * 0.318309886183790672f + 0.5f);
@@ -179,7 +183,7 @@ T sine(const T& x) {
     const T s =
         r + r * z * (-1.66666659635e-1f + z * (8.33324210802e-3f + z * (-1.9822735835e-4f + z * 2.63474455579e-6f)));
     const T half = k * 0.5f;
-    return s * (1.f - (half - floor(half)) * 4.f);  // minus at odd multiples of π
+    return s * (1.f - (half - floor(half)) * 4.f);  // the sign changes at odd multiples of π
 }
 
 }  // namespace phasetree

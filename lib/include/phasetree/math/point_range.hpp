@@ -4,9 +4,9 @@
 
 namespace phasetree {
 
-/// Where a point may be: about a centre, so far along each axis.
+/// A box of points, given by its centre and half its size along each axis.
 struct PointRange {
-    std::array<double, 3> centre{}, reach{};
+    std::array<double, 3> centre{}, reach{};  ///< reach: half the size
 };
 
 }  // namespace phasetree

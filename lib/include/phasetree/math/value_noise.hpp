@@ -9,13 +9,13 @@ namespace phasetree {
 
 namespace lattice {
 
-/// Perlin's quintic, from 0 to 1 as t does.
+/// Perlin's quintic, which rises from 0 to 1 as t does.
 template <class T>
 T fade(const T& t) {
     return t * t * t * (t * (t * 6.f - 15.f) + 10.f);
 }
-/// Where a coordinate is: the lattice's points below and above, modulo 289 (lattice_hash.hpp), and how much the upper
-/// one counts. What has no derivatives is hashed without them.
+/// A coordinate's place in the lattice: the lattice points below and above it, modulo 289 (lattice_hash.hpp), and the
+/// weight of the upper one. The lattice points have no derivatives, so they are hashed as numbers without them.
 template <class T>
 using Whole = decltype(whole_part(std::declval<T>()));
 template <class T>
@@ -32,7 +32,7 @@ template <class Value, class T>
 T mix(const Value& a, const Value& b, const T& blend) {
     return a + (b - a) * blend;
 }
-/// From 0 to 288 to [−1, 1].
+/// Maps a hash, 0 … 288, to [−1, 1].
 template <class T>
 T centred(const T& hash) {
     return hash * (1.f / 144.f) - 1.f;
@@ -64,7 +64,7 @@ T value_noise(const Vec3<T>& p) {
     return lattice::centred(mix(along_yz(hashed_on(x.low)), along_yz(hashed_on(x.high)), x.blend));
 }
 
-/// The same over the plane, of the same range and slope: for each whole number another one.
+/// Value noise over the plane, of the same range and slope. Each whole number `which` gives another noise.
 template <class T>
 T value_noise(const T& x, const T& y, float which) {
     using lattice::hashed, lattice::hashed_on, lattice::mix;

@@ -6,7 +6,7 @@
 
 namespace phasetree {
 
-/// A point or direction over any number type. The order of operations is fixed, see number.hpp.
+/// A point or direction over any number type. The order of operations is fixed for the reason that number.hpp gives.
 template <class T>
 struct Vec3 {
     T x, y, z;
@@ -44,14 +44,14 @@ template <class T>
 [[gnu::always_inline]] inline T length(const Vec3<T>& a) {
     return sqrt(dot(a, a));
 }
-/// To the segment from the origin to `along`; `inverse` is 1/along², or 0.
+/// The squared distance from q to the segment from the origin to `along`. `inverse` is 1/|along|², or 0 for a point.
 template <class T>
 T squared_distance_to_segment(const Vec3<T>& q, const glm::vec3& along, float inverse) {
     const T s = clamp(dot(q, along) * inverse, T(0.f), T(1.f));
     const Vec3<T> away{q.x - s * along.x, q.y - s * along.y, q.z - s * along.z};
     return dot(away, away);
 }
-/// Length of the vector (x, y).
+/// The length of the vector (x, y).
 template <class T>
 T length(const T& x, const T& y) {
     return sqrt(x * x + y * y);

@@ -11,20 +11,25 @@ namespace phasetree {
 class Field;
 class Phased;
 
-/// Asks subtrees for a box around {f ≤ level} (for a multiphase object: around everything within level of a phase).
-/// Answers are remembered, so that shared subtrees are asked once a level.
+/// Asks subtrees for a box around {f ≤ level}; for a multiphase object, around all points within `level` of a phase.
+/// Answers are kept, so that a shared subtree is asked once for each level.
 ///
-/// There are two ways to answer, and the box is the smaller of both. *By boxes*, each node makes its box of those below
-/// it, along its own axes. That is fast, but each turn puts a box around a turned box. *By directions*, nodes are told
-/// along which six directions of their own space the sides of the box are that the first one was asked for. A map of
-/// space passes them on as they are seen on its other side, so a chain of turns costs nothing:
-///     the most of d·p over M A + v  is  the most of (Mᵀd)·p over A,  plus d·v.
-/// A node says how far it reaches along each; the result is a box all the same, of the axes of the first node, measured
-/// from where the asked node's origin lies. Behind a map that folds space, two opposite sides may be seen along the
-/// same direction, and a low side be above a high one; only Bounds{} is nothing.
+/// There are two ways to answer, and the result is the intersection of both boxes.
+///
+/// *By boxes:* each node makes its box from those of its children, along its own axes. That is fast, but each rotation
+/// puts a box around a rotated box.
+///
+/// *By directions:* let the root be the node that is asked first. Six directions, those of the outward normals of the
+/// sides of the root's box, are passed down the tree, and each node gives its support along them, the maximum of d·p. A
+/// map of space transforms the directions for its child, so that a chain of rotations loses nothing:
+///     max of d·p over p in M A + v  =  max of (Mᵀd)·p over p in A,  plus d·v.
+/// The six numbers are kept as a Bounds: a box along the root's axes, measured from where the node's own origin lies.
+/// Behind a map that folds space two opposite sides may be asked along the same direction, so a low side may lie above
+/// a high one; only Bounds{} means that there is nothing.
 class BoundsQuery {
   public:
-    /// Along which the low sides, then the high ones, are seen from.
+    /// The outward normals of the low sides along x, y and z, then those of the high sides, in the space of the node
+    /// that is asked.
     using Directions = std::array<glm::dvec3, 6>;
 
     BoundsQuery();
@@ -35,16 +40,17 @@ class BoundsQuery {
     Bounds operator()(const Field&, float level);
     Bounds operator()(const Phased&, float level);
 
-    /// Whether the box is wanted along the axes of the node that is asked. Else it goes through what follows.
+    /// Whether the box is wanted along the axes of the node that is asked. If not, a node must make its answer by one
+    /// of the functions below.
     bool is_by_boxes() const { return way_ != Way::by_directions; }
 
-    /// A child's box along its own axes, also where the parent's is not wanted along its.
+    /// A child's box along its own axes, whichever way the parent is asked.
     Bounds own_box(const Field&, float level);
     Bounds own_box(const Phased&, float level);
 
-    /// The answer of a node that has a box in its own space.
+    /// The answer of a node that knows a box in its own space.
     Bounds placed(const Bounds& box) const;
-    /// And that of one that also knows the most of d·p along any direction d.
+    /// The answer of a node that also knows its support(d) along any direction d.
     template <class Support>
     Bounds placed(const Bounds& box, const Support& support) const {
         if (is_by_boxes() || box.empty()) return placed(box);
@@ -52,8 +58,8 @@ class BoundsQuery {
         for (std::size_t i = 0; i < reach.size(); ++i) reach[i] = support(directions_[i]);
         return intersect(placed(box), gathered(reach));
     }
-    /// The answer of a node that maps space: its points reach along d as far as the child's, which ask() asks for, do
-    /// along towards(d), and beyond(d) more.
+    /// The answer of a node that maps space: its support along d is that of its child, which ask() asks, along
+    /// towards(d), plus beyond(d).
     template <class Towards, class Beyond, class Ask>
     Bounds through(const Towards& towards, const Beyond& beyond, const Ask& ask) {
         const Directions outer = directions_;
@@ -66,14 +72,14 @@ class BoundsQuery {
         directions_ = outer;
         return moved(inner, more);
     }
-    /// That of p ↦ M p + v.
+    /// The answer of a node that maps its child by p ↦ M p + v.
     template <class Ask>
     Bounds through(const glm::dmat3& m, const glm::dvec3& v, const Ask& ask) {
         return through([&](const glm::dvec3& d) { return d * m; }, [&](const glm::dvec3& d) { return glm::dot(d, v); },
                        ask);
     }
-    /// The answer of a node that is an intersection: ask() is asked along the node's own axes as well. What is bounded
-    /// by several children may be unbounded, or large, along the directions by each of them alone.
+    /// The answer of a node that is an intersection. It is asked along the node's own axes as well, because along other
+    /// directions each child alone may be unbounded or large where several together are small.
     template <class Ask>
     Bounds cut(const Ask& ask) {
         const Bounds here = ask();
@@ -91,8 +97,8 @@ class BoundsQuery {
     struct Memory;
 
     static constexpr Directions along_axes{{{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-    /// Subtrees that are asked by directions, of one first node; then boxes have to do. A shape that is used in many
-    /// places is asked along other directions in each.
+    /// At most so many subtrees of one root are asked by directions; the others are asked by boxes. A shape that is
+    /// used in many places is asked along other directions in each, which would be long.
     static constexpr std::size_t most_asked = 20'000;
 
     static Bounds gathered(const Reaches&);

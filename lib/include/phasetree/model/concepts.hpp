@@ -11,7 +11,7 @@
 
 namespace phasetree {
 
-/// A list of types, the form in which the nodes are enumerated.
+/// A list of types. The nodes are enumerated in this form.
 template <class... Ts>
 struct TypeList {
     static constexpr std::size_t size = sizeof...(Ts);
@@ -23,48 +23,50 @@ concept Primitive = std::is_trivially_copyable_v<N> && requires(const N& n, cons
     { n.distance(p) } -> std::same_as<float>;
 };
 
-/// A primitive with as many floats as it needs (a polygon's corners, a network's weights): one instruction too. A
-/// node's static distance() sees only what data() gave.
+/// A primitive with as many floats as it needs (a polygon's corners, a network's weights). It is one instruction too,
+/// and its static distance() sees only the floats that data() gave.
 template <class N>
 concept DataPrimitive = requires(const N& n, const float* data, const Vec3<float>& p) {
     { n.data() } -> std::same_as<std::span<const float>>;
     { N::distance(data, p) } -> std::same_as<float>;
 };
 
-/// A primitive whose equation is long, so that its slope is used where that is enough and it counts for many.
+/// A primitive whose equation is long. It counts for many instructions, and where its slope is enough to bound it in a
+/// box its equation is not enclosed.
 template <class N>
 concept LongPrimitive = DataPrimitive<N> || requires {
     N::is_long;
 };
 
-/// A primitive whose features are of about this size: in larger boxes little can be known of it.
+/// A primitive whose features are about period() metres large. In larger boxes little can be known of its values.
 template <class N>
 concept PatternPrimitive = requires(const N& n) {
     { n.period() } -> std::same_as<float>;
 };
 
-/// A long primitive of which little matters in a small box: near() appends what P::Specialised, a primitive with data,
-/// wants to give the same values there to the last bit; false, and nothing appended, if that would be no gain. `of` is
-/// empty, or what it gave for a box around this one.
+/// A long primitive of which little matters in a small box. There N::Specialised, a primitive with data, gives the same
+/// values to the last bit: specialise() appends its floats for the points of `range`, or appends nothing and returns
+/// false if that would be no gain. `of` is empty, or holds the floats that it gave for a box around this one.
 template <class N>
 concept LocalPrimitive = PatternPrimitive<N> &&
     requires(const N& n, const PointRange& range, std::span<const float> of, std::vector<float>& floats) {
     requires DataPrimitive<typename N::Specialised>;
     { n.specialise(range, of, floats) } -> std::same_as<bool>;
-    { N::Specialised::floats(floats.data()) } -> std::same_as<std::size_t>;  // how many they are
+    { N::Specialised::floats(floats.data()) } -> std::same_as<std::size_t>;  // the number of floats
     {
         N::Specialised::half_works(floats.data())
-        } -> std::same_as<unsigned>;  // how much work, in halves of a simple one
+        } -> std::same_as<unsigned>;  // the cost, in halves of a simple instruction
 };
 
-/// A primitive whose distance is a convex function: that to a convex solid, if it is exact inside and out.
+/// A primitive whose distance is a convex function, as that to a convex solid is if it is exact inside and outside.
 template <class N>
 concept ConvexPrimitive = requires {
     N::is_convex;
 };
 
-/// A convex solid, its distance exact inside and out, which is rounded: in its surface lies a ball of this radius at
-/// least wherever a point within `reach` of p is nearest to it. An infinite ball lies in a half-space.
+/// A convex solid with rounded edges whose distance is exact inside and outside. At every point of its surface that is
+/// nearest to some point within `reach` of p, a ball of at least rolling_radius(p, reach) touches the surface from
+/// inside; the radius is infinite for a half-space.
 template <class N>
 concept RoundedPrimitive = ConvexPrimitive<N> && requires(const N& n, const glm::dvec3& p, double reach) {
     { n.rolling_radius(p, reach) } -> std::same_as<double>;
@@ -76,7 +78,7 @@ concept PointMap = std::is_trivially_copyable_v<M> && requires(const M& m, const
     { m(p) } -> std::same_as<Vec3<float>>;
 };
 
-/// One that is affine, and equal to affine() to the last bit: such are composed with what follows.
+/// A map that is affine, and equal to affine() to the last bit, so that it can be composed with what follows it.
 template <class M>
 concept AffinePointMap = PointMap<M> && requires(const M& m) {
     { m.affine() } -> std::same_as<AffineMap>;

@@ -26,15 +26,16 @@ class ModelError : public std::runtime_error {
 };
 
 namespace detail {
-/// The handle's content, moved out of the node that `node` points to, which is of this type: one of the list of nodes.
-/// The library alone knows what holds any of them, so that who makes a few needs their headers and no other.
+/// Makes the content of a handle from the node that `node` points to, which is of the given type and is moved from.
+/// Only the library knows the variant over all nodes, so that a program which makes a few needs no other headers than
+/// theirs.
 std::shared_ptr<const FieldNode> make_field_node(const std::type_info& type, void* node);
 std::shared_ptr<const PhasedNode> make_phased_node(const std::type_info& type, void* node);
 }  // namespace detail
 
-/// A plain distance field: one 1-Lipschitz value, negative inside. A cheap handle of an immutable tree, shared when
-/// copied; any thread may read it. Made from a node: `Field ball = Sphere{.radius = 2};`
-/// Throws ModelError where the node's parameters are out of their limits.
+/// A plain distance field: one 1-Lipschitz value in metres, negative inside. It is a cheap handle of an immutable tree,
+/// which copies share; any thread may read it. It is made from a node, `Field ball = Sphere{.radius = 2};`, and throws
+/// ModelError if a parameter of the node is out of its limits. A default-made handle is empty and means nothing.
 class Field {
   public:
     Field() = default;
@@ -51,7 +52,8 @@ class Field {
     std::shared_ptr<const FieldNode> node_;
 };
 
-/// A multiphase object: Φ = (φ₀ … φₙ), of which at most one component is negative anywhere. Handle like Field.
+/// A multiphase object Φ = (φ₀ … φₙ), of which at most one component is negative at any point. It is a handle as Field
+/// is.
 class Phased {
   public:
     Phased() = default;
@@ -68,31 +70,31 @@ class Phased {
     std::shared_ptr<const PhasedNode> node_;
 };
 
-/// A box around the points where the field is not positive. Infinite where the field is.
+/// A box around the points where the field is not positive; sides are infinite where the field has no bounds.
 Bounds bounds(const Field&);
-/// A box around everything that is not vacuum.
+/// A box around all that is not vacuum.
 Bounds bounds(const Phased&);
 
 /// The phases that the object may have anywhere; bit 0 tells whether vacuum is one of them.
 PhaseSet phases(const Phased&);
 
-/// Φ by walking the tree with arrays of phases, as the paper does: slow and obvious, the definition that the fast
-/// evaluators are tested against.
+/// The values at a point, by walking the tree with arrays of phases as the paper does. This is slow, and the definition
+/// that the fast evaluators are tested against.
 float distance(const Field&, const glm::vec3& p);
 Phases<float> distances(const Phased&, const glm::vec3& p);
 
-/// μ(p): the phase of the smallest component, vacuum included; of equal ones the lowest index.
+/// The label μ(p): the phase of the smallest component, the vacuum included; the lowest index among equal components.
 Phase label(const Phases<float>&);
 
 struct TreeStatistics {
-    std::size_t nodes = 0;  ///< shared subtrees counted once
+    std::size_t nodes = 0;  ///< shared subtrees are counted once
     std::size_t depth = 0;
-    std::size_t bytes = 0;  ///< what the tree takes in memory
+    std::size_t bytes = 0;  ///< that the tree takes in memory
 };
 TreeStatistics statistics(const Field&);
 TreeStatistics statistics(const Phased&);
 
-/// Deeper trees are refused: everything that walks a tree recurses.
+/// Deeper trees are refused with a ModelError, because everything that walks a tree recurses.
 inline constexpr std::size_t max_tree_depth = 400;
 
 }  // namespace phasetree

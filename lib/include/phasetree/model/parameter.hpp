@@ -27,27 +27,29 @@ inline constexpr Limits fraction{.low = 0, .high = 1};
 }  // namespace limits
 
 namespace detail {
-/// For people: "positive", "at least 2 and less than 5".
+/// The limits as text for people: "positive", "at least 2 and less than 5".
 std::string describe(const Limits&);
 }  // namespace detail
 
-/// One parameter of a node, as the scene reader, the writer, the reference page and the checks see it. A node lists
-/// its parameters in a static function
-///     template <class V> static void parameters(V&& v) { v(&Sphere::radius, {"radius", "m", "Radius.",
-///     limits::positive}); }
-/// and everything else is derived from that list.
+/// One parameter of a node, as the scene reader, the writer, the reference page and the checks see it. All of these are
+/// derived from the list that a node gives in a static function:
+///
+///     template <class V>
+///     static void parameters(V&& v) {
+///         v(&Sphere::radius, Parameter{"radius", "m", "Radius.", limits::positive});
+///     }
 struct Parameter {
     std::string_view name;
     std::string_view unit;  ///< "m", "degrees", "1/m"; empty for a count, a ratio or a child
     std::string_view description;
     Limits limits = limits::any;
-    bool optional = false;  ///< if absent, the member's default initialiser stands
-    /// Of a list of numbers: a single number may be written in its place, and is a list of one. What that means, the
-    /// node and its description say.
+    bool optional = false;  ///< if it is absent the member keeps its default
+    /// For a list of numbers: a single number may be written in its place and is a list of one. The node and the
+    /// description say what that means.
     bool one_for_all = false;
 };
 
-/// What a node says of itself.
+/// The description of a node in the reference.
 struct NodeInfo {
     std::string_view name;
     std::string_view section;  ///< of the paper; empty for the standard vocabulary of distance fields

@@ -18,7 +18,7 @@ struct Phase {
 
 inline constexpr Phase vacuum{0};
 
-/// A set of phases.
+/// A set of phases: bit i stands for phase i.
 struct PhaseSet {
     std::uint64_t bits = 0;
 
@@ -38,8 +38,8 @@ struct PhaseSet {
 };
 
 /// Φ at a point: one value for each phase that is present. A phase that a subtree never mentions is *absent*, not
-/// infinite: ∞ − ∞ and 0·∞ would make NaN in smooth and contact operators. Which phases are present depends on the
-/// tree alone and never on the point.
+/// infinite, because ∞ − ∞ and 0·∞ would make NaN in smooth and contact operators. Which phases are present depends on
+/// the tree alone and never on the point.
 template <class T>
 struct Phases {
     std::array<T, Phase::capacity> value;
@@ -53,7 +53,7 @@ struct Phases {
         present |= std::uint64_t{1} << i;
     }
     void remove(int i) { present &= ~(std::uint64_t{1} << i); }
-    /// The phases present, the vacuum left out.
+    /// The bits of the phases that are present, without the vacuum.
     std::uint64_t materials() const { return present & ~std::uint64_t{1}; }
 };
 

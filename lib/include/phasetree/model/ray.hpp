@@ -4,21 +4,23 @@
 
 namespace phasetree {
 
-/// A ray made ready once for all cells that it meets.
+/// A ray with what is computed once for all cells that it meets.
 struct TracedRay {
     glm::vec3 origin{0};
     glm::vec3 direction{0, 0, 1};  ///< of unit length
-    glm::dvec3 inverse{0};         ///< 1/direction, infinite where that is zero
-    bool is_traceable = false;     ///< finite, and its direction of unit length to 10⁻³; no other hits anything
+    glm::dvec3 inverse{0};         ///< 1/direction, infinite along an axis where that is 0
+    bool is_traceable =
+        false;  ///< whether all is finite and the direction of unit length to 10⁻³; else it hits nothing
 
     TracedRay() = default;
     TracedRay(const glm::vec3& origin, const glm::vec3& direction);
 };
 
-/// What is known of a ray that starts (t_min = 0) at p_in or p_out of a crossing that was found in the very cell which
-/// is asked, and carries the phase there: mostly that it does not come back, so that looking costs nothing.
+/// A hint for a ray that starts (t_min = 0) at p_in or p_out of a crossing and carries the phase there, when the cell
+/// that found this crossing is asked again. Mostly the hint is enough to tell that the ray leaves the cell without
+/// meeting another interface.
 struct LeavingHint {
-    /// How fast the distance from the interface grows along the ray, as far as it is known: 0 if it is not.
+    /// The derivative of the distance from the interface along the ray; 0 if it is not known.
     float rise = 0;
 };
 

@@ -1,7 +1,6 @@
+// The one list of nodes. A new node is its own file, an #include and an entry here; the evaluators, the program, the
+// scene format, the node reference and the tests over all nodes follow.
 #pragma once
-
-/// The one list of nodes. A new node is its own file, an #include and an entry here; the evaluators, the program, the
-/// scene format, the node reference and the tests over all nodes follow.
 
 #include <variant>
 

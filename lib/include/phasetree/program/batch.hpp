@@ -5,20 +5,22 @@
 
 namespace phasetree {
 
-/// How many points an evaluation takes at once, whatever the machine's SIMD width: 8 lanes of AVX, two times 4 of SSE.
-/// Fixed, so that results do not depend on the machine.
+/// The number of points that are evaluated at once, whatever the machine's SIMD width: one AVX register or two of SSE.
+/// It is fixed, so that results do not depend on the machine.
 inline constexpr std::size_t batch_size = 8;
 
+/// One float for each point of a batch.
 struct alignas(batch_size * sizeof(float)) BatchOfFloats {
     std::array<float, batch_size> lane;
     float& operator[](std::size_t i) { return lane[i]; }
     float operator[](std::size_t i) const { return lane[i]; }
 };
 
-/// A batch of points' phases and interface distances.
+/// The phases and interface distances of a batch of points.
 struct Samples {
-    BatchOfFloats label;     ///< index of the phase, as a float
-    BatchOfFloats distance;  ///< s(p), the second smallest component: within that radius the label cannot change
+    BatchOfFloats label;  ///< the index of the phase, as a float
+    BatchOfFloats
+        distance;  ///< s(p) in metres, the second smallest component: the label is the same within that radius
 };
 
 }  // namespace phasetree

@@ -7,8 +7,9 @@
 
 namespace phasetree {
 
-/// The operations of a program. Primitives and maps of space follow, one a type of the node list, each a single
-/// instruction: opcode = first_primitive + index in Primitives, then DataPrimitives, then PointMaps.
+/// The operations of a program, with operands a and b and a constant c. The operations of the primitives and maps of
+/// space follow from first_primitive on, one for each type in Primitives, then DataPrimitives, then PointMaps
+/// (nodes/list.hpp).
 enum class Op : std::uint16_t {
     input,              ///< the point itself
     negate,             ///< −a
@@ -16,8 +17,8 @@ enum class Op : std::uint16_t {
     subtract,           ///< a − b
     minimum,            ///< a < b ? a : b
     maximum,            ///< a > b ? a : b
-    far_bound,          ///< the maximum, where a alone has the sign
-    far_bound_inside,   ///< the minimum, where a alone has the sign
+    far_bound,          ///< max(a, b), where a alone has the sign (math/number.hpp)
+    far_bound_inside,   ///< min(a, b), where a alone has the sign (math/number.hpp)
     absolute,           ///< |a|
     add_constant,       ///< a + c
     constant_minus,     ///< c − a
@@ -29,36 +30,39 @@ enum class Op : std::uint16_t {
     first_primitive
 };
 
-/// One instruction of a program: defines the value of its own index from values of lower index. Primitives and
-/// maps take the point `a`; `data` is where their floats, or the constant, start among the program's constants.
+/// One instruction of a program. Instruction i computes value i from the values a and b, whose indices are lower.
+/// Primitives and maps of space take the point `a`.
 struct Instruction {
     Op op{};
     std::uint32_t a = 0;
     std::uint32_t b = 0;
-    std::uint32_t data = 0;
+    std::uint32_t data = 0;  ///< where its constant, or its floats, start among the program's constants
 };
 
+/// One component of Φ, and the value that it is.
 struct Output {
     Phase phase;
     std::uint32_t value = 0;
 };
 
-/// A tree recorded into a flat list of instructions without duplicates. Absent phases and shared subtrees cost nothing:
-/// they never become instructions. Immutable once recorded; any thread may read it.
+/// A tree recorded as a flat list of instructions without duplicates. Absent phases never become instructions, and
+/// shared subtrees become instructions once for each place. A program is immutable once it is recorded; any thread may
+/// read it.
 struct Program {
     std::vector<Instruction> instructions;  ///< instructions[0] is the input point
     std::vector<float> constants;
     std::vector<Output> outputs;  ///< in rising order of phases
-    /// A Lipschitz bound of each value (for a point: of the map from the input), what pruning needs.
+    /// A Lipschitz bound of each value as a function of the input point; pruning uses it. For a value that is a point
+    /// it bounds the map from the input.
     std::vector<float> lipschitz;
 
     std::size_t bytes() const;
 };
 
-/// Records an object. Throws ModelError if it grows past `limit` instructions (a tree of shared subtrees under
-/// different transforms can be exponentially larger than its nodes).
+/// Records an object. Throws ModelError if that takes more than `limit` instructions: a tree of shared subtrees under
+/// different transforms can have exponentially more of them than nodes.
 Program record(const Phased&, std::size_t limit = 500'000);
-/// Records a plain field as the phase 1 with its vacuum.
+/// Records a plain field as the object of phase 1 and the vacuum; otherwise the same.
 Program record(const Field&, std::size_t limit = 500'000);
 
 }  // namespace phasetree

@@ -4,8 +4,9 @@
 
 namespace phasetree {
 
-/// p ↦ the same place in the cell about `centre`. It jumps at the cells' faces, so its slope is unbounded: `jump`
-/// stands for that. Where a cell of the object touches no face, pruning divides by it again (src/pruning/prune.cpp).
+/// Maps p to the same place in the cell about `centre`. The map jumps at the cells' faces, so its slope has no bound;
+/// the recorder gets `jump` for it. Where a cell of the object touches no face, pruning divides by it again
+/// (src/pruning/prune.cpp).
 struct FoldMap {
     glm::vec3 centre{0};
     glm::vec3 spacing{1};

@@ -11,7 +11,7 @@ inline double golden_turn(std::size_t i) {
 }
 }  // namespace detail
 
-/// The points of a sunflower: equal shares of the disk's area, no two in one direction.
+/// The pattern of a sunflower's seeds: copies have equal shares of the disk's area, and no two lie in one direction.
 template <class Child>
 struct FibonacciDisk : Copies<FibonacciDisk<Child>, Child> {
     static constexpr NodeInfo info{"fibonacci_disk", "7.7",

@@ -4,7 +4,7 @@
 
 namespace phasetree {
 
-/// Equal shares of the sphere's area, from the north pole to the south.
+/// Copies have equal shares of the sphere's area, from the north pole to the south.
 template <class Child>
 struct FibonacciSphere : Copies<FibonacciSphere<Child>, Child> {
     static constexpr NodeInfo info{

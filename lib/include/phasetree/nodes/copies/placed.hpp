@@ -1,3 +1,7 @@
+// What the nodes that put copies of one child in many places share. In memory the child is there once; in the program
+// each copy has its instructions, so that pruning deletes a copy where it does not matter. Copies of a field are
+// united, of an object each replaces those before it, as in `under`. So copies may overlap, and there is no seam
+// between them.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +13,6 @@
 #include "phasetree/nodes/phased/under.hpp"
 #include "phasetree/nodes/warps/translate.hpp"
 
-/// What the nodes share that put copies of one child in many places. In memory the child is there once; in the program
-/// each copy has its instructions, so that pruning deletes a copy where it does not matter. Copies of a field are
-/// united, of an object each replaces those before it, as in `under`. So copies may overlap, and there is no seam
-/// between them.
 namespace phasetree {
 
 /// p ↦ R(−a)(p − v)/s about the z axis: the inverse of scaling by s, then turning by a, then moving by v.
@@ -43,13 +43,13 @@ struct StandingMap {
     AffineMap affine() const { return {.row = {row[0], row[1], row[2]}, .before = by}; }
 };
 
-/// Where a copy stands.
+/// The place, turn and size of a copy.
 struct Placement {
     PlacementMap map;
     float scale = 1;
     std::optional<glm::mat3> frame{};  ///< R of a copy that is not turned about the z axis only
 
-    /// `turn` in degrees.
+    /// A placement that is turned about the z axis, by degrees.
     static Placement at(const glm::vec3& by, double turn, float scale) {
         const double a = glm::radians(turn), s = scale;
         Placement result{{by, static_cast<float>(std::cos(a) / s), static_cast<float>(std::sin(a) / s), 1 / scale},
@@ -57,7 +57,7 @@ struct Placement {
         if (!std::isfinite(result.map.inverse)) throw ModelError("a copy's scale is too small");
         return result;
     }
-    /// Its z axis along a unit vector, turned about that by so many degrees.
+    /// A placement whose z axis is along a unit vector, turned about that by so many degrees.
     static Placement standing(const glm::vec3& by, const glm::dvec3& normal, double turn, float scale) {
         Placement result = at(by, 0, scale);
         // Any axes across the normal will do, if they are the same for the same normal (Duff et al., "Building an
@@ -73,7 +73,7 @@ struct Placement {
         const glm::mat3& r = *frame;
         return {map.by, {r[0] * map.inverse, r[1] * map.inverse, r[2] * map.inverse}};
     }
-    /// By which a copy's points come from the child's.
+    /// The linear map from the child's points to the copy's.
     glm::dmat3 matrix() const {
         if (frame) return glm::dmat3(*frame) * static_cast<double>(scale);
         const double s = scale, c = s * s * static_cast<double>(map.cosine), t = s * s * static_cast<double>(map.sine);
@@ -119,7 +119,7 @@ struct Copies {
                 all = unite(all, at.image(q(of, level / at.scale)));
                 continue;
             }
-            // Of many copies one is small: its box will do.
+            // Where there are many copies each is small, so its box will do.
             const auto copy = [&] {
                 return n <= 64 || at.is_moved_only() ? q(of, level / at.scale)
                                                      : q.placed(q.own_box(of, level / at.scale));
@@ -151,7 +151,7 @@ namespace detail {
 inline constexpr Parameter copied{"of", "", "What is copied: a field or an object."};
 /// More copies than that would not pass the limit of instructions anyway.
 inline constexpr int most_copies = 500'000;
-/// In [0, 1), by SplitMix64 (Steele, Lea, Flood, OOPSLA 2014).
+/// The next number in [0, 1) of the generator SplitMix64 (Steele, Lea and Flood, OOPSLA 2014).
 inline double next_random(std::uint64_t& state) {
     std::uint64_t z = (state += 0x9e3779b97f4a7c15u);
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;

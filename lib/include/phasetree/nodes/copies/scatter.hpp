@@ -9,9 +9,10 @@ struct SurfacePoint {
     glm::vec3 position;
     glm::dvec3 normal;  ///< outward
 };
-/// Up to `count` points of a bounded field's surface, evenly by area, none nearer to another than `spacing`: where
-/// random lines cross it (a uniformly random line crosses any two pieces of equal area equally often). The same for the
-/// same seed. Throws ModelError if the surface is unbounded or no line met it.
+/// Finds up to `count` points of a bounded field's surface, distributed evenly by area, no two nearer to each other
+/// than `spacing`: the points where random lines cross it (a uniformly random line crosses any two pieces of equal area
+/// equally often). The same seed gives the same points. Throws ModelError if the surface is unbounded or no line met
+/// it.
 std::vector<SurfacePoint> scattered(const Field& surface, int count, float spacing, int seed);
 }  // namespace detail
 

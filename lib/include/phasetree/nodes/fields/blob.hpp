@@ -13,9 +13,9 @@ namespace phasetree {
 /// which no two are steep at one place would make it many times too large. blob_slope() (src/preparation/blob.cpp)
 /// bounds Σ wᵢ |gᵢ′| over all of space by subdivision.
 ///
-/// *Outside.* The paper (9.2) adds the distance to the support. Nearer, and as safe: where b ≥ T, at least one wᵢ gᵢ is
-/// its share wᵢ T/Σw or more, hence some gᵢ ≥ T/Σw, hence dᵢ ≤ rᵢ with gᵢ(rᵢ) = T/Σw. So max((T − b)/λ, min (dᵢ − rᵢ))
-/// has the sign of T − b, and far away the slope 1. rᵢ < Rᵢ, so it is the larger of the two bounds.
+/// *Outside.* The paper (9.2) adds the distance to the support. A tighter bound is as safe: where b ≥ T, at least one
+/// wᵢ gᵢ is its share wᵢ T/Σw or more, hence some gᵢ ≥ T/Σw, hence dᵢ ≤ rᵢ with gᵢ(rᵢ) = T/Σw. So max((T − b)/λ, min
+/// (dᵢ − rᵢ)) has the sign of T − b, and far away the slope 1. rᵢ < Rᵢ, so it is the larger of the two bounds.
 struct Blob {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"blob", "7.5, 9.2",
@@ -23,7 +23,7 @@ struct Blob {
                                    "λ ≥ sup ‖∇Σ‖",
                                    "A BlobTree: points, a chain of segments and other fields as skeletons, whose "
                                    "compactly supported contributions add up and melt into each other."};
-    /// The distance to a point.
+    /// The primitive that is the distance to a point.
     struct Point {
         glm::vec3 at{0};
 
@@ -32,7 +32,7 @@ struct Blob {
             return length(p - at);
         }
     };
-    /// The distance to a segment.
+    /// The primitive that is the distance to a segment.
     struct Segment {
         glm::vec3 from{0};
         glm::vec3 along{0, 0, 1};
@@ -73,7 +73,7 @@ struct Blob {
           Parameter{"threshold", "", "T; the larger, the smaller the solid.", limits::positive, true});
     }
 
-    /// How many skeletons there are.
+    /// The number of skeletons.
     std::size_t count() const { return points.size() + (polyline.empty() ? 0 : 1) + of.size(); }
     float reach(std::size_t i) const { return radii[radii.size() == 1 ? 0 : i]; }
     float weight(std::size_t i) const { return weights.empty() ? 1.f : weights[weights.size() == 1 ? 0 : i]; }
@@ -118,7 +118,7 @@ struct Blob {
         return all;
     }
 
-    /// Where falloff(·, R) falls below the level.
+    /// The distance at which falloff(·, R) falls below the level.
     static float radius_at(float reach, float level) { return reach * std::sqrt(1 - std::cbrt(level)) * (1 + 1e-6f); }
 };
 

@@ -39,7 +39,7 @@ struct Bowl {
         const T to_rim = length(length(p.x, p.y) - rim, p.z - cut);
         return select(less(from_centre * cut, p.z * radius), to_rim, abs(from_centre - radius)) - thickness * 0.5f;
     }
-    /// That of the ball.
+    /// The support of the ball, of which the wall is a part.
     double support(const glm::dvec3& d, float level) const {
         return glm::length(d) * static_cast<double>(radius + 0.5f * thickness + level);
     }

@@ -50,7 +50,7 @@ struct BoxFrame {
         return detail::box_support(d, glm::dvec3(size) * 0.5) + glm::length(d) * static_cast<double>(level);
     }
     Bounds bounds(BoundsQuery&, float level) const {
-        // Deepest is where three bars meet, a = b = c = t/(1 + √2).
+        // The frame is deepest where three bars meet, at a = b = c = t/(1 + √2).
         if (thickness * 0.5857865f + level < 0) return {};
         return Bounds::centred(size * 0.5f + level);
     }

@@ -34,22 +34,22 @@ struct CappedCone {
         const T zero(0.f);
         const float h = height * 0.5f;
         const T rho = length(p.x, p.y);
-        // To the nearer cap: a disk of its own radius.
+        // The squared distance to the nearer cap, which is a disk of its own radius.
         const T cap_radius = select(less(p.z, zero), T(radius_bottom), T(radius_top));
         const T cap_out = max(rho - cap_radius, zero);
         const T cap_z = abs(p.z) - h;
         const T to_cap = cap_out * cap_out + cap_z * cap_z;
-        // To the side: the segment from (radius_top, h) to (radius_bottom, −h).
+        // The squared distance to the side, the segment from (radius_top, h) to (radius_bottom, −h).
         const float ex = radius_bottom - radius_top, ez = -height;
         const float inverse = 1.f / (ex * ex + ez * ez);
         const T qx = rho - radius_top, qz = p.z - h;
         const T s = clamp((qx * ex + qz * ez) * inverse, zero, T(1.f));
         const T sx = qx - s * ex, sz = qz - s * ez;
         const T to_side = sx * sx + sz * sz;
-        // Inside iff within the slab and on the axis' side of the slanted line.
+        // A point is inside if and only if it is within the slab and on the axis' side of the slanted line.
         const T side = max(cap_z, qx * -ez + qz * ex);
         const T d = sqrt(min(to_cap, to_side));
-        // Where the side is nearest, and not its ends, it is a plane in ρ and z.
+        // Where the inside of the side is nearest, and not one of its ends, the distance is linear in ρ and z.
         return also_known_as(select(less(side, zero), -d, d), [&](const auto& certainly) {
             const bool is_side = certainly(less(cap_z, zero)) && certainly(less(to_side, to_cap)) &&
                                  certainly(less(zero, s)) && certainly(less(s, T(1.f)));

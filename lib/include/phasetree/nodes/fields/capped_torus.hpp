@@ -43,7 +43,7 @@ struct CappedTorus {
         const T to_end = ex * ex + ey * ey + p.z * p.z;
         return sqrt(select(less(p.x * sine - y * cosine, T(0.f)), to_end, to_arc)) - minor;
     }
-    /// That of the whole torus.
+    /// The support of the whole torus.
     double support(const glm::dvec3& d, float level) const {
         return detail::disk_support(d) * static_cast<double>(major) +
                glm::length(d) * static_cast<double>(minor + level);

@@ -31,7 +31,7 @@ struct Dodecahedron {
         const T c = q.x - radius * 0.35682209f;
         return detail::IcosahedralMirrors::to_face(a, b, c);
     }
-    /// That of the ball through the corners.
+    /// The ball through the corners has this radius, and bounds the solid.
     double support(const glm::dvec3& d, float level) const {
         return glm::length(d) * static_cast<double>(radius + level);
     }

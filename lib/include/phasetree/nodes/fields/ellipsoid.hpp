@@ -42,13 +42,13 @@ struct Ellipsoid {
         const T k = length(Vec3<T>{p.x * inverse.x, p.y * inverse.y, p.z * inverse.z});
         return max((k - 1.f) * smallest, max(box_distance(p, radii), length(p) - largest));
     }
-    /// Of m(|p/r| − 1) ≤ level, and of the ball.
+    /// The smaller of the supports of {m(|p/r| − 1) ≤ level} and of the ball.
     double support(const glm::dvec3& d, float level) const {
         const double shape =
             glm::length(d * glm::dvec3(radii)) * (1 + static_cast<double>(level) / static_cast<double>(smallest));
         return std::min(shape, glm::length(d) * static_cast<double>(largest + level));
     }
-    /// Outside the box decides; inside, m(|p/r| − 1) ≤ level is the ellipsoid shrunk by 1 + level/m.
+    /// Outside, the box decides; inside, m(|p/r| − 1) ≤ level is the ellipsoid shrunk by 1 + level/m.
     Bounds bounds(BoundsQuery&, float level) const {
         return Bounds::centred(level < 0 ? radii * (1 + level / smallest) : radii + level);
     }

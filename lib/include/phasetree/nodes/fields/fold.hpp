@@ -1,10 +1,10 @@
+// What the operators of any number of plain fields share.
 #pragma once
 
 #include <vector>
 
 #include "phasetree/model/concepts.hpp"
 
-/// What the n-ary operators of plain fields share.
 namespace phasetree {
 
 namespace detail {

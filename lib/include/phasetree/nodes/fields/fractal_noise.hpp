@@ -7,7 +7,8 @@ namespace phasetree {
 
 /// Octaves of value noise (math/value_noise.hpp), whose slope is 15/4 at most.
 ///
-/// *Octaves* of half the size and half the weight add 15/4 each. The weights' sum is 1, the range [−1, 1].
+/// *Octaves:* each has half the size and half the weight of the one before, so each adds as much slope. The weights'
+/// sum is 1, so the range is [−1, 1].
 ///
 /// *Positions* are projected onto a cube of 2¹⁷ sizes, which lengthens nothing; beyond it the noise is constant along
 /// the cube's normals. So the lattice's hash (math/lattice_hash.hpp) gets numbers that it computes exactly.
@@ -34,7 +35,7 @@ struct FractalNoise {
         T sum(0.f);
         for (int i = 0; i < static_cast<int>(octaves); ++i) {
             sum = sum + value_noise(Vec3<T>{x, y, z}) * share;
-            // Shifted, so that the octaves' lattices share no point.
+            // Octaves are shifted against each other, so that their lattices share no point.
             x = x * 2.f + 19.25f;
             y = y * 2.f + 47.375f;
             z = z * 2.f + 71.5625f;
@@ -43,13 +44,13 @@ struct FractalNoise {
         return sum;
     }
 
-    /// Of the first octave.
+    /// The weight of the first octave.
     float period() const { return 1 / frequency; }
 
   private:
     static constexpr float steepest = 3.75f;
 
-    /// Σ 2⁻ⁱ over the octaves.
+    /// The sum Σ 2⁻ⁱ over the octaves.
     static float weights(float octaves) { return 2.f - std::exp2(1.f - octaves); }
 };
 

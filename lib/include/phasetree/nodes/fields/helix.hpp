@@ -58,11 +58,11 @@ struct Helix {
         constexpr float pi = 3.14159265f, around = 6.28318531f;
         const T zero(0.f), one(1.f);
         const float rise = std::abs(pitch), k = rise / around, steepness = radius / (k * k);
-        // From the lower end, mirrored to the right-handed coil.
+        // Heights are measured from the lower end, and a left-handed coil is mirrored to the right-handed one.
         const T y = pitch < 0 ? -p.y : p.y, z = p.z + rise * turns * 0.5f;
         const T rho = length(p.x, y), e = min(rho * steepness, T(1e9f));
 
-        // In turns: the height, the angle, and the heights of the turns at this angle, which are n.
+        // Measured in turns: the height, the angle, and the numbers n of the turns that pass at this angle.
         const T height = z * (1.f / rise), angle = angle_of(p.x, y) * (1.f / around);
         const T above = height - angle;
         const T lowest = -floor(angle), highest = floor(turns - angle);
@@ -93,7 +93,7 @@ struct Helix {
         const T between = select(less(where, zero), to_ends, select(less(T(turns * around), where), to_ends, to_line));
         return sqrt(min(between, to_ends)) - wire;
     }
-    /// That of the cylinder that it is wound on.
+    /// The support of the cylinder that holds the coil.
     double support(const glm::dvec3& d, float level) const {
         const double half = 0.5 * static_cast<double>(std::abs(pitch) * turns);
         return detail::disk_support(d) * static_cast<double>(radius) + std::abs(d.z) * half +

@@ -31,7 +31,7 @@ struct Icosahedron {
         const T c = q.z - radius * 0.525731112f;
         return detail::IcosahedralMirrors::to_face(a, b, c);
     }
-    /// That of the ball through the corners.
+    /// The ball through the corners has this radius, and bounds the solid.
     double support(const glm::dvec3& d, float level) const {
         return glm::length(d) * static_cast<double>(radius + level);
     }

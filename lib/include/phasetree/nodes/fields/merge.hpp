@@ -11,7 +11,7 @@ struct Merge {
     static constexpr NodeInfo info{"merge", "4.2", "min over k of φₖ",
                                    "Phases of an object as a plain field; it is zero on the interfaces between them."};
     Phased of{};
-    PhaseSet phases{};  ///< empty: all but the vacuum
+    PhaseSet phases{};  ///< if empty, all phases but the vacuum
 
     template <class V>
     static void parameters(V&& v) {

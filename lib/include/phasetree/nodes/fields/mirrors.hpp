@@ -1,10 +1,10 @@
+// Folding by the mirrors of a symmetry group: reflections, hence isometries, into the part of space between some of
+// the mirrors. A point and the nearest point of a symmetric set's boundary may be taken on the same side of each
+// mirror, so distances to the set are kept.
 #pragma once
 
 #include "phasetree/nodes/fields/profile.hpp"
 
-/// Folding by the mirrors of a symmetry group: reflections, hence isometries, into the part of space between some of
-/// the mirrors. A point and the nearest point of a symmetric set's boundary may be taken on the same side of each
-/// mirror, so distances to the set are kept.
 namespace phasetree::detail {
 
 /// The mirrors of a regular polygon of n sides, at the angles kπ/n. |y| leaves the angles [0, nπ/n]; where [0, mπ/n] is

@@ -38,7 +38,7 @@ struct Octahedron {
         return std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) * static_cast<double>(radius) +
                glm::length(d) * static_cast<double>(level);
     }
-    /// Below the surface: |x| + |y| + |z| ≤ r + √3 level.
+    /// Below the surface {f ≤ level} is |x| + |y| + |z| ≤ r + √3 level.
     Bounds bounds(BoundsQuery&, float level) const {
         return Bounds::centred(glm::vec3(radius + (level < 0 ? 1.73205f : 1.f) * level));
     }

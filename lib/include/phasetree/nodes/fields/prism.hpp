@@ -46,7 +46,7 @@ struct Prism {
         return corner(polygon, abs(p.z) - height * 0.5f);
     }
     double support(const glm::dvec3& d, float level) const {
-        // The corners are at odd multiples of π/n: from the nearest of them d is at most that far.
+        // The corners are at odd multiples of π/n, so the nearest of them is at most π/n from the direction d.
         const double pi = 3.14159265358979323846, step = pi / static_cast<double>(sides);
         const double off = std::remainder(std::atan2(d.y, d.x) - step, 2 * step);
         return detail::disk_support(d) * static_cast<double>(radius) * std::cos(off) +

@@ -1,3 +1,4 @@
+// What primitives that are made from a plane profile share.
 #pragma once
 
 #include <initializer_list>
@@ -5,15 +6,14 @@
 
 #include "phasetree/model/concepts.hpp"
 
-/// What primitives share that are made from a plane profile.
 namespace phasetree::detail {
 
-/// What is a box in the plane, grown by d (shrunk for a negative one), at every z.
+/// A rectangle in the plane, grown by d (or shrunk, if d is negative), at every z.
 inline Bounds at_every_height(const Bounds& b, float d) {
     return {{b.low.x - d, b.low.y - d, -Bounds::infinity}, {b.high.x + d, b.high.y + d, Bounds::infinity}};
 }
 
-/// Squares and reciprocals of such sizes stay far from the ends of the floats' range.
+/// Throws ModelError for a size whose square or reciprocal comes near the ends of the floats' range.
 inline void require_usable(std::string_view node, std::initializer_list<float> sizes) {
     for (const float s : sizes)
         if (!(std::abs(s) >= 1e-9f && std::abs(s) <= 1e9f))

@@ -45,7 +45,7 @@ struct Pyramid {
         const T from_edge = x - a;
         const T v = z * rise - from_edge * run;
         const T w = from_edge * rise + z * run;
-        // The side from (a, 0) to (0, s).
+        // The triangle's slanted side runs from (a, 0) to (0, s).
         const T sy = y - a;
         const T t = clamp((v * slant - sy * a) * (1.f / (a * a + slant * slant)), zero, T(1.f));
         const T dy = sy + t * a, dv = v - t * slant;

@@ -54,8 +54,8 @@ struct RoundCone {
         const auto behind = [&] { return choose_smoothly(less(T(cosine * separation), k), at_second, at_side); };
         return choose_smoothly(less(k, T(0.f)), at_first, behind);
     }
-    /// That of the ball whose normal leads to the point, which is at x − y s/c along the axis and has the radius
-    /// a − s x + y s²/c: no less than a − s x, whichever ball is larger, which needs no square root.
+    /// The ball that touches the surface at the point has its centre at x − y s/c along the axis and the radius
+    /// a − s x + y s²/c. That is no less than a − s x, whichever end is larger, and a − s x needs no square root.
     double rolling_radius(const glm::dvec3& p, double reach) const {
         const double x = glm::dot(p - glm::dvec3(from), glm::dvec3(axis)), s = sine;
         const double least = std::min(radius_from, radius_to);

@@ -17,12 +17,12 @@ struct Siren {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"siren", "7.5, 9.4", "max(|p| − R, f(p)/λ),  λ = Π ‖Wᵢ‖₂",
                                    "A neural field with sinusoidal layers, from a file of weights."};
-    /// f/λ within the cube about the ball; the projection onto the cube lengthens nothing.
+    /// The primitive f/λ. Points outside the cube around the ball are projected onto it, which lengthens nothing.
     struct Network {
         std::vector<float> values{};
 
         std::span<const float> data() const { return values; }
-        /// What an evaluation mostly takes.
+        /// The number of multiplications of an evaluation, which are most of its work.
         static float multiplications(const float* data) {
             float sum = 0;
             const float* at = data + 2;
@@ -45,7 +45,7 @@ struct Siren {
                 const auto inputs = static_cast<std::size_t>(at[0]), outputs = static_cast<std::size_t>(at[1]);
                 const float *weight = at + 2, *bias = weight + inputs * outputs;
                 const auto activated = [&](const T& sum) { return layer + 1 < layers ? sine(sum) : sum; };
-                // Four sums at a time: one alone waits for each of its additions.
+                // Four sums are computed at a time, because a single one would wait for each of its additions.
                 std::size_t o = 0;
                 for (; o + 4 <= outputs; o += 4, weight += 4 * inputs) {
                     T a(bias[o]), b(bias[o + 1]), c(bias[o + 2]), d(bias[o + 3]);

@@ -11,27 +11,29 @@ namespace phasetree {
 struct SirenNetwork {
     struct Layer {
         int inputs = 0, outputs = 0;
-        std::vector<float> weights;  ///< a row of `inputs` for each output
-        std::vector<float> bias;     ///< one an output
+        std::vector<float> weights;  ///< row-major, a row of `inputs` numbers for each output
+        std::vector<float> bias;     ///< one number for each output
     };
     float radius = 1;
     std::vector<Layer> layers;
 
     static constexpr int widest = 128;
 
-    /// Empty if the layers fit each other, else what is wrong.
+    /// Null if the layers fit each other, else a message that says what is wrong.
     const char* mistake() const;
-    /// Π ‖Wᵢ‖₂, never below it: a bound of the slope, because sine's is 1. (The printed 9.4 has wᵢ for the norm.)
+    /// Π ‖Wᵢ‖₂, rounded upward: a bound of the slope, because the sine's slope is at most 1. (The printed 9.4 has wᵢ
+    /// for the norm.)
     double spectral_bound() const;
-    /// The steepest gradient at so many points of the ball, a tenth added. *Not a bound*: between the points it may be
-    /// steeper.
+    /// The length of the steepest gradient at so many points of the ball, and a tenth more. *Not a bound*: between the
+    /// points it may be steeper.
     double sampled_slope(int points) const;
     std::size_t bytes() const {
         std::size_t numbers = 0;
         for (const Layer& layer : layers) numbers += layer.weights.size() + layer.bias.size();
         return numbers * sizeof(float);
     }
-    /// As the program carries it: how many layers, and for each inputs, outputs, W, b; the last one scaled.
+    /// The network as the program carries it: the number of layers, the radius, and for each layer its inputs, outputs,
+    /// W and b; W and b of the last layer are multiplied by `scale`.
     std::vector<float> table(float scale) const;
 };
 

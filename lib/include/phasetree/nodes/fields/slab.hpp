@@ -27,7 +27,7 @@ struct Slab {
     T distance(const Vec3<T>& p) const {
         return abs(dot(p, normal) - offset) - thickness * 0.5f;
     }
-    /// Infinite, but across an axis-parallel slab.
+    /// The box is infinite, but for the two sides that an axis-parallel slab bounds.
     Bounds bounds(BoundsQuery&, float level) const {
         Bounds b = Bounds::everything();
         const float half = thickness * 0.5f + level;

@@ -33,12 +33,12 @@ struct SphericalCap {
         const T rho = length(p.x, p.y), from_centre = length(p);
         const T to_ball = from_centre - radius, below = cut - p.z;
         const T to_disk = length(max(rho - rim, T(0.f)), below);
-        // Outside the ball the arc is nearer than the disk, alone: by the rim the two tie within rounding.
+        // Outside the ball only the arc is asked, because near the rim the arc and the disk tie within rounding.
         const T to_arc = select(less(T(0.f), to_ball), to_ball, min(to_disk, -to_ball));
         const T d = select(less(p.z * radius, from_centre * cut), to_disk, to_arc);
         return select(less(max(to_ball, below), T(0.f)), -d, d);
     }
-    /// That of the ball.
+    /// The support of the ball, of which the cap is a part.
     double support(const glm::dvec3& d, float level) const {
         return glm::length(d) * static_cast<double>(radius + level);
     }

@@ -42,13 +42,13 @@ struct Tetrahedron {
         return k * std::max({d.x + d.y + d.z, d.x - d.y - d.z, d.y - d.x - d.z, d.z - d.x - d.y}) +
                glm::length(d) * static_cast<double>(level);
     }
-    /// Below the surface: the tetrahedron whose faces, r/3 from the origin, are that much nearer.
+    /// Below the surface the set {f ≤ level} is the tetrahedron whose faces, r/3 from the origin, are nearer by −level.
     Bounds bounds(BoundsQuery&, float level) const {
         return Bounds::centred(glm::vec3(radius * 0.57735028f + (level < 0 ? 1.73205f : 1.f) * level));
     }
 
   private:
-    /// To a ≥ |b|.
+    /// Folds two coordinates to a ≥ |b|.
     template <class T>
     static void fold(T& a, T& b) {
         const T most = max(a, b), least = min(a, b);

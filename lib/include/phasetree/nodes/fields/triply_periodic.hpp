@@ -1,11 +1,11 @@
+// What the triply periodic sheets share. g is a trigonometric polynomial of k·p, k = 2π/period, whose zero set
+// is near a minimal surface. For each of them sup‖∇g‖ = √3 (in units of k; the proof is at the node), so
+//     f = |g(k p)|/(√3 k) − t/2
+// is 1-Lipschitz, and the wall is nowhere thinner than t, for f changes by t/2 over a distance of t/2 at least.
 #pragma once
 
 #include "phasetree/nodes/fields/profile.hpp"
 
-/// What the triply periodic sheets share. g is a trigonometric polynomial of k·p, k = 2π/period, whose zero set
-/// is near a minimal surface. For each of them sup‖∇g‖ = √3 (in units of k; the proof is at the node), so
-///     f = |g(k p)|/(√3 k) − t/2
-/// is 1-Lipschitz, and the wall is nowhere thinner than t, for f changes by t/2 over a distance of t/2 at least.
 namespace phasetree::detail {
 
 /// Sine and cosine of the three angles k·p; whole periods are taken off first, so that any p will do.
@@ -22,7 +22,7 @@ Angles<T> angles(const Vec3<T>& p, float period) {
     return {of(p.x), of(p.y), of(p.z)};
 }
 
-/// 1/(√3 k).
+/// The factor 1/(√3 k) that makes g 1-Lipschitz.
 inline float sheet_scale(float period) {
     return period * 0.09188814f;
 }
@@ -30,7 +30,7 @@ inline float sheet_scale(float period) {
 inline constexpr Parameter sheet_period{"period", "m", "Edge of the cube that repeats.", limits::positive};
 inline constexpr Parameter sheet_thickness{"thickness", "m", "Least thickness of the wall.", limits::positive};
 
-/// `most`: the largest value of |g|.
+/// The 1-Lipschitz field of the sheet; `most` is the largest value of |g|.
 inline void check_sheet(std::string_view node, float period, float thickness, float most) {
     require_usable(node, {period, thickness});
     if (thickness * 0.5f >= most * sheet_scale(period))

@@ -73,13 +73,13 @@ struct VoronoiCells {
             const T x = max(distance + c, T(1e-4f)), x2 = x * x, x4 = x2 * x2;
             return T(1.f) / (x4 * x4);
         };
-        // All that are not near count alike, so that it does not matter which of them are looked at.
+        // Every site whose bisector is cut off counts the same, so that it does not matter which of them are looked at.
         T v = far, sum(0.f), others(static_cast<float>(VoronoiSites::neighbours));
         for (std::size_t i = 0; i < count; ++i) {
             const Vec3<T> between = to[i] - nearest;
             const T apart = dot(between, between);
             const T bisector = dot(between, to[i] + nearest) * 0.5f / sqrt(max(apart, T(1e-12f)));
-            // The nearest site itself is no neighbour of its own.
+            // The nearest site has no bisector with itself.
             const T counted = select(less(apart, T(1e-10f)), far, min(bisector, far));
             if (rounding > 0) {
                 const auto is_near = less(counted, far);
@@ -92,7 +92,7 @@ struct VoronoiCells {
         if (rounding > 0) v = T(1.f) / sqrt(sqrt(sqrt(sum + others * eighth(far)))) - c;
         return gap * 0.5f - max(v, T(0.f)) * size;
     }
-    /// The same in a box with the few sites that matter there.
+    /// The same primitive, with the few sites that matter in one small box as its data.
     struct Specialised : SpecialisedVoronoi {
         static unsigned half_works(const float* data) { return 10 + 5 * sites(data); }
         template <class T>
@@ -105,7 +105,7 @@ struct VoronoiCells {
 
     Bounds bounds(BoundsQuery&, float) const { return Bounds::everything(); }
 
-    /// Bisectors of sites that are not looked at are farther than that, in cubes.
+    /// A lower bound of the distance, in cubes, to the bisector of any site that is not looked at.
     float seen() const {
         const VoronoiSites sites{jitter, seed};
         return 0.5f * (sites.unseen() - sites.nearest()) * 0.999f;

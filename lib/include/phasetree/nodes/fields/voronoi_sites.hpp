@@ -24,9 +24,9 @@ struct VoronoiSites {
 
     static constexpr int neighbours = 125;
 
-    /// How far sites that are not looked at are, at the least, in cubes.
+    /// A lower bound of the distance, in cubes, to every site that is not looked at.
     float unseen() const { return 0.5f * (5 - jitter); }
-    /// How far the nearest site is, at the most.
+    /// An upper bound of the distance, in cubes, to the nearest site.
     float nearest() const { return 0.8660255f * (1 + jitter); }
 
     /// A point's cube, and where in it the point is. The pattern is constant beyond 2¹⁶ cubes, so that the hash stays
@@ -42,7 +42,8 @@ struct VoronoiSites {
             within = {q.x - cube.x, q.y - cube.y, q.z - cube.z};
         }
     };
-    /// Of a hash, the site's place in its cube along one axis, less what the jitter leaves out.
+    /// Turns a hash into the site's place in its cube along one axis, measured from the lowest place that the jitter
+    /// allows.
     template <class T>
     T moved(const T& hash) const {
         return hash * (jitter / 288.f);
@@ -75,27 +76,29 @@ struct VoronoiSites {
         }
     }
 
-    /// A site: its cube, its place there as of moved(), and the hash.
+    /// A site is given by its cube, its place in the cube along each axis (see moved()) and its hash.
     struct Site {
         std::array<float, 3> cube, place;
         float hash;
         std::array<double, 3> position;  ///< in cubes
-        double distance;                 ///< from the point about which they were looked for
+        double distance;                 ///< from the centre of the search
     };
-    /// Which sites matter about a point: those no farther than `most`, nor by more than `beyond` farther than the
-    /// nearest of them, with a hash from `low` on and below `high`.
+    /// Tells which sites are sought about a point: those that are no farther than `most`, that are at most `beyond`
+    /// farther than the nearest of them, and whose hash is in [low, high).
     struct Search {
         std::array<double, 3> centre{};
         double most = 0, beyond = 0;
         float low = -1, high = 289;
     };
-    /// In the order in which for_each() comes to them; of all sites, or of a list that holds them.
+    /// Finds these sites in the order in which for_each() visits them: among all sites if the list is empty, else among
+    /// those of the list, which must hold them.
     void find(const Search&, std::span<const float> list, std::vector<Site>& found) const;
-    /// How many floats a site takes in a list.
+    /// The number of floats that a site takes in a list.
     static constexpr unsigned site_floats = 7;
 };
 
-/// Sites as a list: for points of a box that no other site matters to, the same to the last bit as VoronoiSites.
+/// A list of sites in place of the whole lattice. Where no other site matters it gives the values of VoronoiSites to
+/// the last bit.
 struct VoronoiSiteList {
     VoronoiSites all;
     std::span<const float> floats;  ///< VoronoiSites::site_floats for each
@@ -115,8 +118,8 @@ struct VoronoiSiteList {
     }
 };
 
-/// What Voronoi primitives become in a small box (LocalPrimitive): their five parameters, how many floats follow, and
-/// the sites.
+/// The data of a Voronoi primitive that is specialised to a small box (LocalPrimitive): its five parameters, the number
+/// of floats that follow, and the sites.
 struct SpecialisedVoronoi {
     static constexpr std::size_t parameters = 5;
 

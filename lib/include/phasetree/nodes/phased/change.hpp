@@ -4,7 +4,7 @@
 
 namespace phasetree {
 
-/// The inner φᵢ of φₖ is A's, not the one just reduced as printed.
+/// The φᵢ within φₖ is that of A; the printed equation has the φᵢ that was just reduced.
 struct Change {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"change", "5.2", "φᵢ = max(aᵢ, −f),  φₖ = min(aₖ, max(aᵢ, f)),  φ₀ = a₀",

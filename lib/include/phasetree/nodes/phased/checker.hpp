@@ -22,7 +22,7 @@ struct CheckerCells {
     }
 
   private:
-    /// abs, because the sign of a zero is not the same under all instruction sets.
+    /// It takes abs, because the sign of a zero is not the same under all instruction sets.
     template <class T>
     static T to_face(const T& q) {
         return min(abs(q), 1.f - abs(q));

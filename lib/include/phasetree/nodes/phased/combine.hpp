@@ -1,13 +1,13 @@
+// Minimum and maximum of components that may be absent. An absent phase behaves as +∞ without being a number.
 #pragma once
 
 #include <vector>
 
 #include "phasetree/model/concepts.hpp"
 
-/// Minimum and maximum of components that may be absent. An absent phase behaves as +∞ without being a number.
 namespace phasetree::detail {
 
-/// min over the phases of `among`; nothing if there are none.
+/// The minimum over the phases of `among`; nothing if none of them is present.
 template <class S>
 std::optional<S> minimum(const Phases<S>& a, std::uint64_t among) {
     std::optional<S> result;
@@ -36,7 +36,7 @@ void minimum_of_others(const Phases<S>& a, std::uint64_t among, std::uint64_t wa
     });
 }
 
-/// min(aᵢ, bᵢ) where either may be absent.
+/// min(aᵢ, bᵢ), where either may be absent; nothing if both are.
 template <class S>
 std::optional<S> minimum_of(const Phases<S>& a, const Phases<S>& b, int i) {
     if (a.has(i) && b.has(i)) return min(a[i], b[i]);
@@ -51,7 +51,7 @@ void add_part(Phases<S>& a, int i, const S& part) {
     a.set(i, a.has(i) ? min(a[i], part) : part);
 }
 
-/// Vacuum takes the place of the phases `gone`.
+/// The object in which vacuum takes the place of the phases `gone`.
 template <class S>
 Phases<S> emptied(Phases<S> a, std::uint64_t gone) {
     for_each_phase(a.materials() & gone, [&](int i) {

@@ -20,7 +20,7 @@ template <class S>
 Phases<S> contact(const Phases<S>& a, const S& a_k, const Phases<S>& b, const S& b_l, PhaseSet l, float alpha) {
     const S f = a_k * alpha - b_l * (1.f - alpha);
     Phases<S> retreated = b;
-    // In this order, because so far away that distances overflow f is ∞ − ∞, and max takes the second operand of NaN.
+    // The operands have this order because so far away that distances overflow f is ∞ − ∞, and max(NaN, x) is x.
     for_each_phase(b.present & l.bits, [&](int j) { retreated.set(j, max(-f, b[j])); });
     return under(a, retreated);
 }
@@ -33,7 +33,9 @@ inline constexpr Parameter contact_alpha{"alpha", "",
 }  // namespace detail
 
 /// The printed φᵢ = max(aᵢ, −f), φⱼ = max(bⱼ, f) empty most of A ∪ B; and α → 0 makes f tend to −bⱼ.
-/// What the contact does not decide is as in A ∪₋ B: the other phases of A and B stay, and B's replace A's.
+///
+/// What the contact does not decide is as in A ∪₋ B: the other phases of A and B stay, and those of B replace those of
+/// A.
 struct Contact {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"contact", "4.4",

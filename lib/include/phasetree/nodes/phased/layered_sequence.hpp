@@ -4,7 +4,8 @@
 
 namespace phasetree {
 
-/// Nested `layered`, with a₀ evaluated once, and once the sum a₀ + T of each boundary between layers.
+/// The same as nested `layered` nodes, but a₀ is evaluated once, and so is the sum a₀ + T of each boundary between
+/// layers.
 struct LayeredSequence {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"layered_sequence", "4.5",

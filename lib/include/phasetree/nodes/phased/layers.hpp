@@ -22,8 +22,8 @@ struct PeriodicSlab {
     }
 };
 
-/// Paper's two phases of equal thickness, for any number of phases and thicknesses. A phase that is listed several
-/// times is the union of its slabs.
+/// The paper has two phases of equal thickness; this node has any number of phases and thicknesses. A phase that is
+/// listed several times is the union of its slabs.
 struct Layers {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"layers", "9.1",
@@ -35,7 +35,7 @@ struct Layers {
     std::vector<float> thicknesses{};
     glm::vec3 direction{0, 0, 1};
     float offset = 0;
-    std::vector<PeriodicSlab> slabs{};  ///< derived, one a listed phase
+    std::vector<PeriodicSlab> slabs{};  ///< one for each listed phase, derived
 
     template <class V>
     static void parameters(V&& v) {

@@ -1,14 +1,14 @@
+// What the intersection and the difference with a shape share, for all phases or for some (paper, Section 5.1).
+//
+// The vacuum grows by what is cut away: φ₀ = min(a₀, max(aₖ, g) over the cut phases k), g = −f of what is kept
+// being the inside of what goes. For all phases that is min(a₀, g), because outside them the point is vacuum anyway.
 #pragma once
 
 #include "phasetree/nodes/phased/combine.hpp"
 
-/// What intersection and difference with a shape share, for all phases or for some (paper, Section 5.1).
-///
-/// The vacuum grows by what is cut away: φ₀ = min(a₀, max(aₖ, g) over the cut phases k), g = −f of what is kept
-/// being the inside of what goes. For all phases that is min(a₀, g), because outside them the point is vacuum anyway.
 namespace phasetree::detail {
 
-/// Keeps of the chosen phases what lies where kept ≤ 0.
+/// Cuts the chosen phases down to where kept ≤ 0; vacuum takes the place of what is cut away.
 template <class S>
 Phases<S> cut(const Phases<S>& a, const S& kept, PhaseSet chosen) {
     Phases<S> result;
@@ -27,7 +27,7 @@ Phases<S> cut(const Phases<S>& a, const S& kept, PhaseSet chosen) {
     return result;
 }
 
-/// Where nothing is cut, an object that fills space stays one.
+/// Vacuum is added to the phases only if one of the object's phases is cut.
 inline PhaseSet phases_after_cut(PhaseSet there, PhaseSet chosen) {
     return chosen.empty() || (there.bits & chosen.bits & ~std::uint64_t{1}) != 0 ? there | PhaseSet::of(vacuum) : there;
 }

@@ -1,21 +1,21 @@
+// What smooth intersection and difference of one phase with a shape share (paper, Section 5.3), g being the field of
+// what is kept:
+//
+//     Bₖ = {s < 0},  s = −smin(−aₖ, −g);    Bᵢ = Aᵢ;    vacuum: A₀ ∪ (Aₖ − Bₖ).
+//
+// There is one form only, not one over and one under the other phases: s ≥ max(aₖ, g) makes Bₖ a part of Aₖ, which no
+// other phase overlaps, so that both max(aᵢ, −s) = aᵢ, for −s ≤ −aₖ ≤ aᵢ, and max(s, −min aᵢ) = s, for −aᵢ ≤ aₖ ≤ s.
+//
+// Aₖ − Bₖ is max(aₖ, −s), and just as well max(aₖ, −s, −g − r): within Aₖ, s ≥ 0 needs g > −r, the edge being worn
+// nowhere else. The further term keeps φ₀ from a zero where Aₖ meets itself far from the shape's surface, and gives
+// the sharp operator's max(aₖ, −g) as r → 0.
+//     φ₀ = min(a₀, max(aₖ, −s, −g − r))
+// I2: φₖ + φ₀ ≥ min(aₖ + a₀, s − s),  φₖ + aᵢ ≥ aₖ + aᵢ,  φ₀ + aᵢ ≥ min(a₀ + aᵢ, aₖ + aᵢ).
 #pragma once
 
 #include "phasetree/nodes/fields/fold.hpp"
 #include "phasetree/nodes/phased/combine.hpp"
 
-/// What smooth intersection and difference of one phase with a shape share (paper, Section 5.3), g being the field of
-/// what is kept:
-///
-///     Bₖ = {s < 0},  s = −smin(−aₖ, −g);    Bᵢ = Aᵢ;    vacuum: A₀ ∪ (Aₖ − Bₖ).
-///
-/// There is one form only, not one over and one under the other phases: s ≥ max(aₖ, g) makes Bₖ a part of Aₖ, which no
-/// other phase overlaps, so that both max(aᵢ, −s) = aᵢ, for −s ≤ −aₖ ≤ aᵢ, and max(s, −min aᵢ) = s, for −aᵢ ≤ aₖ ≤ s.
-///
-/// Aₖ − Bₖ is max(aₖ, −s), and just as well max(aₖ, −s, −g − r): within Aₖ, s ≥ 0 needs g > −r, the edge being worn
-/// nowhere else. The further term keeps φ₀ from a zero where Aₖ meets itself far from the shape's surface, and gives
-/// the sharp operator's max(aₖ, −g) as r → 0.
-///     φ₀ = min(a₀, max(aₖ, −s, −g − r))
-/// I2: φₖ + φ₀ ≥ min(aₖ + a₀, s − s),  φₖ + aᵢ ≥ aₖ + aᵢ,  φ₀ + aᵢ ≥ min(a₀ + aᵢ, aₖ + aᵢ).
 namespace phasetree::detail {
 
 template <class S>

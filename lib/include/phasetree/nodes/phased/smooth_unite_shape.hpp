@@ -6,7 +6,7 @@
 namespace phasetree {
 
 namespace detail {
-/// s: phase k of A and a shape, blended.
+/// The smooth union s of phase k of A and a shape.
 template <class S>
 S blended_with(const Phases<S>& a, int k, const S& f, float radius) {
     return a.has(k) ? smooth_min(a[k], f, radius) : f;

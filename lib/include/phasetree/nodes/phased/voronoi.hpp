@@ -18,7 +18,7 @@ struct Voronoi {
         "Blocks of several phases, filling space: the cells of an irregular lattice of sites, "
         "each with one of the phases. With the same size, jitter and seed they are those of "
         "voronoi_cells."};
-    /// The distance to the nearest site of one kind.
+    /// The primitive that is the distance to the nearest site of one kind.
     struct Nearest {
         static constexpr bool is_long = true;  ///< a LongPrimitive
         float size = 1;
@@ -33,7 +33,7 @@ struct Voronoi {
         }
         template <class T, class Sites>
         T distance(const Vec3<T>& p, const Sites& sites) const {
-            // A little less, so that rounding lets no site count that is not looked at.
+            // The bound is a little smaller, so that rounding lets no site count that is not looked at.
             const float unseen = VoronoiSites{jitter, seed}.unseen() * (1 - 1e-6f);
             T least(unseen * unseen);
             const T low(first_hash()), high(end_hash());
@@ -46,7 +46,7 @@ struct Voronoi {
         float first_hash() const { return 289 * kind / kinds - 0.5f; }
         float end_hash() const { return 289 * (kind + 1) / kinds - 0.5f; }
 
-        /// The same in a box with the few sites of the kind that may be the nearest there.
+        /// The same primitive, with the few sites of its kind that may be the nearest in one small box as its data.
         struct Specialised : SpecialisedVoronoi {
             static unsigned half_works(const float* data) { return 6 + 2 * sites(data); }
             template <class T>

@@ -17,7 +17,7 @@ namespace phasetree {
 /// steps approach it without passing. Five reach it: where they converge slowest, in the curve's centre of curvature, h
 /// has its three roots in one, an error t − r halves each time, and the distance depends on its fourth power.
 ///
-/// Inside is where a way along +x crosses the outline an odd number of times. A piece counts once for
+/// A point is inside if a ray from it along +x crosses the outline an odd number of times. A piece counts once for
 /// low ≤ y < high, with the same numbers where two pieces meet; where t is ill-determined, at a level tangent, the
 /// point of the curve that it leads to is still at the height of p.
 struct Bezier {
@@ -30,7 +30,7 @@ struct Bezier {
     static constexpr std::size_t most_points = 2048;
     std::vector<glm::vec2> points{};
     float thickness = 0;
-    std::vector<float> table{};  ///< derived: how many pieces, half the thickness, and for each ten numbers
+    std::vector<float> table{};  ///< derived: the number of pieces, half the thickness, and ten numbers for each piece
 
     template <class V>
     static void parameters(V&& v) {
@@ -127,7 +127,7 @@ struct Bezier {
         glm::dvec2 a() const { return start - 2.0 * control + end; }
         glm::dvec2 b() const { return control - start; }
         glm::dvec2 at(double t) const { return start + t * (2.0 * b() + t * a()); }
-        /// The part from one parameter to another (blossoming).
+        /// The part of the curve from one parameter to another, by blossoming.
         Piece part(double from, double to) const {
             return {at(from), start + (from + to) * b() + from * to * a(), at(to)};
         }
@@ -145,7 +145,7 @@ struct Bezier {
         for_each_curve([&](const Piece& curve) {
             const glm::dvec2 a = curve.a(), b = curve.b();
             const double slowest = glm::dot(a, a) > 0 ? -glm::dot(a, b) / glm::dot(a, a) : -1;
-            // Where the speed is 2ᵏ times the least.
+            // The parameters at which the speed is 2ᵏ times the least.
             std::vector<double> cuts{0, 1, slowest, -b.y / a.y};
             const double least = glm::length(b + slowest * a), per_t = glm::length(a);
             for (double ratio = 2; least > 0 && ratio < 2e6; ratio *= 2) {
@@ -159,7 +159,7 @@ struct Bezier {
                 Piece piece = curve.part(cuts[i], cuts[i + 1]);
                 const glm::vec2 to(piece.end);
                 if (to == from) continue;
-                // Where pieces meet, they meet in the same floats.
+                // Pieces that meet have the same floats there.
                 piece.start = from;
                 piece.end = to;
                 from = to;
@@ -168,7 +168,7 @@ struct Bezier {
         });
         return result;
     }
-    /// A piece that is as good as straight, or turns back on itself at its start, has no curvature.
+    /// A piece that is straight to rounding, or turns back on itself at its start, has no curvature.
     static Piece towards_faster(Piece piece) {
         const auto squared = [](const glm::dvec2& v) { return glm::dot(v, v); };
         if (squared(piece.end - piece.control) < squared(piece.b())) std::swap(piece.start, piece.end);

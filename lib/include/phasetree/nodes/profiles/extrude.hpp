@@ -4,7 +4,7 @@
 
 namespace phasetree {
 
-/// (x, y, z) ↦ (x, y, 0): what a field says of its cross-section.
+/// The projection (x, y, z) ↦ (x, y, 0), which turns a field into that of its cross-section at z = 0.
 struct CrossSection {
     float height = 0;  ///< of the section
 
@@ -45,7 +45,7 @@ struct Extrude {
         const typename D::Scalar section = d.field(of, d.map(CrossSection{}, p, 1.f));
         return corner(section, d.primitive(HeightBand{height * 0.5f}, p));
     }
-    /// The corner is no less than either of the two.
+    /// corner() is no less than either of its operands, so both bound the extrusion.
     Bounds bounds(BoundsQuery& q, float level) const {
         const float half = height * 0.5f + level;
         if (!q.is_by_boxes())

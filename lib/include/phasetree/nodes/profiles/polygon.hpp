@@ -8,7 +8,8 @@
 
 namespace phasetree {
 
-/// The distance is that to the nearest edge. Inside is where a way along +x crosses the outline an odd number of times.
+/// The distance is that to the nearest edge. A point is inside if a ray from it along +x crosses the outline an odd
+/// number of times.
 /// An edge counts for low ≤ y < high, with the same numbers where two edges meet; so a crossing is missed or counted
 /// twice only where the side of an edge is a matter of rounding, on the outline itself.
 struct Polygon {
@@ -18,8 +19,8 @@ struct Polygon {
                                    "exact."};
     static constexpr std::size_t most_points = 4096;
     std::vector<glm::vec2> points{};
-    std::vector<float> table{};  ///< derived: how many edges, and of each from where, the way, y at its end, one over
-                                 ///< the squared length
+    std::vector<float> table{};  ///< derived: the number of edges, and for each its start, vector, y of its end and 1
+                                 ///< over the squared length
 
     template <class V>
     static void parameters(V&& v) {

@@ -5,7 +5,7 @@
 
 namespace phasetree {
 
-/// (x, y, z) ↦ (√(x² + y²) − offset, z, 0): into the half plane that turns about the axis. It lengthens nothing.
+/// The map (x, y, z) ↦ (√(x² + y²) − offset, z, 0) into the half plane that turns about the axis. It lengthens nothing.
 struct IntoHalfPlane {
     float offset = 0;
 

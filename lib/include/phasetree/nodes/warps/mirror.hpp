@@ -40,8 +40,8 @@ struct Mirror {
     Bounds image(const Bounds& b) const {
         return unite(b, image_of(b, glm::mat3(1) - 2.f * glm::outerProduct(normal, normal)));
     }
-    /// Of a point in the half that is kept and its image, the one on the side that d points to is farther along d. It
-    /// is as far along d as the point itself is along d or its reflection, whichever points into that half.
+    /// The support along d. Of a kept point and its image, the one on the side that d points to is farther along d, and
+    /// it is as far as the kept point is along d or along d reflected, whichever points into the kept half.
     glm::dvec3 towards(const glm::dvec3& d) const {
         const glm::dvec3 n(normal);
         return d - 2 * std::min(glm::dot(d, n), 0.0) * n;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <glm/trigonometric.hpp>
+
 #include "phasetree/nodes/warps/warped.hpp"
 
 namespace phasetree {

@@ -1,23 +1,23 @@
+// A warp deforms space: ω(A) has Φ(p) = Φ_A(ω⁻¹(p)) / λ with λ ≥ sup ‖J of ω⁻¹‖ (paper, Section 6). A warp is written
+// once, as a struct with its parameters and
+//     Map map() const                 p ↦ ω⁻¹(p), a PointMap: one instruction of the program
+//     float value_scale() const       1/λ
+//     Bounds image(Bounds) const      a box around ω(box)
+// and, if it is neither affine nor local, for bounds by directions (BoundsQuery::through),
+//     dvec3 towards(dvec3 d) const,  double beyond(dvec3 d) const
+// and serves plain fields and objects alike through Warped<Warp, Child>.
+//
+// Where ‖J‖ is bounded only on a part of space (`local`), the warp gets the child's bounds first through
+//     void fit(const Bounds& child)   throws ModelError if the child is unbounded
+// and the sup is taken over ω(those bounds). What lies outside is first projected onto that box, a map that lengthens
+// nothing, so Φ∘ω⁻¹∘clamp / λ is 1-Lipschitz everywhere; and because it stays small far away, the distance b
+// to the bounds takes over where it is larger:
+//     φᵢ ← max(b, φᵢ),   φ₀ ← min(−b, φ₀).
 #pragma once
 
 #include "phasetree/nodes/fields/box.hpp"
 #include "phasetree/nodes/phased/under.hpp"
 
-/// A warp deforms space: ω(A) has Φ(p) = Φ_A(ω⁻¹(p)) / λ with λ ≥ sup ‖J of ω⁻¹‖ (paper, Section 6). A warp is written
-/// once, as a struct with its parameters and
-///     Map map() const                 p ↦ ω⁻¹(p), a PointMap: one instruction of the program
-///     float value_scale() const       1/λ
-///     Bounds image(Bounds) const      a box around ω(box)
-/// and, if it is neither affine nor local, for bounds by directions (BoundsQuery::through),
-///     dvec3 towards(dvec3 d) const,  double beyond(dvec3 d) const
-/// and serves plain fields and objects alike through Warped<Warp, Child>.
-///
-/// Where ‖J‖ is bounded only on a part of space (`local`), the warp gets the child's bounds first through
-///     void fit(const Bounds& child)   throws ModelError if the child is unbounded
-/// and the sup is taken over ω(those bounds). What lies outside is first projected onto that box, a map that lengthens
-/// nothing, so Φ∘ω⁻¹∘clamp / λ is 1-Lipschitz everywhere; and because it stays small far away, the distance b
-/// to the bounds takes over where it is larger:
-///     φᵢ ← max(b, φᵢ),   φ₀ ← min(−b, φ₀).
 namespace phasetree {
 
 template <class W>
@@ -125,8 +125,8 @@ template <class Warp>
 struct WarpedField : Warped<Warp, Field> {
     static constexpr bool is_field_node = true;
 };
-/// Objects can be warped in part: W, the warped object of the chosen phases, over or under R, the rest as it was. The
-/// printed equations of D(A, k) are this for one phase, over.
+/// An object can be warped in part: W, the warped object of the chosen phases, is put over or under R, the rest as it
+/// was. The printed equations of D(A, k) are this for one phase, over.
 template <class Warp>
 struct WarpedPhased : Warped<Warp, Phased> {
     static constexpr bool is_phased_node = true;
@@ -162,7 +162,7 @@ struct WarpedPhased : Warped<Warp, Phased> {
     PhaseSet phases() const {
         const PhaseSet there = phasetree::phases(this->of);
         const std::uint64_t materials = there.bits & ~std::uint64_t{1};
-        // Without vacuum it appears where something went or came from.
+        // An object without vacuum gets some, where a phase was before it was warped or comes to lie.
         const bool is_split = (materials & chosen().bits) != 0 && (materials & ~chosen().bits) != 0;
         return is_split ? there | PhaseSet::of(vacuum) : there;
     }

@@ -1,10 +1,12 @@
 #pragma once
 
-#include "phasetree/tree/node.hpp"
+#include "tree/node.hpp"
 
 namespace phasetree {
 
-/// Evaluates a tree by walking it, over any number type: the definition of what a tree means.
+/// Evaluates a tree by walking it, over any number type. This is the definition of what a tree means. Nodes are
+/// evaluated in a *domain*, which gives them the values of their children, of primitives and of maps of space; this is
+/// one, and the recorder (program/record.cpp) is the other.
 template <class T>
 struct Walk {
     using Scalar = T;
@@ -32,7 +34,7 @@ struct Walk {
     T primitive(const P& primitive, const Point& p) const {
         return P::distance(primitive.data().data(), p);
     }
-    /// Tells the recorder that a value is 1-Lipschitz in p, where it would derive less.
+    /// The node vouches that the value is 1-Lipschitz in p, where the recorder would derive a larger bound.
     T one_lipschitz(const T& value, const Point&) const { return value; }
     template <PointMap M>
     Point map(const M& m, const Point& p, float /*lipschitz*/) const {

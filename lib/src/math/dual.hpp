@@ -23,7 +23,7 @@ class Dual {
     explicit Dual(float v) : lanes_{v, 0, 0, 0} {}
     Dual(float v, float x, float y, float z) : lanes_{v, x, y, z} {}
     explicit Dual(const Lanes& lanes) : lanes_(lanes) {}
-    /// With this value instead.
+    /// A number with this value and the derivatives of `slopes`.
     Dual(float v, const Lanes& slopes) : lanes_(slopes) { lanes_[0] = v; }
 
     float value() const { return lanes_[0]; }
@@ -79,7 +79,7 @@ class Dual {
     return Dual(all ? yes.lanes() : no.lanes());
 }
 [[gnu::always_inline]] inline Dual min(const Dual& a, const Dual& b) {
-    // Of two zeros the value is the second one, as ever: they may differ in sign.
+    // The value must be that of min() for floats, also for two zeros of different signs.
     return Dual(min(a.value(), b.value()), a.values() <= b.values() ? a.lanes() : b.lanes());
 }
 [[gnu::always_inline]] inline Dual max(const Dual& a, const Dual& b) {
@@ -102,8 +102,8 @@ class Dual {
     const float k = v > 0 ? 0.5f / v : 0.f;  // at a cone's apex every direction is as good: none
     return Dual(v, Dual::each(k) * a.lanes());
 }
-/// In place of the equation's own derivative, which takes that of the lesser over the greater coordinate and so the
-/// wrong one where they are equal: (x dy − y dx)/(x² + y²), none at the origin.
+/// The derivative is (x dy − y dx)/(x² + y²), and zero at the origin. That of the equation itself, which is evaluated
+/// with the ratio of the lesser to the greater coordinate, would be wrong where both are equal.
 [[gnu::always_inline]] inline Dual angle_of(const Dual& x, const Dual& y) {
     const float a = x.value(), b = y.value(), squared = a * a + b * b;
     const float k = squared > 0 ? 1.f / squared : 0.f;

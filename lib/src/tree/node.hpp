@@ -1,23 +1,25 @@
+// The variants that hold a node of a tree, and the functions that are derived from a node's list of parameters.
 #pragma once
-
-/// What holds a node: a variant over the list, and what is derived from a node's list of parameters.
 
 #include "phasetree/nodes/list.hpp"
 
 namespace phasetree {
 
+/// A node of a field's tree, as the handle Field holds it.
 struct FieldNode {
     detail::Variant<FieldNodes>::type node;
-    std::size_t depth = 1;
+    std::size_t depth = 1;  ///< of the tree below, this node included
 };
 
+/// A node of an object's tree, as the handle Phased holds it.
 struct PhasedNode {
     detail::Variant<PhasedNodes>::type node;
     std::size_t depth = 1;
     PhaseSet phases;
 };
 
-/// The member that a node's parameter list speaks of. A warped node's list reaches through to its warp.
+/// The member of a node that an entry of its parameter list names. Warped nodes overload this, to reach the members of
+/// their warp.
 template <class Node, class T, class Class>
 decltype(auto) access(Node& node, T Class::*member) {
     return (node.*member);

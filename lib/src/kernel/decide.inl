@@ -1,0 +1,71 @@
+// What counts as a crossing where labels are a matter of rounding (March). Included by kernel.inl.
+
+namespace phasetree::kernel::HWY_NAMESPACE {
+namespace {
+
+// Whether the change of label at `next` is a crossing; if so, reports it, and if not, moves `here` on to where that is
+// known.
+//
+// Within rounding of an interface labels mean little: between solids that abut there are slivers of other phases, and
+// along a face the label flickers. So a change counts only once it is decided: once s(p) is above rounding, or once
+// there was no place in the ray's phase for one and a half resolutions. Until then the ray stays in its phase. The
+// bracket goes from the last place in that phase to the first one in the phase that follows.
+bool March::is_crossing(const Place& next, RayCrossing& result) {
+    const float resolution = ray_.resolution;
+    const auto is_decided = [&](const Place& p) {
+        if (other_.label == no_label) left_at_ = p.t;
+        if (other_.label != p.label) other_ = p;
+        return p.distance >= rounding() || p.t - left_at_ >= 1.5f * resolution;
+    };
+    const bool is_known = next.label != another_phase;
+    if (is_known && is_decided(next)) return report(result, certain_.t, other_.t, other_.label);
+    alignas(64) float beyond[batch_size], label[batch_size], distance[batch_size];
+    const Batch t =
+        min(Batch(next.t) + (lanes() + (is_known ? 1.f : 0.f)) * (resolution * (2.f / batch_size)), Batch(ray_.length));
+    const Classified c = sample_whole(t);
+    store(t, beyond);
+    store(c.label, label);
+    store(c.distance, distance);
+    for (std::size_t i = 0; i < batch_size; ++i) {
+        const Place p{beyond[i], distance[i], label[i]};
+        here_ = {p.t, p.distance, phase_};
+        if (p.label == phase_) {
+            certain_ = here_;
+            other_.label = no_label;
+            if (p.distance >= rounding()) break;
+        } else if (is_decided(p)) {
+            return report(result, certain_.t, other_.t, other_.label);
+        }
+    }
+    return false;
+}
+
+// Whether a ray whose start is not in the phase that it carries was in it a few resolutions before; if so, reports the
+// crossing there. Along a face where labels flicker the cell before may still have seen the ray in its phase. No place
+// farther back is asked, because a cell's program holds only in the cell and a little around it.
+bool March::is_entered_late(RayCrossing& result) {
+    const float resolution = ray_.resolution;
+    alignas(64) float t[batch_size], label[batch_size];
+    const auto look = [&](const Batch& where) {
+        store(where, t);
+        store(sample_whole(where).label, label);
+    };
+    constexpr float size = static_cast<float>(batch_size);
+    Place in{0, 0, no_label}, out{0, 0, here_.label};
+    const float back = smaller(ray_.before, 4 * resolution);
+    if (!(back > 0)) return false;
+    look((lanes() + 1.f) * (-back / size));
+    for (std::size_t i = 0; i < batch_size && in.label == no_label; ++i)
+        (label[i] == phase_ ? in : out) = {t[i], 0, label[i]};
+    if (in.label == no_label) return false;
+    while (out.t - in.t > resolution) {
+        const float low = in.t, step = (out.t - low) / (size + 1);
+        look(Batch(low) + (lanes() + 1.f) * step);
+        if (!(t[0] > low)) break;  // no float lies between
+        for (std::size_t i = batch_size; i-- > 0 && in.t == low;) (label[i] == phase_ ? in : out) = {t[i], 0, label[i]};
+    }
+    return report(result, in.t, out.t, out.label);
+}
+
+}  // namespace
+}  // namespace phasetree::kernel::HWY_NAMESPACE

@@ -1,0 +1,75 @@
+#include "program/instruction_list.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include "phasetree/model/handle.hpp"
+
+namespace phasetree::program {
+
+namespace {
+
+std::uint64_t mix(std::uint64_t h, std::uint64_t v) {
+    h = (h ^ v) * 0x9e3779b97f4a7c15u;
+    return h ^ (h >> 29);
+}
+
+}  // namespace
+
+InstructionList::InstructionList(Program& program, std::size_t limit) : program_(program), limit_(limit) {
+    program_.instructions.push_back({});
+    program_.lipschitz.push_back(1.f);
+}
+
+std::uint32_t InstructionList::emit(Op op, std::uint32_t a, std::uint32_t b, std::span<const float> constants,
+                                    float lipschitz) {
+    work(1 + constants.size() / 16);
+    std::uint64_t hash = mix(mix(static_cast<std::uint64_t>(op), a), b);
+    for (const float f : constants) hash = mix(hash, std::bit_cast<std::uint32_t>(f));
+    for (;; ++hash) {
+        const auto next = static_cast<std::uint32_t>(program_.instructions.size());
+        const auto [where, is_new] = known_.emplace(hash, next);
+        if (!is_new) {
+            if (is_same(where->second, op, a, b, constants)) return where->second;
+            continue;
+        }
+        if (next >= limit_)
+            throw ModelError(
+                fmt::format("the object takes more than {} instructions: shared shapes multiply it", limit_));
+        if (program_.constants.size() + constants.size() > most_constants)
+            throw ModelError(
+                fmt::format("the object's instructions carry more than {} numbers: shared shapes multiply those of an "
+                            "image, a network or an outline",
+                            most_constants));
+        program_.instructions.push_back({op, a, b, static_cast<std::uint32_t>(program_.constants.size())});
+        program_.constants.insert(program_.constants.end(), constants.begin(), constants.end());
+        program_.lipschitz.push_back(lipschitz);
+        return next;
+    }
+}
+
+void InstructionList::work(std::size_t steps) {
+    work_ += steps;
+    if (work_ > most_work_for_one * limit_)
+        throw ModelError(
+            fmt::format("to find the object's instructions takes more than {} steps: shared shapes multiply them",
+                        most_work_for_one * limit_));
+}
+
+void InstructionList::limit_lipschitz(std::uint32_t value, float bound) {
+    program_.lipschitz[value] = std::min(program_.lipschitz[value], bound);
+}
+
+bool InstructionList::is_same(std::uint32_t value, Op op, std::uint32_t a, std::uint32_t b,
+                              std::span<const float> constants) const {
+    const Instruction& in = program_.instructions[value];
+    const std::size_t end =
+        value + 1 < program_.instructions.size() ? program_.instructions[value + 1].data : program_.constants.size();
+    return in.op == op && in.a == a && in.b == b && end - in.data == constants.size() &&
+           (constants.empty() ||
+            std::memcmp(program_.constants.data() + in.data, constants.data(), constants.size_bytes()) == 0);
+}
+
+}  // namespace phasetree::program

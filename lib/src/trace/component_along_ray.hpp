@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "enclosure/enclosure.hpp"
+#include "kernel/kernel.hpp"
+#include "rewriting/arena.hpp"
+
+namespace phasetree::trace {
+
+/// The component of a ray's phase as a function of the distance t along the ray, enclosed over stretches of it: the
+/// routine is run with `Enclosure`s of the one variable t.
+class ComponentAlongRay {
+  public:
+    /// For a search that is unfinished in the phase RayCrossing::from. The visit's routine must outlive the object.
+    ComponentAlongRay(const kernel::Visit&, const kernel::RayCrossing&);
+
+    /// An upper bound of the component between two distances along the ray; Range::most if none is known. A bound that
+    /// is less than `precision` too high is as good as the best one.
+    double upper_bound(float from, float to, double precision);
+
+  private:
+    const kernel::Routine& routine_;
+    glm::vec3 direction_, origin_;
+    const kernel::OutputSlot* output_ = nullptr;  ///< null if the phase is absent
+    std::vector<enclosure::Enclosure> registers_;
+    rewriting::Arena scratch_;
+};
+
+}  // namespace phasetree::trace
