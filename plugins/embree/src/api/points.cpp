@@ -42,11 +42,15 @@ void write_phases(const GeometryData& data, const Points& points, unsigned* phas
     const FlushSubnormals flush;
     std::vector<BatchOfFloats> room;
     points.each_batch([&](std::size_t first, std::size_t count, const Batch& batch) {
-        const auto phi = distances(cells.whole(), batch, room);
+        const auto point = [&](std::size_t i) { return glm::vec3(batch[0][i], batch[1][i], batch[2][i]); };
+        bool is_any_within = false;  // else all are in the vacuum, and nothing need be evaluated
+        for (std::size_t i = 0; i < count; ++i) is_any_within |= cells.bounds().contains(point(i));
+        std::array<Phases<float>, batch_size> phi;
+        if (is_any_within) phi = distances(cells.whole(), batch, room);
         Samples s;
         if (empty_radii) cells.whole().sample(batch[0], batch[1], batch[2], s, Evaluator::thread_workspace());
         for (std::size_t i = 0; i < count; ++i) {
-            const glm::vec3 p{batch[0][i], batch[1][i], batch[2][i]};
+            const glm::vec3 p = point(i);
             phases[first + i] = cells.bounds().contains(p) ? label(phi[i]).index : vacuum.index;
             if (empty_radii)
                 empty_radii[first + i] = radius_without_interface(data, p, s.distance[i], points.placement(first + i));
