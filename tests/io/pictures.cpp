@@ -9,8 +9,8 @@
 #include <string>
 
 #include "phasetree/io/tree.hpp"
-#include "phasetree/tree/node.hpp"
 #include "source_directory.hpp"
+#include "tree/node.hpp"
 
 using namespace phasetree;
 

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "phasetree/tree/node.hpp"
+#include "tree/node.hpp"
 
 using namespace phasetree;
 
