@@ -1,5 +1,7 @@
 // Beside triangle meshes the nearest hit wins, whichever geometry came first; masks, and geometries switched off.
 #include "embree/api/api.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/trace/tracer.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;

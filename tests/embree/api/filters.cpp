@@ -3,6 +3,8 @@
 #include <map>
 
 #include "embree/api/api.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/trace/tracer.hpp"
 #include "source_directory.hpp"
 
 using namespace phasetree;

@@ -1,6 +1,7 @@
 // Motion of the whole geometry by time steps: at each time it is what a geometry is that stands where the motion is
 // then.
 #include <glm/mat3x3.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "embree/api/api.hpp"
 

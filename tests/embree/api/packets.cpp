@@ -1,6 +1,8 @@
 // Packets: any size, coherent or not, in scenes of any kind, are what single rays are; lanes that are not asked, or hit
 // nothing, keep every bit.
 #include "embree/api/api.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/trace/tracer.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;

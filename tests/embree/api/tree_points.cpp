@@ -2,6 +2,8 @@
 #include <glm/matrix.hpp>
 
 #include "embree/api/api.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/trace/tracer.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;

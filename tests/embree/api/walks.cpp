@@ -1,6 +1,8 @@
 // Rays that go from phase to phase through the whole object: none leaks, none meets a crossing twice, none passes a
 // thin phase.
 #include "embree/api/api.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/trace/tracer.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;
