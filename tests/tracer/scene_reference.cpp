@@ -13,10 +13,11 @@
 #include <map>
 #include <set>
 
+#include "film/film.hpp"
 #include "lights/light_kinds.hpp"
-#include "output/temporary_directory.hpp"
 #include "phasetree/io/suggest.hpp"
-#include "scene/camera_parameters.hpp"
+#include "phasetree_support/temporary_directory.hpp"
+#include "scene/camera_kinds.hpp"
 #include "scene/image_parameters.hpp"
 #include "scene/material_kinds.hpp"
 #include "scene/mesh_kinds.hpp"
@@ -26,9 +27,9 @@
 
 using namespace phasetree;
 using phasetree::tests::JsonSchema;
-using tracer::test::bytes_of;
-using tracer::test::TemporaryDirectory;
-using tracer::test::write_text;
+using support::bytes_of;
+using support::TemporaryDirectory;
+using support::write_text;
 
 namespace {
 
@@ -118,7 +119,7 @@ void tell(std::vector<float>& told, const tracer::Material& material) {
     std::visit(
         [&](const auto& m) {
             if constexpr (requires { m.ior; }) told.push_back(m.ior);
-            if constexpr (requires { m.absorption; }) tell(told, m.absorption);
+            if constexpr (requires { m.interior; }) tell(told, transmittance(m.interior, 1));
             if constexpr (requires { m.roughness; }) told.push_back(m.roughness);
             if constexpr (requires { m.color; }) tell(told, m.color);
             if constexpr (requires { m.eta; }) {
@@ -165,21 +166,23 @@ void tell_meshes(const Document& document, std::vector<float>& told) {
 }
 
 void tell_camera(const Document& document, std::vector<float>& told) {
-    tracer::ThinLensParameters p = tracer::read_camera(document, document.root());
-    p.width = 7;
-    p.height = 5;
-    const tracer::ThinLens lens(p);
+    tracer::FilmSettings settings;
+    const tracer::AnyCameraParameters parameters = tracer::read_camera(document, document.root(), settings);
+    settings.width = 7;
+    settings.height = 5;
+    const tracer::Camera camera(parameters, settings.resolution());
+    const tracer::Film film(settings, settings.whole());
     for (const glm::vec2 u : {glm::vec2(0.1f, 0.6f), glm::vec2(0.5f, 0.5f), glm::vec2(0.9f, 0.3f)}) {
-        const tracer::CameraRay ray = lens.generate(2, 1, u, u);
+        const tracer::CameraRay ray = camera.generate(film.sample_position(2, 1, u), u);
         tell(told, ray.origin);
         tell(told, ray.direction);
     }
 }
 
 void tell_settings(const Document& document, std::vector<float>& told) {
-    tracer::ThinLensParameters camera;
-    const tracer::RenderSettings s = tracer::read_settings(document, document.root(), camera);
-    for (const int i : {camera.width, camera.height, s.samples, s.max_depth}) told.push_back(static_cast<float>(i));
+    tracer::FilmSettings film;
+    const tracer::RenderSettings s = tracer::read_settings(document, document.root(), film);
+    for (const int i : {film.width, film.height, s.samples, s.max_depth}) told.push_back(static_cast<float>(i));
     told.push_back(static_cast<float>(s.seed));
     told.push_back(s.exposure_ev);
     told.push_back(static_cast<float>(s.view ? s.view->size() : 0));
@@ -218,14 +221,15 @@ std::vector<Case> cases() {
     mesh("backdrop", "");
     const std::string camera = R"("position": [0, -5, 0], "look_at": [0, 0, 0])";
     all.push_back(
-        {"Camera and image",
-         "camera",
+        {"Cameras",
+         "thin_lens",
          camera,
-         "",
-         "",
+         "{\"thin_lens\": ",
+         "}",
          tell_camera,
          {{"focus_distance", camera + R"(, "lens_radius": 0.1)"}, {"focus_at", camera + R"(, "lens_radius": 0.1)"}}});
-    all.push_back({"Camera and image", "render", "", "", "", tell_settings});
+    all.push_back({"Cameras", "orthographic", camera + R"(, "height": 3)", "{\"orthographic\": ", "}", tell_camera});
+    all.push_back({"Image", "render", "", "", "", tell_settings});
     return all;
 }
 
@@ -248,11 +252,14 @@ bool is_vector(Value property) {
 }
 
 Value properties_of(const Case& c) {
-    const std::map<std::string, std::string> definitions{
-        {"Materials", "material"}, {"Textures", "texture"}, {"Lights", "light"}, {"Meshes", "mesh"}};
-    if (c.chapter == "Camera and image") return *schema().definition(c.name).find("properties");
+    const std::map<std::string, std::string> definitions{{"Materials", "material"},
+                                                         {"Textures", "texture"},
+                                                         {"Lights", "light"},
+                                                         {"Meshes", "mesh"},
+                                                         {"Cameras", "camera"}};
+    if (c.chapter == "Image") return *schema().definition(c.name).find("properties");
     Value kinds = schema().definition(definitions.at(c.chapter));
-    if (c.chapter == "Textures") kinds = (*kinds.find("anyOf"))[1];
+    if (c.chapter == "Textures" || c.chapter == "Cameras") kinds = (*kinds.find("anyOf"))[1];
     return *kinds.find("properties")->find(c.name)->find("properties");
 }
 
@@ -497,8 +504,8 @@ TEST_CASE("an image has the size and the settings that the page promises, with o
     const auto number = [&](const char* key) { return promised.find(key)->find("default")->number(); };
     for (const char* const end : {"}", R"(, "render": {}})"}) {
         const tracer::Scene read = tracer::read_scene(Document::from_text(scene + end));
-        CHECK(read.camera.width == number("width"));
-        CHECK(read.camera.height == number("height"));
+        CHECK(read.film.width == number("width"));
+        CHECK(read.film.height == number("height"));
         CHECK(read.settings.samples == number("samples"));
         CHECK(read.settings.seed == number("seed"));
         CHECK(read.settings.max_depth == number("max_depth"));
