@@ -22,7 +22,7 @@ struct AffinePoint {
     Vec3<Dual> at_centre;  ///< the point and its Jacobian at the box's centre, in floats
     glm::dvec3 centre;     ///< the same point in doubles
     double largest_coordinate;
-    double squared_stretch, stretch;  ///< a bound of the Jacobian's norm
+    double squared_stretch, stretch;  ///< a bound of the Jacobian's norm, by which no length grows by more
     Enclosure::Vector half;           ///< the half extents of the box
     double squared_radius, radius;    ///< half of the box's diagonal
 

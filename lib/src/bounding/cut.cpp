@@ -11,35 +11,35 @@ using rewriting::ArenaScope, rewriting::Threshold;
 
 namespace {
 
-/// Where a value is compared with a threshold. The threshold itself belongs to all three.
+// On which side of a threshold a value lies. A value that is equal to the threshold lies on all three.
 enum class Side { below, at, above };
 
 Side reversed(Side side) {
     return side == Side::below ? Side::above : side == Side::above ? Side::below : Side::at;
 }
 
-/// The set of points on one side of a threshold τ: {v ≤ τ}, {v = τ} or {v ≥ τ}.
+// The set of points on one side of a threshold τ: {v ≤ τ}, {v = τ} or {v ≥ τ}.
 struct LevelSet {
     std::uint32_t value;
     Side side;
     float tau;
 };
 
-/// Finds boxes around level sets by recursion from a value to its operands.
+// Finds boxes around level sets by recursion from a value to its operands.
 class Cutter {
   public:
     Cutter(const EnclosedProgram& enclosed, Arena& scratch)
         : enclosed_(enclosed),
           middle_(enclosed.box.centre()),
-          margin_(cut_margin(enclosed.box, enclosed.context->rounding)),
+          margin_(cut_margin(enclosed.box, enclosed.context->value_error)),
           planes_(scratch.allocate<Plane>(enclosed.program.code.size())) {
         const glm::dvec3 half = 0.5 * glm::dvec3(enclosed.box.extent());
         half_ = {half.x, half.y, half.z};
         std::ranges::fill(planes_, Plane{});
     }
 
-    /// A box around the part of `box` that is in a level set. For {v = τ} the box may have been cut already to where
-    /// v ≤ τ or v ≥ τ can hold, which `already_cut` says.
+    // A box around the part of `box` that is in a level set. For {v = τ}, `already_cut` tells whether the box has been
+    // cut before to where v ≤ τ (below) or v ≥ τ (above) can hold; with `at` it has not been cut.
     LaneBox box_around(const LevelSet& set, const LaneBox& box, Side already_cut = Side::at) {
         const auto [v, side, tau] = set;
         const Range& range = enclosed_[v].value;
@@ -75,6 +75,8 @@ class Cutter {
                     return box_around({in.a, Side::above, -tau}, box_around({in.a, Side::below, tau}, box));
                 return unite(box_around({in.a, side, tau}, box), box_around({in.a, reversed(side), -tau}, box));
             default:
+                // Of a box that was cut to v ≤ τ only the part where v ≥ τ is left to find, and the reverse. If it was
+                // not cut, reversed() gives `at` again.
                 return by_plane({v, side == Side::at ? reversed(already_cut) : side, tau}, box);
         }
     }
@@ -85,13 +87,13 @@ class Cutter {
         PlaneCut cut{};
     };
 
-    /// Of the points where both operands are on one side.
+    // A box around the points of `box` at which both operands are on one side of τ.
     LaneBox of_both(const Instruction& in, Side side, float tau, const LaneBox& box) {
         return box_around({in.b, side, tau}, box_around({in.a, side, tau}, box));
     }
-    /// Of a maximum, which is on the side `of_both_side` (below) where both its operands are, on the other side where
-    /// one of them is, and at τ where one is at τ and both are on the side `of_both_side`. Of a minimum, likewise, with
-    /// `of_both_side` above.
+    // A box around a level set of a maximum. With `of_both_side` below, the maximum is on that side of τ where both
+    // operands are; it is on the other side where one of them is; and it is at τ where one operand is at τ and both are
+    // on the side `of_both_side`. The same is true of a minimum with `of_both_side` above.
     LaneBox of_extremum(Side of_both_side, const LevelSet& set, const LaneBox& box, Side already_cut) {
         const auto [v, side, tau] = set;
         const Instruction& in = enclosed_.program.code[v];
@@ -102,6 +104,7 @@ class Cutter {
         return unite(box_around({in.a, side, tau}, rest, of_both_side),
                      box_around({in.b, side, tau}, rest, of_both_side));
     }
+    // A box around a level set of a value by its linear bound, without a look at its operands.
     LaneBox by_plane(const LevelSet& set, const LaneBox& box) {
         Plane& plane = planes_[set.value];
         if (!plane.is_found) plane = {true, {NearlyLinear(enclosed_[set.value], half_), middle_, margin_}};
@@ -110,23 +113,23 @@ class Cutter {
                                          : plane.cut.at(set.tau, box);
     }
 
-    /// After this many steps of the recursion boxes are left as they are, because a value that is an operand of many
-    /// others is visited once for each way to it.
+    // After this many steps of the recursion boxes are left as they are, because a value that is an operand of many
+    // others is visited once for each way to it.
     static constexpr int most_steps = 200;
 
     const EnclosedProgram& enclosed_;
     glm::vec3 middle_;
     Enclosure::Vector half_{};
     float margin_;
-    std::span<Plane> planes_;  ///< of each value, found when it is needed first
+    std::span<Plane> planes_;  // of each value, found when it is needed first
     int steps_ = 0;
 };
 
 }  // namespace
 
-float cut_margin(const Bounds& box, float rounding) {
+float cut_margin(const Bounds& box, float value_error) {
     const glm::vec3 farthest = glm::max(glm::abs(box.low), glm::abs(box.high));
-    return 3 * rounding + 2e-6f * std::max({farthest.x, farthest.y, farthest.z});
+    return 3 * value_error + 2e-6f * std::max({farthest.x, farthest.y, farthest.z});
 }
 
 Bounds cut_to_zero(std::uint32_t value, const Bounds& box, const EnclosedProgram& enclosed, Arena& scratch) {

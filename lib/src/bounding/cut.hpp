@@ -4,8 +4,8 @@
 
 namespace phasetree::bounding {
 
-/// A bound of what rounding moves a plane by when a box is cut, as a distance. `rounding` bounds the error of a value.
-float cut_margin(const Bounds& box, float rounding);
+/// A bound of what rounding moves a plane by when a box is cut, as a distance. `value_error` is that of ProgramContext.
+float cut_margin(const Bounds& box, float value_error);
 
 /// The smallest box found around the part of `box` in which a value of an enclosed program can be zero; empty if it can
 /// be zero nowhere. `box` lies within the box of the enclosures.

@@ -19,7 +19,7 @@ using rewriting::assign_slots, rewriting::has_local_primitive;
 
 namespace {
 
-/// The steps of a program without those whose results are known from the previous program, for interpret().
+// The steps of a program without those whose results are known from the previous program, for interpret().
 struct UnknownSteps {
     std::span<const Instruction> code;
     std::span<const std::uint32_t> previous;
@@ -46,8 +46,8 @@ Encloser::Encloser(const ProgramContext& context, const Bounds& box, std::span<c
     point_of_box_ = std::construct_at(scratch.allocate<AffinePoint>(1).data(), AffinePoint::of_box(centre_, half_));
 }
 
-/// For each instruction its number in the previous program, if it is a primitive or a map of space that was there; else
-/// 0.
+// For each instruction its number in the previous program, if it is a primitive or a map of space that was there; else
+// 0.
 std::span<const std::uint32_t> Encloser::previous_numbers(const WorkingProgram& program) const {
     const std::span<const Instruction> before = last_.program.code;
     const std::span<std::uint32_t> previous = scratch_.allocate<std::uint32_t>(program.code.size());
@@ -67,8 +67,8 @@ std::span<const std::uint32_t> Encloser::previous_numbers(const WorkingProgram& 
     return previous;
 }
 
-/// For each instruction the specialisation that the previous program had for it; empty if there are no local
-/// primitives.
+// For each instruction the specialisation that the previous program had for it; empty if there are no local
+// primitives.
 std::span<Specialisation> Encloser::previous_specialisations(const WorkingProgram& program,
                                                              std::span<const std::uint32_t> previous) const {
     if (!context_.has_local_primitives || !has_local_primitive(program)) return {};
@@ -80,7 +80,7 @@ std::span<Specialisation> Encloser::previous_specialisations(const WorkingProgra
     return found;
 }
 
-/// The data of the specialisation that the local primitive with these constants had in the box around this one.
+// The data of the specialisation that the local primitive with these constants had in the box around this one.
 std::span<const float> Encloser::data_around(std::uint32_t source) const {
     std::span<const float> data;
     for (const Specialisation& s : around_)
@@ -88,7 +88,7 @@ std::span<const float> Encloser::data_around(std::uint32_t source) const {
     return data;
 }
 
-/// Computes the enclosures of all values of a program, which becomes the last one.
+// Computes the enclosures of all values of a program, which becomes the last one.
 void Encloser::enclose_values(const WorkingProgram& program) {
     const std::span<const std::uint32_t> previous = previous_numbers(program);
     const std::span<std::uint32_t> slot = scratch_.allocate<std::uint32_t>(previous.size());
@@ -108,7 +108,7 @@ void Encloser::enclose_values(const WorkingProgram& program) {
     keep_specialisations(found);
 }
 
-/// Computes the enclosures that are not known from the previous program.
+// Computes the enclosures that are not known from the previous program.
 void Encloser::enclose_primitives(const WorkingProgram& program, std::span<const std::uint32_t> previous,
                                   std::span<Specialisation> found) {
     const UnknownSteps steps{program.code, previous, context_.constants.data(), last_.slot};
@@ -119,7 +119,10 @@ void Encloser::enclose_primitives(const WorkingProgram& program, std::span<const
         const std::optional<AffinePoint> affine = AffinePoint::of(q, half_);
         return affine && enclose_convex(solid, *affine, result);
     };
-    std::size_t local = 0;  // The instruction of the local primitive that was enclosed last.
+    // The instruction of the local primitive that was enclosed last. interpret() does not tell the number of an
+    // instruction, but it visits those that are not left out in their order, so the next local primitive that is not
+    // known from the previous program is the one that is being visited.
+    std::size_t local = 0;
     interpret(
         steps, registers_,
         [&]<class P, class Point>(const float* c, const Point& q, Enclosure& result) {
@@ -146,7 +149,7 @@ void Encloser::enclose_primitives(const WorkingProgram& program, std::span<const
         [&](Enclosure& e) { e.tighten(half_); });
 }
 
-/// Keeps the specialisations, given for each instruction, of those instructions that have one.
+// Keeps the specialisations, given for each instruction, of those instructions that have one.
 void Encloser::keep_specialisations(std::span<Specialisation> found) {
     const std::span<const Instruction> code = last_.program.code;
     std::size_t count = 0;
@@ -161,8 +164,9 @@ void Encloser::keep_specialisations(std::span<Specialisation> found) {
     specialisations_ = found.first(count);
 }
 
-/// The enclosure of a component, which is 1-Lipschitz whatever its instructions are.
-Enclosure Encloser::component(const ProgramOutput& o) const {
+// The enclosure of the value of an output, without the output's sign. Components are 1-Lipschitz, whatever bounds
+// follow from their instructions.
+Enclosure Encloser::enclosure_of_output(const ProgramOutput& o) const {
     Enclosure e = last_[o.value];
     for (Range& g : e.gradient) g = {std::max(g.low, -1.0), std::min(g.high, 1.0)};
     e.tighten(half_);
@@ -178,7 +182,7 @@ std::optional<ValueRanges> Encloser::value_ranges(const WorkingProgram& program)
     enclose_values(program);
 
     // The margin is for the rounding of a value in a ray's evaluation and for that of the value at the centre.
-    const double margin = 2 * static_cast<double>(context_.rounding);
+    const double margin = 2 * static_cast<double>(context_.value_error);
     const std::span<float> low = scratch_.allocate<float>(size), high = scratch_.allocate<float>(size);
     const auto set = [&](std::size_t i, const Range& v) {
         low[i] = static_cast<float>(std::max(v.low - margin, -1e30));
@@ -189,17 +193,19 @@ std::optional<ValueRanges> Encloser::value_ranges(const WorkingProgram& program)
         if (!(v.low <= v.high)) return std::nullopt;  // The value is not a number somewhere.
         set(i, v);
     }
-    for (const ProgramOutput& o : program.outputs) set(o.value, component(o).value);
+    for (const ProgramOutput& o : program.outputs) set(o.value, enclosure_of_output(o).value);
     return ValueRanges{low, high, program.lipschitz, last_, half_, margin};
 }
 
-/// The bounds of the curvature of s, the distance within which the label stays the same. There are two choices of s
-/// (Routine::is_by_own): minus the label's own component, whose curvature is at most minus the lower bound of that
-/// component's; or the minimum of the other components, which curves upward no more than the most curved of them. The
-/// choice with the smaller sum of bounds is taken.
+// The bounds of the curvature of s, the distance within which the label stays the same. There are two choices of s
+// (Routine::is_by_own): minus the label's own component, whose curvature is at most minus the lower bound of that
+// component's; or the minimum of the other components, which curves upward no more than the most curved of them. The
+// choice with the smaller sum of bounds is taken.
 Curvature Encloser::curvature() const {
     const std::span<const ProgramOutput> outputs = last_.program.outputs;
-    // Index 0 is for rays in the phase of the first output, 1 for rays in any other.
+    // Index 0 is for rays in the phase of the first output, 1 for rays in any other. `by_others` bounds the curvature
+    // of the components that may be among the others: all but the first, or any. `by_own` bounds that of minus the own
+    // component, and `of_first` that of the first component. Each is the largest of the bounds, and at least 0.
     double by_others[] = {0, 0}, by_own[] = {0, 0}, of_first = 0;
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         const Range& c = last_[outputs[i].value].curvature;
@@ -218,12 +224,13 @@ Curvature Encloser::curvature() const {
     for (std::size_t i = 0; i < 2; ++i) result.bound[i] = rounded_up(result.is_by_own ? by_own[i] : by_others[i]);
     result.is_by_first =
         is_shared || std::ranges::none_of(outputs.subspan(1), [&](const ProgramOutput& o) { return is_clear(o); });
-    if (!is_shared) result.bound[0] = rounded_up(by_own[0]);  // In its own phase the first component alone gives s.
+    if (!is_shared) result.bound[0] = rounded_up(by_own[0]);  // In the first phase s is minus the first component.
+    // Where the first component alone tells where rays may be, it is s in the other phases.
     if (result.is_by_first) result.bound[1] = rounded_up(of_first);
     return result;
 }
 
-/// The linear bound of the field f about the origin of coordinates, in floats.
+// The linear bound of the field f about the origin of coordinates, in floats.
 LinearBound Encloser::linear_bound(const NearlyLinear& linear, const Enclosure& f) const {
     LinearBound bound;
     if (!(linear.slack < 1e30)) return bound;
@@ -232,16 +239,18 @@ LinearBound Encloser::linear_bound(const NearlyLinear& linear, const Enclosure& 
     for (int i = 0; i < 3; ++i) bound.normal[i] = static_cast<float>(linear.normal[static_cast<std::size_t>(i)]);
     bound.offset = static_cast<float>(linear.at_centre - glm::dot(glm::dvec3(bound.normal), glm::dvec3(box_.centre())));
     // The last summand is for the rounding of normal·p + offset.
-    bound.slack = static_cast<float>(linear.slack) * (1 + 1e-6f) + 3 * context_.rounding + 1e-6f * largest_coordinate;
+    bound.slack =
+        static_cast<float>(linear.slack) * (1 + 1e-6f) + 3 * context_.value_error + 1e-6f * largest_coordinate;
     // Directions of rays are of unit length to within 10⁻⁵.
     bound.spread = static_cast<float>(linear.spread(f, half_)) * (1 + 1e-3f) + 1e-5f;
     return bound;
 }
 
-/// A box around the zeros of the first component, by its own linear bound. If that takes less than most of the box, the
-/// zeros are also bounded by those of the values that it is made of.
+// A box around the zeros of the first component, by its own linear bound. That leaves a slab, and if half the slab's
+// thickness is less than 15 % of the box's extent along the normal, it is enough. Otherwise the zeros are also bounded
+// by those of the values that the component is made of.
 Bounds Encloser::box_around_interface(const NearlyLinear& linear, const LinearBound& bound) const {
-    const PlaneCut plane(linear, box_.centre(), cut_margin(box_, context_.rounding));
+    const PlaneCut plane(linear, box_.centre(), cut_margin(box_, context_.value_error));
     const Bounds box = plane.at(0, LaneBox(box_)).bounds();
     if (bound.slack < 0.15f * glm::dot(glm::abs(bound.normal), box_.extent())) return box;
     return cut_to_zero(last_.program.outputs[0].value, box, last_, scratch_);
@@ -249,7 +258,7 @@ Bounds Encloser::box_around_interface(const NearlyLinear& linear, const LinearBo
 
 InterfaceBounds Encloser::interface_bounds() const {
     const std::span<const ProgramOutput> outputs = last_.program.outputs;
-    const Enclosure f = component(outputs[0]);  // This is the first component, except for its sign.
+    const Enclosure f = enclosure_of_output(outputs[0]);  // This is the first component, except for its sign.
     const NearlyLinear linear(f, half_);
     InterfaceBounds result;
     result.specialisations = specialisations_;

@@ -53,7 +53,7 @@ class Encloser {
                                                        std::span<const std::uint32_t> previous) const;
     void keep_specialisations(std::span<Specialisation> found);
     std::span<const float> data_around(std::uint32_t source) const;
-    Enclosure component(const ProgramOutput&) const;
+    Enclosure enclosure_of_output(const ProgramOutput&) const;
     Curvature curvature() const;
     LinearBound linear_bound(const NearlyLinear&, const Enclosure& f) const;
     Bounds box_around_interface(const NearlyLinear&, const LinearBound&) const;

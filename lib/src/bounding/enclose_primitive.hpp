@@ -33,14 +33,15 @@ float value_by_specialisation(const float* constants, const Region& at, Speciali
     return P::Specialised::distance(found.data.data(), at.point());
 }
 
-/// The enclosure of a long primitive. Networks and noise have enclosures of their own; of a network, where it is not
-/// cut off by its cube. Of all others (an image, Voronoi cells) only the value at the centre is used and that their
-/// slope is at most 1 in their own space.
+/// The enclosure of a long primitive. Noise has an enclosure of its own, and a network has one inside of its cube,
+/// beyond which points are projected onto the cube (Siren::Network). Of all others (an image, Voronoi cells), and of a
+/// network elsewhere, only the value at the centre is used and that their slope is at most 1 in their own space.
 template <class P>
 Enclosure enclose_long_primitive(const float* constants, const Vec3<Enclosure>& q, const Enclosure::Vector& half,
                                  SpecialisationInBox& specialisation) {
     const Region at(q);
     if constexpr (std::is_same_v<P, Siren::Network>) {
+        // The second number of a network's data is half of the cube's side.
         const auto half_of_cube = static_cast<double>(constants[1]);
         if (at.farthest() < half_of_cube) return enclose(network_in_box(constants, at.centre, at.reach), at);
     }

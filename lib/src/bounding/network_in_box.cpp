@@ -15,9 +15,9 @@ using kernel::absolute_lane, kernel::network_lanes;
 
 namespace {
 
-/// A neuron's Taylor polynomial: its value and its 3 first, 6 second and 10 third partial derivatives, in the order xx,
-/// xy, xz, yy … All of these are linear in the inputs of a layer. The last number is a bound of the fourth derivatives;
-/// a layer combines it with the weights' absolute values.
+// A neuron's Taylor polynomial: its value and its 3 first, 6 second and 10 third partial derivatives, in the order xx,
+// xy, xz, yy … All of these are linear in the inputs of a layer. The last number is a bound of the fourth derivatives;
+// a layer combines it with the weights' absolute values.
 struct alignas(64) Jet {
     std::array<double, network_lanes> all;
 
@@ -27,12 +27,12 @@ struct alignas(64) Jet {
     double* third() { return all.data() + 10; }
     double& fourth() { return all[absolute_lane]; }
 };
-/// The index of the derivative by axes i and j is second_index[i][j]; by i, j and k it is
-/// third_index[i][second_index[j][k]].
+// The index of the derivative by axes i and j is second_index[i][j]; by i, j and k it is
+// third_index[i][second_index[j][k]].
 constexpr std::size_t second_index[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
 constexpr std::size_t third_index[3][6] = {{0, 1, 2, 3, 4, 5}, {1, 3, 4, 6, 7, 8}, {2, 4, 5, 7, 8, 9}};
 
-/// The Frobenius norm of the derivatives of one order, which bounds them along every line of unit speed.
+// The Frobenius norm of the derivatives of one order, which bounds them along every line of unit speed.
 double norm1(const double* g) {
     return std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
 }
@@ -45,7 +45,7 @@ double norm3(const double* t) {
     return std::sqrt(square(0) + square(6) + square(9) + 3 * mixed + 6 * square(4));
 }
 
-/// The range of the eigenvalues of a symmetric matrix (Smith, "Eigenvalues of a symmetric 3 × 3 matrix", 1961).
+// The range of the eigenvalues of a symmetric matrix (Smith, "Eigenvalues of a symmetric 3 × 3 matrix", 1961).
 Range eigenvalues(const double* h) {
     const double mean = (h[0] + h[3] + h[5]) / 3;
     const double a = h[0] - mean, b = h[3] - mean, c = h[5] - mean, xy = h[1], xz = h[2], yz = h[4];
@@ -58,7 +58,7 @@ Range eigenvalues(const double* h) {
             mean + 2 * p * std::cos(angle) + rounding};
 }
 
-/// Replaces the polynomial of z by that of sin z, in a box of this radius.
+// Replaces the polynomial of z by that of sin z, in a box of this radius.
 void activate(Jet& z, double radius) {
     const double q = z.fourth();
     const double sine = std::sin(z.value()), cosine = std::cos(z.value());

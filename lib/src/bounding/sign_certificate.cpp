@@ -15,24 +15,24 @@ using rewriting::Threshold;
 
 namespace {
 
-/// A curvature of this size or more counts as unbounded.
+// A curvature of this size or more counts as unbounded.
 constexpr double unbounded = 1e30;
 
-/// The upper half of a float's bits, rounded up.
+// The upper half of a float's bits, rounded up.
 std::uint16_t upper_half_rounded_up(float x) {
     return static_cast<std::uint16_t>((std::bit_cast<std::uint32_t>(x) + 0xffffu) >> 16);
 }
-/// The upper half of a float's bits, rounded toward zero.
+// The upper half of a float's bits, rounded toward zero.
 std::uint16_t upper_half_rounded_down(float x) {
     return static_cast<std::uint16_t>(std::bit_cast<std::uint32_t>(x) >> 16);
 }
 
-/// Writes the steps of a certificate by recursion from a value to its operands.
+// Writes the steps of a certificate by recursion from a value to its operands.
 class Certifier {
   public:
     Certifier(const EnclosedProgram& enclosed, std::span<CertificateStep> room) : enclosed_(enclosed), room_(room) {}
 
-    /// Appends a certificate that sign · (v − τ) > 0. False if there is no room for it.
+    // Appends a certificate that sign · (v − τ) > 0. False if there is no room for it.
     bool add(std::uint32_t v, double sign, double tau) {
         const Instruction& in = enclosed_.program.code[v];
         const Range& curvature = enclosed_[v].curvature;
@@ -83,6 +83,7 @@ class Certifier {
     }
     bool add_leaf(std::uint32_t v, double sign, double tau) {
         const Range& curvature = enclosed_[v].curvature;
+        // The kernel needs leaves that are 1-Lipschitz, so a steeper value is scaled down.
         const double factor = 1 / std::max(1.0, static_cast<double>(enclosed_.program.lipschitz[v]));
         const auto bound = [&](double upward) {
             return upward < unbounded ? static_cast<float>(std::max(upward, 0.0) * factor) * (1 + 1e-3f)
@@ -90,6 +91,7 @@ class Certifier {
         };
         const float up = bound(curvature.high), down = bound(-curvature.low);
         has_bounded_leaf_ = has_bounded_leaf_ || up < Bounds::infinity || down < Bounds::infinity;
+        // With the sign −1 the leaf is minus the value, whose second derivatives have these bounds exchanged.
         const bool is_above = sign > 0;
         return push({PackedCertificateStep::leaf, v, static_cast<float>(tau), static_cast<float>(sign * factor),
                      is_above ? up : down, is_above ? down : up});

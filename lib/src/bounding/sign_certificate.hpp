@@ -22,8 +22,10 @@ struct CertificateStep {
     PackedCertificateStep packed(std::uint32_t slot) const;
 };
 
-/// A certificate that the first component of an enclosed program stays negative. Empty if there is no leaf with a
-/// bounded curvature, or if it would take too many steps. It is in `scratch`.
+/// A certificate that the first component of an enclosed program stays negative. With the signs of its leaves negated,
+/// and `both` and `either` exchanged, it is one that the component stays positive; but a step either_one_way proves
+/// nothing in that direction. Empty if there is no leaf with a bounded curvature, or if it would take too many steps.
+/// It is in `scratch`.
 std::span<const CertificateStep> certify_sign(const EnclosedProgram&, Arena& scratch);
 
 }  // namespace phasetree::bounding

@@ -13,8 +13,9 @@ struct BudgetExceeded {};
 /// The memory that cells may take, and the least that the division of a box must save so that it is enough.
 ///
 /// Whether the budget is exceeded must not depend on which thread does what and when. So each worker is charged for the
-/// most memory that its cells have taken at any time, and nothing is given back when it discards some of them: the sum
-/// of these charges is the same for any number of threads.
+/// most memory that its cells have taken at any time, and nothing is given back when it discards some of them. The sum
+/// of these charges is the same for any number of threads: which part of the object a worker gets is fixed by the
+/// subdivision, whichever thread runs it, and its charge depends on the cells of that part alone.
 class CellBudget {
   public:
     /// `least_saving` is in the unit of the cost model; with 0 every division is worth it.
@@ -29,7 +30,8 @@ class CellBudget {
 
     /// Whether the division of a box, which may save this much, is worth its memory. Any thread may call it.
     bool is_worth_dividing(const Bounds& box, float saving);
-    /// The least saving with which one more box would be divided.
+    /// The largest saving, divided by its box's spread factor (budget.cpp), that was refused. With this as the least
+    /// saving one more box would be divided.
     float largest_refused_saving() const { return largest_refused_; }
 
   private:

@@ -8,7 +8,7 @@ namespace phasetree::building {
 
 using rewriting::ProgramContext;
 
-/// What all steps of a build know and none of them changes. Lengths are in metres.
+/// What all steps of a build know and none of them changes. Lengths are in the scene's unit of length.
 struct BuildContext {
     const CellOptions& options;
     BuildProgress& progress;

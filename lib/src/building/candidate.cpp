@@ -14,7 +14,7 @@ using rewriting::ArenaScope, rewriting::has_local_primitive;
 
 namespace {
 
-/// Finds the cell that a node could become.
+// Finds the cell that a node could become.
 class CandidateSearch {
   public:
     CandidateSearch(const BuildNode& node, const BuildContext& context, Worker& worker)
@@ -24,13 +24,13 @@ class CandidateSearch {
           region_(node.box.inflated(context.reach)),
           encloser_(context.program, region_, node.specialisations, worker.scratch) {}
 
-    /// The candidate with what is left of a program; nothing if no ray can meet an interface in the box.
-    ///
-    /// The program is enclosed and pruned in turn, as long as pruning deletes something, for the enclosures of what is
-    /// left are tighter. Then the box is cut to the interfaces, and if that leaves much less of it, all begins again in
-    /// what is left of the box.
+    // The candidate with what is left of a program; nothing if no ray can meet an interface in the box.
+    //
+    // The program is enclosed and pruned in turn, as long as pruning deletes something, for the enclosures of what is
+    // left are tighter. Then the box is cut to the interfaces, and if that leaves much less of it, all begins again in
+    // what is left of the box.
     std::optional<Candidate> find(const WorkingProgram& program) {
-        constexpr int most_rounds = 3;
+        constexpr int most_rounds = 3;  // Rounds after pruning and rounds after a cut are counted together.
         Candidate cell{program, {region_}};
         Encloser* encloser = &encloser_;
         for (int round = 0;; ++round) {
@@ -38,6 +38,8 @@ class CandidateSearch {
             if (!ranges) break;
             const auto pruned = prune(cell.program, *ranges, context_.program, worker_.arenas());
             if (!pruned) return std::nullopt;
+            // A program of the same length is taken for the same program. It may differ in an operation or a slope, but
+            // the one before it is as right. After the last round, too, the program stays the one that was enclosed.
             const bool is_all_left = pruned->code.size() == cell.program.code.size() &&
                                      pruned->outputs.size() == cell.program.outputs.size();
             if (!is_all_left && round < most_rounds) {
@@ -54,7 +56,7 @@ class CandidateSearch {
     }
 
   private:
-    /// Takes over what is known of the interfaces of a cell, and cuts its box. False if there are none.
+    // Takes over what is known of the interfaces of a cell, and cuts its box. False if there are none.
     bool apply(const InterfaceBounds& interface, Candidate& cell) {
         cell.facts.bound = interface.bound;
         cell.facts.curvature = interface.curvature;
@@ -66,20 +68,21 @@ class CandidateSearch {
         cell.facts.box = intersect(cell.facts.box, interface.box.inflated(context_.reach));
         return !interface.box.empty() && !cell.facts.box.empty();
     }
-    /// Whether the program is worth being enclosed again in what is left of the box. That is not done with local
-    /// primitives, because the parts of the node start from the specialisations in the node's whole box.
+    // Whether the program is worth being enclosed again in what is left of the box. That is not done with local
+    // primitives, because the parts of the node start from the specialisations in the node's whole box.
     bool is_much_smaller(const Candidate& cell, const Bounds& before) const {
         return surface(cell.facts.box) < 0.7f * surface(before) &&
                !(context_.program.has_local_primitives && has_local_primitive(cell.program));
     }
-    /// An encloser for a part of the region. It reaches as far around a box as the programs of its parts must be right.
+    // An encloser for a part of the region. It reaches as far around a box as the programs of its parts must be right.
     Encloser* narrower_encloser(const Bounds& box) {
         return std::construct_at(worker_.scratch.allocate<Encloser>(1).data(), context_.program,
                                  intersect(region_, box.inflated(context_.reach)), std::span<const Specialisation>(),
                                  worker_.scratch);
     }
     void price(Candidate& cell) const {
-        // Through endless copies a ray goes on and on, and in a pattern of which nothing is known from block to block.
+        // A ray passes through many of the copies of a fold, and through many blocks of a pattern of which nothing is
+        // known in the box. So the cost is multiplied by the expected numbers of copies and of blocks.
         const float size = node_.box.diagonal();
         const bool has_blocks =
             std::isfinite(node_.pattern_period) && !(cell.facts.bound.spread < 1) && has_local_primitive(cell.program);
@@ -92,7 +95,7 @@ class CandidateSearch {
     const BuildNode& node_;
     const BuildContext& context_;
     Worker& worker_;
-    Bounds region_;  ///< the node's box, inflated by what its cells reach beyond it
+    Bounds region_;  // the node's box, inflated by what its cells reach beyond it
     Encloser encloser_;
 };
 

@@ -25,11 +25,12 @@ struct BuildNode {
     WorkingProgram program;
     std::span<const Specialisation> specialisations{};  ///< in this box; until prepare(), in the box around it
     int depth = 0;
-    int futile_divisions = 0;  ///< how many divisions in a row have had no gain
+    /// How many divisions in a row have had no gain. The count starts again at a box that is divided in any case.
+    int futile_divisions = 0;
     SubdivisionPolicy policy{};
-    float cost_ratio = 1;                     ///< the cost over that before those divisions
-    float fold_period = Bounds::infinity;     ///< the smallest period of the folds that still may jump, in metres
-    float pattern_period = Bounds::infinity;  ///< the size of the smallest features of patterns, in metres
+    float cost_ratio = 1;                     ///< the cost over that when the present row without a gain began
+    float fold_period = Bounds::infinity;     ///< the smallest period of the folds that still may jump: finest_jump()
+    float pattern_period = Bounds::infinity;  ///< the size of the smallest features of patterns: finest_pattern()
     double share = 1;                         ///< about how much of the whole build the subdivision of this box is
     Candidate cell{};                         ///< what the box becomes if it is not divided
 };

@@ -18,7 +18,7 @@ std::size_t CellBuffer::bytes(const Mark& from, const Mark& to) {
            3 * sizeof(float) * (to.specialised_data - from.specialised_data);
 }
 
-/// Calls f with each vector and its size at the mark.
+// Calls f with each vector and its size at the mark.
 template <class F>
 void CellBuffer::for_each_vector(const Mark& m, F&& f) {
     f(cells, m.cells);

@@ -12,15 +12,16 @@ using rewriting::ArenaScope, rewriting::LiveSet;
 
 namespace {
 
-/// How much work an instruction is, in halves of a simple instruction.
+// How much work an instruction is, in halves of a simple instruction.
 unsigned half_works(const Instruction& in, std::span<const float> constants) {
     const OpTraits& t = traits(in.op);
     return t.is_network ? static_cast<unsigned>(Siren::Network::multiplications(&constants[in.data])) / 3
                         : t.half_works;
 }
 
-/// How many batches a visit takes on average for rays on one side of the interface, whose curvature has this bound.
+// How many batches a visit takes on average for rays on one side of the interface, whose curvature has this bound.
 float batches(const CellFacts& cell, const LinearBound& bound, float curvature_bound, bool has_certificate) {
+    // Where no linear bound is known, the slack counts three times as much as the largest that is known, which is 1.
     float slack = 3, spread = 1;
     if (bound.slack < Bounds::infinity) {
         const float thickness = 0.5f * glm::dot(glm::abs(bound.normal), cell.box.extent());
@@ -53,10 +54,10 @@ Work work(const WorkingProgram& program, std::span<const float> constants,
     return {all, all - 0.5f * static_cast<float>(others)};
 }
 
-/// Half of the rays are assumed to be in the first phase and half in the others; all of them in the first if the others
-/// are opaque, and none if it is opaque itself. Where more than two phases meet, rays in the first phase evaluate its
-/// component alone, and the whole program once where they leave it; but that is expected only of the vacuum and of a
-/// phase that is alone clear.
+// Half of the rays are assumed to be in the first phase and half in the others; all of them in the first if the others
+// are opaque, and none if it is opaque itself. Where more than two phases meet, rays in the first phase evaluate its
+// component alone, and the whole program once where they leave it; but that is expected only of the vacuum and of a
+// phase that is alone clear.
 float cost(const CellFacts& cell, const WorkingProgram& program, const Work& work, PhaseSet opaque) {
     const float all = cost_model::batch + cost_model::instruction * work.all;
     const auto is_opaque = [&](const ProgramOutput& o) { return opaque.contains(o.phase); };

@@ -4,10 +4,13 @@
 #include "rewriting/specialise.hpp"
 
 /// The surface area heuristic for cells: what rays are expected to spend in a cell. The number of rays that enter a box
-/// is proportional to its surface, and each of them pays for the way to the cell, for entering it, and for batches of
-/// samples that are as long as the cell's program, more of them the less is known of the field.
+/// is proportional to its surface, and each of them pays for entering the cell and for batches of samples that are as
+/// long as the cell's program:
+///     cost = surface · (visit + batches · (batch + instruction · work)),
+/// where the number of batches is larger the less is known of the field. A box that is divided costs traversal ·
+/// surface and what its parts cost.
 ///
-/// Costs are in nanoseconds times square metres, up to a common factor. They are rough, because they serve only to
+/// Costs are in nanoseconds times an area, up to a common factor. They are rough, because they serve only to
 /// compare a box with the cells that it could be divided into. The constants were measured (benchmarks/experiments.md).
 namespace phasetree::building {
 
@@ -16,10 +19,10 @@ using rewriting::Arena, rewriting::Specialisation, rewriting::WorkingProgram;
 
 namespace cost_model {
 // These are in nanoseconds.
-inline constexpr float traversal =
-    12;                             ///< of one more node of Embree's hierarchy, whose children are the parts of a box
-inline constexpr float visit = 60;  ///< of entering a cell
-inline constexpr float batch = 25;  ///< of a batch of samples,
+/// Of one more node of Embree's hierarchy, whose children are the parts of a box.
+inline constexpr float traversal = 12;
+inline constexpr float visit = 60;          ///< of entering a cell
+inline constexpr float batch = 25;          ///< of a batch of samples,
 inline constexpr float instruction = 2.4f;  ///< and of each simple instruction in it
 // These count batches.
 inline constexpr float batches_of_linear_field = 1.8f;   ///< where the field is linear
@@ -38,6 +41,7 @@ struct Work {
 };
 Work work(const WorkingProgram&, std::span<const float> constants, std::span<const Specialisation>, Arena& scratch);
 
+/// Half of a box's surface, to which the number of rays that enter it is proportional.
 inline float surface(const Bounds& box) {
     const glm::vec3 e = box.extent();
     return e.x * e.y + e.y * e.z + e.z * e.x;

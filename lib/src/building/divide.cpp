@@ -1,6 +1,6 @@
-/// The recursive subdivision. Whether a box is divided is decided from below, as in the construction of a bounding
-/// volume hierarchy by the surface area heuristic: the box becomes one cell unless the cells of its parts cost less
-/// (cost_model.hpp). What decides whether to go further down is a bound of what that can save.
+// The recursive subdivision. Whether a box is divided is decided from below, as in the construction of a bounding
+// volume hierarchy by the surface area heuristic: the box becomes one cell unless the cells of its parts cost less
+// (cost_model.hpp). What decides whether to go further down is a bound of what that can save.
 #include "building/divide.hpp"
 
 #include <tbb/parallel_for.h>
@@ -27,19 +27,21 @@ using rewriting::ArenaScope, rewriting::finest_pattern, rewriting::first_compone
 
 namespace {
 
-/// Progress is reported down to this depth; what is below is done soon.
+// Progress is reported down to this depth; what is below is done soon. A share is reported once: when a box at this
+// depth is done, or, above this depth, when a box becomes a cell without a trial or when no ray can meet an interface
+// in any of its parts.
 constexpr int reported_depth = 5;
-/// Down to this depth the parts of a box are divided in parallel.
+// Down to this depth the parts of a box are divided in parallel.
 constexpr int parallel_depth = 3;
 
-/// What cells cost together, and about how much area of interfaces is in them.
+// What cells cost together, and about how much area of interfaces is in them.
 struct CellCosts {
     float all = 0, interface_area = 0;
 };
 
 CellCosts divide(const BuildNode&, const BuildContext&, Worker&);
 
-/// Makes a node one cell.
+// Makes a node one cell.
 CellCosts add_cell(const BuildNode& node, Worker& worker) {
     const ArenaScope programs(worker.programs), scratch(worker.scratch);
     const Candidate& cell = node.cell;
@@ -64,7 +66,7 @@ CellCosts add_cell(const BuildNode& node, Worker& worker) {
     return {cell.cost, interface_area(cell.facts.box)};
 }
 
-/// Whether a node becomes one cell without a trial of its parts.
+// Whether a node becomes one cell without a trial of its parts.
 bool is_final(const BuildNode& node, const BuildContext& context, CellBudget& budget) {
     const Candidate& cell = node.cell;
     const float diagonal = node.box.diagonal(), least = least_cost(cell.facts.box);
@@ -72,12 +74,14 @@ bool is_final(const BuildNode& node, const BuildContext& context, CellBudget& bu
         context.options.quality,
         {diagonal / context.size, cell.program.outputs.size() > 2, cell.facts.curvature.bound[0] < Curvature::unknown});
     const bool is_small = diagonal < 64 * context.reach;
-    return node.futile_divisions >= node.policy.futile_divisions || node.depth >= context.options.deepest || is_small ||
-           cell.cost < (1 + saving) * least + cost_model::traversal * surface(node.box) ||
+    // is_worth_dividing() must come last, because it notes the saving that it refuses: that of a box which would be
+    // divided if there were more memory.
+    return node.futile_divisions >= node.policy.most_futile_divisions || node.depth >= context.options.deepest ||
+           is_small || cell.cost < (1 + saving) * least + cost_model::traversal * surface(node.box) ||
            !budget.is_worth_dividing(node.box, cell.cost - least);
 }
 
-/// Finds the cells of a node: itself, or those of its parts if they cost less.
+// Finds the cells of a node: itself, or those of its parts if they cost less.
 CellCosts find_cells(const BuildNode& node, const BuildContext& context, Worker& worker) {
     if (is_final(node, context, worker.pool.budget())) {
         if (node.depth <= reported_depth) context.progress.add(node.share);
@@ -99,7 +103,8 @@ CellCosts find_cells(const BuildNode& node, const BuildContext& context, Worker&
     return add_cell(node, worker);
 }
 
-/// Evaluates a node's program at the centres of boxes, one in each lane: the result holds those of the first.
+// Evaluates a node's program at the centres of boxes, one in each lane. The result reads lane 0, which has the values
+// for the first box; Division::prepare_part() reads the lanes of the others.
 ValuesAtPoint values_at_centres(const BuildNode& node, const SubBoxes& boxes, const BuildContext& context,
                                 Worker& worker) {
     std::vector<float>& constants = worker.constants;
@@ -121,7 +126,7 @@ ValuesAtPoint values_at_centres(const BuildNode& node, const SubBoxes& boxes, co
     return {registers.data(), steps.slot, 0};
 }
 
-/// The division of one node: its parts, and who finds their cells.
+// The division of one node: its parts, and who finds their cells.
 class Division {
   public:
     Division(const BuildNode& node, const BuildContext& context, Worker& worker)
@@ -139,6 +144,7 @@ class Division {
     CellCosts run() {
         for_each_part([&](std::size_t i, Worker& own) { is_left_[i] = prepare_part(i, own); });
         left_count_ = std::ranges::count(is_left_, true);
+        // If a part is left, the shares of the parts are reported instead, each where its cells are found.
         if (left_count_ == 0 && node_.depth < reported_depth) context_.progress.add(node_.share);
         float cost = cost_model::traversal * surface(node_.box);
         for (std::size_t i = 0; i < boxes_.count; ++i)
@@ -162,8 +168,8 @@ class Division {
     }
 
   private:
-    /// Calls f with each part's number and the worker that finds its cells. In parallel each part has a worker of its
-    /// own, so the cells are in the order of the parts, whichever thread finds them.
+    // Calls f with each part's number and the worker that finds its cells. In parallel each part has a worker of its
+    // own, so the cells are in the order of the parts, whichever thread finds them.
     template <class F>
     void for_each_part(F&& f) {
         if (!borrowed_.empty())
@@ -172,8 +178,8 @@ class Division {
             for (std::size_t i = 0; i < boxes_.count; ++i) f(i, worker_);
     }
 
-    /// Makes a part ready: its program is pruned by the values in a ball around its box, and then in the box. False if
-    /// no ray can meet an interface there.
+    // Makes a part ready: its program is pruned by the values in a ball around its box, and then in the box. False if
+    // no ray can meet an interface there.
     bool prepare_part(std::size_t i, Worker& own) {
         const ArenaScope scope(own.scratch);
         const float radius = 0.5f * boxes_.box[i].inflated(context_.reach).diagonal() * (1 + 1e-5f);
@@ -181,7 +187,7 @@ class Division {
         const std::span<const float> slope =
             has_jumps_ ? slopes_in_ball(node_.program, centre, radius, context_.program, own.scratch)
                        : node_.program.lipschitz;
-        const RangesInBall ranges{centre, slope, radius, context_.program.rounding};
+        const RangesInBall ranges{centre, slope, radius, context_.program.value_error};
         const auto program = prune(node_.program, ranges, context_.program, own.arenas());
         if (!program) return false;
         BuildNode& part =
@@ -199,9 +205,10 @@ class Division {
         part.cost_ratio = is_gain ? 1.f : cost_ratio_;
         return find_cells(part, context_, own);
     }
-    /// Whether a box is so large that its division need not save anything yet.
+    // Whether a box is so large that its division need not save anything yet.
     bool is_too_coarse(const BuildNode& part) const {
-        // An object's features are smaller than a period of a fold, too.
+        // Endless copies repeat an object whose features are smaller than the period of the fold. So boxes are measured
+        // by that period, and not by the size of the whole.
         const float large =
             std::isfinite(part.fold_period) ? 0.25f * part.fold_period : part.policy.large * context_.size;
         const float diagonal = part.box.diagonal();
@@ -217,16 +224,16 @@ class Division {
     const BuildContext& context_;
     Worker& worker_;
     SubBoxes boxes_;
-    ValuesAtPoint values_;  ///< at the centres of the boxes, one in each lane
+    ValuesAtPoint values_;  // at the centre of the first box; those for the other boxes are in the other lanes
     std::span<BuildNode> parts_;
     bool has_jumps_;
-    std::array<bool, SubBoxes::most> is_left_{};  ///< whether a ray can meet an interface in a part
+    std::array<bool, SubBoxes::most> is_left_{};  // whether a ray can meet an interface in a part
     std::ptrdiff_t left_count_ = 0;
-    float cost_ratio_ = 1;                        ///< BuildNode::cost_ratio after this division
-    std::vector<WorkerPool::Borrowed> borrowed_;  ///< one for each part; none if the parts are not divided in parallel
+    float cost_ratio_ = 1;                        // BuildNode::cost_ratio after this division
+    std::vector<WorkerPool::Borrowed> borrowed_;  // one for each part; none if the parts are not divided in parallel
 };
 
-/// Finds the cells of the parts of a node.
+// Finds the cells of the parts of a node.
 CellCosts divide(const BuildNode& node, const BuildContext& context, Worker& worker) {
     if (context.options.cancelled && context.options.cancelled()) throw BuildCancelled();
     const ArenaScope programs(worker.programs), scratch(worker.scratch);
@@ -243,6 +250,9 @@ CellBuffers divide_into_cells(const Bounds& box, const WorkingProgram& program, 
     WorkerPool pool(budget);
     Worker worker{pool};
     if (!prepare(root, context, worker)) return {};
+    // The root is divided whenever the budget allows, without a comparison with a single cell, because boxes that are
+    // large relative to the object always are (SubdivisionPolicy). Its saving is taken to be all of its cost. A budget
+    // for a single cell (divide_within.cpp) refuses that and so learns where savings begin.
     if (budget.is_worth_dividing(root.box, root.cell.cost))
         divide(root, context, worker);
     else

@@ -1,8 +1,8 @@
-/// Cells within a budget of memory. First they are built without regard to it. If that exceeds the budget, they are
-/// built again from the coarse side: first one cell; then only boxes are divided whose division saves much, then also
-/// those that save less, as long as the memory suffices. Each attempt takes about twice the memory and the time of the
-/// one before, so all of them together take about twice the time of the last. Each also tells about what the next will
-/// take, so that few of them are in vain.
+// Cells within a budget of memory. First they are built without regard to it. If that exceeds the budget, they are
+// built again from the coarse side: first one cell; then only boxes are divided whose division saves much, then also
+// those that save less, as long as the memory suffices. Each attempt takes about twice the memory and the time of the
+// one before, so all of them together take about twice the time of the last. Each also tells about what the next will
+// take, so that few of them are in vain.
 #include "building/divide_within.hpp"
 
 #include <algorithm>
@@ -14,10 +14,10 @@ namespace phasetree::building {
 
 namespace {
 
-/// The factor by which the least saving falls from one attempt to the next.
+// The factor by which the least saving falls from one attempt to the next.
 class ReductionFactor {
   public:
-    /// Chooses the factor such that memory will about double. With the last factor it grew by `growth`.
+    // Chooses the factor such that memory will about double. With the last factor it grew by `growth`.
     void adapt(double growth) {
         const double doubling = growth > 1.01 ? std::pow(factor_, std::numbers::ln2 / std::log(growth)) : largest;
         last_growth_ = growth;
@@ -27,7 +27,7 @@ class ReductionFactor {
     bool is_smallest() const { return !(factor_ > smallest); }
     void set_smallest() { factor_ = smallest; }
     double get() const { return factor_; }
-    /// The expected growth of memory with this factor, as a power of the factor.
+    // The expected growth of memory with this factor, as a power of the factor.
     double expected_growth() const {
         return std::pow(std::max(last_growth_, 1.0), std::log(factor_) / std::log(last_factor_));
     }

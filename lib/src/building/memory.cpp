@@ -18,14 +18,15 @@ namespace {
 
 constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
 
-/// The number in a file; no limit if there is no file or no number ("max").
+// The number in a file; no limit if there is no file or no number ("max").
 std::uint64_t limit_in(const std::filesystem::path& file) {
     std::uint64_t bytes = 0;
     std::ifstream in(file);
     return in >> bytes ? bytes : no_limit;
 }
 
-/// Of a group and all groups around it. In a container the mounted root is its own group, and the path may be unknown.
+// The smallest limit among those of a group and of all groups around it. In a container the mounted root is its own
+// group, and the path may be unknown.
 std::uint64_t limit_of_group(const std::filesystem::path& root, const std::string& path, const char* file) {
     std::uint64_t least = limit_in(root / file);
     std::filesystem::path group = root;
@@ -36,7 +37,7 @@ std::uint64_t limit_of_group(const std::filesystem::path& root, const std::strin
     return least;
 }
 
-/// A line of /proc/self/cgroup is "0::/path", or "4:memory:/path" of the first version.
+// A line of /proc/self/cgroup is "0::/path", or "4:memory:/path" of the first version.
 std::uint64_t limit_of_groups() {
     std::uint64_t least = no_limit;
     std::ifstream groups("/proc/self/cgroup");

@@ -11,12 +11,12 @@ SubdivisionPolicy::SubdivisionPolicy(const WorkingProgram& program, float work) 
     const auto is_network = [](const Instruction& in) { return traits(in.op).is_network; };
     if (work > 200 + 10 * size && std::ranges::any_of(program.code, is_network)) {
         large = 0.25f;
-        futile_divisions = 1;
+        most_futile_divisions = 1;
         uneven = 0.2f;
     } else if (work > 10 * size) {
         large = 0.25f;
     } else if (size > 24) {
-        futile_divisions = 5;
+        most_futile_divisions = 5;
     }
 }
 

@@ -11,10 +11,12 @@ using rewriting::WorkingProgram;
 /// relative to the object are always divided, since an object's features are smaller than that; others only a few times
 /// in a row without a gain. Lengths are shares of the object's diagonal.
 struct SubdivisionPolicy {
-    float large = 0.06f;              ///< larger boxes are always divided
-    int futile_divisions = 2;         ///< how many divisions in a row may be without a gain
-    float uneven = Bounds::infinity;  ///< a box is also divided where the gradient varies by a larger share of itself,
-    float fine = 0.004f;              ///< unless it is smaller than this
+    float large = 0.06f;            ///< larger boxes are always divided
+    int most_futile_divisions = 2;  ///< how many divisions in a row may be without a gain
+    /// A box is also divided if the spread of its linear bound is more than this times the length of the bound's
+    /// normal, that is, if the gradient varies by a larger share of itself; unless the box is smaller than `fine`.
+    float uneven = Bounds::infinity;
+    float fine = 0.004f;  ///< see `uneven`
 
     SubdivisionPolicy() = default;
     /// The policy for a program that takes this much work. Programs of little but long primitives (Voronoi cells) are

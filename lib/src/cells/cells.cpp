@@ -1,4 +1,4 @@
-/// The questions that InterfaceCells answer.
+// The questions that InterfaceCells answer.
 #include "phasetree/cells/cells.hpp"
 
 #include <algorithm>

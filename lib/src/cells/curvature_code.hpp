@@ -10,7 +10,8 @@ namespace phasetree::cells {
 using kernel::Curvature;
 
 /// A bound of curvature in eight bits, rounded up by an eighth at most. The code is a float's exponent and the upper
-/// three bits of its fraction, of the curvature times the object's diagonal. 0 is no curvature, 255 an unknown one.
+/// three bits of its fraction, of the curvature times the object's diagonal. 0 is no curvature, 255 an unknown one. A
+/// bound below 2⁻¹⁰/diagonal is rounded up to that, and one that is too large for the code becomes unknown.
 class CurvatureCode {
   public:
     static constexpr std::uint8_t unknown = 255;

@@ -11,7 +11,7 @@ using kernel::few_slots, kernel::Routine, kernel::Visit;
 
 namespace {
 
-/// The limit of memory. There are 2³² indices, which is enough for the cells in 64 gigabytes.
+// The limit of memory. There are 2³² indices, which is enough for the cells in 64 gigabytes.
 std::size_t limit_bytes(const CellOptions& options) {
     constexpr std::size_t largest = std::size_t{64} << 30;
     return std::min(options.most_bytes > 0 ? options.most_bytes : default_cell_bytes(), largest);

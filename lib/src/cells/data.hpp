@@ -13,7 +13,8 @@ namespace phasetree {
 struct InterfaceCells::Data : cells::CellTables {
     using Cell = cells::InterfaceCell;
 
-    /// All but what is built.
+    /// Sets what follows from the object's bounds and the options. The tables, `whole` and `build_seconds` are set by
+    /// who builds or reads the cells.
     Data(const Phased& object, const CellOptions&);
 
     std::optional<Evaluator> whole;

@@ -31,7 +31,8 @@ inline constexpr std::array<std::uint64_t, CellsFileHeader::sections> item_bytes
 
 /// The kind of machine, which does not include its instruction set: tables are the same with any.
 std::string_view machine();
-/// The text in an array of the header, without characters that a terminal should not see.
+/// The text in an array of the header. Control characters and bytes beyond ASCII, which could disturb a terminal, are
+/// replaced by "?".
 std::string as_text(const std::array<char, 24>&);
 
 /// The header of a file of these cells, without what is known only when they are built: counts, checksums and whether

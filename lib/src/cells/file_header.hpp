@@ -34,7 +34,7 @@ struct CellsFileHeader {
     float resolution;
     std::int32_t deepest;
     std::uint32_t quality, is_coarser;
-    std::uint64_t routines;
+    std::uint64_t routines;                      ///< CellTables::routine_count
     std::array<std::uint64_t, sections> counts;  ///< how many items each section has
     std::uint64_t tables_checksum, header_checksum;
 

@@ -18,13 +18,13 @@ namespace fs = std::filesystem;
 using Reason = CellsFileError::Reason;
 using Header = CellsFileHeader;
 
-/// Reads one file.
+// Reads one file.
 class CellsReader {
   public:
     explicit CellsReader(const fs::path& path) : path_(path), file_(open(path)) {}
 
-    /// The tables of a file that fits the program and the settings. The constants of its cells are appended to the
-    /// program's.
+    // The tables of a file that fits the program and the settings. The constants of its cells are appended to the
+    // program's.
     CellTables read(Program& program, const BuildSettings& settings) {
         const Header h = header();
         const Header wanted = header_of(program, program.constants.size(), settings);
@@ -105,7 +105,7 @@ class CellsReader {
         return h;
     }
 
-    /// Requires that the header `h` of the file is as `wanted`.
+    // Requires that the header `h` of the file is as `wanted`.
     void require_same(const Header& h, const Header& wanted) const {
         const auto differs = [&](const std::string& what) { return error(Reason::differing, what); };
         if (h.library != wanted.library)
@@ -128,7 +128,7 @@ class CellsReader {
             throw differs("its cells were built with another limit of memory");
     }
 
-    /// Requires that the file has as many bytes as its header says, before memory is allocated for them.
+    // Requires that the file has as many bytes as its header says, before memory is allocated for them.
     void require_size(const Header& h) const {
         std::uint64_t rest = file_.size() - sizeof(Header);
         for (std::size_t i = 0; i < CellsFileHeader::sections; ++i) {

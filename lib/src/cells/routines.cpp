@@ -15,7 +15,7 @@ using rewriting::data_of_specialised;
 
 namespace {
 
-/// A hash of words, which are put in two at a time.
+// A hash of words, which are put in two at a time.
 class Hash64 {
   public:
     explicit Hash64(std::uint64_t start) : hash_(start) {}
@@ -42,15 +42,15 @@ bool is_leaf(const CertificateStep& step) {
     return step.kind == PackedCertificateStep::leaf;
 }
 
-/// Calls f with the value of each leaf of a certificate, in their order. A routine must keep these values; the rest of
-/// a certificate does not concern it.
+// Calls f with the value of each leaf of a certificate, in their order. A routine must keep these values; the rest of
+// a certificate does not concern it.
 template <class F>
 void for_each_value(std::span<const CertificateStep> certificate, F&& f) {
     for (const CertificateStep& step : certificate)
         if (is_leaf(step)) f(step.value);
 }
 
-/// Whether the leaves of two certificates have the same values in the same order.
+// Whether the leaves of two certificates have the same values in the same order.
 bool has_equal_values(std::span<const CertificateStep> a, std::span<const CertificateStep> b) {
     for (auto i = a.begin(), j = b.begin();; ++i, ++j) {
         i = std::find_if(i, a.end(), is_leaf);
@@ -127,7 +127,7 @@ RoutineBuilder::BuiltRoutine RoutineBuilder::build(const CellBuffer& buffer, con
     return built;
 }
 
-/// The index of the shape of a routine, which is appended unless there is an equal one.
+// The index of the shape of a routine, which is appended unless there is an equal one.
 std::uint32_t RoutineBuilder::intern_shape(const Assembly& assembly, std::uint32_t leading) {
     Hash64 hash(leading);
     for (const Step& s : assembly.steps) hash.put(as_one_word(s.op, s.to), as_one_word(s.a, s.b));
@@ -152,7 +152,7 @@ std::uint32_t RoutineBuilder::intern_shape(const Assembly& assembly, std::uint32
 
 void RoutineBuilder::pack_certificate(const BuiltRoutine& routine, std::span<const CertificateStep> certificate,
                                       std::vector<PackedCertificateStep>& packed) const {
-    std::size_t at = routine.first_kept_slot;
+    std::size_t at = routine.first_kept;
     for (const CertificateStep& step : certificate)
         packed.push_back(step.packed(is_leaf(step) ? kept_slots_[at++] : 0));
 }

@@ -51,7 +51,8 @@ class RoutineBuilder {
     /// A routine, and where its certificate finds its values.
     struct BuiltRoutine {
         std::uint32_t shape, first_data;
-        std::uint32_t first_kept_slot;  ///< the first slot of the values of the certificate's leaves, in their order
+        /// Where in `kept_slots_` the slots of this routine's certificate leaves begin, in the order of the leaves.
+        std::uint32_t first_kept;
     };
     /// Turns the data of specialised instructions into constants. It must be called once for each buffer, before the
     /// cells in it are added.
@@ -86,8 +87,8 @@ class RoutineBuilder {
     Fuser fuse_;
     std::unordered_map<Key, BuiltRoutine, Hash> built_;
     std::unordered_multimap<std::uint64_t, std::uint32_t> shapes_;  ///< the indices of shapes by their hash
-    std::vector<std::uint32_t> kept_values_;                        ///< of the cell that is being added
-    std::vector<std::uint32_t> kept_slots_;                         ///< of all routines
+    std::vector<std::uint32_t> kept_values_;  ///< of the certificate leaves of the cell being added
+    std::vector<std::uint32_t> kept_slots_;   ///< of the certificate leaves of all routines
 };
 
 }  // namespace phasetree::cells

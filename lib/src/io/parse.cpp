@@ -99,7 +99,7 @@ class Builder {
 
     explicit Builder(DocumentData& data) : data_(data), source_(data.text) {}
 
-    /// SceneError if the text is wrong.
+    // SceneError if the text is wrong.
     void run() {
         const bool is_good = nlohmann::json::sax_parse(SourceIterator(source_), SourceIterator(), this);
         if (!is_good) throw diagnose(data_.name, data_.text, failure_);

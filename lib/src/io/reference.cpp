@@ -20,7 +20,7 @@ Json list_of(Json items) {
     return {{"type", "array"}, {"minItems", 1}, {"items", std::move(items)}};
 }
 
-/// Of a node's parameter: how its values are described, and how this one is written. One overload a type.
+// Of a node's parameter: how its values are described, and how this one is written. One overload a type.
 struct NodeParameter {
     ValueType type;
     std::string written;
@@ -47,7 +47,7 @@ NodeParameter described(PhaseSet, const Parameter&) {
     const Json phase{{"type", "string"}};
     return {{"phase or list of phases", Json{{"anyOf", {phase, list_of(phase)}}}.dump()}, "all"};
 }
-/// A number by itself may stand for a list of one.
+// A number by itself may stand for a list of one.
 template <class T>
 NodeParameter described(const std::vector<T>&, const Parameter& p) {
     const ValueType item = described(T{}, p).type;
@@ -81,7 +81,7 @@ std::vector<KindPage> pages_of_nodes(TypeList<Ns...>) {
     return {page_of_node<Ns>()...};
 }
 
-/// What goes in brackets behind a description.
+// What goes in brackets behind a description.
 std::string limits_of(const ParameterPage& p) {
     if (!p.optional) return p.limits;
     return fmt::format("{}{}default {}", p.limits, p.limits.empty() ? "" : "; ", p.default_value);
@@ -104,7 +104,7 @@ Json object_of(const KindPage& page) {
     return {{"type", "object"}, {"properties", properties}, {"required", required}, {"additionalProperties", false}};
 }
 
-/// A node of one of some kinds, or the name of a shape.
+// A node of one of some kinds, or the name of a shape.
 template <class... Ns>
 Json node_of(TypeList<Ns...> nodes) {
     return {{"anyOf",

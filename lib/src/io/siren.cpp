@@ -38,9 +38,9 @@ SirenNetwork network_of(const Document& document) {
     return network;
 }
 
-/// Which file is read a scene says, which may be a stranger's, and who reads the error may not be who may read the
-/// file. So an error tells the place in it, and quotes nothing of it: `what` stands for what is wrong there. That a
-/// file is missing, too large and the like is told as it is.
+// Which file is read a scene says, which may be a stranger's, and who reads the error may not be who may read the
+// file. So an error tells the place in it, and quotes nothing of it: `what` stands for what is wrong there. That a
+// file is missing, too large and the like is told as it is.
 template <class F>
 auto unquoted(const std::filesystem::path& path, std::string_view what, F&& read) {
     try {

@@ -56,7 +56,7 @@ class Reader {
         return (this->*make_node)(member);
     }
 
-    /// Reads the shapes that the tree did not use, so that a mistake in them is found too.
+    // Reads the shapes that the tree did not use, so that a mistake in them is found too.
     void read_unused() {
         if (!shapes_) return;
         for (const Value shape : *shapes_) {
@@ -70,8 +70,8 @@ class Reader {
     }
 
   private:
-    /// Counts the nesting, of nodes and of nodes and names, through named shapes too, so that no file can exhaust the
-    /// stack.
+    // Counts the nesting, of nodes and of nodes and names, through named shapes too, so that no file can exhaust the
+    // stack.
     struct Level {
         Level(const Reader& reader, std::size_t& count, std::size_t most, Value value) : count_(count) {
             if (count_ == most)
@@ -116,7 +116,7 @@ class Reader {
         return result;
     }
 
-    /// Whether a shape is a plain field, told from its node's name; a warp is what its child is.
+    // Whether a shape is a plain field, told from its node's name; a warp is what its child is.
     bool is_field(Value shape) const {
         for (std::size_t steps = 0; steps < 2 * max_tree_depth; ++steps) {
             if (shape.is_string()) {
@@ -227,7 +227,7 @@ class Reader {
         }
     }
 
-    /// Each file once.
+    // Each file once.
     template <class Content>
     void read_file(FromFile<Content>& target, Value value) {
         const std::filesystem::path path = document_.file(value);
@@ -253,7 +253,7 @@ class Reader {
         known->emplace(target.path, target.content);
     }
 
-    /// In a set the vacuum may be; the nodes that have no use for it refuse it themselves.
+    // In a set the vacuum may be; the nodes that have no use for it refuse it themselves.
     Phase phase_or_vacuum(Value value, const std::string& what) const {
         return value.is_string() && value.string() == names_.names[0] ? vacuum : phase(value, what);
     }
@@ -305,7 +305,7 @@ class Reader {
     std::map<std::string, std::shared_ptr<const HeightGrid>, std::less<>> height_grids_;
     std::map<std::string, Field, std::less<>> fields_;
     std::map<std::string, Phased, std::less<>> objects_;
-    std::vector<std::string> open_;  ///< shapes being read, to find cycles
+    std::vector<std::string> open_;  // shapes being read, to find cycles
     std::size_t levels_ = 0, nodes_ = 0;
 };
 

@@ -16,7 +16,7 @@ std::string in_quotes(std::string_view text) {
     return nlohmann::json(text).dump();
 }
 
-/// The shortest text that reads as the same float.
+// The shortest text that reads as the same float.
 std::string as_text(float v) {
     return fmt::format("{}", v);
 }
@@ -34,7 +34,7 @@ class Writer {
   public:
     explicit Writer(const SceneTree& tree) : tree_(tree) { count(tree.object); }
 
-    /// `material` is each phase's.
+    // `material` is each phase's.
     std::string document(std::string_view material) {
         const std::string object = node(tree_.object);
         std::string text = "{\n  \"version\": 1,\n  \"phases\": {";
@@ -58,7 +58,7 @@ class Writer {
                    handle.node()->node);
     }
 
-    /// A node, or the name of the shape that it has become.
+    // A node, or the name of the shape that it has become.
     template <class Handle>
     std::string node(const Handle& handle) {
         if (const auto found = names_.find(handle.node()); found != names_.end()) return in_quotes(found->second);

@@ -70,7 +70,7 @@ class BackwardSweep {
                !std::ranges::all_of(outputs, [&](const ProgramOutput& o) { return opaque_.contains(o.phase); });
     }
     /// Whether the sweep has changed nothing: all instructions and outputs are left, and their slopes are the program's
-    /// own. If, moreover, two phases have one value, an earlier sweep has written the program as short as it can be.
+    /// own. Two phases must also share one value already, for otherwise by_one_component() may shorten the program.
     bool is_unchanged(std::span<const ProgramOutput> outputs) const {
         return !is_changed_ && outputs.size() == program_.outputs.size() &&
                (outputs.size() != 2 || outputs[0].value == outputs[1].value) &&
@@ -78,7 +78,8 @@ class BackwardSweep {
                live_count_ + 1 == program_.code.size();  // the input is always left
     }
 
-    /// The live instructions, written again; without outputs that are absolute values and so are negative nowhere.
+    /// The live instructions, written again by a Rewriter, with those outputs whose component may be negative. A
+    /// component that is an absolute value is negative nowhere, so its output is left out.
     WorkingProgram rewritten(std::span<const ProgramOutput> outputs) {
         Arena& scratch = arenas_.scratch;
         Rewriter rewriter(constants_, live_count_, scratch);

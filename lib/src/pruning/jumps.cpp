@@ -12,7 +12,7 @@ using program::is_fold, program::operands;
 
 namespace {
 
-/// A Lipschitz bound above this has the factor FoldMap::jump, which is 2⁴⁰, in it.
+// A Lipschitz bound above this has the factor FoldMap::jump, which is 2⁴⁰, in it.
 constexpr float least_slope_of_jump = 0x1p20f;
 
 }  // namespace
@@ -33,8 +33,8 @@ bool may_jump(const WorkingProgram& program) {
     return std::ranges::any_of(program.lipschitz, [](float l) { return l > least_slope_of_jump; });
 }
 
-/// The guard above a fold tells whether it jumps in the ball: its bound exceeds half of its constant wherever the fold
-/// jumps (`guarded` in math/number.hpp).
+// The guard above a fold tells whether it jumps in the ball: its bound exceeds half of its constant wherever the fold
+// jumps (`guarded` in math/number.hpp).
 std::span<const float> slopes_in_ball(const WorkingProgram& program, const ValuesAtPoint& centre, float radius,
                                       const ProgramContext& context, Arena& arena) {
     const std::span<float> slope = arena.copy(program.lipschitz);
@@ -48,7 +48,7 @@ std::span<const float> slopes_in_ball(const WorkingProgram& program, const Value
     for (std::uint32_t i = 1; i < size; ++i) {
         const Instruction& guard = program.code[i];
         if (guard.op != Op::guarded) continue;
-        const float high = centre[guard.a] + slope[guard.a] * radius + context.rounding;
+        const float high = centre[guard.a] + slope[guard.a] * radius + context.value_error;
         const char verdict = high < 0.5f * context.constants[guard.data] ? is_continuous : may_jump_here;
         for (std::uint32_t k = 1; k < i; ++k)
             if (is_fold(program.code[k].op) && program.code[k].a == program.code[guard.a].a)

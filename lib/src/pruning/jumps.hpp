@@ -15,8 +15,9 @@ bool may_jump(const WorkingProgram&);
 std::span<const float> slopes_in_ball(const WorkingProgram&, const ValuesAtPoint& centre, float radius,
                                       const ProgramContext&, Arena&);
 
-/// The smallest period of the folds of a program that still may jump, in metres; infinity if there are none. Nothing of
-/// such a fold can be pruned in boxes larger than its period.
+/// The smallest period of the folds of a program that still may jump; infinity if there are none. It is in the space of
+/// the points that are folded, which is the object's space unless the copies are scaled as a whole. Nothing of such a
+/// fold can be pruned in boxes larger than its period.
 float finest_jump(const WorkingProgram&, std::span<const float> constants);
 
 }  // namespace phasetree::pruning

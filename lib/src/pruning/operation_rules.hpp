@@ -58,11 +58,13 @@ void BackwardSweep<Ranges>::resolve_minimum(std::uint32_t i) {
     const Instruction& in = program_.code[i];
     const RequiredInterval r = required_[i];
     const float low_a = low(in.a), high_a = high(in.a), low_b = low(in.b), high_b = high(in.b);
-    // b is the minimum, or a never lies where it is required.
+    // If a is above b, or above r, b stands in for the minimum: it is the minimum, or both of them are above r. If b is
+    // above a or above r, a does so for the same reason. An operand below r stands in, too, for the minimum is below r
+    // with it.
     const bool is_b_surely = is_above(in.a, in.b) | bool(low_a > r.high());
     const bool is_a = is_above(in.b, in.a) | ((!is_b_surely) & (bool(low_b > r.high()) | bool(high_a < r.low())));
     const bool is_b = is_b_surely | bool(high_b < r.low());
-    // Of either operand nothing matters above the largest value of the other.
+    // Above the largest value of the other nothing matters of an operand, because there the minimum is the other.
     resolve_extremum(i, {is_a, is_b, r.below(high_b), r.below(high_a)});
 }
 
@@ -71,9 +73,13 @@ void BackwardSweep<Ranges>::resolve_maximum(std::uint32_t i) {
     const Instruction& in = program_.code[i];
     const RequiredInterval r = required_[i];
     const float low_a = low(in.a), high_a = high(in.a), low_b = low(in.b), high_b = high(in.b);
+    // If a is below b, or below r, b stands in for the maximum: it is the maximum, or both of them are below r. If b is
+    // below a or below r, a does so for the same reason. An operand above r stands in, too, for the maximum is above r
+    // with it.
     const bool is_b_surely = is_above(in.b, in.a) | bool(high_a < r.low());
     const bool is_a = is_above(in.a, in.b) | ((!is_b_surely) & (bool(high_b < r.low()) | bool(low_a > r.high())));
     const bool is_b = is_b_surely | bool(low_b > r.high());
+    // Below the smallest value of the other nothing matters of an operand, because there the maximum is the other.
     resolve_extremum(i, {is_a, is_b, r.above(low_b), r.above(low_a)});
 }
 
@@ -92,37 +98,49 @@ void BackwardSweep<Ranges>::resolve_extremum(std::uint32_t i, const Choice& choi
     require(second, is_replaced ? r : choice.required_b);
 }
 
+/// min(a, b) − ρ/6 · max(1 − |b − a|/ρ, 0)³ with the radius ρ of blending (smooth_min in math/number.hpp).
 template <class Ranges>
 void BackwardSweep<Ranges>::resolve_smooth_minimum(std::uint32_t i) {
     const Instruction& in = program_.code[i];
     const RequiredInterval r = required_[i];
     const float radius = constant(in);
+    // Where the operands differ by more than the radius they are not blended.
     if (is_above(in.b, in.a, radius)) return replace(i, in.a);
     if (is_above(in.a, in.b, radius)) return replace(i, in.b);
-    // Where a is more than the radius above the required interval, blending with it lowers b by less than b lies above
-    // that interval.
+    // If a is above r by more than the radius, b stands in for the smooth minimum. Where b ≤ r.high, it is more than
+    // the radius below a and is the smooth minimum. Where b > r.high, the smooth minimum is above r as well: if b is
+    // the smaller, blending lowers it by a sixth of ρ − (a − b) at most, and it is above r by more than all of that; if
+    // a is the smaller, it is above r by more than ρ and lowered by a sixth of ρ at most. The same holds with a and b
+    // exchanged.
     if (low(in.a) > r.high() + radius) return replace(i, in.b);
     if (low(in.b) > r.high() + radius) return replace(i, in.a);
+    // The smooth minimum is no more than either operand, so it is below r if one of them is.
     if (high(in.a) < r.low()) return replace(i, in.a);
     if (high(in.b) < r.low()) return replace(i, in.b);
+    // For the same reasons an operand matters neither below r, nor more than the radius above r, nor more than the
+    // radius above the largest value of the other.
     require(in.a, {r.low(), std::min(r.high(), high(in.b)) + radius});
     require(in.b, {r.low(), std::min(r.high(), high(in.a)) + radius});
 }
 
-/// max(a, min(b, c − a)), of a field b that may jump and a bound a that is continuous.
+/// max(a, min(b, c − a)), where a is the bound, which is continuous, and b the field, which may jump (`guarded` in
+/// math/number.hpp).
 template <class Ranges>
 void BackwardSweep<Ranges>::resolve_guarded(std::uint32_t i) {
     const Instruction& in = program_.code[i];
     const RequiredInterval r = required_[i];
-    // Where a > c/2 the second operand is below a, so that the maximum is a.
+    // Where a > c/2, c − a is below a, so that the maximum is a. Where a is above r, the maximum is above r with it.
     const float half = 0.5f * constant(in);
     if (low(in.a) > std::min(half, r.high())) return replace(i, in.a);
-    // Where a is negative c − a is positive, so that max(a, b) has the same sign. It may take its place if b does not
-    // jump; if it does, its slope is more than twice that of a by far (FoldMap::jump).
+    // max(a, b) has the same sign: where a is positive both are positive, and elsewhere c − a is positive, so that
+    // min(b, c − a) has the sign of b. So it may take the place of this if b does not jump. If b jumps, its slope is
+    // far more than twice that of a (FoldMap::jump).
     if (r.is_sign() && ranges_.slope[in.b] <= 2 * ranges_.slope[in.a]) {
         change(i, Op::maximum);
         return resolve_maximum(i);
     }
+    // The bound is required itself, because c − a depends on it. The field matters neither below the smallest value of
+    // the bound, which is then the maximum, nor below r, nor above r, where min(b, c − a) is above r or is c − a.
     require(in.a, RequiredInterval::all());
     require(in.b, {std::max(r.low(), low(in.a)), r.high()});
 }
@@ -154,6 +172,8 @@ void BackwardSweep<Ranges>::resolve_difference(std::uint32_t i) {
     require(in.a, {r.low() + low(in.b), r.high() + high(in.b)});
 }
 
+/// The corner of a and b is max(a, b) where that is negative, and otherwise the length of the vector of max(a, 0) and
+/// max(b, 0). So it is no less than either operand.
 template <class Ranges>
 void BackwardSweep<Ranges>::resolve_corner(std::uint32_t i) {
     const Instruction& in = program_.code[i];
@@ -161,12 +181,16 @@ void BackwardSweep<Ranges>::resolve_corner(std::uint32_t i) {
     // If one operand is negative and the smaller, the corner is the other.
     if (high(in.a) < 0 && is_above(in.b, in.a)) return replace(i, in.b);
     if (high(in.b) < 0 && is_above(in.a, in.b)) return replace(i, in.a);
+    // An operand below `least` is negative and below r. Either it is the smaller, and the corner is the other; or both
+    // are below r, and the corner, their maximum, is so, too.
     const float least = std::min(r.low(), 0.f);
     if (high(in.a) < least) return replace(i, in.b);
     if (high(in.b) < least) return replace(i, in.a);
+    // An operand above r stands in, because the corner is above r with it.
     if (low(in.a) > r.high()) return replace(i, in.a);
     if (low(in.b) > r.high()) return replace(i, in.b);
-    // Above 0 both operands matter, unless one of them is negative and the smaller.
+    // For the same reasons an operand matters neither below `least`, nor where it is negative and below the smallest
+    // value of the other, nor above r.
     require(in.a, {std::max(least, std::min(low(in.b), 0.f)), r.high()});
     require(in.b, {std::max(least, std::min(low(in.a), 0.f)), r.high()});
 }

@@ -20,10 +20,11 @@
 /// far from the region, though each of them is too near to the next to be told from it by value.
 ///
 /// What replaces a value is equal to it within its required interval, and outside on the same side of it. Both operands
-/// of a minimum may be replaced at once: the smaller, a, does not exceed the largest value of b, so it stays what it
-/// is; and what replaces b is b, or not below the largest value of a. A replacement has the same sign relative to each
-/// threshold and is Lipschitz itself, so its distance from the threshold is still a lower bound of the distance to
-/// where the sign changes.
+/// of min(a, b) may be replaced at once. Where a is the smaller, it does not exceed the largest value of b, so what
+/// replaces a is equal to it. What replaces b is equal to b, or it is not below the largest value of a. So the minimum
+/// is still a, and likewise where b is the smaller. A replacement has the same sign relative to each threshold and is
+/// Lipschitz itself, so its distance from the threshold is still a lower bound of the distance to where the sign
+/// changes.
 namespace phasetree::pruning {
 
 using bounding::ValueRanges;
@@ -35,14 +36,14 @@ using rewriting::Arena, rewriting::Arenas, rewriting::ProgramContext, rewriting:
 struct RangesInBall {
     ValuesAtPoint centre;
     std::span<const float> slope;
-    float radius, rounding;  ///< `rounding` bounds the error of any value
+    float radius, value_error;  ///< ProgramContext::value_error
 
     float low(std::uint32_t i) const { return centre[i] - slack(i); }
     float high(std::uint32_t i) const { return centre[i] + slack(i); }
     bool is_above(std::uint32_t a, std::uint32_t b, float least) const { return low(a) > high(b) + least; }
 
   private:
-    float slack(std::uint32_t i) const { return slope[i] * radius + rounding; }
+    float slack(std::uint32_t i) const { return slope[i] * radius + value_error; }
 };
 
 /// The program that is left in a region where the values of a program have these ranges. Nothing if no ray can meet an

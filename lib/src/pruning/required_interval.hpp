@@ -24,7 +24,7 @@ class RequiredInterval {
     float low() const { return low_; }
     float high() const { return high_; }
     bool is_empty() const { return low_ > high_; }
-    /// Whether only the sign is needed. The sign of zero means nothing.
+    /// Whether only the sign is needed. A value of zero may be taken for either sign.
     bool is_sign() const { return low_ == 0 && high_ == 0; }
     /// The smallest interval around both.
     RequiredInterval hull(const RequiredInterval& other) const {

@@ -9,7 +9,7 @@ namespace phasetree::rewriting {
 struct FirstComponentFirst {
     WorkingProgram program;
     std::uint32_t leading = 0;                    ///< how many instructions those are, the input not counted
-    std::span<const std::uint32_t> renumbered{};  ///< the new number of each instruction; empty if none has moved
+    std::span<const std::uint32_t> renumbered{};  ///< for each old number the new one; empty if all are the same
 };
 
 /// The program is in `results`, `renumbered` in `scratch`.

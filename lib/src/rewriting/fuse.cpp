@@ -14,7 +14,8 @@ using program::affine_map, program::first_map, program::first_placed, program::g
 
 namespace {
 
-/// The map that is of the index-th type of a list, if that is an affine map.
+// The affine map that these constants describe as a map of the type with this index in the list. Nothing if it is not
+// affine.
 template <class... Ms>
 std::optional<AffineMap> find_affine(TypeList<Ms...>, std::uint32_t index, const float* constants) {
     std::optional<AffineMap> found;
@@ -30,7 +31,7 @@ std::optional<AffineMap> find_affine(TypeList<Ms...>, std::uint32_t index, const
     return found;
 }
 
-/// How many floats each of these primitives has.
+// How many floats each of these primitives has.
 template <class... Ps>
 constexpr auto floats_of(TypeList<Ps...>) {
     return std::array<std::size_t, sizeof...(Ps)>{sizeof(Ps) / sizeof(float)...};
@@ -57,7 +58,7 @@ std::uint32_t Fuser::intern(const void* floats, std::size_t count) {
     return entry->second;
 }
 
-/// Finds which points are affine maps of other points, and which numbers are scaled primitives.
+// Finds which points are affine maps of other points, and which numbers are scaled primitives.
 void Fuser::find_affine_values(std::span<const Instruction> code) {
     chains_.assign(code.size(), {});
     scaled_.assign(code.size(), {});
@@ -78,8 +79,8 @@ void Fuser::find_affine_values(std::span<const Instruction> code) {
     }
 }
 
-/// What an instruction makes of its operand, which is a scaled primitive and has no other use. A fused instruction
-/// multiplies once and then adds once, so nothing is joined to an offset but a change of sign.
+// What an instruction makes of its operand, which is a scaled primitive and has no other use. A fused instruction
+// multiplies once and then adds once, so nothing is joined to an offset but a change of sign.
 Fuser::ScaledPrimitive Fuser::scaled_primitive(const Instruction& in) const {
     const ScaledPrimitive& before = scaled_[in.a];
     const float c = constants_[in.data];
@@ -91,7 +92,7 @@ Fuser::ScaledPrimitive Fuser::scaled_primitive(const Instruction& in) const {
     return {};
 }
 
-/// An instruction, fused with those before it where that is possible. Its operands have their old numbers.
+// An instruction, fused with those before it where that is possible. Its operands have their old numbers.
 Instruction Fuser::fused(std::span<const Instruction> code, std::uint32_t i) {
     static constexpr auto floats_of_primitive = floats_of(Primitives());
     const Instruction& in = code[i];

@@ -17,10 +17,10 @@ bool has(const WorkingProgram& program, bool (*is_of_kind)(Op)) {
 }  // namespace
 
 ProgramContext::ProgramContext(const WorkingProgram& whole, std::span<const float> constants_of_whole,
-                               PhaseSet opaque_phases, float rounding_of_values)
+                               PhaseSet opaque_phases, float error_of_values)
     : constants(constants_of_whole),
       opaque(opaque_phases),
-      rounding(rounding_of_values),
+      value_error(error_of_values),
       has_folds(has(whole, is_fold)),
       has_local_primitives(has_local_primitive(whole)),
       has_far_bounds(has(whole, is_far_bound)) {}

@@ -10,12 +10,13 @@ namespace phasetree::rewriting {
 struct ProgramContext {
     std::span<const float> constants;  ///< of the whole program; the instructions of derived programs refer to them
     PhaseSet opaque;                   ///< phases that no ray is ever in
-    float rounding;                    ///< a bound of the rounding error of any value, as a distance
-    bool has_folds;                    ///< whether an instruction folds space
-    bool has_local_primitives;         ///< whether an instruction is a LocalPrimitive
-    bool has_far_bounds;               ///< whether an instruction enlarges distances far from the surface
+    /// A bound of the rounding error of any value, as a distance: half a resolution (cells/build.cpp).
+    float value_error;
+    bool has_folds;             ///< whether an instruction folds space
+    bool has_local_primitives;  ///< whether an instruction is a LocalPrimitive
+    bool has_far_bounds;        ///< whether an instruction enlarges distances far from the surface
 
-    ProgramContext(const WorkingProgram& whole, std::span<const float> constants, PhaseSet opaque, float rounding);
+    ProgramContext(const WorkingProgram& whole, std::span<const float> constants, PhaseSet opaque, float value_error);
 };
 
 }  // namespace phasetree::rewriting

@@ -8,12 +8,13 @@ using program::operands;
 
 namespace {
 
-/// The other one of minimum and maximum.
+// The other one of minimum and maximum.
 Op opposite(Op op) {
     return op == Op::minimum ? Op::maximum : Op::minimum;
 }
 
-/// Whether an operation takes one constant, which is all that matters of its data: two indices may have the same.
+// Whether the data of an operation are a single constant. Then constants are compared, and not their indices, because
+// equal constants may have different indices.
 bool has_one_constant(Op op) {
     switch (op) {
         case Op::add_constant:
@@ -32,7 +33,7 @@ bool is_commutative(Op op) {
     return op == Op::minimum || op == Op::maximum || op == Op::add || op == Op::corner;
 }
 
-/// Whether an operation has data. If it has none, the index of its data means nothing.
+// Whether an operation has data. If it has none, the index of its data means nothing.
 bool has_data(Op op) {
     return has_one_constant(op) || op >= Op::first_primitive;
 }
@@ -42,7 +43,8 @@ bool has_data(Op op) {
 Rewriter::Rewriter(std::span<const float> constants, std::size_t instructions, Arena& arena,
                    std::vector<float>* new_constants)
     : constants_(constants.data()), new_constants_(new_constants) {
-    const std::size_t capacity = 3 * instructions + 2;  // The negations of both operands may have to be written, too.
+    // Each instruction may take three: itself and the negations of both its operands.
+    const std::size_t capacity = 3 * instructions + 2;
     code_ = arena.allocate<Instruction>(capacity);
     lipschitz_ = arena.allocate<float>(capacity);
     negation_ = arena.allocate<std::uint32_t>(capacity);
@@ -62,7 +64,8 @@ SignedValue Rewriter::append(const Instruction& in, float lipschitz) {
 }
 
 SignedValue Rewriter::emit(const Instruction& in, float lipschitz) {
-    // A program that was rewritten before has each primitive of the input only once, so there is nothing to look up.
+    // Constants may be added only when a program is rewritten for the first time. If none may be, it was rewritten
+    // before and has each primitive of the input point only once, so there is nothing to look up.
     const bool was_rewritten = new_constants_ == nullptr;
     if (in.op >= Op::first_primitive && in.a == 0 && was_rewritten) return append(in, lipschitz);
     const bool is_constant = has_one_constant(in.op), is_index = has_data(in.op);
@@ -90,7 +93,7 @@ SignedValue Rewriter::emit(const Instruction& in, float lipschitz) {
     return append(in, lipschitz);
 }
 
-/// The value −v. Of a + c it is (−c) − a, and of c − a it is a + (−c), if constants may be added.
+// The value −v. Of a + c it is (−c) − a, and of c − a it is a + (−c), if constants may be added.
 std::uint32_t Rewriter::emit_negation(std::uint32_t v) {
     if (negation_[v]) return negation_[v];
     const Instruction in = code_[v];
@@ -108,20 +111,21 @@ std::uint32_t Rewriter::emit_negation(std::uint32_t v) {
     return n;
 }
 
-/// One of the two ways to write a value for which there is a negation: by the one that was written first.
+// A value for which there is a negation can be referred to in two ways: as itself, or as minus its negation. This
+// chooses the one of the two instructions that was written first, so that equal values have equal references.
 SignedValue Rewriter::canonical(const SignedValue& v) const {
     const std::uint32_t negation = negation_[v.id()];
     return negation && negation < v.id() ? SignedValue{negation, !v.is_negative()} : v;
 }
 
-/// The operands of a value that is the minimum, or the maximum, of two.
+// The operands of a value that is the minimum, or the maximum, of two.
 std::optional<Rewriter::Operands> Rewriter::operands_if(Op op, const SignedValue& v) const {
     const Instruction& in = code_[v.id()];
     if (in.op != (v.is_negative() ? opposite(op) : op)) return std::nullopt;
     return Operands{canonical({in.a, v.is_negative()}), canonical({in.b, v.is_negative()})};
 }
 
-/// The minimum, or the maximum, of two values.
+// The minimum, or the maximum, of two values.
 SignedValue Rewriter::write_extremum(Op op, SignedValue a, SignedValue b, float lipschitz, bool is_sign_enough) {
     for (int turn = 0; turn < 2; ++turn, std::swap(a, b)) {
         const auto same = operands_if(op, b);

@@ -17,8 +17,9 @@ struct Specialisation {
     static constexpr std::uint32_t no_source = 0xffffffff;
 
     std::uint32_t value = 0;  ///< the primitive's instruction
-    std::uint32_t source =
-        no_source;                  ///< where its constants start, if no other instruction of the program has the same
+    /// The index of the general primitive's constants, by which a smaller box finds this specialisation again, although
+    /// instructions are numbered anew; no_source if several instructions of the program share these constants.
+    std::uint32_t source = no_source;
     Op op{};                        ///< the operation of P::Specialised
     std::span<const float> data{};  ///< the data of that; empty if the primitive is not replaced
     unsigned half_works_saved = 0;  ///< by how much it is less work (OpTraits::half_works)
@@ -43,7 +44,8 @@ inline bool has_local_primitive(const WorkingProgram& program) {
 WorkingProgram specialised(const WorkingProgram&, std::span<const Specialisation>, std::vector<float>& floats,
                            Arena& scratch);
 
-/// The size of the smallest features among a program's patterns, in world units; infinity if it has none.
+/// The size of the smallest features among a program's patterns, in the object's space: a pattern's period is divided
+/// by the slope of the map into the pattern's own space. Infinity if the program has no pattern.
 float finest_pattern(const WorkingProgram&, std::span<const float> constants);
 
 /// The data of an instruction that specialised() has made: the first of `floats`.

@@ -22,7 +22,7 @@ enum class BuildQuality {
 
 /// How cells are built.
 struct CellOptions {
-    float resolution = 0;  ///< in metres; 0 chooses one: see InterfaceTracer
+    float resolution = 0;  ///< in the scene's unit of length; 0 chooses one: see InterfaceTracer
     int deepest = 14;      ///< the most divisions from the bounds to the smallest cell
     BuildQuality quality = BuildQuality::medium;
     /// Phases that no ray is ever in, because they are opaque. Where two of them meet no interface is looked for and no
@@ -33,8 +33,9 @@ struct CellOptions {
     /// by one at a time. Each share is more than the one before; 1 is the last. The build waits for it.
     std::function<void(float)> progress{};
     /// About how many bytes the cells may take while they are built and later, Embree's tree over them included; 0 for
-    /// default_cell_bytes(). If they would take more, boxes below some size are not divided, and rays find the same
-    /// more slowly. There is always one cell at least. The cells do not depend on the number of threads.
+    /// default_cell_bytes(). If they would take more, boxes whose division saves little are not divided, and rays find
+    /// the same more slowly. The memory for a single cell is always granted. The cells do not depend on the number of
+    /// threads.
     std::size_t most_bytes = 0;
 };
 

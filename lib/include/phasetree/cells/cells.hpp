@@ -57,11 +57,11 @@ class InterfaceCells {
 
     /// The program of the whole object.
     const Evaluator& whole() const;
-    /// The resolution that is used, in metres.
+    /// The resolution that is used, in the scene's unit of length.
     float resolution() const;
     /// A sentence for people, mostly empty: see TraceableObject.
     const std::string& warning() const;
-    /// How far a cell's box reaches beyond its share of space, in metres: a few resolutions.
+    /// How far a cell's box reaches beyond its share of space, in the scene's unit of length: a few resolutions.
     float reach() const;
     /// CellOptions::opaque.
     PhaseSet opaque() const;

@@ -38,7 +38,8 @@ concept LongPrimitive = DataPrimitive<N> || requires {
     N::is_long;
 };
 
-/// A primitive whose features are about period() metres large. In larger boxes little can be known of its values.
+/// A primitive whose features are about as large as period(), a length in the primitive's own space. In larger boxes
+/// little can be known of its values.
 template <class N>
 concept PatternPrimitive = requires(const N& n) {
     { n.period() } -> std::same_as<float>;

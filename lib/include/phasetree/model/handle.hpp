@@ -33,9 +33,10 @@ std::shared_ptr<const FieldNode> make_field_node(const std::type_info& type, voi
 std::shared_ptr<const PhasedNode> make_phased_node(const std::type_info& type, void* node);
 }  // namespace detail
 
-/// A plain distance field: one 1-Lipschitz value in metres, negative inside. It is a cheap handle of an immutable tree,
-/// which copies share; any thread may read it. It is made from a node, `Field ball = Sphere{.radius = 2};`, and throws
-/// ModelError if a parameter of the node is out of its limits. A default-made handle is empty and means nothing.
+/// A plain distance field: one 1-Lipschitz value in the scene's unit of length, negative inside. It is a cheap handle
+/// of an immutable tree, which copies share; any thread may read it. It is made from a node, `Field ball =
+/// Sphere{.radius = 2};`, and throws ModelError if a parameter of the node is out of its limits. A default-made handle
+/// is empty and means nothing.
 class Field {
   public:
     Field() = default;

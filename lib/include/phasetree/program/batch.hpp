@@ -19,8 +19,8 @@ struct alignas(batch_size * sizeof(float)) BatchOfFloats {
 /// The phases and interface distances of a batch of points.
 struct Samples {
     BatchOfFloats label;  ///< the index of the phase, as a float
-    BatchOfFloats
-        distance;  ///< s(p) in metres, the second smallest component: the label is the same within that radius
+    /// s(p), the second smallest component, in the scene's unit of length. Within this radius the label is the same.
+    BatchOfFloats distance;
 };
 
 }  // namespace phasetree

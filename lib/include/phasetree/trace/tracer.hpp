@@ -12,7 +12,7 @@ namespace phasetree {
 /// The bounds and the resolution with which an object is traced.
 struct TraceableObject {
     Bounds bounds;         ///< of the object, with a margin of a few resolutions of vacuum
-    float resolution = 0;  ///< in metres
+    float resolution = 0;  ///< in the scene's unit of length
     /// A sentence for people, mostly empty: that coordinates leave few digits, or that the resolution is not the one
     /// that was asked for.
     std::string warning{};
@@ -25,9 +25,10 @@ TraceableObject prepare_to_trace(const Phased& object, float resolution = 0);
 /// same crossings faster.) It is immutable; any thread may use it, each with a Workspace of its own.
 class InterfaceTracer {
   public:
-    /// `resolution`, in metres, is the thickness of a phase along a ray that is certain to be found. What is thinner
-    /// may be passed. So may a phase that is up to 2.75 resolutions thick, if it is deeper than a sixteenth of a
-    /// resolution for at most one of them, and a phase in which a ray along its surface is nowhere deeper than that.
+    /// `resolution`, in the scene's unit of length, is the thickness of a phase along a ray that is certain to be
+    /// found. What is thinner may be passed. So may a phase that is up to 2.75 resolutions thick, if it is deeper than
+    /// a sixteenth of a resolution for at most one of them, and a phase in which a ray along its surface is nowhere
+    /// deeper than that.
     ///
     /// 0 chooses 2·10⁻⁶ of the object's diagonal, or what float coordinates allow far from the origin. Any other value
     /// is limited: it is no finer than 2.5·10⁻⁷ of the farthest coordinate or of the diagonal, and no coarser than a
