@@ -10,8 +10,8 @@
 /// where the number of batches is larger the less is known of the field. A box that is divided costs traversal ·
 /// surface and what its parts cost.
 ///
-/// Costs are in nanoseconds times an area, up to a common factor. They are rough, because they serve only to
-/// compare a box with the cells that it could be divided into. The constants were measured (benchmarks/experiments.md).
+/// Costs are in nanoseconds times an area, up to a common factor. They are rough, because they serve only to compare a
+/// box with the cells that it could be divided into. The constants were measured (benchmarks/experiments.md).
 namespace phasetree::building {
 
 using kernel::Curvature, kernel::LinearBound;

@@ -16,8 +16,8 @@ std::span<const float> slopes_in_ball(const WorkingProgram&, const ValuesAtPoint
                                       const ProgramContext&, Arena&);
 
 /// The smallest period of the folds of a program that still may jump; infinity if there are none. It is in the space of
-/// the points that are folded, which is the object's space unless the copies are scaled as a whole. Nothing of such a
-/// fold can be pruned in boxes larger than its period.
+/// the points that are folded, which is the object's space unless another map is applied before the fold. Nothing of
+/// such a fold can be pruned in boxes larger than its period.
 float finest_jump(const WorkingProgram&, std::span<const float> constants);
 
 }  // namespace phasetree::pruning
