@@ -151,6 +151,16 @@ TEST_CASE("the flat sides of an object that its lamps shine on") {
     CHECK(found(R"({"set": {"phase": "ground", "of": {"box": {"size": [1, 1, 1]}}}})").empty());
 }
 
+TEST_CASE("the top of a lake is a flat side under a sun exactly above it") {
+    // The direction to the sun is then the very normal of the side, and no other side sees the sun.
+    const Scene scene = scene_of(R"("water": {"clear": {"ior": 1.33}})",
+                                 R"({"set": {"phase": "water", "of": {"box": {"size": [4, 3, 1]}}}})",
+                                 R"("lights": [{"sun": {"direction": [0, 0, 1]}}, {"constant": {}}])");
+    const World world(scene);
+    REQUIRE(world.flat_boundaries().size() == 1);
+    CHECK(glm::distance(world.flat_boundaries()[0].normal, glm::vec3(0, 0, 1)) < 1e-4f);
+}
+
 TEST_CASE("no direction to a lamp's rim is said to be a direction to the sky") {
     // Rounding puts one in some thousands beyond it; taken as found by the sky's density, it would be a hundred
     // thousand times too bright.

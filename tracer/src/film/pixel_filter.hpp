@@ -3,8 +3,8 @@
 // IEEE Symposium on Interactive Ray Tracing 2006).
 //
 // Filters are separable. Along one axis, over x in [−r, r] pixels:
-//     box              f = 1/2r
-//     Blackman–Harris  f = (a₀ − a₁ cos 2πt + a₂ cos 4πt − a₃ cos 6πt)/(2r a₀),   t = (x + r)/2r
+//     box              f = 1/(2r)
+//     Blackman–Harris  f = (a₀ − a₁ cos 2πt + a₂ cos 4πt − a₃ cos 6πt)/(2r a₀),   t = (x + r)/(2r)
 // with the four-term coefficients of Harris: On the Use of Windows for Harmonic Analysis with the Discrete Fourier
 // Transform, Proc. IEEE 66(1), 1978. Both are non-negative and integrate to 1.
 #pragma once

@@ -64,7 +64,7 @@ LightProposal LightProposal::at(const Surface& surface, const World& world, cons
     const float eta = std::get<Clear>(scene.materials[surface.near_side.phase.index]).ior;
     if (eta == 1.0f) return {p, surface.normal, eta};
     // The line to look along is bent as by a plane parallel to the surface.
-    const glm::vec3 lamp = scene.lights.towards_brightest(p, surface.normal);
+    const glm::vec3 lamp = scene.lights.towards_brightest(p, surface.normal).value_or(surface.normal);
     const std::optional<glm::vec3> line = bent_inward(lamp, surface.normal, eta);
     const std::optional<glm::vec3> met = line ? boundary_along(*line, surface, world, scene, counters) : std::nullopt;
     LightProposal proposal(p, met.value_or(surface.normal), eta);
@@ -97,7 +97,8 @@ std::optional<LightSample> LightProposal::sample(const Lights& lights, glm::vec2
     const glm::vec3& normal = outward_[static_cast<std::size_t>(by - 1)];
     const std::optional<glm::vec3> inside = bent_inward(sample->wi, normal, eta_);
     const std::optional<Outside> outside = inside ? bent_outward(*inside, normal, eta_) : std::nullopt;
-    // At the very rim of a light rounding can put the direction just outside, where it is said to be much rarer.
+    // At the very rim of a light, bending the direction in and out again can put it just outside of the light, where
+    // the density is that of the sky: far less than what was sampled. Such a sample would count far too much.
     if (!outside || !(lights.pdf(p_, outside->direction) > 0.5f * sample->pdf)) return std::nullopt;
     const auto seen = lights.seen(p_, *inside, infinity, false);
     if (!seen) return std::nullopt;

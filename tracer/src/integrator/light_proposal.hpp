@@ -24,8 +24,9 @@ namespace phasetree::tracer {
 class LightProposal {
   public:
     LightProposal() = default;
-    /// For a point p to which light comes in through a plane of this unit normal, which points outward, from a medium
-    /// whose index is 1/eta of that around p. If eta is 1, all directions go straight towards the lights.
+    /// For a point p to which light comes in through a plane of this unit normal, which points outward. eta is
+    /// the refractive index around p divided by that beyond the plane. If it is 1, all directions go straight towards
+    /// the lights.
     LightProposal(const glm::vec3& p, const glm::vec3& outward, float eta)
         : p_(p), outward_{outward}, planes_(eta == 1.0f ? 0 : 1), eta_(eta) {}
     /// Adds another plane through which light comes in.

@@ -17,7 +17,8 @@ float power_heuristic(float a, float b) {
     return 1.0f / (1.0f + q * q);
 }
 
-// A chain longer than this is not followed; paths know it too, so that its light is left to them alone.
+// Shadow rays follow no chain of more interfaces than this. Light at the end of a longer one is left to the directions
+// that BSDFs sample: it then has their weight alone (Chain::weight).
 constexpr int longest_chain = 128;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -38,8 +39,10 @@ Ray continued(const Surface& surface, const Frame& frame, const BsdfSample& samp
     return sample.transmitted ? surface.transmitted(direction) : surface.reflected(direction);
 }
 
-// E of path.hpp along a ray that was sampled: the emission at the end of one chain of smooth clear interfaces, times
-// what the media and refraction leave of it.
+// One random sample of E (path.hpp) along a shadow ray: the emission at the end of a chain of smooth clear interfaces,
+// each of which reflects or refracts the ray at random, times the transmittance of the media and the weights of the
+// interfaces. Up to its first interface the ray goes straight to the light that was sampled, which is known; after that
+// it is asked what light it sees.
 glm::vec3 emission_through_chain(const World& world, const Scene& scene, Ray ray, const LightSample& sampled,
                                  Sampler& sampler, PathCounters& counters) {
     glm::vec3 throughput(1.0f);
@@ -74,8 +77,8 @@ glm::vec3 emission_through_chain(const World& world, const Scene& scene, Ray ray
 // What a path remembers of the last place where light was sampled. The weight of emission that it finds at the end of a
 // chain depends on it.
 struct Chain {
-    std::optional<float>
-        pdf;  // of the BSDF, for the direction with which the chain began; none if no light was sampled
+    // Of the BSDF, for the direction with which the chain began; none if lights were not sampled there.
+    std::optional<float> pdf;
     LightProposal proposal{};
     glm::vec3 direction{0};
     int length = 0;
@@ -102,22 +105,22 @@ class Path {
             const Hit hit = world_.geometry().intersect(ray_, counters_);
             const Surface* surface = std::get_if<Surface>(&hit);
             const float distance = surface ? surface->distance : infinity;
-            if (sees_light(distance) || !surface) break;
+            if (add_emission(distance) || !surface) break;
             throughput_ *= transmittance(clear_at(scene_, ray_.phase).interior, distance);
             ++depth;
             const Bsdf bsdf = surface->bsdf();
-            if (bsdf.passes_through()) {  // equal indices are no event at all
+            if (bsdf.passes_through()) {  // equal indices scatter nothing, but do count for max_depth
                 ray_ = surface->transmitted(ray_.direction);
                 continue;
             }
-            if (!scatter(*surface, bsdf) || !survives(depth)) break;
+            if (!scatter_and_continue(*surface, bsdf) || !roulette(depth)) break;
         }
         return radiance_;
     }
 
   private:
-    // Adds what the ray sees of lights in front of the distance. Then the path is at its end.
-    bool sees_light(float distance) {
+    // Adds the emission of the light that the ray meets before the distance. Whether there is one: the path then ends.
+    bool add_emission(float distance) {
         const auto light = scene_.lights.seen(ray_.origin, ray_.direction, distance, is_camera_ray_);
         if (!light) return false;
         const Medium& medium = clear_at(scene_, ray_.phase).interior;
@@ -126,8 +129,8 @@ class Path {
         return true;
     }
 
-    // Light from the lights, and the path's next ray. Whether there is one.
-    bool scatter(const Surface& surface, const Bsdf& bsdf) {
+    // Adds direct light, and samples the path's next ray. Whether there is one.
+    bool scatter_and_continue(const Surface& surface, const Bsdf& bsdf) {
         ++counters_.interactions;
         is_camera_ray_ = false;
         const Frame frame(surface.normal);
@@ -147,7 +150,7 @@ class Path {
         else if (is_link(bsdf, surface))
             ++chain_.length;
         else
-            chain_ = {};  // a mirror, where no light was sampled
+            chain_ = {};  // a delta lobe that shadow rays cannot follow: that of a mirror or of a smooth coat
         return true;
     }
 
@@ -165,7 +168,8 @@ class Path {
     }
 
     // Russian roulette on what the path can still bring to the camera: radiance over η² is what refraction preserves.
-    bool survives(int depth) {
+    // Whether the path goes on.
+    bool roulette(int depth) {
         const float ior = clear_at(scene_, ray_.phase).ior / camera_ior_;
         const float worth = std::max({throughput_.x, throughput_.y, throughput_.z}) * ior * ior;
         if (!(worth > 0)) return false;

@@ -57,7 +57,7 @@ float Lights::fluences(const glm::vec3& p, std::span<float> fluence) const {
 float Lights::pdf(const glm::vec3& p, const glm::vec3& direction) const {
     Scratch scratch(size());
     const float total = fluences(p, scratch);
-    if (!(total > 0.0f)) return 0.0f;
+    if (!(total > 0.0f) || total == infinity) return 0.0f;  // as sample() has it
     const std::span<const float> fluence = scratch.values();
     float sum = 0.0f;
     std::size_t index = 0;
@@ -133,10 +133,10 @@ std::optional<LightSample> Lights::sample(const glm::vec3& p, glm::vec2 u) const
     return LightSample{wi, infinity, infinite_radiance(wi), density};
 }
 
-glm::vec3 Lights::towards_brightest(const glm::vec3& p, const glm::vec3& normal) const {
+std::optional<glm::vec3> Lights::towards_brightest(const glm::vec3& p, const glm::vec3& normal) const {
     Scratch scratch(size());
     fluences(p, scratch);
-    glm::vec3 brightest = normal;
+    std::optional<glm::vec3> brightest;
     float most = 0.0f;
     std::size_t index = 0;
     const auto consider = [&](const auto& direction_of) {
@@ -145,7 +145,7 @@ glm::vec3 Lights::towards_brightest(const glm::vec3& p, const glm::vec3& normal)
         const std::optional<glm::vec3> direction = direction_of();
         if (!direction || !(glm::dot(*direction, normal) > 0.0f)) return;
         most = fluence;
-        brightest = *direction;
+        brightest = direction;
     };
     for (const InfiniteLight& any : infinite_)
         consider([&] { return std::visit([](const auto& light) { return light.centre_direction(); }, any); });

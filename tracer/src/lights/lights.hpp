@@ -60,9 +60,9 @@ class Lights {
     /// The density of sample() at p per steradian.
     float pdf(const glm::vec3& p, const glm::vec3& direction) const;
 
-    /// Towards the brightest light that has a place, of those on the side of p that the normal points to; the normal if
+    /// Towards the brightest light that has a place, of those on the side of p that the normal points to; nothing if
     /// there is none.
-    glm::vec3 towards_brightest(const glm::vec3& p, const glm::vec3& normal) const;
+    std::optional<glm::vec3> towards_brightest(const glm::vec3& p, const glm::vec3& normal) const;
 
   private:
     std::size_t size() const { return infinite_.size() + area_.size(); }

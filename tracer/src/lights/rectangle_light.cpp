@@ -48,7 +48,10 @@ double excess(const Turn& a, const Turn& b) {
 
 }  // namespace
 
-// The spherical rectangle, in the frame of p: the rectangle is [x0, x1] × [y0, y1] in the plane z = −depth.
+// The spherical rectangle, in the frame of p: the rectangle is [x0, x1] × [y0, y1] in the plane z = −depth. b0, b1 and
+// k are those of Ureña et al. 2013: the z components of the normals of the planes through p and the edges y0 and y1,
+// and k = 2π − γ₂ − γ₃, where γ₂ and γ₃ are the inner angles at the ends of the edge x0. sample() has their fu, cu, xu,
+// h0 and h1 by the same names.
 struct RectangleLight::View {
     double x0, x1, y0, y1, depth;
     double solid_angle = 0.0;

@@ -1,8 +1,8 @@
 // A sphere whose surface emits the radiance L uniformly, outwards and inwards.
 //
-// From outside, at distance d, it fills the cone of half-angle asin(r/d), which is sampled uniformly: p = 1/(2π(1 − cos
-// α)). From inside it fills the whole sphere of directions: p = 1/4π. A surface element at distance d that sees all of
-// it receives E = πL (r/d)² cos θ.
+// From outside, at distance d, it fills the cone of half-angle α = asin(r/d), which is sampled uniformly:
+// p = 1/(2π(1 − cos α)). From inside it fills the whole sphere of directions: p = 1/(4π). A surface element at distance
+// d that sees all of it receives E = πL (r/d)² cos θ.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -1,8 +1,8 @@
-// The sun: a disk of constant radiance L infinitely far away, of angular radius α.
+// The sun: a disk of constant radiance L infinitely far away, of angular diameter δ.
 //
-// It is described by the irradiance E⊥ it gives a surface that faces it; L = E⊥/(π sin²α). So a larger sun softens
-// shadows and caustics and leaves the exposure as it is. Sampled uniformly in its cone, p = 1/(2π(1 − cos α)); a
-// surface whose whole upper half-space holds the disk receives E = Lπ sin²α cos θ.
+// It is described by the irradiance E⊥ it gives a surface that faces it; L = E⊥/(π sin²(δ/2)). So a larger sun softens
+// shadows and caustics and leaves the exposure as it is. Sampled uniformly in its cone, p = 1/(2π(1 − cos(δ/2))); a
+// surface whose whole upper half-space holds the disk receives E = Lπ sin²(δ/2) cos θ.
 //
 // Directions are floats, so one that was sampled in the disk may lie outside of it by a rounding error. The disk
 // therefore reaches that much farther where it is asked what is seen in a direction: otherwise the light of what was
@@ -42,12 +42,12 @@ class Sun {
     glm::vec3 direction_;
     glm::vec3 radiance_;
     float squared_chord_;  // from the middle to as far as the disk reaches
-    float cap_height_;     // 1 − cos α, of which nothing would be left if cos α were stored
+    float cap_height_;     // 1 − cos(δ/2), of which nothing would be left if the cosine were stored
 };
 
 // As a scene file says it.
 struct SunParameters {
-    static constexpr KindInfo info{"sun", "A disk of constant radiance infinitely far away.", "L = E/(π sin²(α/2))"};
+    static constexpr KindInfo info{"sun", "A disk of constant radiance infinitely far away.", "L = E/(π sin²(δ/2))"};
 
     glm::vec3 direction{0.0f, 0.0f, 1.0f};
     glm::vec3 irradiance{1.0f};
@@ -61,7 +61,7 @@ struct SunParameters {
                                            limits::non_negative, true}});
         v(&P::angular_diameter_degrees,
           Parameter{"diameter", "degrees",
-                    "Angular diameter, α. A larger sun makes softer shadows of the same brightness.",
+                    "Angular diameter, δ. A larger sun makes softer shadows of the same brightness.",
                     Limits{.low = 0, .high = 90, .low_open = true}, true});
     }
     Sun made() const { return Sun(direction, irradiance, angular_diameter_degrees); }

@@ -19,7 +19,7 @@ struct RenderJob {
 
 struct Rendering {
     Image image;
-    int samples = 0;  ///< per pixel that the image holds: fewer than asked if cancelled
+    int samples = 0;  ///< in each pixel of the image: fewer than asked if the rendering was cancelled
     bool cancelled = false;
     double seconds = 0;
     int threads = 0;

@@ -62,7 +62,8 @@ AvailableThreads::AvailableThreads(int wanted)
             "processes is reached");
     count_ = std::min(wanted_, there);
     limit_.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count_));
-    // They can do without. OpenImageIO asks for its own when it first needs them.
+    // OpenImageIO and OpenEXR can work on the calling thread alone. OpenImageIO reads the environment variable when it
+    // first needs its threads; exr_threads = -1 says that OpenEXR starts none.
     ::setenv("OPENIMAGEIO_THREADS", "1", 1);
     OIIO::attribute("exr_threads", -1);
 }

@@ -19,8 +19,9 @@ struct ImageParameters : RenderSettings {
         v(&P::height, Parameter{"height", "pixels", "Height of the image.", Limits{.low = 1, .high = 32768}, true});
         v(&P::samples, Parameter{"samples", "", "Paths of each pixel.", Limits{.low = 1, .high = 1 << 24}, true});
         v(&P::seed, Parameter{"seed", "", "Another whole number gives other noise.", limits::non_negative, true});
-        v(&P::max_depth, Parameter{"max_depth", "", "The most interactions of a path with surfaces.",
-                                   Limits{.low = 1, .high = 1 << 20}, true});
+        v(&P::max_depth,
+          Parameter{"max_depth", "", "The most surfaces that a path meets. One between equal indices counts, too.",
+                    Limits{.low = 1, .high = 1 << 20}, true});
         v(&P::exposure_ev, Parameter{"exposure", "EV", "Brightness of pictures; one more is twice as bright.",
                                      Limits{.low = -50, .high = 50}, true});
         v(&P::view,

@@ -26,8 +26,9 @@ struct Mesh {
 struct RenderSettings {
     int samples = 64;  // per pixel
     std::uint32_t seed = 0;
-    // Interactions of a path. Roulette ends it long before where light is absorbed; in lossless glass a few paths in a
-    // million circle for thousands, and cutting those loses light.
+    // The most surfaces that a path meets, those between equal indices included; what it would bring beyond is lost.
+    // Roulette ends paths long before where light is absorbed. In lossless glass a few in a million meet thousands of
+    // surfaces, and to cut those off would lose light.
     int max_depth = 1 << 16;
     float exposure_ev = 0.0f;
     std::optional<std::string> view;  // of the display transform

@@ -27,6 +27,7 @@ struct TexturedOptics {
     std::shared_ptr<const CoatingAlbedo> coating;  ///< none for a plain diffuse surface
 };
 
+/// The optics of an ordered pair of materials: of any surface, also a mesh's, where a ray in the one meets the other.
 class Interface {
   public:
     /// `from` is the material the ray is in, `to` the one it meets.

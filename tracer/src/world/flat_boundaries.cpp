@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "shading/frame.hpp"
 #include "world/traced_geometry.hpp"
@@ -13,8 +14,8 @@ namespace {
 
 constexpr int rows = 32, rays_per_light = rows * rows;
 
-// A side is flat if it is met by so many rays at least, and by this share of all rays that enter. A cylinder sends a
-// hundredth of them in one direction.
+// A side is flat if it is met by so many rays at least, and by this share of all rays that enter. On the curved side of
+// a cylinder about a hundredth of the rays meet normals that count as one.
 constexpr int least_rays = 4;
 constexpr float least_share = 1.0f / 40;
 constexpr std::size_t max_directions = 256;
@@ -67,8 +68,8 @@ std::vector<glm::vec3> directions_to_lights(const Lights& lights, const glm::vec
         for (const float sign : {-1.0f, 1.0f}) {
             glm::vec3 up(0.0f);
             up[axis] = sign;
-            const glm::vec3 light = lights.towards_brightest(centre, up);
-            if (light != up && std::ranges::find(directions, light) == directions.end()) directions.push_back(light);
+            const std::optional<glm::vec3> light = lights.towards_brightest(centre, up);
+            if (light && std::ranges::find(directions, *light) == directions.end()) directions.push_back(*light);
         }
     return directions;
 }

@@ -1,5 +1,5 @@
 // What a ray meets. An answer holds only what its case has: nothing has to be recognised by a value that stands for
-// something else. A point in a scattering medium will be one more case of Hit.
+// something else.
 #pragma once
 
 #include <functional>

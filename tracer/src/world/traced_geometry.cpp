@@ -18,7 +18,8 @@ namespace {
 constexpr unsigned object_id = 0;
 constexpr unsigned first_mesh_id = object_id + 1;
 
-// Relative to the object's size, and to the coordinates of the point.
+// By how much a ray that leaves a mesh is moved off it: this share of the object's diagonal, or of the point's largest
+// coordinate (which counts as 1 m at least), whichever is more.
 constexpr float relative_surface_epsilon = 1e-5f;
 
 std::shared_ptr<const InterfaceCells> prepared(const Scene& scene, const WorldOptions& wanted) {
@@ -64,7 +65,7 @@ TracedGeometry::DeviceHandle TracedGeometry::start_embree() {
 TracedGeometry::SceneHandle TracedGeometry::embree_scene(RTCDevice device, const embree::CellGeometry& tree,
                                                          const std::vector<Mesh>& meshes) {
     SceneHandle scene(rtcNewScene(device));
-    // Of many small triangles the nearest is found, whatever their order: exactness comes before speed.
+    // Without this flag Embree may miss a triangle that is met near its edge: exactness comes before speed.
     rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
     rtcCommitGeometry(tree.handle());
     rtcAttachGeometryByID(scene.get(), tree.handle(), object_id);
@@ -145,10 +146,10 @@ Surface TracedGeometry::surface_of_mesh(const Ray& ray, const RTCRayHit& hit) co
         // Where the ray grazes, the shading normal may face away from it, and the flat one is kept.
         if (glm::dot(n, ray.direction) < 0) shading = n;
     }
-    const float size = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), 1.0f});
+    const float largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), 1.0f});
     return {.distance = hit.ray.tfar,
             .normal = shading,
-            .near_side = {p + flat * std::max(surface_epsilon_, relative_surface_epsilon * size), ray.phase},
+            .near_side = {p + flat * std::max(surface_epsilon_, relative_surface_epsilon * largest), ray.phase},
             .far_side = std::nullopt,
             .optics = mesh_interfaces_[index * scene_.materials.size() + ray.phase.index],
             .hint = {}};

@@ -8,7 +8,10 @@ Query& query_of(Context* context) {
     return *reinterpret_cast<Query*>(context);
 }
 
-/// What the query knows of how its ray leaves this cell.
+// What the query knows of how its ray leaves the interface where it starts, if it starts in this cell. The gradient is
+// that of the signed distance of `from`, which is negative in `from` and rises into the other phase. The hint is the
+// rise of the distance from the interface on the side where the ray is: in `from` that is the negative of the signed
+// distance, and its derivative has the other sign.
 template <class Arguments>
 std::optional<LeavingHint> leaving_hint_of(const Arguments& arguments, const Query& query, const ObjectInstance& object,
                                            const RTCRay& ray, std::optional<Phase> carried) {
@@ -18,14 +21,14 @@ std::optional<LeavingHint> leaving_hint_of(const Arguments& arguments, const Que
     return LeavingHint{carried == start.from ? -along : along};
 }
 
-/// The first crossing in the cell; nothing where there is no memory for it, which the query then knows.
+// The first crossing in the cell; nothing where there is no memory for it, which the query then knows.
 template <class Arguments>
 std::optional<Crossing> search(const InterfaceCells& cells, const Arguments& arguments, Query& query,
                                const RTCRay& ray) noexcept {
     try {
         if (!query.seen.is(ray)) query.seen = SeenRay::of(ray);
         const ObjectInstance object = ObjectInstance::of(*arguments.context, arguments.geomID);
-        const std::optional<Phase> carried = RayPhases::find(query.media, query.elsewhere, object);
+        const std::optional<Phase> carried = RayPhases::find(query.carried, query.elsewhere, object);
         return search_cell(cells, arguments.primID, query.seen, ray, carried,
                            leaving_hint_of(arguments, query, object, ray, carried), query.counters);
     } catch (const std::bad_alloc&) {
@@ -36,7 +39,7 @@ std::optional<Crossing> search(const InterfaceCells& cells, const Arguments& arg
 
 }  // namespace
 
-void intersect_cell(const InterfaceCells& cells, const RTCIntersectFunctionNArguments* arguments) noexcept {
+void intersect_cell_for_query(const InterfaceCells& cells, const RTCIntersectFunctionNArguments* arguments) noexcept {
     if (arguments->valid[0] != -1) return;
     Query& query = query_of(arguments->context);
     RTCRay& ray = reinterpret_cast<RTCRayHit*>(arguments->rayhit)->ray;
@@ -48,7 +51,7 @@ void intersect_cell(const InterfaceCells& cells, const RTCIntersectFunctionNArgu
     query.crossing = *crossing;
 }
 
-void occluded_cell(const InterfaceCells& cells, const RTCOccludedFunctionNArguments* arguments) noexcept {
+void occluded_cell_for_query(const InterfaceCells& cells, const RTCOccludedFunctionNArguments* arguments) noexcept {
     if (arguments->valid[0] != -1) return;
     const RTCRay& ray = *reinterpret_cast<const RTCRay*>(arguments->ray);
     if (search(cells, *arguments, query_of(arguments->context), ray)) write_occlusion(arguments->ray, 1, 0);

@@ -21,8 +21,8 @@ inline void write_bounds(RTCBounds& out, const Bounds& box) {
 }
 
 /// For a single ray whose context is a Query. The hit's normal is not evaluated: Ng is against the ray.
-void intersect_cell(const InterfaceCells&, const RTCIntersectFunctionNArguments*) noexcept;
-void occluded_cell(const InterfaceCells&, const RTCOccludedFunctionNArguments*) noexcept;
+void intersect_cell_for_query(const InterfaceCells&, const RTCIntersectFunctionNArguments*) noexcept;
+void occluded_cell_for_query(const InterfaceCells&, const RTCOccludedFunctionNArguments*) noexcept;
 
 /// For any packet and any context. Calls carried(i) for the phase that lane i carries, if it does, and hit(i, crossing,
 /// ray as seen) for each lane whose ray crosses an interface in the cell; for no more of them where memory ends, since
@@ -43,8 +43,8 @@ void each_crossing(const InterfaceCells& cells, const Arguments& arguments, RTCR
 
 /// Writes the packet's hits, and tells report(i, crossing, length of the lane's direction) of each.
 template <class Carried, class Report>
-void intersect_cell(const InterfaceCells& cells, const RTCIntersectFunctionNArguments& arguments, Carried&& carried,
-                    Report&& report) noexcept {
+void intersect_cell_for_packet(const InterfaceCells& cells, const RTCIntersectFunctionNArguments& arguments,
+                               Carried&& carried, Report&& report) noexcept {
     const unsigned n = arguments.N, cell = arguments.primID;
     RTCRayN* const rays = RTCRayHitN_RayN(arguments.rayhit, n);
     each_crossing(cells, arguments, rays, carried, [&](unsigned i, const Crossing& crossing, const SeenRay& seen) {
@@ -58,9 +58,10 @@ void intersect_cell(const InterfaceCells& cells, const RTCIntersectFunctionNArgu
     });
 }
 
+/// Marks the rays of the packet that cross an interface in the cell as occluded.
 template <class Carried>
-void occluded_cell(const InterfaceCells& cells, const RTCOccludedFunctionNArguments& arguments,
-                   Carried&& carried) noexcept {
+void occluded_cell_for_packet(const InterfaceCells& cells, const RTCOccludedFunctionNArguments& arguments,
+                              Carried&& carried) noexcept {
     each_crossing(cells, arguments, arguments.ray, carried,
                   [&](unsigned i, const Crossing&, const SeenRay&) { write_occlusion(arguments.ray, arguments.N, i); });
 }

@@ -17,11 +17,11 @@ void bounds(const RTCBoundsFunctionArguments* arguments) {
 }
 
 void intersect_query(const RTCIntersectFunctionNArguments* arguments) noexcept {
-    intersect_cell(cells_of(arguments->geometryUserPtr), arguments);
+    intersect_cell_for_query(cells_of(arguments->geometryUserPtr), arguments);
 }
 
 void occluded_query(const RTCOccludedFunctionNArguments* arguments) noexcept {
-    occluded_cell(cells_of(arguments->geometryUserPtr), arguments);
+    occluded_cell_for_query(cells_of(arguments->geometryUserPtr), arguments);
 }
 
 std::optional<Phase> nothing_carried(unsigned /*lane*/) {
@@ -29,12 +29,12 @@ std::optional<Phase> nothing_carried(unsigned /*lane*/) {
 }
 
 void intersect_packet(const RTCIntersectFunctionNArguments* arguments) noexcept {
-    intersect_cell(cells_of(arguments->geometryUserPtr), *arguments, nothing_carried,
-                   [](unsigned /*lane*/, const Crossing&, float /*length*/) {});
+    intersect_cell_for_packet(cells_of(arguments->geometryUserPtr), *arguments, nothing_carried,
+                              [](unsigned /*lane*/, const Crossing&, float /*length*/) {});
 }
 
 void occluded_packet(const RTCOccludedFunctionNArguments* arguments) noexcept {
-    occluded_cell(cells_of(arguments->geometryUserPtr), *arguments, nothing_carried);
+    occluded_cell_for_packet(cells_of(arguments->geometryUserPtr), *arguments, nothing_carried);
 }
 
 }  // namespace

@@ -15,8 +15,10 @@ namespace phasetree::embree {
 ///     primID       the cell
 /// A ray's direction may have any length. Rays with numbers that are not finite hit nothing.
 ///
-/// Cells reach into each other, and Embree asks them in any order. So the nearest hit is right, and whether there is
-/// any, but a filter function would see some crossings twice: where it matters use CellScene.
+/// The boxes of neighbouring cells overlap a little, so that a crossing at a common face is lost to neither by
+/// rounding: it may be found in both. Embree asks cells in any order and keeps the nearest hit, so a crossing that is
+/// found twice is one hit all the same, and the nearest hit is right, and whether there is any. But a filter function
+/// would see some crossings twice: where it matters use CellScene.
 ///
 /// Owns the handle and what its callbacks read: must outlive every scene that it is attached to. The geometry is not
 /// committed; do so before attaching, as with any other. Any thread may trace.

@@ -7,7 +7,7 @@ namespace phasetree::embree {
 /// An object's cells in an Embree scene of their own: rays find their first crossing, whole and in order. Immutable;
 /// any thread may trace.
 ///
-/// Cells as primitives of the host's own scene (CellGeometry) are faster, by a tenth to a quarter. But Embree asks
+/// Cells as primitives of the host's own scene (CellGeometry) are faster, by a tenth to a third. But Embree asks
 /// cells in any order and each knows only its own span of the ray. That tells which crossing is the first; it cannot
 /// tell a filter function each crossing once, because cells reach into each other, nor which phase a ray is in that a
 /// filter has let through. A scene within makes both simple.

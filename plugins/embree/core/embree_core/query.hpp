@@ -19,17 +19,19 @@ struct StartHint {
 /// CellGeometry::Options::rays_carry_phases.
 struct Query {
     Context context;
-    /// In: the phases that the ray is in, of the objects in `media`, which is the caller's, and of all others. With
-    /// neither every object takes the phase at the ray's start (RayPhases). And how the ray starts.
-    std::span<const Medium> media;
+    /// In: the phases that the ray is in, of some objects. The caller owns what the span refers to.
+    std::span<const CarriedPhase> carried;
+    /// In: the phase that the ray is in of all other objects. Without a value each takes the phase at the ray's start.
     std::optional<Phase> elsewhere;
+    /// In: the crossing at which the ray starts, if it starts at one.
     StartHint start;
     /// Out: the crossing behind the last hit that an object reported, in that object's own space. If the ray's final
     /// hit is an object's, this is that hit's; the hit's primID is the cell, whose InterfaceCells::normal gives the
     /// normal, and ObjectInstance::of(hit) is the object whose phase changes.
     Crossing crossing;
+    /// Out: what the searches of all cells have cost, added to what was there.
     TraceCounters counters;
-    /// A cell could not be searched for want of memory, so the hit may be wrong. Embree lets no exception through.
+    /// Out: a cell could not be searched for want of memory, so the hit may be wrong. Embree lets no exception through.
     bool is_out_of_memory = false;
     /// The last ray that came, which stays the same from cell to cell of one object.
     SeenRay seen;
@@ -38,7 +40,7 @@ struct Query {
 
     /// The ray is in these phases, which must outlive the query.
     void carry(const RayPhases& phases) {
-        media = phases.media();
+        carried = phases.carried();
         elsewhere = phases.elsewhere();
     }
     void carry(RayPhases&&) = delete;

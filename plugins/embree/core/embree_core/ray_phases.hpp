@@ -10,13 +10,13 @@
 
 namespace phasetree::embree {
 
-/// That a ray is in a phase of an object.
-struct Medium {
+/// The phase of one object that a ray is in and carries from hit to hit.
+struct CarriedPhase {
     ObjectInstance object;
     Phase phase;
 };
 
-/// The phases that a ray is in, one for each object: the media that it carries from hit to hit. Objects may overlap; a
+/// The phases that a ray is in, one for each object, which it carries from hit to hit. Objects may overlap; a
 /// hit changes the phase of its own object and of no other.
 class RayPhases {
   public:
@@ -27,29 +27,29 @@ class RayPhases {
     explicit RayPhases(std::optional<Phase> elsewhere) : elsewhere_(elsewhere) {}
 
     /// The phase for an object; nothing where it is that at the ray's start.
-    std::optional<Phase> of(const ObjectInstance& object) const { return find(media_, elsewhere_, object); }
+    std::optional<Phase> of(const ObjectInstance& object) const { return find(carried_, elsewhere_, object); }
     /// From here on the ray is in this phase of an object.
     void set(const ObjectInstance& object, Phase phase) {
-        const auto known = std::ranges::find(media_, object, &Medium::object);
-        if (known == media_.end())
-            media_.push_back({object, phase});
+        const auto known = std::ranges::find(carried_, object, &CarriedPhase::object);
+        if (known == carried_.end())
+            carried_.push_back({object, phase});
         else
             known->phase = phase;
     }
 
-    std::span<const Medium> media() const { return media_; }
+    std::span<const CarriedPhase> carried() const { return carried_; }
     std::optional<Phase> elsewhere() const { return elsewhere_; }
 
-    /// The phase of an object among media, or `elsewhere` if it is not among them.
-    static std::optional<Phase> find(std::span<const Medium> media, std::optional<Phase> elsewhere,
+    /// The phase of an object among those carried, or `elsewhere` if it is not among them.
+    static std::optional<Phase> find(std::span<const CarriedPhase> carried, std::optional<Phase> elsewhere,
                                      const ObjectInstance& object) {
-        for (const Medium& medium : media)
-            if (medium.object == object) return medium.phase;
+        for (const CarriedPhase& known : carried)
+            if (known.object == object) return known.phase;
         return elsewhere;
     }
 
   private:
-    std::vector<Medium> media_;
+    std::vector<CarriedPhase> carried_;
     std::optional<Phase> elsewhere_;
 };
 

@@ -1,4 +1,4 @@
-/// From the application's options to an object with its cells.
+// From the application's options to an object with its cells.
 
 #include "api/build.hpp"
 
@@ -110,7 +110,8 @@ std::unique_ptr<const Object> build_object(RTCDevice device, const Phased& tree,
                                            const PhasetreeGeometryOptions& options, unsigned flags) {
     const CellOptions with = cell_options(options);
     const auto cells = std::make_shared<const InterfaceCells>(tree, with);
-    if (with.cancelled && with.cancelled()) throw BuildCancelled();  // by the last it was told
+    // When progress is told of 1, last of all, it may end the call, and nothing asks after that.
+    if (with.cancelled && with.cancelled()) throw BuildCancelled();
     return object_of(device, cells, flags);
 }
 

@@ -1,4 +1,4 @@
-/// What Embree calls while it builds and traces.
+// What Embree calls while it builds and traces.
 
 #include "api/packet.hpp"
 #include "embree_core/cell_callbacks.hpp"
@@ -8,13 +8,13 @@ namespace phasetree::embree::api {
 
 namespace {
 
-/// For a geometry whose primitives are the cells: the lanes' carried phases come from the application's context, and
-/// crossings go there.
+// For a geometry whose primitives are the cells: the lanes' carried phases come from the application's context, and
+// crossings go there.
 void trace_cell(const GeometryData& data, const RTCIntersectFunctionNArguments& arguments) {
     const PhasetreeRayContext* const context = extended(data, arguments.context);
     RTCRayN* const rays = RTCRayHitN_RayN(arguments.rayhit, arguments.N);
-    const auto ray = [&](unsigned i) { return ray_of(context, RTCRayN_id(rays, arguments.N, i)); };
-    intersect_cell(
+    const auto ray = [&](unsigned i) { return extended_ray_of(context, RTCRayN_id(rays, arguments.N, i)); };
+    intersect_cell_for_packet(
         data.object->cells(), arguments,
         [&](unsigned i) { return carried(ray(i), arguments.geomID, *arguments.context); },
         [&](unsigned i, const Crossing& crossing, float length) {
@@ -25,16 +25,19 @@ void trace_cell(const GeometryData& data, const RTCIntersectFunctionNArguments& 
 
 void trace_cell(const GeometryData& data, const RTCOccludedFunctionNArguments& arguments) {
     const PhasetreeRayContext* const context = extended(data, arguments.context);
-    occluded_cell(data.object->cells(), arguments, [&](unsigned i) {
-        return carried(ray_of(context, RTCRayN_id(arguments.ray, arguments.N, i)), arguments.geomID,
+    occluded_cell_for_packet(data.object->cells(), arguments, [&](unsigned i) {
+        return carried(extended_ray_of(context, RTCRayN_id(arguments.ray, arguments.N, i)), arguments.geomID,
                        *arguments.context);
     });
 }
 
+// The most rays that Embree asks a callback for at once (rtcIntersect16).
+constexpr unsigned largest_packet = 16;
+
 template <class Arguments>
 void trace(PhasetreeGeometry geometry, const Arguments* arguments) noexcept {
     const GeometryData* data = find(geometry);
-    if (!data || !data->object || arguments->N > 16) return;
+    if (!data || !data->object || arguments->N > largest_packet) return;
     const FlushSubnormals flush;
     if (!data->has_cell_primitives())
         Packet<Arguments>(*data, arguments).trace();

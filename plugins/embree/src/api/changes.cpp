@@ -1,4 +1,4 @@
-/// What may change of a geometry: its tree, which phases show, and where it is.
+// What may change of a geometry: its tree, which phases show, and where it is.
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-/// The closest interface to a point: of one geometry, and for Embree's point queries of a whole scene.
+// The closest interface to a point: of one geometry, and for Embree's point queries of a whole scene.
 
 #include "object/closest.hpp"
 
@@ -14,7 +14,7 @@ float checked_tolerance(float tolerance) {
     return tolerance;
 }
 
-/// In the space that `placement` maps to.
+// In the space that `placement` maps to.
 PhasetreeClosest closest_in(const Object& object, const Placement& placement, const glm::vec3& point, float radius,
                             float tolerance) {
     const FlushSubnormals flush;
@@ -30,7 +30,7 @@ PhasetreeClosest closest_in(const Object& object, const Placement& placement, co
     return result;
 }
 
-/// The innermost instance's map of a point query, or the identity.
+// The innermost instance's map of a point query, or the identity.
 Placement instance_of(const RTCPointQueryContext& context) {
     if (context.instStackSize == 0) return {};
     const float* m = context.inst2world[context.instStackSize - 1];

@@ -1,4 +1,4 @@
-/// The meaning of a hit: where exactly the phases meet, and where that is in the tree.
+// The meaning of a hit: where exactly the phases meet, and where that is in the tree.
 
 #include <algorithm>
 #include <cmath>
@@ -18,16 +18,17 @@ unsigned checked_phase(float coordinate, const char* name) {
     return static_cast<unsigned>(coordinate);
 }
 
-/// A hit's ray in the tree's own space, and what was on the way there.
+// A hit's ray in the tree's own space, up to the hit.
 struct HitRay {
     UnitRay ray;
-    Placement placement;
-    float blur;  ///< in units of the direction given, what a coordinate's rounding can be
+    Placement placement;  // of the tree in geometry space, at the ray's time
+    float blur;           // by how much rounding can have moved the hit, in units of the length of the direction given
 };
 
+// A few roundings of a number, as a share of it.
 constexpr float ulps = 4e-7f;
 
-/// Throws ApiError where there is no hit, or no way.
+// Throws ApiError where there is no hit, or no way.
 HitRay ray_of_hit(const GeometryData& data, const RTCRayHit& rayhit, const float* object_to_world) {
     if (rayhit.hit.geomID == RTC_INVALID_GEOMETRY_ID) throw not_now("the ray hit nothing");
     const bool is_instanced = rayhit.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
@@ -53,16 +54,16 @@ HitRay ray_of_hit(const GeometryData& data, const RTCRayHit& rayhit, const float
     return {*ray, placement, blur};
 }
 
-/// The bracket again: what changes from one phase to the other within a few resolutions of t. The cell that the hit
-/// names has found it and knows it still; if not, because the hit comes from elsewhere, all cells are asked.
+// The bracket again: what changes from one phase to the other within a few resolutions of t. The cell that the hit
+// names has found it and knows it still; if not, because the hit comes from elsewhere, all cells are asked.
 std::optional<Crossing> bracket(const Object& object, unsigned cell, const UnitRay& ray, Phase from, Phase to) {
     const float resolution = object.cells().resolution();
     const float t = ray.far;
-    // Distances along the ray are known to some ulps of themselves.
-    const float slack = 4 * resolution + 4e-7f * t;
+    // Distances along the ray are known to some roundings of themselves.
+    const float slack = 4 * resolution + ulps * t;
     const float start = std::max(t - slack, ray.near), end = t + 2 * slack;
     TraceCounters unused;
-    // As the walk below asks it, where a direction's length may be rounded.
+    // The walk below multiplies distances by the direction's rounded length. So does this, to ask for the same span.
     const float length = glm::length(ray.direction);
     const auto own = object.cells().first_crossing(cell, TracedRay(ray.origin, ray.direction), start * length,
                                                    end * length, from, std::nullopt, unused);
@@ -76,8 +77,8 @@ std::optional<Crossing> bracket(const Object& object, unsigned cell, const UnitR
     return std::nullopt;
 }
 
-/// Moves a bracket's far end on, by less than two resolutions, to where the phase is the same within `blur`: a ray that
-/// is given to Embree anew, and rounded on its way to us, then still starts in it.
+// Moves a bracket's far end on, by less than two resolutions, to where the phase is the same within `blur`: a ray that
+// is given to Embree anew, and rounded on its way to us, then still starts in it.
 void move_on(Crossing& c, const InterfaceCells& cells, unsigned cell, const glm::vec3& direction, float blur) {
     BatchOfFloats t;
     for (std::size_t i = 0; i < batch_size; ++i) t[i] = cells.resolution() * (2.f / batch_size) * static_cast<float>(i);

@@ -1,4 +1,4 @@
-/// Edits of a scene's text in place, so that comments, layout and the lines that errors name stay the author's.
+// Edits of a scene's text in place, so that comments, layout and the lines that errors name stay the author's.
 
 #include <charconv>
 
@@ -8,7 +8,7 @@ namespace phasetree::embree::api {
 
 namespace {
 
-/// A step of a pointer: "~1" is a slash and "~0" a tilde.
+// A step of a pointer: "~1" is a slash and "~0" a tilde.
 std::string unescaped(std::string_view pointer, std::string_view token) {
     std::string text;
     for (std::size_t i = 0; i < token.size(); ++i) {
@@ -53,7 +53,7 @@ Value value_at(const Document& document, std::string_view pointer) {
 
 }  // namespace
 
-/// The text is sound JSON with comments.
+// The text is sound JSON with comments.
 std::size_t end_of(const std::string& text, const Value& value) {
     std::size_t at = value.offset();
     if (!value.is_string() && !value.is_array() && !value.is_object()) return at + value.written().size();

@@ -12,8 +12,8 @@ inline const PhasetreeRayContext* extended(const GeometryData& data, const Conte
     return extended->apiVersion == PHASETREE_API_VERSION ? extended : nullptr;
 }
 
-/// What the context has for a ray's id, or NULL.
-inline PhasetreeRay* ray_of(const PhasetreeRayContext* context, unsigned id) {
+/// The entry of the extended context for the ray of an id, or NULL.
+inline PhasetreeRay* extended_ray_of(const PhasetreeRayContext* context, unsigned id) {
     return context && id < context->rayCount ? context->rays + id : nullptr;
 }
 

@@ -51,7 +51,7 @@ class Packet {
         }
         const auto ray = ray_within(i, placement);
         if (!ray) return;
-        PhasetreeRay* const extended_ray = ray_of(context_, RTCRayN_id(rays_, n_, i));
+        PhasetreeRay* const extended_ray = extended_ray_of(context_, RTCRayN_id(rays_, n_, i));
         const auto phase = carried(extended_ray, arguments_->geomID, *arguments_->context);
         const bool filters = !data_.has(PHASETREE_GEOMETRY_FLAG_NO_FILTERS);
         if (occlusion && !filters && shows_all(data_.shown)) {

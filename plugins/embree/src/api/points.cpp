@@ -1,4 +1,4 @@
-/// Phases and distances at points. One point is asked as many are: eight are evaluated together.
+// Phases and distances at points. One point is asked as many are: eight are evaluated together.
 
 #include "api/points.hpp"
 
@@ -12,7 +12,7 @@ namespace {
 
 using Batch = std::array<BatchOfFloats, 3>;
 
-/// Φ at each point of a batch.
+// Φ at each point of a batch.
 std::array<Phases<float>, batch_size> distances(const Evaluator& whole, const Batch& batch,
                                                 std::vector<BatchOfFloats>& room) {
     const auto& outputs = whole.program().outputs;
@@ -24,8 +24,8 @@ std::array<Phases<float>, batch_size> distances(const Evaluator& whole, const Ba
     return all;
 }
 
-/// The radius of a ball in geometry space that has no interface, about a point of the tree's space where the sampled
-/// distance to one is known.
+// The radius of a ball in geometry space that has no interface, about a point of the tree's space where the sampled
+// distance to one is known.
 float radius_without_interface(const GeometryData& data, const glm::vec3& p, float sampled,
                                const Placement& placement) {
     const InterfaceCells& cells = data.object->cells();
@@ -36,7 +36,7 @@ float radius_without_interface(const GeometryData& data, const glm::vec3& p, flo
                               : static_cast<float>(static_cast<double>(safe) / largest_stretch(placement.inverse));
 }
 
-/// The radii may be NULL.
+// The radii may be NULL.
 void write_phases(const GeometryData& data, const Points& points, unsigned* phases, float* empty_radii) {
     const InterfaceCells& cells = data.object->cells();
     const FlushSubnormals flush;

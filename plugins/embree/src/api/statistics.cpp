@@ -1,4 +1,4 @@
-/// What was built of a geometry.
+// What was built of a geometry.
 
 #include "api/geometry_data.hpp"
 

@@ -1,4 +1,4 @@
-/// What the application keeps with a geometry, which the library never looks at.
+// What the application keeps with a geometry, which the library never looks at.
 
 #include "api/geometry_data.hpp"
 

@@ -1,10 +1,11 @@
-/// Best-first branch and bound over boxes: s(p), the distance within which the label cannot change, excludes a box from
-/// its centre; a ray from the point towards the nearest box that is left meets an interface that is certified on both
-/// sides, and so bounds the distance from above.
+// Best-first branch and bound over boxes: s(p), the distance within which the label cannot change, excludes a box from
+// its centre; a ray from the point towards the nearest box that is left meets an interface that is certified on both
+// sides, and so bounds the distance from above.
 
 #include "object/closest.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <queue>
@@ -13,9 +14,9 @@ namespace phasetree::embree {
 
 namespace {
 
-constexpr int most_batches = 1 << 14;
+constexpr int most_batches = 1 << 14;  // of batch_size points each
 
-/// Distances as the world measures them.
+// Distances as the world measures them.
 class Metric {
   public:
     Metric(const glm::vec3& from, const glm::dmat3& to_world) : from_(from), map_(to_world) {
@@ -31,7 +32,7 @@ class Metric {
     }
 
     double distance(const glm::vec3& p) const { return glm::length(map_ * (glm::dvec3(p) - glm::dvec3(from_))); }
-    /// No point of the box is nearer.
+    // No point of the box is nearer.
     double below(const Bounds& box) const {
         if (is_similarity_) {
             const glm::vec3 nearest = glm::clamp(from_, box.low, box.high);
@@ -41,7 +42,7 @@ class Metric {
         return std::max(0.0, distance(box.centre()) - radius);
     }
     double stretch() const { return stretch_; }
-    /// The radius in the world of a ball of the object's space, from within.
+    // The radius in the world of a ball of the object's space, from within.
     double ball(double radius) const { return shrink_ * radius; }
 
   private:
@@ -57,85 +58,19 @@ struct Candidate {
     bool operator<(const Candidate& other) const { return below > other.below; }  // the nearest on top
 };
 
-}  // namespace
+// The eight parts of each of some boxes, as many as fit into a batch of points.
+struct Octants {
+    std::array<Bounds, batch_size> part;
+    std::size_t count = 0;
 
-Closest find_closest(const CellScene& object, const glm::vec3& point, const glm::dmat3& to_world, float radius,
-                     float tolerance) {
-    const InterfaceCells& cells = object.cells();
-    const Evaluator& whole = cells.whole();
-    Evaluator::Workspace& workspace = Evaluator::thread_workspace();
-    const Metric metric(point, to_world);
-    // What rounding can make of a distance, as the cells reckon.
-    const float rounding = cells.resolution();
-    const double near_enough = 4 * static_cast<double>(cells.resolution()) * metric.stretch();
-
-    // A ball about a point in which no interface passes that a ray can meet: one of a phase that is not opaque.
-    const PhaseSet opaque = cells.opaque();
-    const auto clear_distance = [&](const glm::vec3& p) {
-        const Phases<float> phi = whole.distances(p, workspace);
-        float distance = std::numeric_limits<float>::max();
-        for_each_phase(phi.present & ~opaque.bits, [&](int i) { distance = std::min(distance, std::abs(phi[i])); });
-        return distance;
-    };
-
-    Closest best;
-    double nearest = static_cast<double>(radius);
-    const auto shoot = [&](const glm::vec3& towards, float beyond) {
-        const glm::dvec3 way = glm::dvec3(towards) - glm::dvec3(point);
-        const double length = glm::length(way);
-        if (!(length > 0)) return;
-        const UnitRay ray{point, glm::vec3(way / length), 0, static_cast<float>(length) + beyond};
-        const auto found = object.first_crossing(ray, std::nullopt);
-        if (!found || (opaque.contains(found->crossing.from) && opaque.contains(found->crossing.to))) return;
-        const double distance = metric.distance(found->crossing.p_in);
-        if (distance > nearest || (best.found && distance == nearest)) return;
-        nearest = distance;
-        best.found = true;
-        best.point = found->crossing.p_in;
-        best.here = found->crossing.from;
-        best.there = found->crossing.to;
-    };
-
-    double lower = 0;  // nothing is nearer
-    if (cells.bounds().contains(point)) {
-        const Phases<float> phi = whole.distances(point, workspace);
-        int first = -1, second = -1;
-        for_each_phase(phi.present, [&](int i) {
-            if (first < 0 || phi[i] < phi[first])
-                second = first, first = i;
-            else if (second < 0 || phi[i] < phi[second])
-                second = i;
-        });
-        if (second >= 0) {
-            const float free = opaque.empty() ? phi[second] : clear_distance(point);
-            lower = metric.ball(static_cast<double>(std::max(free - rounding, 0.0f)));
-            const glm::vec3 down = whole.gradient(point, Phase{static_cast<std::uint8_t>(second)});
-            if (glm::length(down) > 0) shoot(point - glm::normalize(down) * std::max(2 * phi[second], 8 * rounding), 0);
+    bool has_room() const { return count + 8 <= batch_size; }
+    void add_parts_of(const Bounds& box) {
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::vec3 c = box.centre(), far = box.corner(corner);
+            part[count++] = {glm::min(c, far), glm::max(c, far)};
         }
     }
-
-    std::priority_queue<Candidate> left;
-    left.push({metric.below(cells.bounds()), cells.bounds()});
-    double floor = nearest;  // of what is too small to divide
-    const auto is_done = [&] {
-        if (left.empty()) return true;
-        const double next = std::min(left.top().below, floor);
-        if (next >= nearest) return true;
-        return best.found && (next >= nearest * (1 - static_cast<double>(tolerance)) || nearest - next <= near_enough);
-    };
-    for (int batches = 0; !is_done() && batches < most_batches; ++batches) {
-        static_assert(batch_size >= 8, "one box's parts must fit");
-        std::array<Bounds, batch_size> part;
-        std::size_t count = 0;
-        while (count + 8 <= batch_size && !left.empty() && left.top().below < nearest) {
-            const Bounds box = left.top().box;
-            left.pop();
-            shoot(box.centre(), box.diagonal());
-            for (int corner = 0; corner < 8; ++corner) {
-                const glm::vec3 c = box.centre(), far = box.corner(corner);
-                part[count++] = {glm::min(c, far), glm::max(c, far)};
-            }
-        }
+    void sample_centres(const Evaluator& evaluator, Samples& samples, Evaluator::Workspace& workspace) const {
         BatchOfFloats x{}, y{}, z{};
         for (std::size_t i = 0; i < batch_size; ++i) {
             const glm::vec3 c = part[std::min(i, count - 1)].centre();
@@ -143,25 +78,139 @@ Closest find_closest(const CellScene& object, const glm::vec3& point, const glm:
             y[i] = c.y;
             z[i] = c.z;
         }
+        evaluator.sample(x, y, z, samples, workspace);
+    }
+};
+static_assert(batch_size >= 8, "one box's parts must fit");
+
+// One search: the closest interface found so far, and the boxes that may have a closer one.
+class Search {
+  public:
+    Search(const CellScene& object, const glm::vec3& point, const glm::dmat3& to_world, float radius, float tolerance)
+        : object_(object),
+          cells_(object.cells()),
+          whole_(cells_.whole()),
+          workspace_(Evaluator::thread_workspace()),
+          point_(point),
+          metric_(point, to_world),
+          tolerance_(static_cast<double>(tolerance)),
+          rounding_(cells_.resolution()),
+          near_enough_(4 * static_cast<double>(cells_.resolution()) * metric_.stretch()),
+          opaque_(cells_.opaque()),
+          nearest_(static_cast<double>(radius)) {}
+
+    Closest run() {
+        if (cells_.bounds().contains(point_)) guess_from_distances();
+        left_.push({metric_.below(cells_.bounds()), cells_.bounds()});
+        nearest_undivided_ = nearest_;
+        for (int batches = 0; !is_done() && batches < most_batches; ++batches) divide_nearest();
+        const double rest = left_.empty() ? nearest_undivided_ : std::min(left_.top().below, nearest_undivided_);
+        best_.empty_radius = static_cast<float>(std::max(lower_, std::min(rest, nearest_)));
+        best_.distance = static_cast<float>(nearest_);
+        if (best_.found) best_.empty_radius = std::min(best_.empty_radius, best_.distance);
+        return best_;
+    }
+
+  private:
+    // The radius of a ball about a point in which no interface passes that counts: the least distance to the boundary
+    // of a phase that is not opaque.
+    float clear_distance(const glm::vec3& p) {
+        const Phases<float> phi = whole_.distances(p, workspace_);
+        float distance = std::numeric_limits<float>::max();
+        for_each_phase(phi.present & ~opaque_.bits, [&](int i) { distance = std::min(distance, std::abs(phi[i])); });
+        return distance;
+    }
+
+    // Keeps the first crossing on the way from the point to another, and so far beyond it, if it is the closest yet.
+    void shoot(const glm::vec3& towards, float beyond) {
+        const glm::dvec3 way = glm::dvec3(towards) - glm::dvec3(point_);
+        const double length = glm::length(way);
+        if (!(length > 0)) return;
+        const UnitRay ray{point_, glm::vec3(way / length), 0, static_cast<float>(length) + beyond};
+        const auto found = object_.first_crossing(ray, std::nullopt);
+        if (!found || (opaque_.contains(found->crossing.from) && opaque_.contains(found->crossing.to))) return;
+        const double distance = metric_.distance(found->crossing.p_in);
+        if (distance > nearest_ || (best_.found && distance == nearest_)) return;
+        nearest_ = distance;
+        best_.found = true;
+        best_.point = found->crossing.p_in;
+        best_.here = found->crossing.from;
+        best_.there = found->crossing.to;
+    }
+
+    // The distances at the point say how far at least the next phase is, and their gradient in which direction.
+    void guess_from_distances() {
+        const Phases<float> phi = whole_.distances(point_, workspace_);
+        int first = -1, second = -1;
+        for_each_phase(phi.present, [&](int i) {
+            if (first < 0 || phi[i] < phi[first])
+                second = first, first = i;
+            else if (second < 0 || phi[i] < phi[second])
+                second = i;
+        });
+        if (second < 0) return;
+        const float free = opaque_.empty() ? phi[second] : clear_distance(point_);
+        lower_ = metric_.ball(static_cast<double>(std::max(free - rounding_, 0.0f)));
+        const glm::vec3 down = whole_.gradient(point_, Phase{static_cast<std::uint8_t>(second)});
+        if (glm::length(down) > 0) shoot(point_ - glm::normalize(down) * std::max(2 * phi[second], 8 * rounding_), 0);
+    }
+
+    bool is_done() const {
+        // What is left, but not nearer, is never divided.
+        if (left_.empty() || !(left_.top().below < nearest_)) return true;
+        const double next = std::min(left_.top().below, nearest_undivided_);
+        if (next >= nearest_) return true;
+        return best_.found && (next >= nearest_ * (1 - tolerance_) || nearest_ - next <= near_enough_);
+    }
+
+    // Divides the nearest boxes into octants, and keeps those that may have a closer interface.
+    void divide_nearest() {
+        Octants octants;
+        while (octants.has_room() && !left_.empty() && left_.top().below < nearest_) {
+            const Bounds box = left_.top().box;
+            left_.pop();
+            shoot(box.centre(), box.diagonal());
+            octants.add_parts_of(box);
+        }
         Samples samples;
-        whole.sample(x, y, z, samples, workspace);
-        for (std::size_t i = 0; i < count; ++i) {
-            const float reach = 0.5f * part[i].diagonal();
-            const float free = opaque.empty() ? samples.distance[i] : clear_distance(part[i].centre());
-            if (free - rounding > reach) continue;
-            const double below = metric.below(part[i]);
-            if (below >= nearest) continue;
-            if (reach < cells.resolution())
-                floor = std::min(floor, below);
+        octants.sample_centres(whole_, samples, workspace_);
+        for (std::size_t i = 0; i < octants.count; ++i) {
+            const Bounds& part = octants.part[i];
+            const float reach = 0.5f * part.diagonal();
+            const float free = opaque_.empty() ? samples.distance[i] : clear_distance(part.centre());
+            if (free - rounding_ > reach) continue;
+            const double below = metric_.below(part);
+            if (below >= nearest_) continue;
+            if (reach < cells_.resolution())
+                nearest_undivided_ = std::min(nearest_undivided_, below);
             else
-                left.push({below, part[i]});
+                left_.push({below, part});
         }
     }
-    const double rest = left.empty() ? floor : std::min(left.top().below, floor);
-    best.empty_radius = static_cast<float>(std::max(lower, std::min(rest, nearest)));
-    best.distance = static_cast<float>(nearest);
-    if (best.found) best.empty_radius = std::min(best.empty_radius, best.distance);
-    return best;
+
+    const CellScene& object_;
+    const InterfaceCells& cells_;
+    const Evaluator& whole_;
+    Evaluator::Workspace& workspace_;
+    const glm::vec3 point_;
+    const Metric metric_;
+    const double tolerance_;
+    const float rounding_;      // what rounding can make of a distance, as the cells reckon
+    const double near_enough_;  // in the world: bounds that differ by no more end the search
+    const PhaseSet opaque_;
+
+    Closest best_;
+    double nearest_;    // the distance of best_, or the radius that is searched; in the world, as those below
+    double lower_ = 0;  // nothing is nearer
+    std::priority_queue<Candidate> left_;
+    double nearest_undivided_ = 0;  // a bound for the boxes that are too small to divide
+};
+
+}  // namespace
+
+Closest find_closest(const CellScene& object, const glm::vec3& point, const glm::dmat3& to_world, float radius,
+                     float tolerance) {
+    return Search(object, point, to_world, radius, tolerance).run();
 }
 
 }  // namespace phasetree::embree

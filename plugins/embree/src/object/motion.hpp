@@ -38,11 +38,13 @@ class Motion {
     };
     Motion(std::vector<Step> steps, float start, float end) : steps_(std::move(steps)), start_(start), end_(end) {}
 
-    /// Whether the object stands in its own space.
+    /// Whether there is no motion: the geometry's space is the object's own.
     bool none() const { return steps_.empty(); }
+    /// Nothing if the map at that time has no inverse. A time before the start or after the end counts as that one.
     std::optional<Placement> at(float time) const;
     unsigned steps() const { return steps_.empty() ? 1 : static_cast<unsigned>(steps_.size()); }
-    /// The box of a box at a time step; linear between them, these hold what moves.
+    /// The bounds of a box's image at a time step. Bounds interpolated linearly between two steps, as Embree does it,
+    /// hold the image in between, since each of its points moves linearly.
     Bounds image(const Bounds& box, unsigned step) const;
 
   private:

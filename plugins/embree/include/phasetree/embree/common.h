@@ -32,7 +32,8 @@ extern "C" {
 #define PHASETREE_API_NUMBER 2
 #define PHASETREE_API_VERSION (100 * PHASETREE_API_NUMBER + RTC_VERSION_MAJOR)
 
-/* Phases have the indices 0 … PHASETREE_MAX_PHASES − 1; 0 is the vacuum, around and within every object. */
+/* Phases have the indices 0 … PHASETREE_MAX_PHASES − 1; 0 is the vacuum, which is around every object and may be
+ * within it. */
 #define PHASETREE_MAX_PHASES 64
 #define PHASETREE_VACUUM 0u
 /* No phase known: see PhasetreeMedium. */
@@ -50,7 +51,7 @@ typedef enum PhasetreeError {
     PHASETREE_ERROR_INVALID_TREE = 3,     /* a scene file or text that is wrong: the message has file, line, column */
     PHASETREE_ERROR_INVALID_OPERATION = 4, /* not now: a hit that is no hit, an instance inside a query without one … */
     PHASETREE_ERROR_VERSION = 5,           /* see PHASETREE_API_VERSION */
-    PHASETREE_ERROR_CANCELLED = 6,         /* by PhasetreeGeometryOptions.cancelled or Embree's memory monitor */
+    PHASETREE_ERROR_CANCELLED = 6,         /* by the options' cancelled or progress, or by Embree's memory monitor */
     PHASETREE_ERROR_OUT_OF_MEMORY = 7,
     PHASETREE_ERROR_EMBREE = 8, /* Embree refused; the message has its error's name */
     PHASETREE_ERROR_UNKNOWN = 9,

@@ -78,7 +78,8 @@ typedef struct PhasetreeClosest {
     bool found;
     /* No interface is nearer than emptyRadius, guaranteed. An interface is at `point`, at `distance`: between places of
      * phase `here` and of phase `there` that are no farther apart than the resolution. Without `found`, emptyRadius is
-     * the radius that was searched and the rest is not set. */
+     * how far certainly no interface is: the radius that was asked for or more, or less where the evaluations came to
+     * their end before; distance is that radius, and the rest is not set. */
     float emptyRadius;
     float distance;
     float point[3];
@@ -93,7 +94,8 @@ typedef struct PhasetreeClosest {
  *               0.001 … 1; it also ends when they are within four resolutions, and after 2^14 evaluations of eight
  *               points at the latest. The larger, the quicker.
  *
- * Searches by branch and bound over the object's cells, in which 1-Lipschitz distances exclude boxes. */
+ * Searches by branch and bound: divides the object's bounds into octants again and again, and excludes those in which
+ * the 1-Lipschitz distances at the middle leave no room for an interface. */
 PHASETREE_API PhasetreeError phasetreeFindClosestInterface(PhasetreeGeometry geometry, const float point[3], float time,
                                                            float radius, float tolerance, PhasetreeClosest* closest);
 
@@ -110,9 +112,10 @@ typedef struct PhasetreePointQuery {
     const PhasetreePointQueryGeometry* geometries;
     unsigned int geometryCount;
     float tolerance; /* see phasetreeFindClosestInterface */
-    /* Out: the closest so far, in world space, and whose. closest.found must be false at first. emptyRadius is not set:
-     * interfaces of the listed geometries nearer than distance·(1 − tolerance), or if nothing was found than the
-     * query's radius, there are none. */
+    /* Out: the closest so far, in world space, and whose. closest.found must be false at first. closest.emptyRadius
+     * is the one around the query's point in the geometry that was found, and says nothing of the others. Of all listed
+     * geometries no interface is nearer than distance·(1 − tolerance), or than the query's radius if nothing was found,
+     * but for the two other ends of a search that phasetreeFindClosestInterface names. */
     PhasetreeClosest closest;
     unsigned int geomID, instID;
 } PhasetreePointQuery;
