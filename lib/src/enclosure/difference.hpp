@@ -18,6 +18,7 @@ inline double least_difference(const Enclosure& a, const Enclosure& b, const Enc
         squared_half += half[i] * half[i];
     }
     by_bend += 0.5 * std::max(b.curvature.high - a.curvature.low, 0.0) * squared_half;
+    // by_bend is not a number if a gradient at the centre is not known. The comparison is then false.
     return a.centre - b.centre - (by_bend < by_gradient ? by_bend : by_gradient);
 }
 

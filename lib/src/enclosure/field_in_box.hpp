@@ -56,6 +56,7 @@ inline Enclosure enclose(const FieldInBox& f, const Region& at) {
     }
     e.value = limited(std::max(f.value - change, f.values.low), std::min(f.value + change, f.values.high));
     const double bent = std::sqrt(squared_slope) * detail::curvature_of(at.x);
+    // |q′|² lies between zero and its bound, so q′ᵀf″q′ lies between zero and the curvature times this bound.
     e.set_curvature(hull(f.curvature, {}) * detail::squared_stretch(at.x) + within(bent));
     return e;
 }

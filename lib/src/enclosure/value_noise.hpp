@@ -41,6 +41,8 @@ using Corners = std::array<double, std::size_t{1} << dimensions>;
 template <std::size_t dimensions>
 class NoiseInBox {
   public:
+    /// Regions that touch more than eight cells, or four along an axis, count as large: their bounds are those of all
+    /// space.
     explicit NoiseInBox(const Region& at) : at_(at) {
         for (std::size_t i = 0; i < dimensions; ++i) {
             low_[i] = std::floor(at.centre[i] - at.reach[i]);
@@ -60,6 +62,8 @@ class NoiseInBox {
         for (std::size_t i = 0; i < dimensions; ++i) centre[i] = std::floor(at_.centre[i]);
         at_centre(corners(centre), centre, f);
         if (is_large_) {
+            // F′ is at most 15/8, and |F″| at most 10/√3 (FadeRange). Corners are in [−1, 1], so a first difference is
+            // at most 2, and a second one at most 4. The curvature is the largest sum of a row (Gershgorin), as below.
             f.values = {-1, 1};
             for (std::size_t i = 0; i < dimensions; ++i) f.gradients[i] = within(3.75);
             f.curvature = within(2 * 5.7735027 + 4 * 3.515625 * (dimensions - 1));

@@ -36,7 +36,8 @@ class RoutineSteps {
 /// Runs the steps that are not left out. Registers 0 … 2 hold the point.
 /// `distance.template operator()<P>(constants, point, to)` is called for a primitive P and must set `to` to its
 /// distance; the point is a Vec3<T> or PointInRegisters<T>. `done(number)` is called with each number that any other
-/// step, or a fused primitive, has computed.
+/// step has computed, also with each coordinate of a point, and with the distance of a fused primitive after its scale
+/// and offset. It is not called for plain primitives, because `distance` sees their results.
 template <class Steps, class T, class Distance, class Done>
 void interpret(const Steps& steps, T* registers, Distance&& distance, Done&& done) {
     constexpr auto first_primitive = static_cast<std::uint32_t>(Op::first_primitive);
@@ -94,6 +95,7 @@ void interpret(const Steps& steps, T* registers, Distance&& distance, Done&& don
             default: {
                 const PointInRegisters<T> input{registers, s.a};
                 const std::uint32_t index = s.op - first_primitive;
+                // done() is called with the first coordinate, `to`, after the switch.
                 const auto set_point = [&](const Vec3<T>& q) {
                     registers[s.to] = q.x;
                     registers[s.to + 1] = q.y;

@@ -12,14 +12,17 @@ namespace {
 // bracket goes from the last place in that phase to the first one in the phase that follows.
 bool March::is_crossing(const Place& next, RayCrossing& result) {
     const float resolution = ray_.resolution;
-    const auto is_decided = [&](const Place& p) {
+    // Takes note of a place in another phase; returns whether the change is decided with it.
+    const auto note_other = [&](const Place& p) {
         if (other_.label == no_label) left_at_ = p.t;
         if (other_.label != p.label) other_ = p;
         return p.distance >= rounding() || p.t - left_at_ >= 1.5f * resolution;
     };
     const bool is_known = next.label != another_phase;
-    if (is_known && is_decided(next)) return report(result, certain_.t, other_.t, other_.label);
+    if (is_known && note_other(next)) return report(result, certain_.t, other_.t, other_.label);
     alignas(64) float beyond[batch_size], label[batch_size], distance[batch_size];
+    // Eight places a quarter of a resolution apart: behind `next`, or from `next` on if it is only known not to be in
+    // the ray's phase, because no more than the first component was evaluated there.
     const Batch t =
         min(Batch(next.t) + (lanes() + (is_known ? 1.f : 0.f)) * (resolution * (2.f / batch_size)), Batch(ray_.length));
     const Classified c = sample_whole(t);
@@ -33,7 +36,7 @@ bool March::is_crossing(const Place& next, RayCrossing& result) {
             certain_ = here_;
             other_.label = no_label;
             if (p.distance >= rounding()) break;
-        } else if (is_decided(p)) {
+        } else if (note_other(p)) {
             return report(result, certain_.t, other_.t, other_.label);
         }
     }
@@ -51,10 +54,12 @@ bool March::is_entered_late(RayCrossing& result) {
         store(sample_whole(where).label, label);
     };
     constexpr float size = static_cast<float>(batch_size);
+    // `in` is the last place that was found in the ray's phase, and `out` the first one behind it that was not. First
+    // we go backward from the start until there is a place for `in`; then what lies between the two is divided.
     Place in{0, 0, no_label}, out{0, 0, here_.label};
-    const float back = smaller(ray_.before, 4 * resolution);
-    if (!(back > 0)) return false;
-    look((lanes() + 1.f) * (-back / size));
+    const float way_back = smaller(ray_.before, 4 * resolution);
+    if (!(way_back > 0)) return false;
+    look((lanes() + 1.f) * (-way_back / size));
     for (std::size_t i = 0; i < batch_size && in.label == no_label; ++i)
         (label[i] == phase_ ? in : out) = {t[i], 0, label[i]};
     if (in.label == no_label) return false;

@@ -7,7 +7,7 @@ namespace {
 // (the place before, for i = 0) and sample i.
 struct alignas(64) Frame {
     float t[batch_size];
-    float distance[batch_size];  // s(p): the label is the same within this radius
+    float distance[batch_size];  // s(p), as in Classified: the label is the same within this radius
     float label[batch_size];
     Place from;
     std::uint32_t doubt;    // bit i: gap i is not proven to be free of interfaces

@@ -57,8 +57,8 @@ struct Routine {
     std::size_t count;  ///< of steps
     const OutputSlot* outputs;
     std::size_t output_count;
-    /// Which lower bound of the distance to a change of label is used where each component has a value of its own:
-    /// minus the component of the label (true), or the smallest of the others (false).
+    /// Which lower bound s of the distance to a change of label is used where each component has a value of its own:
+    /// minus the component of the label (true), or the smallest of the others (false), which is no smaller.
     bool is_by_own = false;
     /// Whether the first component alone tells where rays may be: there are two phases, or no ray is in any of the
     /// other phases, because these are opaque.
@@ -87,11 +87,12 @@ struct Visit {
     float t_min, t_max;
     float resolution;
     float carried;  ///< the phase that the ray is in; negative: the label at its start
-    float rise;     ///< LeavingHint::rise, or no_leaving_hint
+    float rise;     ///< LeavingHint::rise, in [−1, 1], or no_leaving_hint
     /// Where an unfinished search goes on: a place in the ray's phase, as a distance from where the search began; else
     /// 0.
     float from = 0;
 
+    /// A value of `rise`, which no LeavingHint has.
     static constexpr float no_leaving_hint = -2;
 };
 

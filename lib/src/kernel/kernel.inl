@@ -146,10 +146,12 @@ HWY_INLINE void place(const Batch& x, const Batch& y, const Batch& z, float* reg
     store(z, registers + 2 * batch_size);
 }
 
-// What a batch of samples tells.
+// What a batch of samples tells. In the kernel s(p) is a lower bound of the distance to a change of label: the second
+// smallest component; or minus the smallest, which is no larger (Routine::is_by_own); or, where the first component
+// alone was evaluated, its absolute value.
 struct Classified {
     Batch label;     // the phase of the smallest component
-    Batch distance;  // s(p): the label is the same within this radius
+    Batch distance;  // s(p)
 };
 
 // The label of a sample of which only the first component was evaluated, and is positive.

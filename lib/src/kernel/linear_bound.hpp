@@ -19,9 +19,9 @@ struct LinearBound {
     float spread = Bounds::infinity;
 };
 
-/// An upper bound of d²s/dt² along any straight line of unit speed in a cell, where s is the distance within which the
-/// label is the same. Where the slope jumps upward there is no such bound. If a cell has more than one component there
-/// are two choices of s: see Routine::is_by_own.
+/// An upper bound of d²s/dt² along any straight line of unit speed in a cell, where s is the kernel's lower bound of
+/// the distance to a change of label. Where the slope jumps upward there is no such bound. If a cell has more than one
+/// component there are two choices of s: see Routine::is_by_own.
 struct Curvature {
     static constexpr float unknown = Bounds::infinity;
 

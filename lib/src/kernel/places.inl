@@ -28,7 +28,7 @@ HWY_INLINE float float_of(std::uint32_t u) {
 constexpr float last_lane = batch_size - 1;
 constexpr std::uint32_t all_lanes = (1u << batch_size) - 1;  // a mask with the bits of all lanes
 
-// The places t, none of them beyond `high`, and the last one at `high`.
+// The places t, cut off at `high`, with the last one moved to `high`.
 HWY_INLINE Batch ending_at(const Batch& t, float high) {
     return select(less(lanes(), Batch(last_lane)), min(t, Batch(high)), Batch(high));
 }
@@ -38,24 +38,25 @@ HWY_INLINE Batch spread_evenly(float low, float high) {
     return ending_at(Batch(low) + lanes() * ((high - low) * (1 / last_lane)), high);
 }
 
-// The step of geometric() that leads from a to b in so many steps. The number of steps is a constant, because divisions
-// take long.
+// The step with which geometric() goes from a to b in so many steps; 0 if b is no larger than a. The number of steps is
+// a template parameter, because dividing by a number that is not a constant takes long.
 template <std::uint32_t steps>
 HWY_INLINE std::uint32_t geometric_step(float a, float b) {
     return (bits_of(larger(a, b)) - bits_of(a)) / steps;
 }
 
-// Places that are spread from an interface at 0: 0 itself, `smallest`, and on in equal ratios up to `high`.
+// Eight places for a ray that starts on an interface, at 0: 0 itself, `smallest`, and from there on in equal ratios up
+// to `high`.
 HWY_INLINE Batch spread_from_interface(float high, float smallest) {
     const std::uint32_t step = geometric_step<batch_size - 2>(smallest, high);
     const Batch t = geometric(lanes() - 1.f, bits_of(smallest), step);
     return ending_at(select(less(lanes(), Batch(0.5f)), Batch(0.f), t), high);
 }
 
-// Places from `low` on, in steps that the distance from an interface is expected to cover. It is s at `low` and grows
-// by `slope` for each unit of length. The balls at both ends cover a step d if d ≤ s + (s + slope·d); steps are a tenth
-// shorter, in case the distance does not grow linearly. From step to step s grows by the same factor, so the ends of
-// the steps are a geometric sum.
+// Eight places behind `low`, none beyond `high`, for a ray that leaves an interface. Its distance from the interface is
+// s at `low`, and is expected to grow by `slope` for each unit of length. Two neighbouring samples prove a step d
+// between them free if d ≤ s + (s + slope·d), where s is the distance at the first; steps are a tenth shorter, in case
+// the distance does not grow linearly. From step to step s grows by the same factor, so the places are a geometric sum.
 HWY_INLINE Batch spread_growing(float low, float high, float s, float slope) {
     const float growth = 1.8f / (1.f - 0.9f * slope);
     float factor = 1.f + slope * growth;
@@ -69,8 +70,9 @@ HWY_INLINE Batch spread_growing(float low, float high, float s, float slope) {
     return min(Batch(low) + (power - 1.f) * (s / slope), Batch(high));
 }
 
-// Places on both sides of `root`, at offsets in equal ratios, from `smallest` to 0.6 of the way to the gap's ends. With
-// `has_low` the first place is `low` itself.
+// Four places on each side of `root` in the gap from `low` to `high`. Their distances from `root` grow in equal ratios,
+// from `smallest` to 0.6 of the way to the gap's end. With `has_low` the first place is `low` itself, and three others
+// are on its side.
 HWY_INLINE Batch gather_around(float root, float low, float high, float smallest, bool has_low) {
     constexpr float half = batch_size / 2;
     const std::uint32_t a = bits_of(smallest);
@@ -85,15 +87,16 @@ HWY_INLINE Batch gather_around(float root, float low, float high, float smallest
     return has_low ? select(less(lanes(), Batch(0.5f)), Batch(low), t) : t;
 }
 
-// Predicts where the label changes between two places, from the distances at both, and from those at one place before
-// and one after if their labels are the same as at the end next to them.
+// Predicts where the label changes between `here` and `next`, by linear interpolation of the distances there. Two more
+// places, `before` the gap and `after` it, give a correction for curvature, each if its label is that of the gap's end
+// next to it.
 HWY_INLINE float predicted_root(const Place& here, const Place& next, const Place& before, const Place& after) {
     const float gap = next.t - here.t, sum = here.distance + next.distance;
     if (!(sum > 0)) return here.t + 0.5f * gap;
     // The divisions are independent of each other, so that none waits for another.
-    const float per_gap = 1 / gap, per_slope = gap / sum;
+    const float per_gap = 1 / gap, inverse_steepness = gap / sum;
     const float slope = -sum * per_gap;  // the distance counts as negative behind the change
-    const float root = here.t + here.distance * per_slope;
+    const float root = here.t + here.distance * inverse_steepness;
     // The second divided difference estimates the curvature of the distance.
     float curvature = 0;
     int known = 0;
@@ -109,7 +112,7 @@ HWY_INLINE float predicted_root(const Place& here, const Place& next, const Plac
     }
     if (known == 0) return root;
     const float there = curvature * (known == 2 ? 0.5f : 1.f) * (root - here.t) * (root - next.t);
-    const float correction = there * per_slope;
+    const float correction = there * inverse_steepness;
     return (correction < 0 ? -correction : correction) < 0.25f * gap ? root + correction : root;
 }
 

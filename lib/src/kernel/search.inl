@@ -3,7 +3,8 @@
 namespace phasetree::kernel::HWY_NAMESPACE {
 namespace {
 
-// Finds the first crossing; returns whether there is one.
+// Finds the first crossing; returns whether there is one. If the ray's phase is nowhere near the start, the crossing is
+// there and has no length.
 bool March::find(RayCrossing& result) {
     Frame frames[deepest];
     if (!start(frames[0])) return false;
@@ -22,8 +23,8 @@ bool March::find(RayCrossing& result) {
 // is in doubt.
 HWY_INLINE bool March::start(Frame& f) {
     for (;;) {
-        const bool is_curvature_known = ray_.curvature[routine_.outputs[0].phase == ray_.carried ? 0 : 1] < 1e30f;
-        const Batch t = ray_.on_interface && !ray_.is_monotone && !is_curvature_known
+        const bool is_bound_known = ray_.curvature[routine_.outputs[0].phase == ray_.carried ? 0 : 1] < 1e30f;
+        const Batch t = ray_.on_interface && !ray_.is_monotone && !is_bound_known
                             ? spread_from_interface(ray_.length, ray_.resolution)
                             : spread_evenly(ray_.from, ray_.length);
         const Classified c = sample(t);
@@ -46,7 +47,7 @@ HWY_INLINE bool March::start(Frame& f) {
                            (routine_.outputs[0].phase == phase_ || is_shared(routine_));
         other_.label = no_label;
         find_doubt(f, t, c, here_);
-        f.next = 1;
+        f.next = 1;  // gap 0 is empty, because `here` is the first sample
         return f.doubt != 0;
     }
 }
@@ -57,12 +58,12 @@ HWY_INLINE bool March::find_phase_ahead() {
     const Batch t = Batch(ray_.from) + (lanes() + 1.f) * (ray_.resolution * (4.f / batch_size));
     const Classified c = sample(t);
     const std::uint32_t other = bits(less(c.label, Batch(phase_))) | bits(less(Batch(phase_), c.label));
-    const std::uint32_t back = ~other & ~bits(less(Batch(ray_.length), t)) & all_lanes;
-    if (!back) return false;
+    const std::uint32_t regained = ~other & ~bits(less(Batch(ray_.length), t)) & all_lanes;
+    if (!regained) return false;
     alignas(64) float ahead[batch_size], distance[batch_size];
     store(t, ahead);
     store(c.distance, distance);
-    const int found = __builtin_ctz(back);
+    const int found = __builtin_ctz(regained);
     here_ = {ahead[found], distance[found], phase_};
     return true;
 }
@@ -138,8 +139,8 @@ HWY_INLINE bool March::search_gaps(Frame* frames, int depth, bool is_aligned, Ra
                                          is_free_by_curvature(here_.distance, next.distance, gap));
         const bool is_resolved = is_covered || gap <= resolution || (same && high - low <= resolution);
         if (!is_resolved) {
-            // Where all frames are in use, the samples ahead of this gap are forgotten; this gap must be sampled now,
-            // because else it would come again.
+            // If all frames are in use, the search begins anew with this gap in the first frame, and the samples ahead
+            // of the gap are given up. The search cannot pass a gap that is in doubt.
             const int deeper = depth < deepest ? depth : 0;
             const Batch t = places_in_gap(f, is_aligned ? f.next : -1, next);
             if (fill(frames[deeper], t, here_, next.t, !same)) {
@@ -168,7 +169,8 @@ HWY_INLINE Batch March::places_around_root(const Frame& f, int lane, const Place
     const bool has_before = lane >= 1, has_after = lane >= 0 && lane + 1 < static_cast<int>(batch_size);
     const Place before = has_before ? f.place(lane - 2) : here_, after = has_after ? f.place(lane + 1) : next;
     const float root = predicted_root(here_, next, before, after);
-    // A certificate proves what is between samples, so with one the first sample is at `here`.
+    // A certificate proves only gaps between two samples of a frame. So with one the first sample is at `here`, and gap
+    // 0, about which it says nothing, is empty.
     return gather_around(smaller(larger(root, here_.t), next.t), here_.t, next.t, 0.49f * ray_.resolution,
                          has_certificate_);
 }

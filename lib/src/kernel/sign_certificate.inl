@@ -3,9 +3,13 @@
 //
 // A minimum is positive where both operands are. A maximum is positive between two samples if one of its operands is
 // positive all the way between them. So a certificate is a tree of "both" and "either" over leaves, stored in postfix
-// order and evaluated on a stack of masks with a bit for each gap. With the signs of the leaves negated and "both" and
-// "either" exchanged it certifies that the field is negative. Exchanging is not valid for a step that only implies what
-// it stands for (either_one_way): in that direction the step proves nothing.
+// order and evaluated on a stack of masks with a bit for each gap. A routine's certificate is of minus its first
+// component: if it holds, that component is negative, and the ray stays in the first output's phase.
+//
+// With the leaves negated, and "both" and "either" exchanged, it certifies the opposite sign. That is valid where a
+// step is positive exactly where its operands say so. Some fields are positive where either operand is, and may be so
+// elsewhere, too (either_one_way, as where Op::corner is compared with a positive number). Then two negative operands
+// prove nothing, so in a negated certificate this step never holds.
 //
 // A leaf g, 1-Lipschitz, is known at the samples. It is positive in a gap of length h between a and b
 //  * if g″ ≤ K and √a + √b ≥ h √(K/2): see March::is_free_by_curvature;
@@ -19,7 +23,7 @@ namespace phasetree::kernel::HWY_NAMESPACE {
 namespace {
 
 // The float of which these are the upper 16 bits.
-HWY_INLINE float float_of_half(std::uint16_t upper) {
+HWY_INLINE float float_of_upper_bits(std::uint16_t upper) {
     const std::uint32_t bits = std::uint32_t{upper} << 16;
     float x;
     std::memcpy(&x, &bits, sizeof x);
@@ -38,14 +42,16 @@ HWY_INLINE Gaps gaps_between(const Batch& t, float rounding) {
     return {length, Batch(1.f) / length, length + shifted(length, 0), length + shifted_back(length, 0), rounding};
 }
 
-// Bit i tells whether the leaf is proven to be positive in the gap that ends at lane i. It is never set for the first
-// lane, where a is 0.
-HWY_INLINE std::uint32_t certified_by_leaf(const PackedCertificateStep& s, bool is_turned, const float* registers,
+// Bit i tells whether the leaf, or minus the leaf if `is_negated`, is proven to be positive in the gap that ends at
+// lane i. It is never set for the first lane, where a is 0.
+HWY_INLINE std::uint32_t certified_by_leaf(const PackedCertificateStep& s, bool is_negated, const float* registers,
                                            const Gaps& gaps) {
-    const float factor = float_of_half(s.factor);
-    const float up = float_of_half(is_turned ? s.down : s.up), down = float_of_half(is_turned ? s.up : s.down);
+    const float factor = float_of_upper_bits(s.factor);
+    const float up = float_of_upper_bits(is_negated ? s.down : s.up),
+                down = float_of_upper_bits(is_negated ? s.up : s.down);
     const Batch zero(0.f), one(1.f), unknown(1e30f);
-    const Batch g = (load(registers + std::size_t{s.slot} * batch_size) - s.threshold) * (is_turned ? -factor : factor);
+    const Batch g =
+        (load(registers + std::size_t{s.slot} * batch_size) - s.threshold) * (is_negated ? -factor : factor);
     const Batch b = g - gaps.rounding, a = shifted(b, 0);
     std::uint32_t free = 0;
     if (up < 1e30f) {
@@ -65,24 +71,24 @@ HWY_INLINE std::uint32_t certified_by_leaf(const PackedCertificateStep& s, bool 
     return free & bits(less(zero, min(a, b)));
 }
 
-// Bit i tells whether the first component is proven to keep its sign in the gap that ends at lane i: the sign that it
-// has in the phase of the first output, or, if `is_turned`, in the other phase.
-std::uint32_t certified_gaps(const Routine& routine, bool is_turned, const float* registers, const Batch& t,
+// Bit i tells whether the first component is proven to keep its sign in the gap that ends at lane i: to be negative, as
+// in the phase of the first output, or, if `is_negated`, to be positive, as in the other phases.
+std::uint32_t certified_gaps(const Routine& routine, bool is_negated, const float* registers, const Batch& t,
                              float rounding) {
     const Gaps gaps = gaps_between(t, rounding);
     std::uint32_t stack[most_certificate_steps];
     std::uint32_t* top = stack;
     for (const PackedCertificateStep *s = routine.certificate, *end = s + routine.certificate_steps; s != end; ++s) {
         if (s->kind == PackedCertificateStep::leaf) {
-            *top++ = certified_by_leaf(*s, is_turned, registers, gaps);
+            *top++ = certified_by_leaf(*s, is_negated, registers, gaps);
             continue;
         }
         --top;
         if (s->kind == PackedCertificateStep::either_one_way) {
-            top[-1] = is_turned ? 0 : top[-1] | *top;
+            top[-1] = is_negated ? 0 : top[-1] | *top;
             continue;
         }
-        const bool is_both = (s->kind == PackedCertificateStep::both) != is_turned;
+        const bool is_both = (s->kind == PackedCertificateStep::both) != is_negated;
         top[-1] = is_both ? top[-1] & *top : top[-1] | *top;
     }
     return stack[0];

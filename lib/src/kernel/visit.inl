@@ -11,10 +11,11 @@ struct Interval {
     double low, high;
 };
 
-HWY_INLINE double at_least(double x, double y) {
+// As the functions of the same names in places.inl, in double.
+HWY_INLINE double larger(double x, double y) {
     return x > y ? x : y;
 }
-HWY_INLINE double at_most(double x, double y) {
+HWY_INLINE double smaller(double x, double y) {
     return x < y ? x : y;
 }
 HWY_INLINE float magnitude(float x) {
@@ -31,8 +32,8 @@ HWY_INLINE void clip(Interval& span, float low, float high, float origin, float 
         return;
     }
     const double a = from * inverse, b = to * inverse;
-    span.low = at_least(at_most(a, b), span.low);
-    span.high = at_most(at_least(a, b), span.high);
+    span.low = larger(smaller(a, b), span.low);
+    span.high = smaller(larger(a, b), span.high);
 }
 
 // A LeavingHint whose rise is smaller is not used: its rounding would be too large a part of it.
@@ -72,7 +73,7 @@ class Approach {
         // curves upward in the other phase. That is positive up to 2·rise/K, of which a tenth is left for the error of
         // the rise.
         const double safe = 1.8 * static_cast<double>(visit_.rise) /
-                            at_least(static_cast<double>(visit_.curvature[is_in_first_ ? 1 : 0]), 1e-30);
+                            larger(static_cast<double>(visit_.curvature[is_in_first_ ? 1 : 0]), 1e-30);
         if (safe >= span_.high - span_.low) return false;
         if (safe > 8 * static_cast<double>(visit_.resolution)) {
             span_.low += safe;
@@ -86,21 +87,28 @@ class Approach {
     HWY_INLINE bool enter_slab() {
         const LinearBound& bound = *visit_.bound;
         if (!(bound.slack < 3.402823466e38f && (routine_.output_count == 2 || is_in_first_))) return true;
-        // Along the ray the field is within the slack of value + rise·t. Where that excludes zero there is no
-        // interface.
+        // At a distance t from the start the field is within the slack of value + slope_of_plane·t. Where that excludes
+        // zero there is no interface.
         const auto& direction = ray_.direction;
         const float value = bound.normal.x * x_ + bound.normal.y * y_ + bound.normal.z * z_ + bound.offset;
-        const float rise = bound.normal.x * direction.x + bound.normal.y * direction.y + bound.normal.z * direction.z;
-        const float steep = magnitude(rise), length = static_cast<float>(span_.high - span_.low);
+        const float slope_of_plane =
+            bound.normal.x * direction.x + bound.normal.y * direction.y + bound.normal.z * direction.z;
+        const float steep = magnitude(slope_of_plane), length = static_cast<float>(span_.high - span_.low);
         slope_ = smaller(1.f, steep + bound.spread);
         is_monotone_ = steep > bound.spread;
-        // A ray that has left the interface into the phase in which the field grows along it stays there.
-        if (is_leaving_ && on_interface_ && is_monotone_ && routine_.outputs[is_in_first_ ? 0 : 1].sign * rise < 0)
+        // A ray that starts on the interface, and along which the component of its phase only falls, goes deeper into
+        // that phase and stays there.
+        if (is_leaving_ && on_interface_ && is_monotone_ &&
+            routine_.outputs[is_in_first_ ? 0 : 1].sign * slope_of_plane < 0)
             return false;
-        const float per_rise = 1 / larger(steep, 1e-20f), depth = rise < 0 ? value : -value;
-        const float enter = (depth - bound.slack) * per_rise, leave = (depth + bound.slack) * per_rise;
+        // The ray enters the slab at the distance `enter` from the start, and leaves it at `leave`. Negative distances
+        // lie behind the start. The linear function vanishes midway: it has `towards_zero` to change until then.
+        const float inverse_steepness = 1 / larger(steep, 1e-20f), towards_zero = slope_of_plane < 0 ? value : -value;
+        const float enter = (towards_zero - bound.slack) * inverse_steepness;
+        const float leave = (towards_zero + bound.slack) * inverse_steepness;
         if (enter > 0 || leave < 0) {
-            // The ray starts outside of the slab, where the label is known.
+            // The ray starts outside of the slab, where the label is known. If that is not the carried phase, nothing
+            // is cut off, because the search must look for the carried phase about the start.
             const bool is_below = value < 0;
             const float here = routine_.outputs[(routine_.outputs[0].sign > 0) == is_below ? 0 : 1].phase;
             if (carried_ < 0 || here == carried_) {
@@ -109,27 +117,27 @@ class Approach {
                 start_at(span_.low);
                 carried_ = here;
                 on_interface_ = false;
-                span_.high = at_most(span_.high, span_.low + static_cast<double>(leave - enter));
+                span_.high = smaller(span_.high, span_.low + static_cast<double>(leave - enter));
             }
         } else {
-            span_.high = at_most(span_.high, span_.low + static_cast<double>(leave));
+            span_.high = smaller(span_.high, span_.low + static_cast<double>(leave));
         }
         return true;
     }
 
     // The piece of the ray that is left.
     HWY_INLINE RaySegment segment() const {
-        return {{x_, y_, z_},
-                {ray_.direction.x, ray_.direction.y, ray_.direction.z},
-                static_cast<float>(span_.high - span_.low),
-                visit_.from,
-                static_cast<float>(span_.low) - visit_.t_min,
-                visit_.resolution,
-                slope_,
-                {visit_.curvature[0], visit_.curvature[1]},
-                carried_,
-                is_monotone_,
-                on_interface_ && visit_.from == 0};
+        return {.origin = {x_, y_, z_},
+                .direction = {ray_.direction.x, ray_.direction.y, ray_.direction.z},
+                .length = static_cast<float>(span_.high - span_.low),
+                .from = visit_.from,
+                .before = static_cast<float>(span_.low) - visit_.t_min,
+                .resolution = visit_.resolution,
+                .slope = slope_,
+                .curvature = {visit_.curvature[0], visit_.curvature[1]},
+                .carried = carried_,
+                .is_monotone = is_monotone_,
+                .on_interface = on_interface_ && visit_.from == 0};
     }
     // The distance along the ray at which that piece starts.
     HWY_INLINE double start() const { return span_.low; }

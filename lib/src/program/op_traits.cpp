@@ -23,7 +23,7 @@ constexpr void mark_patterns(TypeList<Ps...>, auto& all) {
         if constexpr (LocalPrimitive<P>) {
             OpTraits& local = all[first + index_in<P>(Primitives())];
             local.is_local = true;
-            local.half_works = 800;  // the cost of all its sites
+            local.half_works = 800;  // a rough estimate of the cost of all its sites
             all[first + Primitives::size + index_in<typename P::Specialised>(DataPrimitives())].is_specialised = true;
         }
     };
@@ -43,7 +43,7 @@ constexpr auto all_traits() {
         all[first_primitive + i].is_long_primitive =
             i >= is_long.size() || is_long[i];  // primitives with data follow, and all count as long
     for (std::size_t i = first_primitive; i < first_placed + Primitives::size; ++i)
-        all[i].half_works = all[i].is_long_primitive ? 120 : 3;
+        all[i].half_works = all[i].is_long_primitive ? 120 : 3;  // rough estimates
     for (std::size_t i = first_map; i < first_placed; ++i) all[i].gives_point = true;
     all[first_map + index_in<FoldMap>(PointMaps())].is_fold = true;
     all[first_primitive + Primitives::size + index_in<Siren::Network>(DataPrimitives())].is_network = true;

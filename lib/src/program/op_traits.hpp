@@ -10,7 +10,7 @@ namespace phasetree::program {
 /// The properties of an operation.
 struct OpTraits {
     std::uint8_t operands = 1;       ///< the number of values it takes
-    std::uint16_t half_works = 2;    ///< its cost, in halves of that of a simple operation
+    std::uint16_t half_works = 2;    ///< its cost, in halves of that of a simple operation; a rough estimate
     bool gives_point = false;        ///< its result is a point and not a number
     bool is_long_primitive = false;  ///< a primitive whose equation is long (concepts.hpp)
     bool is_network = false;         ///< a neural field: Siren::Network
@@ -19,8 +19,9 @@ struct OpTraits {
     bool is_local = false;           ///< a LocalPrimitive
     bool is_specialised = false;     ///< the form that a LocalPrimitive takes in a small box
 };
-/// The properties of all operations, those of fused.hpp included, by their number.
+/// There are no more operations than this, those of fused.hpp included.
 inline constexpr std::size_t most_operations = 256;
+/// The properties of all operations, by their number.
 extern const std::array<OpTraits, most_operations> op_traits;
 
 inline const OpTraits& traits(Op op) {

@@ -50,9 +50,11 @@ class StepsUpToJump {
     mutable bool has_jumped_ = false;
 };
 
-// Tightens the enclosure of a convex primitive at points that go along a straight line. A convex function of t lies
-// below its chord, and above the lines through two values on either side. That is known even where the derivatives of
-// the equation are not, as those of a square root at zero. t is between −half and half.
+// Tightens the enclosure of a convex primitive at points that go along a straight line, for t between −half and half. A
+// convex function lies below the chord through its values at both ends, so it is at most the larger of these. Behind
+// two values it lies above the line through them. So over the stretch it falls by no more than it fell over an equal
+// length before, and seen from the other end it rises by no more than over an equal length behind. This holds even
+// where the derivatives of the equation are not known, as those of a square root at zero.
 template <class P>
 void tighten_by_convexity(const float* constants, const Vec3<Enclosure>& q, double half, Enclosure& f) {
     if (!enclosure::detail::are_affine<3>({&q.x, &q.y, &q.z})) return;
@@ -64,8 +66,8 @@ void tighten_by_convexity(const float* constants, const Vec3<Enclosure>& q, doub
         return program::distance_of<P>(constants, Vec3<Enclosure>{coordinate(q.x), coordinate(q.y), coordinate(q.z)})
             .centre;
     };
-    const double far = 2 * half, begin = at(-half), end = at(half);
-    const double falls = std::min(begin - at(-half - far), 0.0), rises = std::max(at(half + far) - end, 0.0);
+    const double length = 2 * half, begin = at(-half), end = at(half);
+    const double falls = std::min(begin - at(-half - length), 0.0), rises = std::max(at(half + length) - end, 0.0);
     const double low = std::max(begin + falls, end - rises), high = std::max(begin, end);
     f.value = {std::max(f.value.low, low), std::min(f.value.high, high)};
 }

@@ -40,6 +40,7 @@ class Creep {
             do {
                 pass_enclosed();
             } while (walk(step));
+            // The search has taken too long, and neither the stretches nor the walks have gone on by a step.
             if (spent_ > most_batches && !(place_ - came_from > step) && !leap(step)) return false;
             rest.from = place_;
             const bool is_hit = active_kernel().visit(rest, crossing_);
@@ -92,14 +93,17 @@ class Creep {
             if (!(next > end)) break;
             spend(batches_to_enclose);
             const double rounding = static_cast<double>(resolution) / 16;
+            // The bound is below rounding: no change of label counts up to `next`.
             const bool is_free = component_.upper_bound(end, next, 0.1 * rounding) < rounding;
             if (is_free) end = next;
             step *= is_free ? 2 : 0.5f;
         }
+        // The search goes on from a place in the ray's phase: near the end of what is proven, or else anywhere in it.
         if (end > place_ && !go_to(std::max(place_, end - 8 * resolution), end)) go_to(place_, end);
     }
-    // Walks in steps while the label stays the same and the interface is near. Returns whether the ray still creeps, so
-    // that a stretch may be enclosed again.
+    // Walks in steps while the label stays the same and the interface is near. The step is made twice as long first if
+    // the search has taken too long, and is a resolution again once the ray is away from the interface. Returns whether
+    // the ray still creeps, so that a stretch may be enclosed again.
     bool walk(float& step) {
         if (spent_ > most_batches) step *= 2;
         const float resolution = visit_.resolution, length = step_length * step;

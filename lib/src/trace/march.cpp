@@ -1,19 +1,9 @@
 #include "trace/march.hpp"
 
-#include <cmath>
-
 #include "evaluation/target.hpp"
 #include "trace/creep.hpp"
 
-namespace phasetree {
-
-TracedRay::TracedRay(const glm::vec3& o, const glm::vec3& d) : origin(o), direction(d) {
-    const glm::dvec3 unit(d);
-    inverse = 1.0 / unit;
-    is_traceable = std::abs(glm::dot(unit, unit) - 1) < 1e-3 && std::isfinite(glm::dot(glm::dvec3(o), glm::dvec3(1)));
-}
-
-namespace trace {
+namespace phasetree::trace {
 
 using evaluation::active_kernel;
 using kernel::RayCrossing;
@@ -35,6 +25,4 @@ std::optional<Crossing> first_crossing(const Visit& visit, TraceCounters& counte
                     Phase{static_cast<std::uint8_t>(c.to)}};
 }
 
-}  // namespace trace
-
-}  // namespace phasetree
+}  // namespace phasetree::trace

@@ -16,8 +16,12 @@ using evaluation::Component;
 /// gradient is meaningless: that of √(x² + z²) is along an axis if the coordinates are an ulp each, and zero if they
 /// are zero; and near an edge it may belong to a face that the ray does not cross. So a gradient is accepted only if it
 /// agrees with the component's value: a plane with this normal and distance must cross the ray within the bracket. If
-/// the gradient at the near end does not, others are tried: before the bracket, to the side, away from the interface,
-/// and behind the interface.
+/// the gradient at the near end does not, others are tried, in this order:
+///  * a resolution before the bracket on the ray;
+///  * a resolution from the near end into `from`, against the normal of the place before, then against its own;
+///  * the far end, a resolution behind it on the ray, and a resolution from it into `to`, along the last normal;
+///  * two resolutions from both ends along the coordinate axes, of which the place deepest in its phase is taken.
+/// If none agrees, the normal is taken that has the smallest angle to the ray.
 ///
 /// `component(p, phase)` gives a component and its gradient, and `holds(p)` tells whether it can do so at p.
 template <class ComponentAt, class Holds>
@@ -71,16 +75,19 @@ class NormalOf {
         // At an end of the bracket the gradient is wrong more often, so the test is stricter.
         const bool is_end = away == glm::vec3(0);
         const float rounding = (is_end ? 1.f / 16 : 1.f / 8) * resolution_, across = glm::dot(s.normal, away);
-        const float at_end = s.depth + (is_near ? across : -across), most = width_ * s.cosine;
-        s.is_sound =
-            s.depth >= rounding && at_end >= std::min(most, 0.f) - rounding && at_end <= std::max(most, 0.f) + rounding;
+        // By the plane: how deep this end of the bracket is, and how deep it would be if the plane crossed the ray at
+        // the other end.
+        const float depth_at_end = s.depth + (is_near ? across : -across), bracket_depth = width_ * s.cosine;
+        s.is_sound = s.depth >= rounding && depth_at_end >= std::min(bracket_depth, 0.f) - rounding &&
+                     depth_at_end <= std::max(bracket_depth, 0.f) + rounding;
         return s;
     }
 
     /// The normal where the gradient at the near end is not sound.
     glm::vec3 sought(const Sample& near) const {
         Sample best = near;
-        const auto is_found = [&](const Sample& s) {
+        // Takes a sample that is sound, and returns whether it is; else keeps it if it points more along the ray.
+        const auto take = [&](const Sample& s) {
             if (s.is_sound && s.cosine > least_cosine) {
                 best = s;
                 return true;
@@ -93,24 +100,24 @@ class NormalOf {
             return is_held ? sample(side, away) : Sample();
         };
         const float far = resolution_;
+        // The sample a resolution from that side's end straight into its phase, by the normal of s.
         const auto aside = [&](Side side, const Sample& s) {
             return at(side, (side == near_side ? -far : far) * s.normal);
         };
-        if (is_found(near)) return best.normal;
+        if (take(near)) return best.normal;
         const Sample before = at(near_side, -far * direction_);
-        if (is_found(before) || is_found(aside(near_side, before)) || is_found(aside(near_side, near)))
-            return best.normal;
+        if (take(before) || take(aside(near_side, before)) || take(aside(near_side, near))) return best.normal;
         const Sample beyond = at(far_side, glm::vec3(0)), behind = at(far_side, far * direction_);
-        if (is_found(beyond) || is_found(behind) || is_found(aside(far_side, behind))) return best.normal;
+        if (take(beyond) || take(behind) || take(aside(far_side, behind))) return best.normal;
 
-        // If none of these is sound, the deepest sound one along the coordinate axes is taken.
+        // None of these is sound. Of the sound ones along the coordinate axes, the deepest is taken.
         Sample deepest;
         for (const Side side : {near_side, far_side})
             for (int i = 0; i < 6; ++i) {
                 glm::vec3 away(0);
                 away[i / 2] = i % 2 == 0 ? 2 * far : -2 * far;
                 const Sample s = at(side, away);
-                if (is_found(s) && s.depth > deepest.depth) deepest = s;
+                if (take(s) && s.depth > deepest.depth) deepest = s;
             }
         return deepest.is_sound ? deepest.normal : best.normal;
     }

@@ -30,7 +30,8 @@ void count(const Handle& handle, std::unordered_set<const void*>& seen, TreeStat
     s.depth = std::max(s.depth, handle.node()->depth);
     std::visit(
         [&](const auto& n) {
-            // The node's own struct counts, not the variant's largest alternative, and the pointers of its handle.
+            // A node counts as large as its own struct, although the variant has room for the largest one. The two
+            // pointers of the handle that refers to it are added.
             s.nodes += 1;
             s.bytes += sizeof(n) + 2 * sizeof(void*);
             for_each_parameter(n, [&](const auto& value, const Parameter&) {

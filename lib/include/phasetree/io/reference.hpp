@@ -41,7 +41,7 @@ struct Chapter {
     std::vector<KindPage> pages;
 };
 
-/// Where a default stands that is not there: what is required has none.
+/// The page of one parameter. The default value is left out if the parameter is required.
 ParameterPage parameter_page(const Parameter&, const ValueType&, std::string default_value);
 
 /// The page of a kind, from its list of parameters (io/kind.hpp).

@@ -139,9 +139,10 @@ template <class Yes, class No>
     return condition ? yes() : no();
 }
 
-/// Returns f. A number type that bounds values in a box (Enclosure) may return a second expression for f, which holds
-/// only where some comparisons do: `other(certainly)` returns a pair, whether they hold, which it asks by
-/// certainly(comparison), and that expression.
+/// Returns f. `other` knows a second expression that equals f where certain comparisons are true. A number type that
+/// bounds values in a box (Enclosure) returns that expression instead if they are true all over the box. `other` is
+/// called with a function `certainly`, which tells whether a comparison is, and returns a pair: whether all are, and
+/// the expression.
 template <class T, class Other>
 T also_known_as(const T& f, const Other&) {
     return f;

@@ -14,10 +14,12 @@ template <class T>
 T fade(const T& t) {
     return t * t * t * (t * (t * 6.f - 15.f) + 10.f);
 }
-/// A coordinate's place in the lattice: the lattice points below and above it, modulo 289 (lattice_hash.hpp), and the
-/// weight of the upper one. The lattice points have no derivatives, so they are hashed as numbers without them.
+/// The number type of lattice points for coordinates of type T. Lattice points have no derivatives, so they are hashed
+/// as numbers without them.
 template <class T>
 using Whole = decltype(whole_part(std::declval<T>()));
+/// A coordinate's place in the lattice: the lattice points below and above it, modulo 289 (lattice_hash.hpp), and the
+/// weight of the upper one.
 template <class T>
 struct Coordinate {
     Whole<T> low, high;

@@ -54,9 +54,8 @@ concept LocalPrimitive = PatternPrimitive<N> &&
     requires DataPrimitive<typename N::Specialised>;
     { n.specialise(range, of, floats) } -> std::same_as<bool>;
     { N::Specialised::floats(floats.data()) } -> std::same_as<std::size_t>;  // the number of floats
-    {
-        N::Specialised::half_works(floats.data())
-        } -> std::same_as<unsigned>;  // the cost, in halves of a simple instruction
+    // The cost, in halves of that of a simple instruction.
+    { N::Specialised::half_works(floats.data()) } -> std::same_as<unsigned>;
 };
 
 /// A primitive whose distance is a convex function, as that to a convex solid is if it is exact inside and outside.

@@ -8,15 +8,19 @@
 
 namespace phasetree {
 
-/// A change of phase along a ray: a bracket no longer than the resolution, at whose ends the two labels were evaluated.
-/// (Where solids abut, rounding can leave a sliver of a third phase between them. A bracket may pass over one, and is
-/// then up to 2.7 resolutions long.) A reflected ray starts at p_in and stays in `from`, a refracted one starts at
-/// p_out in `to`, so neither needs an offset along a normal, and neither meets the same crossing again.
+/// A change of phase along a ray: a bracket no longer than the resolution, whose ends are proven to be in the two
+/// phases. Either the labels were evaluated there, or the values and the curvature bounds of samples on both sides
+/// prove them. (Where solids abut, rounding can leave a sliver of a third phase between them. A bracket may pass over
+/// one, and is then up to 2.75 resolutions long.) A reflected ray starts at p_in and stays in `from`, a refracted one
+/// starts at p_out in `to`, so neither needs an offset along a normal, and neither meets the same crossing again.
+///
+/// A ray that carries a phase which is nowhere near its start crosses at once. This crossing has no length: p_in and
+/// p_out are the place where the search begins, which is in `to`, and `from` is only what the ray has said.
 struct Crossing {
     float t_in = 0;      ///< distance from the ray's origin to p_in
     float t_out = 0;     ///< distance from the ray's origin to p_out
-    glm::vec3 p_in{0};   ///< the point in `from` that was evaluated
-    glm::vec3 p_out{0};  ///< the point in `to` that was evaluated
+    glm::vec3 p_in{0};   ///< the bracket's end in `from`
+    glm::vec3 p_out{0};  ///< the bracket's end in `to`
     Phase from;          ///< the phase before the crossing
     Phase to;            ///< the phase behind it
 };

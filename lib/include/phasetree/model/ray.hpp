@@ -9,8 +9,8 @@ struct TracedRay {
     glm::vec3 origin{0};
     glm::vec3 direction{0, 0, 1};  ///< of unit length
     glm::dvec3 inverse{0};         ///< 1/direction, infinite along an axis where that is 0
-    bool is_traceable =
-        false;  ///< whether all is finite and the direction of unit length to 10⁻³; else it hits nothing
+    /// Whether all is finite, and the direction of unit length to 10⁻³; a ray that is not traceable hits nothing.
+    bool is_traceable = false;
 
     TracedRay() = default;
     TracedRay(const glm::vec3& origin, const glm::vec3& direction);
@@ -20,7 +20,8 @@ struct TracedRay {
 /// that found this crossing is asked again. Mostly the hint is enough to tell that the ray leaves the cell without
 /// meeting another interface.
 struct LeavingHint {
-    /// The derivative of the distance from the interface along the ray; 0 if it is not known.
+    /// The derivative of the distance from the interface along the ray, in [−1, 1]; 0 if it is not known. A value near
+    /// 0 or below it tells only that the ray starts on an interface of this cell.
     float rise = 0;
 };
 

@@ -36,7 +36,9 @@ struct Instruction {
     Op op{};
     std::uint32_t a = 0;
     std::uint32_t b = 0;
-    std::uint32_t data = 0;  ///< where its constant, or its floats, start among the program's constants
+    /// Where its constant, or its floats, start among the program's constants. They stand there in the order of the
+    /// instructions and without gaps, so they end where those of the next instruction start.
+    std::uint32_t data = 0;
 };
 
 /// One component of Φ, and the value that it is.
@@ -46,8 +48,8 @@ struct Output {
 };
 
 /// A tree recorded as a flat list of instructions without duplicates. Absent phases never become instructions, and
-/// shared subtrees become instructions once for each place. A program is immutable once it is recorded; any thread may
-/// read it.
+/// shared subtrees become instructions once for each map of space under which they stand. A program is immutable once
+/// it is recorded; any thread may read it.
 struct Program {
     std::vector<Instruction> instructions;  ///< instructions[0] is the input point
     std::vector<float> constants;

@@ -6,7 +6,7 @@ namespace phasetree {
 
 /// Maps p to the same place in the cell about `centre`. The map jumps at the cells' faces, so its slope has no bound;
 /// the recorder gets `jump` for it. Where a cell of the object touches no face, pruning divides by it again
-/// (src/pruning/prune.cpp).
+/// (src/pruning/jumps.hpp).
 struct FoldMap {
     glm::vec3 centre{0};
     glm::vec3 spacing{1};
@@ -26,8 +26,8 @@ struct FoldMap {
     }
 };
 
-/// Distance to the endless rows of boxes that the copies are in. A box stands in the middle of its cell, so it is the
-/// nearest one throughout the cell, and the distance is exact and continuous.
+/// Distance to the boxes around the copies, which repeat without end. A box stands in the middle of its cell, so it is
+/// the nearest one throughout the cell, and the distance is exact and continuous.
 struct FoldedBox {
     FoldMap fold{};
     glm::vec3 half{1};
@@ -38,11 +38,11 @@ struct FoldedBox {
     }
 };
 
-/// Endless copies in one cell's worth of instructions. With b the distance to the copies' boxes and g the smallest
-/// clearance between a box and its cell's face, b ≥ g on the faces, where the folded field jumps; and
+/// Endless copies, with the instructions of a single one and few more. With b the distance to the copies' boxes and g
+/// the smallest clearance between a box and its cell's face, b ≥ g on the faces, where the folded field jumps; and
 ///     max(b, min(f, 2g − b))
-/// is b wherever b ≥ g. So it is continuous, 1-Lipschitz, and has the sign of f. (This is the bounding node that the
-/// design asks for above a discontinuity, and the reason why the copies must not touch their cells' faces.)
+/// is b wherever b ≥ g. So it is continuous, 1-Lipschitz, and has the sign of f. (See "Fields
+/// above a discontinuity" in lib/README.md. This is the reason why the copies must not touch their cells' faces.)
 template <class Child>
 struct EndlessGrid {
     static constexpr NodeInfo info{

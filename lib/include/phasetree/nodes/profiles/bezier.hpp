@@ -30,7 +30,9 @@ struct Bezier {
     static constexpr std::size_t most_points = 2048;
     std::vector<glm::vec2> points{};
     float thickness = 0;
-    std::vector<float> table{};  ///< derived: the number of pieces, half the thickness, and ten numbers for each piece
+    /// Derived: the number of pieces and half the thickness; then for each piece ten numbers,
+    ///     s.x, s.y, y of its end, b.x, b.y, a.x, a.y, a², 3 a·b, 2 b².
+    std::vector<float> table{};
 
     template <class V>
     static void parameters(V&& v) {
@@ -75,6 +77,7 @@ struct Bezier {
             const float a_squared = data[7], three_ab = data[8];
             const T mx = data[0] - p.x, my = data[1] - p.y;
             const T linear = mx * ax + my * ay + data[9], constant = mx * bx + my * by;
+            // Halley's steps from the right end to the last root of h. Where h does not rise the right end is tried.
             T t = one;
             for (int k = 0; k < 5; ++k) {
                 const T h = ((t * a_squared + three_ab) * t + linear) * t + constant;
@@ -87,6 +90,8 @@ struct Bezier {
             nearest = min(nearest, min(mx * mx + my * my, dx * dx + dy * dy));
             if (half_thickness > 0) continue;
 
+            // Where the piece is at the height of p: the root of a.y t² + 2 b.y t + m.y in [0, 1]. Of the two forms of
+            // the solution this one does not subtract what is nearly equal. The ray crosses a piece at a larger x.
             const bool up = data[2] > data[1];
             const float low = up ? data[1] : data[2], high = up ? data[2] : data[1];
             const T root = sqrt(max(by * by - my * ay, zero));
@@ -168,7 +173,9 @@ struct Bezier {
         });
         return result;
     }
-    /// A piece that is straight to rounding, or turns back on itself at its start, has no curvature.
+    /// The same piece, with its ends exchanged if it is slower at the second one. Pieces are cut where the speed has
+    /// doubled; if it grows by a factor above √5 all the same, the piece starts where the curve turns back on itself,
+    /// or the growth is due to rounding. Such a piece is straight, and is given a constant speed.
     static Piece towards_faster(Piece piece) {
         const auto squared = [](const glm::dvec2& v) { return glm::dot(v, v); };
         if (squared(piece.end - piece.control) < squared(piece.b())) std::swap(piece.start, piece.end);

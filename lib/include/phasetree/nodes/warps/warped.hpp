@@ -25,7 +25,7 @@ concept LocalWarp = requires {
     W::local;
 };
 
-/// Distance to a box that stands anywhere: the bound of a local warp.
+/// Distance to a box with sides along the axes and any centre. It bounds what a local warp deforms.
 struct BoundingBox {
     static constexpr bool is_convex = true;
     glm::vec3 centre{0};
@@ -37,7 +37,7 @@ struct BoundingBox {
     }
 };
 
-/// The projection onto a box.
+/// Maps a point to the nearest point of a box.
 struct ClampToBox {
     glm::vec3 low{-1};
     glm::vec3 high{1};
