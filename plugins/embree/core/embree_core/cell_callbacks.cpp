@@ -8,17 +8,9 @@ Query& query_of(Context* context) {
     return *reinterpret_cast<Query*>(context);
 }
 
-// What the query knows of how its ray leaves the interface where it starts, if it starts in this cell. The gradient is
-// that of the signed distance of `from`, which is negative in `from` and rises into the other phase. The hint is the
-// rise of the distance from the interface on the side where the ray is: in `from` that is the negative of the signed
-// distance, and its derivative has the other sign.
-template <class Arguments>
-std::optional<LeavingHint> leaving_hint_of(const Arguments& arguments, const Query& query, const ObjectInstance& object,
-                                           const RTCRay& ray, std::optional<Phase> carried) {
-    const StartHint& start = query.start;
-    if (start.cell != arguments.primID || ray.tnear != 0 || !(start.object == object)) return std::nullopt;
-    const float along = glm::dot(start.gradient, query.seen.traced.direction);
-    return LeavingHint{carried == start.from ? -along : along};
+// Notes another ray. It is seldom called, so it stays out of the way of what is called for every cell.
+[[gnu::noinline]] void note_ray(Query& query, const RTCRay& ray) {
+    query.seen = SeenRay::of(ray);
 }
 
 // The first crossing in the cell; nothing where there is no memory for it, which the query then knows.
@@ -26,11 +18,25 @@ template <class Arguments>
 std::optional<Crossing> search(const InterfaceCells& cells, const Arguments& arguments, Query& query,
                                const RTCRay& ray) noexcept {
     try {
-        if (!query.seen.is(ray)) query.seen = SeenRay::of(ray);
-        const ObjectInstance object = ObjectInstance::of(*arguments.context, arguments.geomID);
-        const std::optional<Phase> carried = RayPhases::find(query.carried, query.elsewhere, object);
-        return search_cell(cells, arguments.primID, query.seen, ray, carried,
-                           leaving_hint_of(arguments, query, object, ray, carried), query.counters);
+        if (!query.seen.is(ray)) note_ray(query, ray);
+        const StartHint& start = query.start;
+        std::optional<Phase> carried = query.elsewhere;
+        std::optional<LeavingHint> leaving_hint;
+        const bool may_start_here = start.cell == arguments.primID && ray.tnear == 0;
+        // Mostly a ray carries one phase for all objects and does not start in this cell: then it does not matter of
+        // which object the cell is, and nothing is compared.
+        if (may_start_here || !query.carried.empty()) {
+            const ObjectInstance object = ObjectInstance::of(*arguments.context, arguments.geomID);
+            carried = RayPhases::find(query.carried, query.elsewhere, object);
+            if (may_start_here && start.object == object) {
+                // The gradient is that of the signed distance of `from`, which is negative in `from` and rises into the
+                // other phase. The hint is the rise of the distance from the interface on the side where the ray is: in
+                // `from` that is the negative of the signed distance, and its derivative has the other sign.
+                const float along = glm::dot(start.gradient, query.seen.traced.direction);
+                leaving_hint = LeavingHint{carried == start.from ? -along : along};
+            }
+        }
+        return search_cell(cells, arguments.primID, query.seen, ray, carried, leaving_hint, query.counters);
     } catch (const std::bad_alloc&) {
         query.is_out_of_memory = true;
         return std::nullopt;
