@@ -6,7 +6,7 @@ namespace phasetree {
 
 /// Maps p to the same place in the cell about `centre`. The map jumps at the cells' faces, so its slope has no bound;
 /// the recorder gets `jump` for it. Where a cell of the object touches no face, pruning divides by it again
-/// (src/pruning/jumps.hpp).
+/// (src/pruning/jumps.cpp).
 struct FoldMap {
     glm::vec3 centre{0};
     glm::vec3 spacing{1};
