@@ -33,6 +33,7 @@ const std::vector<Command>& commands() {
         {"phases", "the same geometry with 1 to 32 phases (Figure 20)", phases},
         {"simd", "instruction sets and threads", simd},
         {"host", "what a host pays for decoding, cells from files, points", host},
+        {"light", "error per second of pictures, of each technique alone and against another build", light},
     };
     return all;
 }
@@ -106,6 +107,10 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(1, 1024));
     app.add_option("--size", size, "Of the images of one ray per pixel, WIDTHxHEIGHT");
     app.add_option("--seed", settings.seed, "Of the random rays");
+    app.add_option("--scenes", settings.scenes, "Of light: pictures of the gallery, separated by commas")->delimiter(',');
+    app.add_option("--samples", settings.samples, "Of light: samples a pixel")->check(CLI::Range(1, 65536));
+    app.add_option("--against", settings.against, "Of light: the command phasetree of another build")
+        ->check(CLI::ExistingFile);
     app.add_option("--json", file, "Also write the numbers to this file");
     app.require_subcommand(1);
     app.fallthrough();

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "measure/in_turn.hpp"
 
@@ -12,6 +15,11 @@ struct Settings {
     int threads = 1;                // that trace; building is measured on one
     int width = 512, height = 512;  // of an image of one ray per pixel
     std::uint32_t seed = 1;
+    // Of `light` alone: pictures of the gallery instead of the usual few, samples a pixel, and another build's command
+    // `phasetree` to compare with.
+    std::vector<std::string> scenes{};
+    int samples = 16;
+    std::optional<std::string> against{};
 
     // Processor time of one thread does not count what else the machine does; several threads have only the wall clock.
     Timing timing() const { return {quick ? 3 : 7, quick ? 0.02 : 0.15, threads == 1 ? Clock::thread : Clock::wall}; }

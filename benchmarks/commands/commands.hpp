@@ -14,6 +14,7 @@ Report phases(const Settings&);
 Report quality(const Settings&);
 Report simd(const Settings&);
 Report host(const Settings&);
+Report light(const Settings&);
 Report fingerprint(const Settings&);
 
 }  // namespace phasetree::bench

@@ -46,7 +46,8 @@ TEST_CASE("phasetree-bench all: every subcommand's numbers are finite and positi
                                                    {"naive", "scenes", 2, 2, 2},
                                                    {"mesh", "scenes", 16, 3, 4},
                                                    {"simd", "instruction_sets", 0, 2, 1},
-                                                   {"host", "scenes", 4, 2, 0}}) {
+                                                   {"host", "scenes", 4, 2, 0},
+                                                   {"light", "pictures", 6, 0, 0}}) {
         CAPTURE(e.command);
         const nlohmann::json& report = all.at(e.command);
         const nlohmann::json& table = report.at(e.table);

@@ -36,9 +36,9 @@ std::optional<Outside> bent_outward(const glm::vec3& inside, const glm::vec3& no
 }
 
 // The density of directions inside that are directions to lights outside.
-float bent_pdf(const Lights& lights, const glm::vec3& p, const glm::vec3& inside, const glm::vec3& normal, float eta) {
+float bent_pdf(const Lights& lights, const LightReceiver& at, const glm::vec3& inside, const glm::vec3& normal, float eta) {
     const std::optional<Outside> outside = bent_outward(inside, normal, eta);
-    return outside ? lights.pdf(p, outside->direction) * outside->widening : 0.0f;
+    return outside ? lights.pdf(at, outside->direction) * outside->widening : 0.0f;
 }
 
 // The normal, on the outer side, of where a line leaves the last medium that bends light.
@@ -62,18 +62,36 @@ LightProposal LightProposal::at(const Surface& surface, const World& world, cons
                                 PathCounters& counters) {
     const glm::vec3& p = surface.near_side.origin;
     const float eta = std::get<Clear>(scene.materials[surface.near_side.phase.index]).ior;
-    if (eta == 1.0f) return {p, surface.normal, eta};
+    if (eta == 1.0f) return {{p, surface.normal}, surface.normal, eta};
     // The line to look along is bent as by a plane parallel to the surface.
     const glm::vec3 lamp = scene.lights.towards_brightest(p, surface.normal).value_or(surface.normal);
     const std::optional<glm::vec3> line = bent_inward(lamp, surface.normal, eta);
     const std::optional<glm::vec3> met = line ? boundary_along(*line, surface, world, scene, counters) : std::nullopt;
     LightProposal proposal(p, met.value_or(surface.normal), eta);
-    for (const FlatBoundary& flat : world.flat_boundaries()) {
-        const std::optional<glm::vec3> by = bent_inward(lamp, flat.normal, eta);
-        const float away = by ? glm::dot(flat.lit.centre() - p, flat.normal) / glm::dot(*by, flat.normal) : 0.0f;
-        if (away > 0.0f && flat.lit.contains(p + away * *by)) proposal.add_plane(flat.normal);
-    }
+    proposal.add_flat_boundaries(world, [&](const glm::vec3&) { return std::optional(lamp); });
     return proposal;
+}
+
+LightProposal LightProposal::at(const MediumPoint& point, const std::optional<glm::vec3>& entered, const World& world,
+                                const Scene& scene) {
+    const float eta = std::get<Clear>(scene.materials[point.phase.index]).ior;
+    LightProposal proposal(point.position, entered.value_or(glm::vec3(0.0f)), eta);
+    if (eta == 1.0f) return proposal;
+    if (!entered) proposal.planes_ = 0;
+    proposal.add_flat_boundaries(world, [&](const glm::vec3& outward) {
+        return scene.lights.towards_brightest(point.position, outward);
+    });
+    return proposal;
+}
+
+template <class LampAbove>
+void LightProposal::add_flat_boundaries(const World& world, LampAbove&& lamp_above) {
+    for (const FlatBoundary& flat : world.flat_boundaries()) {
+        const std::optional<glm::vec3> lamp = lamp_above(flat.normal);
+        const std::optional<glm::vec3> by = lamp ? bent_inward(*lamp, flat.normal, eta_) : std::nullopt;
+        const float away = by ? glm::dot(flat.lit.centre() - at_.p, flat.normal) / glm::dot(*by, flat.normal) : 0.0f;
+        if (away > 0.0f && flat.lit.contains(at_.p + away * *by)) add_plane(flat.normal);
+    }
 }
 
 void LightProposal::add_plane(const glm::vec3& outward) {
@@ -88,7 +106,7 @@ std::optional<LightSample> LightProposal::sample(const Lights& lights, glm::vec2
     const float scaled = u.x * static_cast<float>(1 + planes_);
     const int by = std::min(static_cast<int>(scaled), planes_);  // straight, or by a plane
     u.x = std::min(scaled - static_cast<float>(by), 1 - 0x1p-24f);
-    std::optional<LightSample> sample = lights.sample(p_, u);
+    std::optional<LightSample> sample = lights.sample(at_, u);
     if (!sample) return std::nullopt;
     if (by == 0) {
         sample->pdf = pdf(lights, sample->wi, sample->pdf);
@@ -99,20 +117,20 @@ std::optional<LightSample> LightProposal::sample(const Lights& lights, glm::vec2
     const std::optional<Outside> outside = inside ? bent_outward(*inside, normal, eta_) : std::nullopt;
     // At the very rim of a light, bending the direction in and out again can put it just outside of the light, where
     // the density is that of the sky: far less than what was sampled. Such a sample would count far too much.
-    if (!outside || !(lights.pdf(p_, outside->direction) > 0.5f * sample->pdf)) return std::nullopt;
-    const auto seen = lights.seen(p_, *inside, infinity, false);
+    if (!outside || !(lights.pdf(at_, outside->direction) > 0.5f * sample->pdf)) return std::nullopt;
+    const auto seen = lights.seen(at_.p, *inside, infinity, false);
     if (!seen) return std::nullopt;
     return LightSample{*inside, seen->distance, seen->radiance, pdf(lights, *inside)};
 }
 
 float LightProposal::pdf(const Lights& lights, const glm::vec3& direction) const {
-    return pdf(lights, direction, lights.pdf(p_, direction));
+    return pdf(lights, direction, lights.pdf(at_, direction));
 }
 
 float LightProposal::pdf(const Lights& lights, const glm::vec3& direction, float straight) const {
     float sum = straight;
     for (int i = 0; i < planes_; ++i)
-        sum += bent_pdf(lights, p_, direction, outward_[static_cast<std::size_t>(i)], eta_);
+        sum += bent_pdf(lights, at_, direction, outward_[static_cast<std::size_t>(i)], eta_);
     return sum / static_cast<float>(1 + planes_);
 }
 

@@ -24,15 +24,19 @@ namespace phasetree::tracer {
 class LightProposal {
   public:
     LightProposal() = default;
-    /// For a point p to which light comes in through a plane of this unit normal, which points outward. eta is
-    /// the refractive index around p divided by that beyond the plane. If it is 1, all directions go straight towards
-    /// the lights.
-    LightProposal(const glm::vec3& p, const glm::vec3& outward, float eta)
-        : p_(p), outward_{outward}, planes_(eta == 1.0f ? 0 : 1), eta_(eta) {}
+    /// For a place to which light comes in through a plane of this unit normal, which points outward. eta is the
+    /// refractive index there divided by that beyond the plane. If it is 1, all directions go straight towards the
+    /// lights.
+    LightProposal(const LightReceiver& at, const glm::vec3& outward, float eta)
+        : at_(at), outward_{outward}, planes_(eta == 1.0f ? 0 : 1), eta_(eta) {}
     /// Adds another plane through which light comes in.
     void add_plane(const glm::vec3& outward);
     /// For a surface without a far side. Lights are taken to be in vacuum.
     static LightProposal at(const Surface& surface, const World& world, const Scene& scene, PathCounters& counters);
+    /// For a point in a medium. `entered` is the outward normal of the boundary that the path met last in this medium,
+    /// if any: near it light comes in where the path did, and far from it next to none comes in at all.
+    static LightProposal at(const MediumPoint& point, const std::optional<glm::vec3>& entered, const World& world,
+                            const Scene& scene);
 
     /// A direction from p, and the light that is seen in it; `u` is in [0, 1)².
     std::optional<LightSample> sample(const Lights& lights, glm::vec2 u) const;
@@ -40,10 +44,13 @@ class LightProposal {
     float pdf(const Lights& lights, const glm::vec3& direction) const;
 
   private:
+    /// Adds the flat boundaries that a light above them shines through onto the place.
+    template <class LampAbove>
+    void add_flat_boundaries(const World& world, LampAbove&& lamp_above);
     /// The same of a direction whose density straight to the lights is known.
     float pdf(const Lights& lights, const glm::vec3& direction, float straight) const;
 
-    glm::vec3 p_{0};
+    LightReceiver at_;
     std::array<glm::vec3, 1 + max_flat_boundaries> outward_{};
     int planes_ = 0;
     float eta_ = 1;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "integrator/light_proposal.hpp"
@@ -15,6 +16,17 @@ float power_heuristic(float a, float b) {
     // The square of the quotient does not overflow where a² could.
     const float q = b / a;
     return 1.0f / (1.0f + q * q);
+}
+
+// The weights of the two techniques that find a light in one direction, by the densities with which each proposes that
+// direction: for what shadow rays find, and for what the directions of BSDFs find. They add up to 1.
+struct TechniqueWeights {
+    float shadow_ray, direction;
+};
+TechniqueWeights technique_weights(Techniques techniques, float shadow_ray_pdf, float direction_pdf) {
+    if (techniques == Techniques::shadow_rays_alone) return {1, 0};
+    if (techniques == Techniques::directions_alone) return {0, 1};
+    return {power_heuristic(shadow_ray_pdf, direction_pdf), power_heuristic(direction_pdf, shadow_ray_pdf)};
 }
 
 // Shadow rays follow no chain of more interfaces than this. Light at the end of a longer one is left to the directions
@@ -39,6 +51,18 @@ Ray continued(const Surface& surface, const Frame& frame, const BsdfSample& samp
     return sample.transmitted ? surface.transmitted(direction) : surface.reflected(direction);
 }
 
+// Deep in a medium next to nothing of a shadow ray is left when it gets to the boundary, and where the chain goes from
+// there is rarely worth a ray. Below this share it goes on in proportion to what is left.
+constexpr float least_share_of_shadow_ray = 0.1f;
+
+bool passes_roulette(glm::vec3& throughput, Sampler& sampler) {
+    const float survival = std::max({throughput.x, throughput.y, throughput.z}) / least_share_of_shadow_ray;
+    if (survival >= 1.0f) return true;
+    if (!(sampler.next() < survival)) return false;
+    throughput /= survival;
+    return true;
+}
+
 // One random sample of E (path.hpp) along a shadow ray: the emission at the end of a chain of smooth clear interfaces,
 // each of which reflects or refracts the ray at random, times the transmittance of the media and the weights of the
 // interfaces. Up to its first interface the ray goes straight to the light that was sampled, which is known; after that
@@ -57,9 +81,10 @@ glm::vec3 emission_through_chain(const World& world, const Scene& scene, Ray ray
         const auto light = segment > 0 ? scene.lights.seen(ray.origin, ray.direction, distance, false)
                            : escaped   ? std::optional(Lights::Emission{sampled.distance, sampled.radiance})
                                        : std::nullopt;
-        if (light) return throughput * transmittance(medium, light->distance) * light->radiance;
-        if (!surface) return glm::vec3(0.0f);
-        throughput *= transmittance(medium, distance);
+        if (!light && !surface) return glm::vec3(0.0f);
+        throughput *= transmittance(medium, {ray.origin, ray.direction, light ? light->distance : distance}, sampler);
+        if (light) return throughput * light->radiance;
+        if (phase_function(medium) && !passes_roulette(throughput, sampler)) return glm::vec3(0.0f);
         const Bsdf bsdf = surface->bsdf();
         if (bsdf.passes_through()) {
             ray = surface->transmitted(ray.direction);
@@ -83,9 +108,9 @@ struct Chain {
     glm::vec3 direction{0};
     int length = 0;
 
-    float weight(const Lights& lights) const {
+    float weight(const Scene& scene) const {
         if (!pdf || length > longest_chain) return 1;
-        return power_heuristic(*pdf, proposal.pdf(lights, direction));
+        return technique_weights(scene.settings.techniques, proposal.pdf(scene.lights, direction), *pdf).direction;
     }
 };
 
@@ -105,12 +130,25 @@ class Path {
             const Hit hit = world_.geometry().intersect(ray_, counters_);
             const Surface* surface = std::get_if<Surface>(&hit);
             const float distance = surface ? surface->distance : infinity;
-            if (add_emission(distance) || !surface) break;
-            throughput_ *= transmittance(clear_at(scene_, ray_.phase).interior, distance);
+            const auto light = scene_.lights.seen(ray_.origin, ray_.direction, distance, is_camera_ray_);
+            const Flight flight = through_medium(light ? light->distance : distance);
+            radiance_ += throughput_ * flight.emitted;
+            if (light && !flight.scattered_at) {
+                radiance_ += throughput_ * chain_.weight(scene_) * flight.weight * light->radiance;
+                break;
+            }
+            throughput_ *= flight.weight;
+            if (flight.scattered_at) {
+                scatter_in_medium(*flight.scattered_at);
+                if (!roulette(++depth)) break;
+                continue;
+            }
+            if (!surface) break;
             ++depth;
             const Bsdf bsdf = surface->bsdf();
             if (bsdf.passes_through()) {  // equal indices scatter nothing, but do count for max_depth
                 ray_ = surface->transmitted(ray_.direction);
+                entered_ = surface->normal;
                 continue;
             }
             if (!scatter_and_continue(*surface, bsdf) || !roulette(depth)) break;
@@ -119,14 +157,16 @@ class Path {
     }
 
   private:
-    // Adds the emission of the light that the ray meets before the distance. Whether there is one: the path then ends.
-    bool add_emission(float distance) {
-        const auto light = scene_.lights.seen(ray_.origin, ray_.direction, distance, is_camera_ray_);
-        if (!light) return false;
-        const Medium& medium = clear_at(scene_, ray_.phase).interior;
-        radiance_ +=
-            throughput_ * chain_.weight(scene_.lights) * transmittance(medium, light->distance) * light->radiance;
-        return true;
+    const Medium& medium() const { return clear_at(scene_, ray_.phase).interior; }
+
+    Flight through_medium(float distance) {
+        return fly(medium(), {ray_.origin, ray_.direction, distance}, throughput_, sampler_);
+    }
+
+    // As scatter_and_continue(), at that distance along the ray in a medium, where a path always goes on.
+    void scatter_in_medium(float distance) {
+        const HenyeyGreenstein& phase = *phase_function(medium());
+        scatter_and_continue({ray_.origin + distance * ray_.direction, ray_.phase, phase});
     }
 
     // Adds direct light, and samples the path's next ray. Whether there is one.
@@ -145,6 +185,7 @@ class Path {
         if (!next) return false;
         throughput_ *= next->weight;
         ray_ = continued(surface, frame, *next);
+        entered_ = next->transmitted ? surface.normal : -surface.normal;
         if (!next->delta)
             chain_ = {next->pdf, proposal, ray_.direction, 0};
         else if (is_link(bsdf, surface))
@@ -154,17 +195,42 @@ class Path {
         return true;
     }
 
+    void scatter_and_continue(const MediumPoint& point) {
+        ++counters_.interactions;
+        is_camera_ray_ = false;
+        const HenyeyGreenstein& phase = point.phase_function;
+        const auto proposal = LightProposal::at(point, entered_, world_, scene_);
+        if (const auto light = sampled_light(proposal)) {
+            const float f = phase.evaluate(glm::dot(ray_.direction, light->wi));
+            add_direct_light(*light, glm::vec3(f), f, point.leaving(light->wi));
+        }
+        const glm::vec3 direction = glm::normalize(Frame(ray_.direction).to_world(phase.sample(sampler_.next2())));
+        const float pdf = phase.evaluate(glm::dot(ray_.direction, direction));
+        ray_ = point.leaving(direction);
+        chain_ = {pdf, proposal, direction, 0};
+    }
+
     // Next-event estimation: what arrives from the lights by a shadow ray, and is scattered into the path.
     void add_direct_light(const Surface& surface, const Bsdf& bsdf, const Frame& frame, const glm::vec3& wo,
                           const LightProposal& proposal) {
-        const auto light = proposal.sample(scene_.lights, sampler_.next2());
+        const auto light = sampled_light(proposal);
         if (!light) return;
         const glm::vec3 wi = frame.to_local(light->wi);
         const glm::vec3 f = bsdf.evaluate(wo, wi);
         if (f == glm::vec3(0.0f)) return;
-        const Ray shadow = wi.z < 0 ? surface.transmitted(light->wi) : surface.reflected(light->wi);
-        const glm::vec3 arrives = emission_through_chain(world_, scene_, shadow, *light, sampler_, counters_);
-        radiance_ += throughput_ * f * arrives * (power_heuristic(light->pdf, bsdf.pdf(wo, wi)) / light->pdf);
+        add_direct_light(*light, f, bsdf.pdf(wo, wi),
+                         wi.z < 0 ? surface.transmitted(light->wi) : surface.reflected(light->wi));
+    }
+    std::optional<LightSample> sampled_light(const LightProposal& proposal) {
+        return proposal.sample(scene_.lights, sampler_.next2());
+    }
+    // f is what of the light is scattered into the path, and pdf the density with which the path itself would go on in
+    // that direction.
+    void add_direct_light(const LightSample& light, const glm::vec3& f, float pdf, const Ray& shadow) {
+        const float weight = technique_weights(scene_.settings.techniques, light.pdf, pdf).shadow_ray;
+        if (weight == 0.0f) return;
+        const glm::vec3 arrives = emission_through_chain(world_, scene_, shadow, light, sampler_, counters_);
+        radiance_ += throughput_ * f * arrives * (weight / light.pdf);
     }
 
     // Russian roulette on what the path can still bring to the camera: radiance over η² is what refraction preserves.
@@ -174,7 +240,8 @@ class Path {
         const float worth = std::max({throughput_.x, throughput_.y, throughput_.z}) * ior * ior;
         if (!(worth > 0)) return false;
         if (depth > 3 && worth < 0.95f) {
-            const float survival = std::max(worth, 0.05f);
+            static const float factor = std::getenv("RRF") ? static_cast<float>(std::atof(std::getenv("RRF"))) : 4.0f;
+            const float survival = std::min(1.0f, std::max(factor * worth, 0.05f));
             if (sampler_.next() >= survival) return false;
             throughput_ /= survival;
         }
@@ -189,6 +256,7 @@ class Path {
     float camera_ior_;
     glm::vec3 radiance_{0.0f}, throughput_{1.0f};
     Chain chain_;
+    std::optional<glm::vec3> entered_;  // the outward normal of the boundary that the path met last in this medium
     bool is_camera_ray_ = true;
 };
 

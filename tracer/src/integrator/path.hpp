@@ -8,7 +8,7 @@
 namespace phasetree::tracer {
 
 /// An estimate of the radiance that arrives along a ray, unbiased but for the light that is lost where paths end
-/// because they have met RenderSettings::max_depth surfaces. It is black for a ray that starts in an opaque phase.
+/// because they have been scattered, or met surfaces, RenderSettings::max_depth times. It is black for a ray that starts in an opaque phase.
 ///
 /// Light through clear interfaces. A shadow ray that meets a smooth interface of two clear phases is not lost: it goes
 /// on as a path would, reflected or refracted by Fresnel's odds, and what it finds in the end is the light that arrives
@@ -18,6 +18,10 @@ namespace phasetree::tracer {
 /// and combine by the power heuristic of their densities *of ω*: of the light sampling, and of the BSDF. A path keeps
 /// these two through the chain. Nothing is counted twice and nothing is lost, whatever the light is seen through. In
 /// which directions shadow rays start is for light_proposal.hpp.
+///
+/// Media that scatter. On its way a path may be scattered in a medium, which is a place like a surface: light is looked
+/// for there, and a direction sampled, with the phase function in place of the BSDF. E then has the media's extinction
+/// for its transmittance, whichever technique finds it.
 glm::vec3 trace_path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters);
 
 }  // namespace phasetree::tracer

@@ -30,10 +30,17 @@ concept InfiniteLightKind = std::copyable<L> && requires(const L& light, const g
     { light.centre_direction() } -> std::same_as<std::optional<glm::vec3>>;
 };
 
+/// A ball around a light.
+struct BoundingSphere {
+    glm::vec3 centre;
+    float radius;
+};
+
 /// * radiance(): what is emitted, the same from every point to every direction.
 /// * visible_to_camera(): whether camera rays meet the light; otherwise they pass through.
 /// * approximate_solid_angle(p): the solid angle in steradians that the light fills as seen from p, roughly, which is
 ///   all that a choice among lights needs. It is 0 exactly where nothing of the light is seen.
+/// * bounding_sphere(): a ball around it.
 /// * sample(p, u): a direction from p towards the light; asked only where approximate_solid_angle(p) is not 0.
 /// * pdf_at(p, w, d): the density of sample(), for a direction w in which the light is met at the distance d.
 /// * intersect(p, w): the distance at which a ray from p first meets the light's emitting side, if it does.
@@ -43,6 +50,7 @@ concept AreaLightKind = std::copyable<L> &&
     { light.radiance() } -> std::convertible_to<glm::vec3>;
     { light.visible_to_camera() } -> std::same_as<bool>;
     { light.approximate_solid_angle(p) } -> std::same_as<double>;
+    { light.bounding_sphere() } -> std::convertible_to<BoundingSphere>;
     { light.sample(p, u) } -> std::same_as<DirectionSample>;
     { light.pdf_at(p, w, d) } -> std::same_as<float>;
     { light.intersect(p, w) } -> std::same_as<std::optional<float>>;

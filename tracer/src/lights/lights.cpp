@@ -27,6 +27,20 @@ class Scratch {
     std::pmr::vector<float> values_;
 };
 
+// A sun whose middle has set may still be seen in part.
+constexpr float least_cosine_of_sun = 0.02f;
+
+// Roughly the mean over a sphere's solid angle of the cosine to the normal, counted as 0 below the surface. It is 0 only
+// where the whole sphere is below: the cosines from c − s to c + s, with s = r/d, are taken to be equally frequent.
+double mean_cosine(const BoundingSphere& sphere, const glm::vec3& p, const glm::vec3& normal) {
+    const glm::vec3 offset = sphere.centre - p;
+    const auto distance = static_cast<double>(glm::length(offset)), radius = static_cast<double>(sphere.radius);
+    if (!(distance > radius)) return 1.0;
+    const double c = static_cast<double>(glm::dot(offset, normal)) / distance, s = 1.0001 * radius / distance;
+    if (c >= s) return c;
+    return c > -s ? (c + s) * (c + s) / (4 * s) : 0.0;
+}
+
 }  // namespace
 
 void Lights::set_background(const std::optional<glm::vec3>& radiance) {
@@ -34,29 +48,39 @@ void Lights::set_background(const std::optional<glm::vec3>& radiance) {
     background_ = radiance;
 }
 
-// Fills in the luminance each light sends through p, infinite lights first; returns the sum.
-float Lights::fluences(const glm::vec3& p, std::span<float> fluence) const {
+// Fills in what each light gives, by which lights are chosen, infinite ones first; returns the sum.
+float Lights::shares(const LightReceiver& at, std::span<float> shares) const {
     float total = 0.0f;
     std::size_t index = 0;
-    for (const InfiniteLight& any : infinite_) {
-        fluence[index] = std::visit([](const auto& light) { return light.fluence(); }, any);
-        total += fluence[index++];
+    for (std::size_t i = 0; i < infinite_.size(); ++i) {
+        shares[index] = std::visit(
+            [&](const auto& light) {
+                if (!at.normal) return light.fluence();
+                const std::optional<glm::vec3> centre = light.centre_direction();
+                if (!centre) return irradiance_[i].at(*at.normal);
+                return light.fluence() * std::max(glm::dot(*centre, *at.normal), least_cosine_of_sun);
+            },
+            infinite_[i]);
+        total += shares[index++];
     }
     for (const AreaLight& any : area_) {
-        fluence[index] = std::visit(
+        shares[index] = std::visit(
             [&](const auto& light) {
-                return static_cast<float>(static_cast<double>(luminance(light.radiance())) *
-                                          light.approximate_solid_angle(p));
+                const double solid_angle = light.approximate_solid_angle(at.p);
+                if (!(solid_angle > 0.0)) return 0.0f;
+                const double cosine = at.normal ? mean_cosine(light.bounding_sphere(), at.p, *at.normal) : 1.0;
+                return static_cast<float>(static_cast<double>(luminance(light.radiance())) * solid_angle * cosine);
             },
             any);
-        total += fluence[index++];
+        total += shares[index++];
     }
     return total;
 }
 
-float Lights::pdf(const glm::vec3& p, const glm::vec3& direction) const {
+float Lights::pdf(const LightReceiver& at, const glm::vec3& direction) const {
+    const glm::vec3& p = at.p;
     Scratch scratch(size());
-    const float total = fluences(p, scratch);
+    const float total = shares(at, scratch);
     if (!(total > 0.0f) || total == infinity) return 0.0f;  // as sample() has it
     const std::span<const float> fluence = scratch.values();
     float sum = 0.0f;
@@ -78,9 +102,10 @@ float Lights::pdf(const glm::vec3& p, const glm::vec3& direction) const {
     return sum;
 }
 
-std::optional<LightSample> Lights::sample(const glm::vec3& p, glm::vec2 u) const {
+std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u) const {
+    const glm::vec3& p = at.p;
     Scratch scratch(size());
-    const float total = fluences(p, scratch);
+    const float total = shares(at, scratch);
     const std::span<const float> fluence = scratch.values();
     if (!(total > 0.0f) || total == infinity) return std::nullopt;
 
@@ -135,7 +160,7 @@ std::optional<LightSample> Lights::sample(const glm::vec3& p, glm::vec2 u) const
 
 std::optional<glm::vec3> Lights::towards_brightest(const glm::vec3& p, const glm::vec3& normal) const {
     Scratch scratch(size());
-    fluences(p, scratch);
+    shares(p, scratch);
     std::optional<glm::vec3> brightest;
     float most = 0.0f;
     std::size_t index = 0;

@@ -10,8 +10,9 @@
 // pair of densities.
 //
 // cᵢ(x) is proportional to the luminance the light sends through x from all directions if nothing is in the way (its
-// fluence, the mean luminance times the solid angle; of a rectangle, roughly). Unlike emitted power it needs no extent
-// of the scene to compare an environment with a lamp, and a lamp that is far away or turned away takes no samples.
+// fluence, the mean luminance times the solid angle; of a rectangle, roughly); at a surface, to the luminance that it
+// receives, with the cosine. Unlike emitted power this needs no extent of the scene to compare an environment with a
+// lamp, and a lamp that is far away or turned away, or below the surface, takes no samples.
 //
 // Area lights hide what is behind them, and nothing else: rectangles from their emitting side, spheres from everywhere.
 #pragma once
@@ -22,9 +23,20 @@
 #include <span>
 #include <vector>
 
+#include "lights/diffuse_irradiance.hpp"
 #include "lights/kinds.hpp"
 
 namespace phasetree::tracer {
+
+/// Where light is looked for: a point, and, if it is on a surface that light does not pass, the unit normal there. No
+/// light from below that counts.
+struct LightReceiver {
+    glm::vec3 p{0};
+    std::optional<glm::vec3> normal{};
+
+    LightReceiver(const glm::vec3& point = glm::vec3(0)) : p(point) {}
+    LightReceiver(const glm::vec3& point, const glm::vec3& up) : p(point), normal(up) {}
+};
 
 struct LightSample {
     glm::vec3 wi;        ///< unit, from the point towards the light
@@ -40,7 +52,10 @@ class Lights {
         glm::vec3 radiance;
     };
 
-    void add(InfiniteLight light) { infinite_.push_back(std::move(light)); }
+    void add(InfiniteLight light) {
+        irradiance_.emplace_back(light);
+        infinite_.push_back(std::move(light));
+    }
     void add(AreaLight light) { area_.push_back(std::move(light)); }
     /// What camera rays see instead of the infinite lights.
     void set_background(const std::optional<glm::vec3>& radiance);
@@ -49,16 +64,16 @@ class Lights {
 
     /// `u` in [0, 1)². Its x chooses the light, and what is left of it, stretched to [0, 1) again, is the x that the
     /// light's own sampling gets: points that are stratified in the square are so for each light. Nothing when no light
-    /// reaches p.
-    std::optional<LightSample> sample(const glm::vec3& p, glm::vec2 u) const;
+    /// reaches the place.
+    std::optional<LightSample> sample(const LightReceiver& at, glm::vec2 u) const;
 
     /// What a ray sees that meets geometry at that distance, infinity for none: the nearest area light before it or, if
     /// nothing is in the way, the infinite lights. Camera rays pass through lights that are not visible to the camera.
     std::optional<Emission> seen(const glm::vec3& origin, const glm::vec3& direction, float geometry,
                                  bool camera_ray) const;
 
-    /// The density of sample() at p per steradian.
-    float pdf(const glm::vec3& p, const glm::vec3& direction) const;
+    /// The density of sample() there, per steradian.
+    float pdf(const LightReceiver& at, const glm::vec3& direction) const;
 
     /// Towards the brightest light that has a place, of those on the side of p that the normal points to; nothing if
     /// there is none.
@@ -66,10 +81,11 @@ class Lights {
 
   private:
     std::size_t size() const { return infinite_.size() + area_.size(); }
-    float fluences(const glm::vec3& p, std::span<float> fluence) const;
+    float shares(const LightReceiver& at, std::span<float> shares) const;
     glm::vec3 infinite_radiance(const glm::vec3& direction) const;
 
     std::vector<InfiniteLight> infinite_;
+    std::vector<DiffuseIrradiance> irradiance_;  ///< of each of these
     std::vector<AreaLight> area_;
     std::optional<glm::vec3> background_;
 };

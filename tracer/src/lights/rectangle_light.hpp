@@ -7,10 +7,11 @@
 // rounding, points are taken uniformly in area instead, p = d²/(A cos θ).
 #pragma once
 
+#include <cmath>
 #include <glm/glm.hpp>
 #include <optional>
 
-#include "lights/direction_sample.hpp"
+#include "lights/contract.hpp"
 #include "parameters/world_limits.hpp"
 #include "phasetree/io/kind.hpp"
 
@@ -34,6 +35,9 @@ class RectangleLight {
     double solid_angle(const glm::vec3& p) const;
     // About as much, without a trigonometric function: what a choice among lights needs. 0 where solid_angle() is 0.
     double approximate_solid_angle(const glm::vec3& p) const;
+    BoundingSphere bounding_sphere() const {
+        return {glm::vec3(centre_), static_cast<float>(std::sqrt(half_u_ * half_u_ + half_v_ * half_v_))};
+    }
     // A direction from p towards the light; p must see it.
     DirectionSample sample(const glm::vec3& p, const glm::vec2& u) const;
     // The density of sample() per steradian, for a direction in which the light is met at that distance.

@@ -8,7 +8,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 
-#include "lights/direction_sample.hpp"
+#include "lights/contract.hpp"
 #include "parameters/world_limits.hpp"
 #include "phasetree/io/kind.hpp"
 
@@ -24,6 +24,7 @@ class SphereLight {
     // Steradians seen from p.
     double solid_angle(const glm::vec3& p) const;
     double approximate_solid_angle(const glm::vec3& p) const { return solid_angle(p); }
+    BoundingSphere bounding_sphere() const { return {glm::vec3(centre_), static_cast<float>(radius_)}; }
     // A direction from p towards the light.
     DirectionSample sample(const glm::vec3& p, const glm::vec2& u) const;
     // The density of sample() per steradian, for a direction in which the light is met, at that distance.

@@ -5,16 +5,21 @@
 #include <cmath>
 #include <glm/vec3.hpp>
 
+#include "media/contract.hpp"
+
 namespace phasetree::tracer {
+
+/// What is left after a distance, which may be infinite, at a coefficient per unit of length in each channel.
+inline glm::vec3 beer_lambert(const glm::vec3& coefficient, float distance) {
+    // A medium that does not absorb passes everything, also over an infinite distance, where 0·∞ is not a number.
+    const auto channel = [distance](float a) { return a > 0.0f ? std::exp(-a * distance) : 1.0f; };
+    return {channel(coefficient.x), channel(coefficient.y), channel(coefficient.z)};
+}
 
 struct AbsorbingMedium {
     glm::vec3 absorption{0.0f};  ///< a, per unit of length of the scene; not negative
 
-    glm::vec3 transmittance(float distance) const {
-        // A medium that does not absorb passes everything, also over an infinite distance, where 0·∞ is not a number.
-        const auto channel = [distance](float a) { return a > 0.0f ? std::exp(-a * distance) : 1.0f; };
-        return {channel(absorption.x), channel(absorption.y), channel(absorption.z)};
-    }
+    glm::vec3 transmittance(const Way& way, Sampler&) const { return beer_lambert(absorption, way.length); }
 };
 
 }  // namespace phasetree::tracer

@@ -1,10 +1,13 @@
 // The list of all media, and a medium of any kind by value.
 #pragma once
 
+#include <optional>
 #include <variant>
 
 #include "media/absorbing.hpp"
 #include "media/contract.hpp"
+#include "media/homogeneous.hpp"
+#include "media/varying.hpp"
 
 namespace phasetree::tracer {
 
@@ -20,11 +23,35 @@ template <class... Kinds>
 using MediumOf = std::variant<typename CheckedMedium<Kinds>::Type...>;
 
 /// Every kind of medium. The first is the default, and lets everything pass as long as nothing else is said.
-using Medium = MediumOf<AbsorbingMedium>;
+using Medium = MediumOf<AbsorbingMedium, HomogeneousMedium, VaryingMedium>;
 
 /// MediumKind's transmittance of a medium of any kind.
-inline glm::vec3 transmittance(const Medium& medium, float distance) {
-    return std::visit([&](const auto& kind) { return kind.transmittance(distance); }, medium);
+inline glm::vec3 transmittance(const Medium& medium, const Way& way, Sampler& sampler) {
+    return std::visit([&](const auto& kind) { return kind.transmittance(way, sampler); }, medium);
+}
+
+/// The flight of a path through a medium of any kind; through one that only absorbs nothing is random.
+inline Flight fly(const Medium& medium, const Way& way, const glm::vec3& throughput, Sampler& sampler) {
+    return std::visit(
+        [&]<class Kind>(const Kind& kind) {
+            if constexpr (ScatteringMediumKind<Kind>)
+                return kind.fly(way, throughput, sampler);
+            else
+                return Flight{.weight = kind.transmittance(way, sampler)};
+        },
+        medium);
+}
+
+/// How a medium scatters light; none for one that does not.
+inline const HenyeyGreenstein* phase_function(const Medium& medium) {
+    return std::visit(
+        []<class Kind>(const Kind& kind) -> const HenyeyGreenstein* {
+            if constexpr (ScatteringMediumKind<Kind>)
+                return &kind.phase_function();
+            else
+                return nullptr;
+        },
+        medium);
 }
 
 }  // namespace phasetree::tracer

@@ -1,29 +1,11 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "phasetree/io/read_kind.hpp"
 #include "scene/material_kinds.hpp"
 #include "scene/read_parts.hpp"
 #include "shading/metals.hpp"
 
 namespace phasetree::tracer {
-
-Clear ClearParameters::made() const {
-    AbsorbingMedium medium{absorption.value_or(glm::vec3(0.0f))};
-    if (color) {
-        if (absorption)
-            throw ParameterError("color", "\"color\" and \"absorption\" say the same; give one of them",
-                                 ParameterError::Place::key);
-        for (int i = 0; i < 3; ++i) medium.absorption[i] = std::max(0.0f, -std::log((*color)[i]) / color_distance);
-    }
-    Clear clear;
-    clear.ior = ior;
-    clear.interior = medium;
-    clear.roughness = roughness;
-    return clear;
-}
 
 std::vector<std::string_view> names_of_metals() {
     std::vector<std::string_view> names;

@@ -16,14 +16,28 @@ namespace phasetree::tracer {
 inline constexpr Parameter roughness_parameter{"roughness", "", "α of GGX: 0 is polished, 0.1 satin, 0.5 matt.",
                                                limits::fraction, true};
 
+std::vector<std::string_view> names_of_media();
+
 struct ClearParameters {
-    static constexpr KindInfo info{"clear", "Vacuum, air, water, glass: light travels inside.", "exp(−a d)"};
+    static constexpr KindInfo info{"clear",
+                                   "Vacuum, air, water, glass, milk, wax, fog: light travels inside, and may be "
+                                   "absorbed and scattered there.",
+                                   "exp(−(a + s) d)"};
 
     float ior = 1.0f;
     std::optional<glm::vec3> absorption{};
     std::optional<glm::vec3> color{};
     float color_distance = 1.0f;
     float roughness = 0.0f;
+    std::optional<glm::vec3> scattering{};
+    std::optional<glm::vec3> albedo{};
+    std::optional<glm::vec3> mean_free_path{};
+    std::optional<std::string> medium{};
+    std::optional<float> scale{};
+    std::optional<float> anisotropy{};
+    std::optional<glm::vec3> emission{};
+    std::optional<Field> density{};
+    std::optional<float> density_depth{};
 
     template <class V>
     static void parameters(V&& v) {
@@ -38,8 +52,40 @@ struct ClearParameters {
         v(&P::color_distance,
           Parameter{"color_distance", "m", "The distance after which the colour is left.", limits::positive, true});
         v(&P::roughness, roughness_parameter);
+        v(&P::scattering,
+          RgbParameter{{"scattering", "1/m", "Scattering of red, green and blue, s; nothing is scattered without it.",
+                        limits::non_negative, true}});
+        v(&P::albedo, RgbParameter{{"albedo", "",
+                                    "In place of absorption and scattering: the part of the light that is scattered "
+                                    "where it meets the medium, s/(a + s).",
+                                    limits::fraction, true}});
+        v(&P::mean_free_path, RgbParameter{{"mean_free_path", "m",
+                                            "With the albedo: how far light goes on average, 1/(a + s).",
+                                            limits::positive, true}});
+        v(&P::medium, ChoiceParameter{{"medium", "",
+                                       "In place of absorption and scattering: a measured medium (Jensen et al. 2001).",
+                                       limits::any, true},
+                                      names_of_media});
+        v(&P::scale, Parameter{"scale", "mm", "With a measured medium: how long the scene's unit of length is.",
+                               limits::positive, true});
+        v(&P::anisotropy, Parameter{"anisotropy", "",
+                                    "The mean cosine g of Henyey and Greenstein's phase function: positive goes on "
+                                    "forwards. Measured media scatter as much more as makes their reduced scattering, "
+                                    "(1 − g) s, what was measured. 0 without it.",
+                                    Limits{.low = -0.99f, .high = 0.99f}, true});
+        v(&P::emission, RgbParameter{{"emission", "1/m", "Radiance that the medium itself adds along a ray.",
+                                      limits::non_negative, true}});
+        v(&P::density,
+          Parameter{"density", "",
+                    "Where the medium is how dense: not at all at the field's surface and outside, and rising evenly "
+                    "to all of absorption, scattering and emission inside.",
+                    limits::any, true});
+        v(&P::density_depth, Parameter{"density_depth", "m",
+                                       "How deep inside of the density's field the medium is as dense as it gets.",
+                                       limits::positive, true});
     }
-    Clear made() const;
+    Medium interior() const;
+    Clear made() const { return {.ior = ior, .interior = interior(), .roughness = roughness}; }
 };
 
 struct DiffuseParameters {

@@ -25,6 +25,16 @@ ValueType TextureType::describe(const Parameter&) {
     return {"colour or texture", schema_reference("texture")};
 }
 
+using FieldType = ParameterType<Field, Parameter>;
+
+Field FieldType::read(const Document& document, Value value, std::string_view, const Parameter&) {
+    return read_field(document, value, {.height_grid = tracer::read_height_grid});
+}
+
+ValueType FieldType::describe(const Parameter&) {
+    return {"field", schema_reference("field")};
+}
+
 using MaterialType = ParameterType<tracer::Material, Parameter>;
 
 tracer::Material MaterialType::read(const Document& document, Value value, std::string_view, const Parameter&) {

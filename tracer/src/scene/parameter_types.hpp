@@ -2,6 +2,7 @@
 #pragma once
 
 #include "phasetree/io/parameter_type.hpp"
+#include "phasetree/model/handle.hpp"
 #include "shading/material.hpp"
 
 namespace phasetree::tracer {
@@ -30,6 +31,14 @@ struct ParameterType<tracer::Material, Parameter> {
     static tracer::Material read(const Document&, Value, std::string_view what, const Parameter&);
     static ValueType describe(const Parameter&);
     static std::string written(const tracer::Material&) { return "none"; }
+};
+
+// A field of the tree: a node or the name of a shape.
+template <>
+struct ParameterType<Field, Parameter> {
+    static Field read(const Document&, Value value, std::string_view what, const Parameter&);
+    static ValueType describe(const Parameter&);
+    static std::string written(const Field&) { return "none"; }
 };
 
 template <>

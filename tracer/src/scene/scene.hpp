@@ -23,10 +23,16 @@ struct Mesh {
     Material material;
 };
 
+// How the light of lamps is found: by shadow rays and by directions that surfaces and media sample, weighted by the
+// power heuristic; or by one of the two alone, which is as right and shows in a measurement what each is good for.
+enum class Techniques { both, shadow_rays_alone, directions_alone };
+
 struct RenderSettings {
     int samples = 64;  // per pixel
+    Techniques techniques = Techniques::both;
     std::uint32_t seed = 0;
-    // The most surfaces that a path meets, those between equal indices included; what it would bring beyond is lost.
+    // The most surfaces that a path meets, those between equal indices included, and points in media that scatter it;
+    // what it would bring beyond is lost.
     // Roulette ends paths long before where light is absorbed. In lossless glass a few in a million meet thousands of
     // surfaces, and to cut those off would lose light.
     int max_depth = 1 << 16;

@@ -44,6 +44,16 @@ struct Surface {
 
 using Hit = std::variant<Escaped, Surface>;
 
+/// A path was scattered on its way through a phase, before it met anything.
+struct MediumPoint {
+    glm::vec3 position;
+    Phase phase;
+    std::reference_wrapper<const HenyeyGreenstein> phase_function;
+
+    /// A ray on which it goes on.
+    Ray leaving(const glm::vec3& direction) const { return {position, direction, phase, {}}; }
+};
+
 /// The ray met something that light does not pass: a mesh or an opaque phase. Of that only the distance is known.
 struct Blocked {
     float distance;

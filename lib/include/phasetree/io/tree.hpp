@@ -50,4 +50,8 @@ SirenNetwork read_siren(const std::filesystem::path&);
 /// Files are sought from the scene file's folder.
 SceneTree read_tree(const Document&, const FileReaders& = {});
 
+/// Reads a plain field that stands elsewhere in a scene document, in which the named shapes can be used too: a node or
+/// the name of a shape. Throws SceneError as read_tree() does.
+Field read_field(const Document&, Value, const FileReaders& = {});
+
 }  // namespace phasetree

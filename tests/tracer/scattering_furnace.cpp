@@ -1,0 +1,112 @@
+// The white furnace of media that scatter and absorb nothing: in light of radiance 1 from everywhere they are invisible.
+// And that shadow rays and sampled directions find the same light, each alone.
+//
+// Where directions alone find the light and all channels are alike, each path is worth 1 by itself, whatever happens to
+// it: so few samples tell exactly whether any is lost or found twice. With shadow rays, and with colours, it is the mean.
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+
+#include "paths.hpp"
+
+using namespace phasetree::tracer;
+using namespace phasetree::tracer::tests;
+
+namespace {
+
+const bool long_form = std::getenv("PHASETREE_LONG_TESTS") != nullptr;
+
+const std::string ball = R"({"set": {"phase": "milk", "of": {"sphere": {"radius": 1}}}})";
+// In exact contact with its glass, and half full: above the milk is nothing.
+const std::string glass = R"({"intersect_shape": {"phases": "milk", "shape": {"plane": {"normal": [0.1, 0.05, 1], "offset": 0.15}},
+    "of": {"thin_shell": {"shell": "glass", "inside": "milk", "half_thickness": 0.04, "of": {"sphere": {"radius": 1}}}}}})";
+
+std::string phases(const std::string& milk) {
+    return R"("glass": {"clear": {"ior": 1.5}}, "milk": {"clear": {)" + milk + "}}";
+}
+
+struct Case {
+    std::string name, milk, tree;
+    bool is_grey;
+};
+
+const std::string cloud = R"("density": {"displace": {"amplitude": 0.1, "scale": 0.4, "of": {"sphere": {"radius": 0.9}}}}, "density_depth": 0.3)";
+
+const Case cases[] = {
+    {"isotropic", R"("scattering": [3, 3, 3])", ball, true},
+    {"forwards", R"("scattering": [8, 8, 8], "anisotropy": 0.9)", ball, true},
+    {"backwards, an index of its own", R"("ior": 1.35, "scattering": [3, 3, 3], "anisotropy": -0.5)", ball, true},
+    {"in a glass", R"("ior": 1.35, "scattering": [4, 4, 4], "anisotropy": 0.3)", glass, true},
+    {"of varying density", R"("scattering": [9, 9, 9], )" + cloud, ball, true},
+    {"of varying density in a glass", R"("ior": 1.35, "scattering": [9, 9, 9], )" + cloud, glass, true},
+    {"colours", R"("scattering": [0.5, 2, 6])", ball, false},
+    {"colours of varying density in a glass", R"("ior": 1.35, "scattering": [1, 3, 9], )" + cloud, glass, false},
+};
+
+const glm::vec3 from(0.3f, -4, 0.2f), towards(-0.06f, 1, -0.07f);
+
+}  // namespace
+
+TEST_CASE("furnace: paths through what scatters and absorbs nothing are worth 1, each") {
+    for (const Case& c : cases) {
+        if (!c.is_grey) continue;
+        CAPTURE(c.name);
+        Scene scene = scene_of(phases(c.milk), c.tree);
+        scene.settings.techniques = Techniques::directions_alone;
+        const World world(scene);
+        const auto moments = radiance_along(world, scene, from, towards, long_form ? 200000 : 4000);
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            CHECK(moments[channel].mean() == doctest::Approx(1).epsilon(2e-5));
+            CHECK(moments[channel].variance() < 1e-7);
+        }
+    }
+}
+
+TEST_CASE("furnace: with shadow rays, and with colours, the mean is 1") {
+    const double significance = sidak(1e-4, 3 * std::size(cases));
+    for (const Case& c : cases) {
+        CAPTURE(c.name);
+        const auto measured = [&](const std::string& further, std::uint32_t count) {
+            const Scene scene = scene_of(phases(c.milk + further), c.tree);
+            const World world(scene);
+            return radiance_along(world, scene, from, towards, count);
+        };
+        const auto right = measured("", long_form ? 4000000 : 20000);
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            CAPTURE(channel);
+            CAPTURE(right[channel].mean());
+            CAPTURE(right[channel].standard_error());
+            CHECK(mean_p_value(right[channel], 1, 2e-5) > significance);
+            if (long_form) CHECK(std::abs(right[channel].mean() - 1) < 0.001);
+        }
+    }
+}
+
+TEST_CASE("shadow rays alone, sampled directions alone, and both find the same light") {
+    const std::string lights = R"("lights": [{"constant": {"radiance": [0.2, 0.3, 0.4]}},
+        {"sphere": {"centre": [2, -1, 2], "radius": 0.8, "radiance": [6, 5, 4]}},
+        {"rectangle": {"centre": [-2, 0, 1.5], "target": [0, 0, 0], "width": 2, "height": 2, "radiance": [3, 4, 5]}}])";
+    const std::string murky[] = {R"("ior": 1.35, "scattering": [2, 3, 4], "absorption": [0.3, 0.1, 0.6], "anisotropy": 0.4,
+                                   "emission": [0.02, 0.05, 0.1])",
+                                 R"("ior": 1.35, "scattering": [4, 6, 9], "absorption": [0.3, 0.1, 0.6], )" + cloud};
+    const double significance = sidak(1e-4, 12);
+    for (const std::string& milk : murky) {
+        const auto by = [&](Techniques techniques, std::uint32_t count) {
+            Scene scene = scene_of(phases(milk), glass, lights);
+            scene.settings.techniques = techniques;
+            const World world(scene);
+            return radiance_along(world, scene, from, towards, count);
+        };
+        const std::uint32_t count = long_form ? 2000000 : 40000;
+        const auto both = by(Techniques::both, count);
+        for (const Techniques alone : {Techniques::shadow_rays_alone, Techniques::directions_alone}) {
+            const auto found = by(alone, 2 * count);
+            for (std::size_t c = 0; c < 3; ++c) {
+                CAPTURE(c);
+                const double error = std::hypot(both[c].standard_error(), found[c].standard_error());
+                CHECK(phasetree::tests::normal_two_sided((both[c].mean() - found[c].mean()) / error) > significance);
+                CHECK(error < 0.03 * both[c].mean());
+            }
+        }
+    }
+}

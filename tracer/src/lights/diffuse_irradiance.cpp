@@ -1,0 +1,69 @@
+#include "lights/diffuse_irradiance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/vec2.hpp>
+#include <numbers>
+
+#include "lights/luminance.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+constexpr int samples = 1024;
+
+// The series may come near 0 or below where there is some light yet. A surface has this share at least of what it would
+// have of the same light from all around.
+constexpr float least_share = 0.05f;
+
+std::array<float, 9> harmonics(const glm::vec3& w) {
+    return {0.282095f,
+            0.488603f * w.y,
+            0.488603f * w.z,
+            0.488603f * w.x,
+            1.092548f * w.x * w.y,
+            1.092548f * w.y * w.z,
+            0.315392f * (3.0f * w.z * w.z - 1.0f),
+            1.092548f * w.x * w.z,
+            0.546274f * (w.x * w.x - w.y * w.y)};
+}
+
+// Point i of Hammersley's set of `samples`, which are 2¹⁰.
+glm::vec2 hammersley(int i) {
+    unsigned reversed = 0;
+    for (int bit = 0; bit < 10; ++bit) reversed |= ((static_cast<unsigned>(i) >> bit) & 1u) << (9 - bit);
+    return {(static_cast<float>(i) + 0.5f) / samples, (static_cast<float>(reversed) + 0.5f) / samples};
+}
+
+}  // namespace
+
+DiffuseIrradiance::DiffuseIrradiance(const InfiniteLight& any) {
+    constexpr float pi = std::numbers::pi_v<float>;
+    constexpr std::array<float, 9> cosine_lobe{pi,        2 * pi / 3, 2 * pi / 3, 2 * pi / 3, pi / 4,
+                                               pi / 4, pi / 4,     pi / 4,     pi / 4};
+    std::visit(
+        [&](const auto& light) {
+            least_ = least_share * 0.25f * light.fluence();
+            // Taken where the light is, so that a sun in an image is not missed.
+            for (int i = 0; i < samples; ++i) {
+                const auto sample = light.sample(hammersley(i));
+                if (!sample || !(sample->pdf > 0.0f)) continue;
+                const float weight = luminance(light.radiance(sample->direction)) / (sample->pdf * samples);
+                const std::array<float, 9> y = harmonics(sample->direction);
+                for (std::size_t k = 0; k < y.size(); ++k) coefficients_[k] += weight * cosine_lobe[k] * y[k];
+            }
+        },
+        any);
+    for (float& c : coefficients_)
+        if (!std::isfinite(c)) coefficients_ = {};
+}
+
+float DiffuseIrradiance::at(const glm::vec3& normal) const {
+    const std::array<float, 9> y = harmonics(normal);
+    float sum = 0;
+    for (std::size_t k = 0; k < y.size(); ++k) sum += coefficients_[k] * y[k];
+    return std::max(sum, least_);
+}
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,39 @@
+#include "media/homogeneous.hpp"
+
+#include <cmath>
+
+#include "media/absorbing.hpp"
+#include "media/channel_choice.hpp"
+
+namespace phasetree::tracer {
+
+glm::vec3 HomogeneousMedium::transmittance(const Way& way, Sampler&) const {
+    return beer_lambert(coefficients_.extinction(), way.length);
+}
+
+Flight HomogeneousMedium::fly(const Way& way, const glm::vec3& throughput, Sampler& sampler) const {
+    const glm::vec3 extinction = coefficients_.extinction();
+    const glm::vec3 passed = beer_lambert(extinction, way.length);
+    Flight flight;
+    for (int c = 0; c < 3; ++c)
+        if (extinction[c] > 0.0f) flight.emitted[c] = coefficients_.emission[c] * (1.0f - passed[c]) / extinction[c];
+    if (!coefficients_.scatters()) {
+        flight.weight = passed;
+        return flight;
+    }
+    const glm::vec3 choice = channel_choice(throughput);
+    const glm::vec2 u = sampler.next2();
+    const float chosen = extinction[channel_at(choice, u.x)];
+    // A distance of 0 would make the next ray start where this one did; u.y is in [0, 1), and 1 − u.y never 0.
+    const float distance = chosen > 0.0f ? -std::log1p(-u.y) / chosen : way.length;
+    if (distance < way.length) {
+        const glm::vec3 left = beer_lambert(extinction, distance);
+        flight.scattered_at = distance;
+        flight.weight = coefficients_.scattering * left / glm::dot(choice, extinction * left);
+    } else {
+        flight.weight = passed / glm::dot(choice, passed);
+    }
+    return flight;
+}
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,95 @@
+#include "media/varying.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace phasetree::tracer {
+
+namespace {
+
+// Where a field without bounds lets a ray go on through nothing for ever, it is let go after so many collisions.
+constexpr int most_collisions = 1 << 16;
+
+// The part of a way within a box: from the first distance to the second, which is not greater if there is none.
+std::pair<float, float> within(const Bounds& box, const Way& way) {
+    float from = 0.0f, to = way.length;
+    for (int i = 0; i < 3; ++i) {
+        if (way.direction[i] == 0.0f) {
+            if (!(way.origin[i] >= box.low[i] && way.origin[i] <= box.high[i])) return {0.0f, 0.0f};
+            continue;
+        }
+        const float a = (box.low[i] - way.origin[i]) / way.direction[i];
+        const float b = (box.high[i] - way.origin[i]) / way.direction[i];
+        from = std::max(from, std::min(a, b));
+        to = std::min(to, std::max(a, b));
+    }
+    return {from, to};
+}
+
+}  // namespace
+
+VaryingMedium::VaryingMedium(const ScatteringCoefficients& coefficients, const Density& density)
+    : coefficients_(coefficients), density_(density) {
+    const glm::vec3 extinction = coefficients.extinction();
+    majorant_ = std::max({extinction.x, extinction.y, extinction.z});
+}
+
+// Calls visit(distance, density) until it returns false. The points of eight collisions are evaluated together.
+template <class Visit>
+void VaryingMedium::for_each_tentative_collision(const Way& way, Sampler& sampler, Visit&& visit) const {
+    const auto [from, to] = within(density_.bounds(), way);
+    if (!(majorant_ > 0.0f) || !(from < to)) return;
+    float t = from;
+    for (int collisions = 0; collisions < most_collisions;) {
+        BatchOfFloats at;
+        std::size_t count = 0;
+        while (count < batch_size && t < to) {
+            t -= std::log1p(-sampler.next()) / majorant_;
+            if (t < to) at[count++] = t;
+        }
+        if (count == 0) return;
+        for (std::size_t i = count; i < batch_size; ++i) at[i] = at[0];
+        const BatchOfFloats density = density_.along(way.origin, way.direction, at);
+        for (std::size_t i = 0; i < count; ++i)
+            if (!visit(at[i], density[i])) return;
+        collisions += static_cast<int>(count);
+    }
+}
+
+glm::vec3 VaryingMedium::transmittance(const Way& way, Sampler& sampler) const {
+    const glm::vec3 share = coefficients_.extinction() / majorant_;
+    glm::vec3 left(1.0f);
+    for_each_tentative_collision(way, sampler, [&](float, float density) {
+        left *= 1.0f - share * density;
+        return left != glm::vec3(0.0f);
+    });
+    return left;
+}
+
+Flight VaryingMedium::fly(const Way& way, const glm::vec3& throughput, Sampler& sampler) const {
+    Flight flight;
+    for_each_tentative_collision(way, sampler, [&](float distance, float density) {
+        const glm::vec3 scattering = coefficients_.scattering * density;
+        const glm::vec3 null = glm::max(majorant_ - coefficients_.extinction() * density, glm::vec3(0.0f));
+        flight.emitted += flight.weight * coefficients_.emission * (density / majorant_);
+        const glm::vec3 history = throughput * flight.weight;
+        const float scattered = glm::dot(history, scattering), going_on = glm::dot(history, null);
+        if (!(scattered + going_on > 0.0f)) {
+            flight.weight = glm::vec3(0.0f);  // all is absorbed
+            return false;
+        }
+        const float probability = scattered / (scattered + going_on);
+        if (scattered > 0.0f && sampler.next() < probability) {
+            flight.weight *= scattering / (majorant_ * probability);
+            flight.scattered_at = distance;
+            return false;
+        }
+        flight.weight *= null / (majorant_ * (1.0f - probability));
+        return true;
+    });
+    return flight;
+}
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,89 @@
+// The interior medium of a clear material, from what a scene file says of it.
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "media/measured.hpp"
+#include "scene/material_kinds.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+using P = ClearParameters;
+
+// Refuses a second way to say the same.
+void either(bool first, bool second, const char* key, const char* other) {
+    if (first && second)
+        throw ParameterError(key, fmt::format("\"{}\" and \"{}\" say the same; give one of them", key, other),
+                             ParameterError::Place::key);
+}
+
+// That this is of no use without that.
+void needs(bool has, bool other, const char* key, const char* wanted) {
+    if (has && !other)
+        throw ParameterError(key, fmt::format("\"{}\" is of no use without \"{}\"", key, wanted),
+                             ParameterError::Place::key);
+}
+
+void check(const P& p) {
+    either(p.color.has_value(), p.absorption.has_value(), "color", "absorption");
+    either(p.medium.has_value(), p.absorption.has_value(), "medium", "absorption");
+    either(p.medium.has_value(), p.color.has_value(), "medium", "color");
+    either(p.medium.has_value(), p.scattering.has_value(), "medium", "scattering");
+    either(p.medium.has_value(), p.albedo.has_value(), "medium", "albedo");
+    either(p.albedo.has_value(), p.absorption.has_value(), "albedo", "absorption");
+    either(p.albedo.has_value(), p.color.has_value(), "albedo", "color");
+    either(p.albedo.has_value(), p.scattering.has_value(), "albedo", "scattering");
+    needs(p.albedo.has_value(), p.mean_free_path.has_value(), "albedo", "mean_free_path");
+    needs(p.mean_free_path.has_value(), p.albedo.has_value(), "mean_free_path", "albedo");
+    needs(p.medium.has_value(), p.scale.has_value(), "medium", "scale");
+    needs(p.scale.has_value(), p.medium.has_value(), "scale", "medium");
+    const bool is_scattering = p.scattering || p.albedo || p.medium;
+    needs(p.anisotropy.has_value(), is_scattering, "anisotropy", "scattering");
+    needs(p.density.has_value(), is_scattering || p.absorption || p.color, "density", "scattering");
+    needs(p.density_depth.has_value(), p.density.has_value(), "density_depth", "density");
+    needs(p.density.has_value(), p.density_depth.has_value(), "density", "density_depth");
+}
+
+glm::vec3 absorption_of(const P& p) {
+    glm::vec3 absorption = p.absorption.value_or(glm::vec3(0.0f));
+    if (p.color)
+        for (int i = 0; i < 3; ++i) absorption[i] = std::max(0.0f, -std::log((*p.color)[i]) / p.color_distance);
+    return absorption;
+}
+
+}  // namespace
+
+Medium ClearParameters::interior() const {
+    check(*this);
+    ScatteringCoefficients c{.absorption = absorption_of(*this),
+                             .scattering = scattering.value_or(glm::vec3(0.0f)),
+                             .emission = emission.value_or(glm::vec3(0.0f)),
+                             .phase_function = HenyeyGreenstein(anisotropy.value_or(0.0f))};
+    if (albedo) {
+        c.scattering = *albedo / *mean_free_path;
+        c.absorption = (1.0f - *albedo) / *mean_free_path;
+    }
+    if (medium) {
+        const MeasuredMedium measured = find_measured_medium(*medium).value();
+        c.scattering = measured.reduced_scattering * (*scale / (1.0f - c.phase_function.g()));
+        c.absorption = measured.absorption * *scale;
+    }
+    const glm::vec3 extinction = c.extinction();
+    for (int i = 0; i < 3; ++i)
+        if (c.emission[i] > 0.0f && !(extinction[i] > 0.0f))
+            throw ParameterError("emission", "\"emission\" needs absorption or scattering in the same channel: without "
+                                             "any, light would grow without end along a ray");
+    if (density) return VaryingMedium(c, Density(*density, *density_depth));
+    if (c.scatters() || c.emission != glm::vec3(0.0f)) return HomogeneousMedium(c);
+    return AbsorbingMedium{c.absorption};
+}
+
+std::vector<std::string_view> names_of_media() {
+    std::vector<std::string_view> names;
+    for (const MeasuredMedium& medium : measured_media()) names.push_back(medium.name);
+    return names;
+}
+
+}  // namespace phasetree::tracer
