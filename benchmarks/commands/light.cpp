@@ -1,10 +1,10 @@
-// How much error is left in a picture after a second of processor time: for each technique of finding light, and against
-// another build.
+// How much error is left in a picture after a second of processor time: for each technique of finding light, and
+// against another build.
 //
-// The error is the variance of a pixel's luminance, relative to the square of its mean (plus a hundredth of the square of
-// the picture's mean, so that black pixels do not decide), averaged over the pixels. It needs no reference: two pictures
-// of different seeds have it as half the square of their difference. What is compared is error times processor time,
-// which does not depend on the number of samples as long as errors fall with it.
+// The error is the variance of a pixel's luminance, relative to the square of its mean (plus a hundredth of the square
+// of the picture's mean, so that black pixels do not decide), averaged over the pixels. It needs no reference: two
+// pictures of different seeds have it as half the square of their difference. What is compared is error times processor
+// time, which does not depend on the number of samples as long as errors fall with it.
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -128,10 +128,14 @@ class OtherBuild {
   private:
     std::string file(const char* name) const { return (folder_.path() / name).string(); }
     double render(std::uint32_t seed, int samples, bool one_pixel) const {
-        std::vector<std::string> arguments{command_, "render", scene_, "--quiet", "--size", size_, "--spp",
-                                           std::to_string(samples), "--seed", std::to_string(seed), "--threads",
-                                           std::to_string(threads_), "--cells", file("cells"), "-o",
-                                           file("picture.exr")};
+        std::vector<std::string> arguments{command_,    "render",
+                                           scene_,      "--quiet",
+                                           "--size",    size_,
+                                           "--spp",     std::to_string(samples),
+                                           "--seed",    std::to_string(seed),
+                                           "--threads", std::to_string(threads_),
+                                           "--cells",   file("cells"),
+                                           "-o",        file("picture.exr")};
         if (one_pixel) arguments.insert(arguments.end(), {"--crop", "0,0,1,1"});
         return run(arguments);
     }
@@ -211,8 +215,8 @@ Report light(const Settings& settings) {
     const std::vector<std::string> names =
         !settings.scenes.empty() ? settings.scenes
         : settings.quick         ? std::vector<std::string>{"hourglass", "drinks"}
-                                 : std::vector<std::string>{"hourglass", "drinks", "ice_cup", "jelly_contact", "land_block",
-                                                    "kintsugi", "soap_film"};
+                                 : std::vector<std::string>{"hourglass",  "drinks",   "ice_cup",  "jelly_contact",
+                                                            "land_block", "kintsugi", "soap_film"};
     const int rounds = settings.quick ? 2 : 4;
     const int longest = std::max(settings.width / 4, 1);  // of a picture's sides, in pixels
     report.say(fmt::format("{} samples a pixel, {} pairs of pictures in turn, the longer side {} pixels, {} thread(s)",
@@ -263,9 +267,9 @@ Report light(const Settings& settings) {
             // Two builds show the same picture. Noise that is not normal asks for a wide limit.
             const double sigma = std::sqrt(m.variance_of_mean() + measured[0].variance_of_mean());
             const double off = (m.mean() - measured[0].mean()) / sigma;
-            report.check(name + ": the mean of both builds is one", std::abs(off) < 5,
-                         fmt::format("{:.5f} and {:.5f}, {:.1f} standard errors apart", measured[0].mean(), m.mean(),
-                                     off));
+            report.check(
+                name + ": the mean of both builds is one", std::abs(off) < 5,
+                fmt::format("{:.5f} and {:.5f}, {:.1f} standard errors apart", measured[0].mean(), m.mean(), off));
         }
     }
     report.table("pictures", table);

@@ -38,6 +38,9 @@ static_assert(CameraKind<ThinLens> && CameraKind<Orthographic> && !CameraKind<Ca
 
 TEST_CASE("a medium by its kind and by any kind lets the same through") {
     const AbsorbingMedium medium{{0.5f, 0, 3}};
-    CHECK(transmittance(Medium(medium), 0.7f) == medium.transmittance(0.7f));
-    CHECK(transmittance(Medium(), std::numeric_limits<float>::infinity()) == glm::vec3(1));
+    const Way way{glm::vec3(0), glm::vec3(0, 0, 1), 0.7f};
+    const Way endless{glm::vec3(0), glm::vec3(0, 0, 1), std::numeric_limits<float>::infinity()};
+    Sampler sampler(0, 0, 0, 0);
+    CHECK(transmittance(Medium(medium), way, sampler) == medium.transmittance(way, sampler));
+    CHECK(transmittance(Medium(), endless, sampler) == glm::vec3(1));
 }

@@ -74,11 +74,11 @@ TEST_CASE("Fresnel: conductor at normal incidence is ((η − 1)² + k²)/((η +
 }
 
 TEST_CASE("Beer-Lambert") {
-    const glm::vec3 t = transmittance(AbsorbingMedium{{0.0f, 0.5f, 2.0f}}, 3.0f);
+    const glm::vec3 t = phasetree::tracer::beer_lambert({0.0f, 0.5f, 2.0f}, 3.0f);
     CHECK(t.x == 1.0f);
     CHECK(static_cast<double>(t.y) == doctest::Approx(std::exp(-1.5)));
     CHECK(static_cast<double>(t.z) == doctest::Approx(std::exp(-6.0)));
-    const glm::vec3 far = transmittance(AbsorbingMedium{{0.0f, 0.5f, 0.0f}}, INFINITY);
+    const glm::vec3 far = phasetree::tracer::beer_lambert({0.0f, 0.5f, 0.0f}, INFINITY);
     CHECK(far == glm::vec3{1.0f, 0.0f, 1.0f});
 }
 

@@ -225,19 +225,19 @@ TEST_CASE("lights: visibility to the camera, background, and occlusion") {
 TEST_CASE("lights: none, black ones, and ones that are turned away yield nothing") {
     Lights lights;
     CHECK(lights.empty());
-    CHECK_FALSE(lights.sample({}, {0.5f, 0.5f}));
+    CHECK_FALSE(lights.sample(glm::vec3{}, {0.5f, 0.5f}));
     CHECK(seen(lights, {}, {0, 0, 1}, true).distance == infinity);
     CHECK(seen(lights, {}, {0, 0, 1}, true).radiance == glm::vec3(0.0f));
-    CHECK(lights.pdf({}, {0, 0, 1}) == 0.0f);
+    CHECK(lights.pdf(glm::vec3{}, {0, 0, 1}) == 0.0f);
     lights.add(ConstantEnvironment(glm::vec3(0.0f)));
     lights.add(RectangleLight::facing({0, 0, 1}, {0, 0, 2}, 1, 1, glm::vec3(1.0f)));
     CHECK_FALSE(lights.empty());
-    CHECK_FALSE(lights.sample({}, {0.5f, 0.5f}));
-    CHECK(lights.sample({0, 0, 2}, {0.5f, 0.5f}));
+    CHECK_FALSE(lights.sample(glm::vec3{}, {0.5f, 0.5f}));
+    CHECK(lights.sample(glm::vec3{0, 0, 2}, {0.5f, 0.5f}));
     // A light that takes no part is never chosen, at either end of the range.
     lights.add(ConstantEnvironment(glm::vec3(0.0f)));
     for (const float choice : {0.0f, 0x1.fffffep-1f}) {
-        CHECK(lights.sample({0, 0, 2}, {choice, 0.5f})->radiance.x == 1.0f);
+        CHECK(lights.sample(glm::vec3{0, 0, 2}, {choice, 0.5f})->radiance.x == 1.0f);
     }
     CHECK_FALSE(lights.sample(glm::vec3(std::numeric_limits<float>::quiet_NaN()), {0.5f, 0.5f}));
 }
@@ -270,8 +270,8 @@ TEST_CASE("lights: points that are stratified in the square are so for each ligh
     std::array<std::array<int, 16 * 16>, 2> hits{};
     for (int i = 0; i < 32; ++i)
         for (int j = 0; j < 16; ++j) {
-            const auto s =
-                lights.sample({0, 0, 0}, {(static_cast<float>(i) + 0.5f) / 32, (static_cast<float>(j) + 0.5f) / 16});
+            const auto s = lights.sample(glm::vec3{0, 0, 0},
+                                         {(static_cast<float>(i) + 0.5f) / 32, (static_cast<float>(j) + 0.5f) / 16});
             REQUIRE(s);
             const glm::vec3 at = s->wi / s->wi.z;
             const float x = std::abs(at.x);

@@ -1,9 +1,9 @@
-// Reflection and transmission of plane layers that scatter, computed in double by adding and doubling, and Chandrasekhar's
-// H function: what the path tracer is held against.
+// Reflection and transmission of plane layers that scatter, computed in double by adding and doubling, and
+// Chandrasekhar's H function: what the path tracer is held against.
 //
-// Radiance is kept at the cosines µᵢ of a Gauss quadrature over (0, 1), and at further cosines of weight 0, which receive
-// and do not give. A layer's R and T are matrices that take the radiance that comes in to that which goes out. Of a layer
-// of thickness Δ → 0, with p averaged over the azimuth,
+// Radiance is kept at the cosines µᵢ of a Gauss quadrature over (0, 1), and at further cosines of weight 0, which
+// receive and do not give. A layer's R and T are matrices that take the radiance that comes in to that which goes out.
+// Of a layer of thickness Δ → 0, with p averaged over the azimuth,
 //     Rᵢⱼ = a/2 wⱼ p(µᵢ, −µⱼ) Δ/µᵢ,   Tᵢⱼ = δᵢⱼ (1 − Δ/µᵢ) + a/2 wⱼ p(µᵢ, µⱼ) Δ/µᵢ,
 //     p(µ, µ') = Σ (2k + 1) gᵏ Pₖ(µ) Pₖ(µ')   (Henyey and Greenstein),
 // and of two equal ones, one upon the other, with M = (1 − RR)⁻¹,
@@ -154,9 +154,11 @@ inline double chandrasekhar_h(double albedo, double mu) {
         for (std::size_t j = 0; j < nodes.size(); ++j) integral += weights[j] * nodes[j] * h[j] / (at + nodes[j]);
         return 1 / (std::sqrt(1 - albedo) + albedo / 2 * integral);
     };
-    for (int step = 0; step < 2000; ++step) {
+    // The nearer the albedo is to 1 the slower this comes to an end.
+    for (double change = 1; change > 1e-8;) {
         std::vector<double> improved;
         for (const double node : nodes) improved.push_back(next(node));
+        change = std::abs(improved.front() - h.front()) + std::abs(improved.back() - h.back());
         h = improved;
     }
     return next(mu);

@@ -35,7 +35,7 @@ TEST_CASE("directions bent at a plane have the density that is said of them") {
     Lights lights;
     lights.add(InfiniteLight(ConstantEnvironment(glm::vec3(1))));
     const auto p_values = [&](double eta, double eta_of_test) {
-        const LightProposal proposal({0.1f, 0.2f, 0.3f}, normal, static_cast<float>(eta));
+        const LightProposal proposal(glm::vec3{0.1f, 0.2f, 0.3f}, normal, static_cast<float>(eta));
         const auto cosine_of = [&](int ring) {
             return cosine_within(1 - static_cast<double>(ring) / rings, eta_of_test);
         };
@@ -89,7 +89,7 @@ TEST_CASE("directions bent at two planes have the density that is said of them")
     Lights lights;
     lights.add(InfiniteLight(ConstantEnvironment(glm::vec3(1))));
     const auto proposal_of = [&](float eta) {
-        LightProposal proposal({0.1f, 0.2f, 0.3f}, normal, eta);
+        LightProposal proposal(glm::vec3{0.1f, 0.2f, 0.3f}, normal, eta);
         proposal.add_plane(normal);  // which changes nothing
         proposal.add_plane(other);
         return proposal;
@@ -174,7 +174,7 @@ TEST_CASE("no direction to a lamp's rim is said to be a direction to the sky") {
         const float eta = 1.33f, cosine = glm::dot(normal, towards);
         const float within = static_cast<float>(cosine_within(static_cast<double>(cosine), 1.33));
         const glm::vec3 image = (towards - normal * cosine) / eta + normal * within;
-        const LightProposal proposal({0.1f, 0.2f, 0.3f}, normal, eta);
+        const LightProposal proposal(glm::vec3{0.1f, 0.2f, 0.3f}, normal, eta);
         int near = 0, said_to_be_of_the_sky = 0;
         for (int i = 0; i < 1'000'000; ++i) {
             const auto sample = proposal.sample(lights, random.two());

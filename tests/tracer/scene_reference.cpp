@@ -119,7 +119,10 @@ void tell(std::vector<float>& told, const tracer::Material& material) {
     std::visit(
         [&](const auto& m) {
             if constexpr (requires { m.ior; }) told.push_back(m.ior);
-            if constexpr (requires { m.interior; }) tell(told, transmittance(m.interior, 1));
+            if constexpr (requires { m.interior; }) {
+                phasetree::tracer::Sampler sampler(0, 0, 0, 0);
+                tell(told, transmittance(m.interior, {glm::vec3(0), glm::vec3(0, 0, 1), 1}, sampler));
+            }
             if constexpr (requires { m.roughness; }) told.push_back(m.roughness);
             if constexpr (requires { m.color; }) tell(told, m.color);
             if constexpr (requires { m.eta; }) {
@@ -144,11 +147,11 @@ void tell_lights(const Document& document, std::vector<float>& told) {
             const glm::vec3 direction(r * std::cos(turn), r * std::sin(turn), z);
             const auto seen = lights.seen({0, 0, 0}, direction, INFINITY, is_camera);
             if (seen) tell(told, seen->radiance);
-            told.push_back(lights.pdf({0, 0, 0}, direction));
+            told.push_back(lights.pdf(glm::vec3{0, 0, 0}, direction));
         }
     }
     for (int i = 0; i < 16; ++i) {
-        const auto sample = lights.sample({0, 0, 0}, {(static_cast<float>(i) + 0.5f) / 16, 0.37f});
+        const auto sample = lights.sample(glm::vec3{0, 0, 0}, {(static_cast<float>(i) + 0.5f) / 16, 0.37f});
         if (!sample) continue;
         tell(told, sample->wi);
         tell(told, sample->radiance);

@@ -36,7 +36,8 @@ std::optional<Outside> bent_outward(const glm::vec3& inside, const glm::vec3& no
 }
 
 // The density of directions inside that are directions to lights outside.
-float bent_pdf(const Lights& lights, const LightReceiver& at, const glm::vec3& inside, const glm::vec3& normal, float eta) {
+float bent_pdf(const Lights& lights, const LightReceiver& at, const glm::vec3& inside, const glm::vec3& normal,
+               float eta) {
     const std::optional<Outside> outside = bent_outward(inside, normal, eta);
     return outside ? lights.pdf(at, outside->direction) * outside->widening : 0.0f;
 }
@@ -78,9 +79,8 @@ LightProposal LightProposal::at(const MediumPoint& point, const std::optional<gl
     LightProposal proposal(point.position, entered.value_or(glm::vec3(0.0f)), eta);
     if (eta == 1.0f) return proposal;
     if (!entered) proposal.planes_ = 0;
-    proposal.add_flat_boundaries(world, [&](const glm::vec3& outward) {
-        return scene.lights.towards_brightest(point.position, outward);
-    });
+    proposal.add_flat_boundaries(
+        world, [&](const glm::vec3& outward) { return scene.lights.towards_brightest(point.position, outward); });
     return proposal;
 }
 

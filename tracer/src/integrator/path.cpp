@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 #include "integrator/light_proposal.hpp"
@@ -240,7 +239,7 @@ class Path {
         const float worth = std::max({throughput_.x, throughput_.y, throughput_.z}) * ior * ior;
         if (!(worth > 0)) return false;
         if (depth > 3 && worth < 0.95f) {
-            static const float factor = std::getenv("RRF") ? static_cast<float>(std::atof(std::getenv("RRF"))) : 4.0f;
+            constexpr float factor = 4.0f;
             const float survival = std::min(1.0f, std::max(factor * worth, 0.05f));
             if (sampler_.next() >= survival) return false;
             throughput_ /= survival;

@@ -8,7 +8,8 @@
 namespace phasetree::tracer {
 
 /// An estimate of the radiance that arrives along a ray, unbiased but for the light that is lost where paths end
-/// because they have been scattered, or met surfaces, RenderSettings::max_depth times. It is black for a ray that starts in an opaque phase.
+/// because they have been scattered, or met surfaces, RenderSettings::max_depth times. It is black for a ray that
+/// starts in an opaque phase.
 ///
 /// Light through clear interfaces. A shadow ray that meets a smooth interface of two clear phases is not lost: it goes
 /// on as a path would, reflected or refracted by Fresnel's odds, and what it finds in the end is the light that arrives

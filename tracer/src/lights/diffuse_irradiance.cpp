@@ -40,7 +40,7 @@ glm::vec2 hammersley(int i) {
 
 DiffuseIrradiance::DiffuseIrradiance(const InfiniteLight& any) {
     constexpr float pi = std::numbers::pi_v<float>;
-    constexpr std::array<float, 9> cosine_lobe{pi,        2 * pi / 3, 2 * pi / 3, 2 * pi / 3, pi / 4,
+    constexpr std::array<float, 9> cosine_lobe{pi,     2 * pi / 3, 2 * pi / 3, 2 * pi / 3, pi / 4,
                                                pi / 4, pi / 4,     pi / 4,     pi / 4};
     std::visit(
         [&](const auto& light) {

@@ -30,8 +30,9 @@ class Scratch {
 // A sun whose middle has set may still be seen in part.
 constexpr float least_cosine_of_sun = 0.02f;
 
-// Roughly the mean over a sphere's solid angle of the cosine to the normal, counted as 0 below the surface. It is 0 only
-// where the whole sphere is below: the cosines from c − s to c + s, with s = r/d, are taken to be equally frequent.
+// Roughly the mean over a sphere's solid angle of the cosine to the normal, counted as 0 below the surface. It is 0
+// only where the whole sphere is below: the cosines from c − s to c + s, with s = r/d, are taken to be equally
+// frequent.
 double mean_cosine(const BoundingSphere& sphere, const glm::vec3& p, const glm::vec3& normal) {
     const glm::vec3 offset = sphere.centre - p;
     const auto distance = static_cast<double>(glm::length(offset)), radius = static_cast<double>(sphere.radius);

@@ -25,7 +25,8 @@ class HenyeyGreenstein {
 
     /// Per steradian, which is also the density of sample().
     float evaluate(float cosine) const {
-        const float squared = std::max(1.0f + g_ * g_ - 2.0f * g_ * cosine, (1.0f - std::abs(g_)) * (1.0f - std::abs(g_)));
+        const float squared =
+            std::max(1.0f + g_ * g_ - 2.0f * g_ * cosine, (1.0f - std::abs(g_)) * (1.0f - std::abs(g_)));
         return (1.0f - g_ * g_) / (4.0f * pi * squared * std::sqrt(squared));
     }
 

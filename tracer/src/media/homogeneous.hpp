@@ -5,9 +5,9 @@
 // (the balance heuristic over channels),
 //     scattered at t:    σs_c T_c(t) / Σ q_k σt_k T_k(t),
 //     not before d:      T_c(d) / Σ q_k T_k(d).
-// Then Σ β_c does not grow: Σ β_c σs_c T_c / Σ q_k σt_k T_k ≤ Σ β. So no colour becomes a firefly, however different the
-// channels are. A path's history is in β, which does what hero wavelengths do with whole paths. What the medium shines
-// by itself has a closed form, ∫₀ᵈ ε T dt = ε (1 − T(d))/σt.
+// Then Σ β_c does not grow: Σ β_c σs_c T_c / Σ q_k σt_k T_k ≤ Σ β. So no colour becomes a firefly, however different
+// the channels are. A path's history is in β, which does what hero wavelengths do with whole paths. What the medium
+// shines by itself has a closed form, ∫₀ᵈ ε T dt = ε (1 − T(d))/σt.
 //
 // References: Chiang, Kutz & Burley, Practical and Controllable Subsurface Scattering for Production Path Tracing,
 // SIGGRAPH 2016 talks (channels by throughput); Wilkie, Nawaz, Droske, Weidlich & Hanika, Hero Wavelength Spectral

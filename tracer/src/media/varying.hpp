@@ -1,16 +1,17 @@
 // A medium that scatters, whose density ρ(p) in [0, 1] a field varies: σ(p) = ρ(p) σ.
 //
 // Distances are sampled as in a medium that is everywhere as dense as the densest channel, σ̄ = max σt. At each such
-// tentative collision light is scattered really or goes on as if nothing were there (a null collision of σ̄ − σt_c). With
-// the throughput β of the path, its weights so far included,
+// tentative collision light is scattered really or goes on as if nothing were there (a null collision of σ̄ − σt_c).
+// With the throughput β of the path, its weights so far included,
 //     P_s = Σ β_c σs_c ρ / Σ β_c (σs_c ρ + σ̄ − σt_c ρ),   P_n = 1 − P_s,
 // and the weights become σs_c ρ/(σ̄ P_s) or (σ̄ − σt_c ρ)/(σ̄ P_n). As in a homogeneous medium Σ β_c does not grow. The
 // transmittance is estimated by ratio tracking, Π (1 − σt_c ρ/σ̄) over the tentative collisions; what the medium shines
 // by itself is added at these too.
 //
-// References: Kutz, Habel, Li & Novák, Spectral and Decomposition Tracking for Rendering Heterogeneous Volumes, SIGGRAPH
-// 2017; Novák, Selle & Jarosz, Residual Ratio Tracking for Estimating Attenuation in Participating Media, SIGGRAPH Asia
-// 2014; Miller, Georgiev & Jarosz, A Null-Scattering Path Integral Formulation of Light Transport, SIGGRAPH 2019.
+// References: Kutz, Habel, Li & Novák, Spectral and Decomposition Tracking for Rendering Heterogeneous Volumes,
+// SIGGRAPH 2017; Novák, Selle & Jarosz, Residual Ratio Tracking for Estimating Attenuation in Participating Media,
+// SIGGRAPH Asia 2014; Miller, Georgiev & Jarosz, A Null-Scattering Path Integral Formulation of Light Transport,
+// SIGGRAPH 2019.
 #pragma once
 
 #include "media/coefficients.hpp"

@@ -1,7 +1,7 @@
 // The interior medium of a clear material, from what a scene file says of it.
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 #include "media/measured.hpp"
 #include "scene/material_kinds.hpp"
@@ -73,8 +73,9 @@ Medium ClearParameters::interior() const {
     const glm::vec3 extinction = c.extinction();
     for (int i = 0; i < 3; ++i)
         if (c.emission[i] > 0.0f && !(extinction[i] > 0.0f))
-            throw ParameterError("emission", "\"emission\" needs absorption or scattering in the same channel: without "
-                                             "any, light would grow without end along a ray");
+            throw ParameterError("emission",
+                                 "\"emission\" needs absorption or scattering in the same channel: without "
+                                 "any, light would grow without end along a ray");
     if (density) return VaryingMedium(c, Density(*density, *density_depth));
     if (c.scatters() || c.emission != glm::vec3(0.0f)) return HomogeneousMedium(c);
     return AbsorbingMedium{c.absorption};

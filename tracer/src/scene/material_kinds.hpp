@@ -59,9 +59,9 @@ struct ClearParameters {
                                     "In place of absorption and scattering: the part of the light that is scattered "
                                     "where it meets the medium, s/(a + s).",
                                     limits::fraction, true}});
-        v(&P::mean_free_path, RgbParameter{{"mean_free_path", "m",
-                                            "With the albedo: how far light goes on average, 1/(a + s).",
-                                            limits::positive, true}});
+        v(&P::mean_free_path,
+          RgbParameter{{"mean_free_path", "m", "With the albedo: how far light goes on average, 1/(a + s).",
+                        limits::positive, true}});
         v(&P::medium, ChoiceParameter{{"medium", "",
                                        "In place of absorption and scattering: a measured medium (Jensen et al. 2001).",
                                        limits::any, true},
@@ -80,9 +80,9 @@ struct ClearParameters {
                     "Where the medium is how dense: not at all at the field's surface and outside, and rising evenly "
                     "to all of absorption, scattering and emission inside.",
                     limits::any, true});
-        v(&P::density_depth, Parameter{"density_depth", "m",
-                                       "How deep inside of the density's field the medium is as dense as it gets.",
-                                       limits::positive, true});
+        v(&P::density_depth,
+          Parameter{"density_depth", "m", "How deep inside of the density's field the medium is as dense as it gets.",
+                    limits::positive, true});
     }
     Medium interior() const;
     Clear made() const { return {.ior = ior, .interior = interior(), .roughness = roughness}; }
