@@ -34,6 +34,12 @@ constexpr int longest_chain = 128;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
+// Roulette spares a path of which so much is left. To end paths as soon as anything is lost, at 1, makes most of the
+// noise of glass, where long chains of interfaces lose a little at each and then find a bright light.
+constexpr float spared_worth = 0.25f;
+// And of those that bring next to nothing one in so many goes on, or their weights would have no bound.
+constexpr float least_survival = 0.05f;
+
 // Rays travel in clear phases only.
 const Clear& clear_at(const Scene& scene, Phase phase) {
     return std::get<Clear>(scene.materials[phase.index]);
@@ -238,9 +244,8 @@ class Path {
         const float ior = clear_at(scene_, ray_.phase).ior / camera_ior_;
         const float worth = std::max({throughput_.x, throughput_.y, throughput_.z}) * ior * ior;
         if (!(worth > 0)) return false;
-        if (depth > 3 && worth < 0.95f) {
-            constexpr float factor = 4.0f;
-            const float survival = std::min(1.0f, std::max(factor * worth, 0.05f));
+        if (depth > 3 && worth < spared_worth) {
+            const float survival = std::max(worth / spared_worth, least_survival);
             if (sampler_.next() >= survival) return false;
             throughput_ /= survival;
         }

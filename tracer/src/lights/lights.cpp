@@ -83,15 +83,15 @@ float Lights::pdf(const LightReceiver& at, const glm::vec3& direction) const {
     Scratch scratch(size());
     const float total = shares(at, scratch);
     if (!(total > 0.0f) || total == infinity) return 0.0f;  // as sample() has it
-    const std::span<const float> fluence = scratch.values();
+    const std::span<const float> share_of = scratch.values();
     float sum = 0.0f;
     std::size_t index = 0;
     for (const InfiniteLight& any : infinite_) {
-        const float share = fluence[index++] / total;
+        const float share = share_of[index++] / total;
         if (share > 0.0f) sum += share * std::visit([&](const auto& light) { return light.pdf(direction); }, any);
     }
     for (const AreaLight& any : area_) {
-        const float share = fluence[index++] / total;
+        const float share = share_of[index++] / total;
         if (!(share > 0.0f)) continue;
         std::visit(
             [&](const auto& light) {
@@ -107,19 +107,19 @@ std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u) 
     const glm::vec3& p = at.p;
     Scratch scratch(size());
     const float total = shares(at, scratch);
-    const std::span<const float> fluence = scratch.values();
+    const std::span<const float> share_of = scratch.values();
     if (!(total > 0.0f) || total == infinity) return std::nullopt;
 
     // The last light that shines catches what rounding leaves over at the end.
     std::size_t chosen = 0;
     float below = 0.0f;
-    for (std::size_t i = 0; i < fluence.size(); ++i) {
-        if (!(fluence[i] > 0.0f)) continue;
+    for (std::size_t i = 0; i < share_of.size(); ++i) {
+        if (!(share_of[i] > 0.0f)) continue;
         chosen = i;
-        below += fluence[i];
+        below += share_of[i];
         if (u.x * total < below) break;
     }
-    u.x = std::clamp((u.x * total - (below - fluence[chosen])) / fluence[chosen], 0.0f, 0x1.fffffep-1f);
+    u.x = std::clamp((u.x * total - (below - share_of[chosen])) / share_of[chosen], 0.0f, 0x1.fffffep-1f);
 
     std::optional<DirectionSample> sampled;
     if (chosen < infinite_.size())
@@ -130,12 +130,12 @@ std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u) 
     const glm::vec3 wi = sampled->direction;
 
     // What is seen there, and how densely all lights together propose it.
-    float density = fluence[chosen] / total * sampled->pdf;
+    float density = share_of[chosen] / total * sampled->pdf;
     std::size_t index = 0;
     for (const InfiniteLight& any : infinite_) {
         const std::size_t i = index++;
-        if (i != chosen && fluence[i] > 0.0f)
-            density += fluence[i] / total * std::visit([&](const auto& light) { return light.pdf(wi); }, any);
+        if (i != chosen && share_of[i] > 0.0f)
+            density += share_of[i] / total * std::visit([&](const auto& light) { return light.pdf(wi); }, any);
     }
     std::optional<Emission> nearest;
     bool is_met = chosen < infinite_.size();
@@ -148,8 +148,8 @@ std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u) 
                 if (!nearest || *distance < nearest->distance) nearest = Emission{*distance, light.radiance()};
                 if (i == chosen)
                     is_met = true;
-                else if (fluence[i] > 0.0f)
-                    density += fluence[i] / total * light.pdf_at(p, wi, *distance);
+                else if (share_of[i] > 0.0f)
+                    density += share_of[i] / total * light.pdf_at(p, wi, *distance);
             },
             any);
     }
@@ -166,11 +166,11 @@ std::optional<glm::vec3> Lights::towards_brightest(const glm::vec3& p, const glm
     float most = 0.0f;
     std::size_t index = 0;
     const auto consider = [&](const auto& direction_of) {
-        const float fluence = scratch.values()[index++];
-        if (!(fluence > most)) return;
+        const float share_of = scratch.values()[index++];
+        if (!(share_of > most)) return;
         const std::optional<glm::vec3> direction = direction_of();
         if (!direction || !(glm::dot(*direction, normal) > 0.0f)) return;
-        most = fluence;
+        most = share_of;
         brightest = direction;
     };
     for (const InfiniteLight& any : infinite_)

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -53,5 +54,16 @@ SceneTree read_tree(const Document&, const FileReaders& = {});
 /// Reads a plain field that stands elsewhere in a scene document, in which the named shapes can be used too: a node or
 /// the name of a shape. Throws SceneError as read_tree() does.
 Field read_field(const Document&, Value, const FileReaders& = {});
+
+/// What a node's text may name that stands nowhere in it: handles that a program has, by names that it gives them.
+struct KnownShapes {
+    std::map<std::string, Field, std::less<>> fields;
+    std::map<std::string, Phased, std::less<>> objects;
+};
+
+/// Reads one node, with what it is made of either in the text or known already. This is how a binding to another
+/// language makes nodes of any kind, with the reader's checks and sentences. Throws SceneError.
+Field read_field(const Document&, const PhaseNames&, KnownShapes, const FileReaders& = {});
+Phased read_object(const Document&, const PhaseNames&, KnownShapes, const FileReaders& = {});
 
 }  // namespace phasetree
