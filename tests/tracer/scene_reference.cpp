@@ -121,7 +121,10 @@ void tell(std::vector<float>& told, const tracer::Material& material) {
             if constexpr (requires { m.ior; }) told.push_back(m.ior);
             if constexpr (requires { m.interior; }) {
                 phasetree::tracer::Sampler sampler(0, 0, 0, 0);
-                tell(told, transmittance(m.interior, {glm::vec3(0), glm::vec3(0, 0, 1), 1}, sampler));
+                const phasetree::tracer::Way way{glm::vec3(0, 0, -0.9f), glm::vec3(0, 0, 1), 1};
+                tell(told, transmittance(m.interior, way, sampler));
+                tell(told, fly(m.interior, way, glm::vec3(1), sampler).emitted);
+                if (const auto* phase = phase_function(m.interior)) told.push_back(phase->g());
             }
             if constexpr (requires { m.roughness; }) told.push_back(m.roughness);
             if constexpr (requires { m.color; }) tell(told, m.color);
@@ -157,6 +160,7 @@ void tell_lights(const Document& document, std::vector<float>& told) {
         tell(told, sample->radiance);
         told.push_back(sample->pdf);
     }
+    told.push_back(static_cast<float>(lights.groups().size()));
 }
 
 void tell_meshes(const Document& document, std::vector<float>& told) {
@@ -197,7 +201,20 @@ std::vector<Case> cases() {
                               std::map<std::string, std::string> instead = {}) {
         all.push_back({"Materials", name, needed, "{\"" + name + "\": ", "}", tell_material, std::move(instead)});
     };
-    material("clear", R"("ior": 1.5)", {{"color_distance", R"("ior": 1.5, "color": [0.2, 0.5, 0.8])"}});
+    const std::string free_path = R"("ior": 1.5, "albedo": [0.9, 0.9, 0.8], "mean_free_path": [1, 2, 3])";
+    const std::string measured = R"("ior": 1.5, "medium": "cream", "scale": 1)";
+    const std::string dense =
+        R"("ior": 1.5, "absorption": [9, 9, 9], "density": {"sphere": {"radius": 1}}, "density_depth": 0.5)";
+    material("clear", R"("ior": 1.5)",
+             {{"color_distance", R"("ior": 1.5, "color": [0.2, 0.5, 0.8])"},
+              {"albedo", free_path},
+              {"mean_free_path", free_path},
+              {"medium", measured},
+              {"scale", measured},
+              {"anisotropy", R"("ior": 1.5, "scattering": [1, 1, 1])"},
+              {"emission", R"("ior": 1.5, "absorption": [1, 1, 1])"},
+              {"density", dense},
+              {"density_depth", dense}});
     material("diffuse", R"("color": [0.1, 0.2, 0.3])");
     const std::string index = R"("eta": [1, 2, 3], "k": [2, 3, 4])";
     material("conductor", R"("metal": "gold")", {{"eta", index}, {"k", index}});
@@ -357,9 +374,16 @@ TEST_CASE("a default is what is read when the key is left out") {
 
 TEST_CASE("every key changes what is read") {
     // Another value than the default, or than what is needed, for each.
-    const std::map<std::string, std::string> others{
-        {"metal", "\"iron\""}, {"filter", "\"box\""}, {"view", "\"Raw\""},           {"sun", "false"},
-        {"y_up", "true"},      {"smooth", "false"},   {"visible_to_camera", "false"}};
+    const std::map<std::string, std::string> others{{"metal", "\"iron\""},
+                                                    {"filter", "\"box\""},
+                                                    {"view", "\"Raw\""},
+                                                    {"sun", "false"},
+                                                    {"y_up", "true"},
+                                                    {"smooth", "false"},
+                                                    {"visible_to_camera", "false"},
+                                                    {"group", "\"key\""},
+                                                    {"medium", "\"ketchup\""},
+                                                    {"density", R"({"sphere": {"radius": 0.5}})"}};
     for (const Case& c : cases()) {
         CAPTURE(c.name);
         for (const Value property : properties_of(c)) {

@@ -362,7 +362,7 @@ SceneTree read_tree(const Document& document, const FileReaders& files) {
 }
 
 Field read_field(const Document& document, Value value, const FileReaders& files) {
-    return Reader(document, read_phases(document, document.root()), shapes_of(document), files).read<Field>(value);
+    return Reader(document, {}, shapes_of(document), files).read<Field>(value);  // a field names no phases
 }
 
 Field read_field(const Document& document, const PhaseNames& names, KnownShapes known, const FileReaders& files) {

@@ -2,6 +2,7 @@
 // estimation, multiple importance sampling by the power heuristic (Veach & Guibas, SIGGRAPH 1995) and Russian roulette.
 #pragma once
 
+#include "film/path_record.hpp"
 #include "sampling/sobol.hpp"
 #include "world/world.hpp"
 
@@ -23,6 +24,9 @@ namespace phasetree::tracer {
 /// Media that scatter. On its way a path may be scattered in a medium, which is a place like a surface: light is looked
 /// for there, and a direction sampled, with the phase function in place of the BSDF. E then has the media's extinction
 /// for its transmittance, whichever technique finds it.
-glm::vec3 trace_path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters);
+///
+/// With a record it also fills that in. Neither the radiance nor the random numbers that are drawn depend on it.
+glm::vec3 trace_path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters,
+                     PathRecord* record = nullptr);
 
 }  // namespace phasetree::tracer
