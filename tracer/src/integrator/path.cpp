@@ -4,47 +4,33 @@
 #include <cmath>
 #include <limits>
 
+#include "caustics/trace_photon.hpp"
 #include "integrator/light_proposal.hpp"
-#include "shading/frame.hpp"
+#include "sampling/heuristic.hpp"
+#include "world/chain.hpp"
 
 namespace phasetree::tracer {
 
 namespace {
 
-float power_heuristic(float a, float b) {
-    // The square of the quotient does not overflow where a² could.
-    const float q = b / a;
-    return 1.0f / (1.0f + q * q);
-}
-
-// Shadow rays follow no chain of more interfaces than this. Light at the end of a longer one is left to the directions
-// that BSDFs sample: it then has their weight alone (Chain::weight).
-constexpr int longest_chain = 128;
-
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// Rays travel in clear phases only.
-const Clear& clear_at(const Scene& scene, Phase phase) {
-    return std::get<Clear>(scene.materials[phase.index]);
-}
+// Photons that come in flatter than this are left to the other techniques: what they bring is divided by the cosine.
+constexpr float least_photon_cosine = 1e-3f;
 
-// Whether a surface is a link of a chain: smooth, and clear on both sides. A mirror is none: shadow rays end there.
-bool is_link(const Bsdf& bsdf, const Surface& surface) {
-    return bsdf.is_delta() && surface.far_side;
-}
-
-// The ray on which a sampled direction goes on.
-Ray continued(const Surface& surface, const Frame& frame, const BsdfSample& sample) {
-    const glm::vec3 direction = glm::normalize(frame.to_world(sample.wi));
-    return sample.transmitted ? surface.transmitted(direction) : surface.reflected(direction);
-}
+// What is found at the end of a chain.
+struct ChainEnd {
+    glm::vec3 emission{0.0f};
+    float line_density =
+        0.0f;  // with which photons take the same way, per EmittedPhoton; 0 for a chain of no interface
+};
 
 // One random sample of E (path.hpp) along a shadow ray: the emission at the end of a chain of smooth clear interfaces,
 // each of which reflects or refracts the ray at random, times the transmittance of the media and the weights of the
 // interfaces. Up to its first interface the ray goes straight to the light that was sampled, which is known; after that
 // it is asked what light it sees.
-glm::vec3 emission_through_chain(const World& world, const Scene& scene, Ray ray, const LightSample& sampled,
-                                 Sampler& sampler, PathCounters& counters) {
+ChainEnd emission_through_chain(const World& world, const Scene& scene, Ray ray, const LightSample& sampled,
+                                const Photons& photons, Sampler& sampler, PathCounters& counters) {
     glm::vec3 throughput(1.0f);
     for (int length = 0, segment = 0;; ++segment) {
         const float far = segment == 0 ? sampled.distance : infinity;
@@ -57,18 +43,21 @@ glm::vec3 emission_through_chain(const World& world, const Scene& scene, Ray ray
         const auto light = segment > 0 ? scene.lights.seen(ray.origin, ray.direction, distance, false)
                            : escaped   ? std::optional(Lights::Emission{sampled.distance, sampled.radiance})
                                        : std::nullopt;
-        if (light) return throughput * transmittance(medium, light->distance) * light->radiance;
-        if (!surface) return glm::vec3(0.0f);
+        if (light)
+            return {
+                throughput * transmittance(medium, light->distance) * light->radiance,
+                photons && length > 0 ? photons.emission->line_density(ray.origin, ray.direction, ray.phase) : 0.0f};
+        if (!surface) return {};
         throughput *= transmittance(medium, distance);
         const Bsdf bsdf = surface->bsdf();
         if (bsdf.passes_through()) {
             ray = surface->transmitted(ray.direction);
             continue;
         }
-        if (!is_link(bsdf, *surface) || ++length > longest_chain) return glm::vec3(0.0f);
+        if (!is_link(bsdf, *surface) || ++length > longest_chain) return {};
         const Frame frame(surface->normal);
         const auto next = bsdf.sample(frame.to_local(-ray.direction), sampler.next(), glm::vec2(0.0f));
-        if (!next) return glm::vec3(0.0f);
+        if (!next) return {};
         throughput *= next->weight;
         ray = continued(*surface, frame, *next);
     }
@@ -81,20 +70,24 @@ struct Chain {
     std::optional<float> pdf;
     LightProposal proposal{};
     glm::vec3 direction{0};
+    // Photons find the direction with this density, times the line density at the end of the chain.
+    float by_photons = 0;
     int length = 0;
 
-    float weight(const Lights& lights) const {
+    float weight(const Lights& lights, float line_density) const {
         if (!pdf || length > longest_chain) return 1;
-        return power_heuristic(*pdf, proposal.pdf(lights, direction));
+        return power_heuristic(*pdf, proposal.pdf(lights, direction), by_photons * line_density);
     }
 };
 
 // One path, and what it needs at every step.
 class Path {
   public:
-    Path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters)
+    Path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters,
+         const Photons& photons)
         : world_(world),
           scene_(scene),
+          photons_(photons),
           sampler_(sampler),
           counters_(counters),
           ray_(ray),
@@ -124,8 +117,11 @@ class Path {
         const auto light = scene_.lights.seen(ray_.origin, ray_.direction, distance, is_camera_ray_);
         if (!light) return false;
         const Medium& medium = clear_at(scene_, ray_.phase).interior;
-        radiance_ +=
-            throughput_ * chain_.weight(scene_.lights) * transmittance(medium, light->distance) * light->radiance;
+        const float line_density = chain_.by_photons > 0.0f && chain_.length > 0
+                                       ? photons_.emission->line_density(ray_.origin, ray_.direction, ray_.phase)
+                                       : 0.0f;
+        radiance_ += throughput_ * chain_.weight(scene_.lights, line_density) * transmittance(medium, light->distance) *
+                     light->radiance;
         return true;
     }
 
@@ -139,6 +135,7 @@ class Path {
         if (!bsdf.is_delta()) {
             if (!surface.far_side) proposal = LightProposal::at(surface, world_, scene_, counters_);
             add_direct_light(surface, bsdf, frame, wo, proposal);
+            add_caustics(surface, bsdf, frame, wo, proposal);
         }
         const float lobe = sampler_.next();
         const auto next = bsdf.sample(wo, lobe, sampler_.next2());
@@ -146,7 +143,7 @@ class Path {
         throughput_ *= next->weight;
         ray_ = continued(surface, frame, *next);
         if (!next->delta)
-            chain_ = {next->pdf, proposal, ray_.direction, 0};
+            chain_ = {next->pdf, proposal, ray_.direction, density_by_photons(surface, bsdf, next->wi.z), 0};
         else if (is_link(bsdf, surface))
             ++chain_.length;
         else
@@ -163,8 +160,34 @@ class Path {
         const glm::vec3 f = bsdf.evaluate(wo, wi);
         if (f == glm::vec3(0.0f)) return;
         const Ray shadow = wi.z < 0 ? surface.transmitted(light->wi) : surface.reflected(light->wi);
-        const glm::vec3 arrives = emission_through_chain(world_, scene_, shadow, *light, sampler_, counters_);
-        radiance_ += throughput_ * f * arrives * (power_heuristic(light->pdf, bsdf.pdf(wo, wi)) / light->pdf);
+        const ChainEnd arrives = emission_through_chain(world_, scene_, shadow, *light, photons_, sampler_, counters_);
+        const float by_photons = density_by_photons(surface, bsdf, wi.z) * arrives.line_density;
+        radiance_ += throughput_ * f * arrives.emission *
+                     (power_heuristic(light->pdf, bsdf.pdf(wo, wi), by_photons) / light->pdf);
+    }
+
+    // With which density photons find a direction of this cosine at a surface, per line density at the light.
+    float density_by_photons(const Surface& surface, const Bsdf& bsdf, float cosine) const {
+        if (!photons_ || !(cosine > least_photon_cosine) || !is_lit_by_photons(surface, bsdf)) return 0.0f;
+        const float ior = clear_at(scene_, surface.near_side.phase).ior;
+        return photons_.map->expected() * ior * ior * cosine;
+    }
+
+    // What photons bring that fell near the surface's point.
+    void add_caustics(const Surface& surface, const Bsdf& bsdf, const Frame& frame, const glm::vec3& wo,
+                      const LightProposal& proposal) {
+        if (!photons_ || !is_lit_by_photons(surface, bsdf)) return;
+        glm::vec3 sum(0.0f);
+        photons_.map->near(
+            surface.near_side.origin, surface.normal, surface.near_side.phase, [&](const Photon& photon) {
+                const glm::vec3 wi = frame.to_local(photon.direction);
+                const float by_photons = density_by_photons(surface, bsdf, wi.z) * photon.line_density;
+                if (!(by_photons > 0.0f)) return;
+                const float weight =
+                    power_heuristic(by_photons, bsdf.pdf(wo, wi), proposal.pdf(scene_.lights, photon.direction));
+                sum += bsdf.evaluate(wo, wi) * photon.power * (weight / wi.z);
+            });
+        radiance_ += throughput_ * sum / photons_.map->expected();
     }
 
     // Russian roulette on what the path can still bring to the camera: radiance over η² is what refraction preserves.
@@ -183,6 +206,7 @@ class Path {
 
     const World& world_;
     const Scene& scene_;
+    const Photons& photons_;
     Sampler& sampler_;
     PathCounters& counters_;
     Ray ray_;
@@ -194,10 +218,11 @@ class Path {
 
 }  // namespace
 
-glm::vec3 trace_path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters) {
+glm::vec3 trace_path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters,
+                     const Photons& photons) {
     ++counters.paths;
     if (!is_clear(scene.materials[ray.phase.index])) return glm::vec3(0.0f);
-    return Path(world, scene, ray, sampler, counters).trace();
+    return Path(world, scene, ray, sampler, counters, photons).trace();
 }
 
 }  // namespace phasetree::tracer

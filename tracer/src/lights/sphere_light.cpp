@@ -56,4 +56,17 @@ std::optional<float> SphereLight::intersect(const glm::vec3& origin, const glm::
     return static_cast<float>(along - std::sqrt(squared_half_chord));
 }
 
+SurfacePoint SphereLight::surface_point(const glm::vec2& u) const {
+    const glm::vec3 normal = square_to_uniform_sphere(u);
+    return {glm::vec3(centre_ + radius_ * glm::dvec3(normal)), normal};
+}
+
+glm::vec3 SphereLight::normal_at(const glm::vec3& point) const {
+    return glm::vec3(glm::normalize(glm::dvec3(point) - centre_));
+}
+
+float SphereLight::area() const {
+    return static_cast<float>(4.0 * std::numbers::pi * radius_ * radius_);
+}
+
 }  // namespace phasetree::tracer

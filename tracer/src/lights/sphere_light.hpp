@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "lights/direction_sample.hpp"
+#include "lights/surface_point.hpp"
 #include "parameters/world_limits.hpp"
 #include "phasetree/io/kind.hpp"
 
@@ -30,6 +31,12 @@ class SphereLight {
     float pdf_at(const glm::vec3& p, const glm::vec3& direction, float distance) const;
     // The distance at which a ray first meets the surface.
     std::optional<float> intersect(const glm::vec3& origin, const glm::vec3& direction) const;
+
+    // As AreaLightKind has them; of the outer side.
+    glm::vec3 centre() const { return centre_; }
+    SurfacePoint surface_point(const glm::vec2& u) const;
+    glm::vec3 normal_at(const glm::vec3& point) const;
+    float area() const;
 
   private:
     double cap_height(const glm::dvec3& to_centre) const;

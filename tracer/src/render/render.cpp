@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "camera/camera.hpp"
+#include "caustics/caustics.hpp"
 #include "phasetree/math/float_mode.hpp"
 
 namespace phasetree::tracer {
@@ -54,13 +55,21 @@ class Renderer {
           job_(job),
           camera_(scene.camera, scene.film.resolution()),
           phases_(world.geometry(), camera_),
-          film_(scene.film, job.pixels) {}
+          film_(scene.film, job.pixels) {
+        if (scene.settings.caustics) caustics_.emplace(world, scene);
+    }
 
     // Returns how many samples each pixel has in the end.
     int run() {
         int done = 0;
         while (done < scene_.settings.samples && !stopped_) {
-            const Pass pass = Pass::from(done, scene_.settings.samples);
+            // Each sample of a pixel sees photons of its own.
+            const Pass pass = caustics_ ? Pass{done, done + 1} : Pass::from(done, scene_.settings.samples);
+            if (caustics_) {
+                photons_ = caustics_->photons(done, counters_.local(), job_.cancelled);
+                stopped_ = !photons_;
+                if (stopped_) break;
+            }
             std::optional<Film> before;
             if (pass.first > 0) before = film_;
             run(pass);
@@ -112,7 +121,8 @@ class Renderer {
                         static_cast<std::uint32_t>(number), scene_.settings.seed);
         const glm::dvec2 on_film = film_.sample_position(x, y, sampler.next2());
         const CameraRay ray = camera_.generate(on_film, sampler.next2());
-        return {trace_path(world_, scene_, {ray.origin, ray.direction, phases_.at(ray.origin), {}}, sampler, counters)};
+        return {trace_path(world_, scene_, {ray.origin, ray.direction, phases_.at(ray.origin), {}}, sampler, counters,
+                           photons_ ? Photons{&caustics_->emission(), &*photons_} : Photons{})};
     }
 
     const World& world_;
@@ -121,6 +131,8 @@ class Renderer {
     Camera camera_;
     StartingPhases phases_;
     Film film_;
+    std::optional<Caustics> caustics_;
+    std::optional<PhotonMap> photons_;  // of this pass
     tbb::enumerable_thread_specific<PathCounters> counters_;
     std::atomic<bool> stopped_{false};
 };

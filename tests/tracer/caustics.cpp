@@ -1,0 +1,166 @@
+// Photons: against closed forms behind flat interfaces, against paths alone behind curved ones, and the map by itself.
+#include "caustics/caustics.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "paths.hpp"
+#include "shading/fresnel.hpp"
+
+using namespace phasetree::tracer;
+using namespace phasetree::tracer::tests;
+
+namespace {
+
+// A dark floor, so that light which it sends back and which comes again does not matter for the closed forms.
+constexpr double albedo = 0.001;
+const std::string floor_material = R"({"diffuse": {"color": [0.001, 0.001, 0.001]}})";
+const std::string sun_at_60_degrees = R"({"sun": {"direction": [0, 0.8660254, 0.5], "irradiance": [4, 4, 4]}})";
+
+// What a member "render" says for few photons, gathered in a wide radius.
+const std::string few_wide_photons = R"(, "render": {"width": 32, "height": 32, "photons": 2, "photon_radius": 1.5})";
+
+// The radiance along a ray, by as many passes as that, each with its own photons.
+Moments with_photons(const Scene& scene, const glm::vec3& origin, const glm::vec3& direction, int passes) {
+    const phasetree::FlushSubnormals flush;
+    const World world(scene);
+    const Caustics caustics(world, scene);
+    Moments moments;
+    PathCounters counters;
+    const Ray ray{origin, glm::normalize(direction), world.geometry().label(origin), {}};
+    for (int pass = 0; pass < passes; ++pass) {
+        const auto map = caustics.photons(pass, counters, [] { return false; });
+        REQUIRE(map.has_value());
+        Sampler sampler(static_cast<std::uint32_t>(pass), 0, 0, 1);
+        moments.add(
+            static_cast<double>(trace_path(world, scene, ray, sampler, counters, {&caustics.emission(), &*map}).x));
+    }
+    return moments;
+}
+
+double reflectance(double cosine, double eta) {
+    return static_cast<double>(fresnel_dielectric(static_cast<float>(cosine), static_cast<float>(eta)).reflectance);
+}
+
+}  // namespace
+
+TEST_CASE("the sun through a pane, and at the ground of a pool: closed forms") {
+    const double significance = sidak(1e-4, 2);
+    const double irradiance = 4 * 0.5 / std::numbers::pi * albedo;
+    const double r = reflectance(0.5, 1.5);
+    const auto scene_with = [&](const std::string& phases, const std::string& tree, const std::string& meshes) {
+        return scene_of(phases, tree, meshes + R"("lights": [)" + sun_at_60_degrees + "]" + few_wide_photons);
+    };
+    SUBCASE("a pane over the floor") {
+        const Scene scene = scene_with(
+            R"("glass": {"clear": {"ior": 1.5}})",
+            R"({"set": {"phase": "glass", "of": {"translate": {"by": [0, 0, 0.5], "of": {"box": {"size": [3, 3, 0.2]}}}}}})",
+            R"("meshes": [{"floor": {"material": )" + floor_material + "}}], ");
+        // (1 − r)² Σ r^(2k): what passes after any number of reflections inside.
+        const double expected = irradiance * (1 - r) / (1 + r);
+        const Moments m = with_photons(scene, {-1, -1, 0.2f}, {1, 1, -0.2f}, 300);
+        CAPTURE(m.mean() / expected);
+        CHECK(mean_p_value(m, expected, 1e-3 * expected) > significance);
+        CHECK(mean_p_value(m, 1.01 * expected, 1e-3 * expected) < significance);
+    }
+    SUBCASE("the ground of a pool, where the index is not 1") {
+        const Scene scene = scene_with(R"("water": {"clear": {"ior": 1.5}}, "ground": )" + floor_material,
+                                       R"({"over": [{"set": {"phase": "ground", "of": {"plane": {"offset": -0.5}}}},
+                         {"set": {"phase": "water", "of": {"box": {"size": [3, 3, 2]}}}}]})",
+                                       "");
+        // Seen from within the water.
+        const Moments m = with_photons(scene, {-0.5f, -0.5f, 0.2f}, {0.5f, 0.5f, -0.7f}, 300);
+        const double expected = irradiance * (1 - r);
+        CAPTURE(m.mean() / expected);
+        CHECK(mean_p_value(m, expected, 1e-3 * expected) > significance);
+        CHECK(mean_p_value(m, 1.01 * expected, 1e-3 * expected) < significance);
+    }
+}
+
+TEST_CASE("behind a ball of coloured glass it is as bright as by paths alone") {
+    const std::string lights[] = {R"({"sun": {"direction": [0.2, 0.3, 1], "irradiance": [4, 4, 4], "diameter": 40}})",
+                                  R"({"rectangle": {"centre": [1, 1, 4], "target": [0, 0, 0], "width": 2, "height": 2,
+                                      "radiance": [5, 5, 5]}})",
+                                  R"({"sphere": {"centre": [1, 1, 4], "radius": 0.8, "radiance": [5, 5, 5]}})"};
+    const double significance = sidak(1e-4, std::size(lights));
+    for (const std::string& light : lights) {
+        CAPTURE(light);
+        const Scene scene = scene_of(
+            R"("glass": {"clear": {"ior": 1.5, "absorption": [0.3, 0.3, 0.3]}})",
+            R"({"set": {"phase": "glass", "of": {"translate": {"by": [0, 0, 1.1], "of": {"sphere": {"radius": 1}}}}}})",
+            R"("meshes": [{"floor": {"material": {"diffuse": {"color": [0.6, 0.6, 0.6]}}}}], "lights": [)" + light +
+                R"(], "render": {"width": 64, "height": 64, "photons": 2, "photon_radius": 0.5})");
+        const World world(scene);
+        const glm::vec3 origin(-2, -2, 0.1f), direction(1.9f, 1.9f, -0.1f);
+        const Moments paths = radiance_along(world, scene, origin, direction, 150000)[0];
+        const Moments photons = with_photons(scene, origin, direction, 300);
+        CAPTURE(photons.mean() / paths.mean());
+        // A second estimate of which the first is taken as the expectation, with both errors.
+        const double error = std::hypot(paths.standard_error(), photons.standard_error());
+        CHECK(error < 0.004 * paths.mean());
+        const double z = (photons.mean() - paths.mean()) / error;
+        CHECK(phasetree::tests::normal_two_sided(z) > significance);
+    }
+}
+
+TEST_CASE("the map finds what lies within the radius, each photon once") {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> place(-3, 3);
+    std::vector<Photon> photons;
+    for (int i = 0; i < 3000; ++i)
+        photons.push_back({{place(random), place(random), 0.1f * place(random)},
+                           {0, 0, 1},
+                           glm::vec3(1),
+                           1,
+                           phasetree::Phase{static_cast<std::uint8_t>(i % 2)}});
+    const float radius = 0.4f;
+    const PhotonMap map(photons, 3000, radius);
+    CHECK(map.expected() == doctest::Approx(3000 * std::numbers::pi * 0.16));
+    const glm::vec3 normal(0, 0, 1);
+    for (int i = 0; i < 200; ++i) {
+        const glm::vec3 point(place(random), place(random), 0.0f);
+        int found = 0, expected = 0;
+        map.near(point, normal, phasetree::Phase{1}, [&](const Photon&) { ++found; });
+        for (const Photon& photon : photons) {
+            const glm::vec3 offset = photon.position - point;
+            expected += photon.phase.index == 1 && glm::length(offset) <= radius && std::abs(offset.z) <= radius / 4;
+        }
+        CHECK(found == expected);
+    }
+}
+
+TEST_CASE("no photons where nothing bends light or no light has a middle") {
+    const auto lights = [](const std::string& ior, const std::string& light) {
+        const Scene scene =
+            scene_of(R"("glass": {"clear": {"ior": )" + ior + "}}",
+                     R"({"set": {"phase": "glass", "of": {"sphere": {"radius": 1}}}})", R"("lights": [)" + light + "]");
+        const World world(scene);
+        return PhotonEmission(world, scene).lights();
+    };
+    CHECK(lights("1.5", sun_at_60_degrees) == 1);
+    CHECK(lights("1", sun_at_60_degrees) == 0);
+    CHECK(lights("1.5", R"({"constant": {}})") == 0);
+}
+
+TEST_CASE("a target's lines are as dense as it says") {
+    PhotonTarget target({1, 2, 3}, glm::normalize(glm::vec3(1, 1, 2)), 0.7f);
+    std::vector<double> weights(PhotonTarget::cells);
+    std::mt19937 random(2);
+    std::uniform_real_distribution<float> unit(0, 1);
+    for (double& weight : weights) weight = static_cast<double>(unit(random)) + 0.01;
+    target.set_weights(weights);
+    // The mean of 1/p over samples is the measure of all lines of one direction: the square's area, seen from there.
+    const glm::vec3 direction = glm::normalize(glm::vec3(0.5f, 1, 2));
+    Moments inverse;
+    for (int i = 0; i < 20000; ++i) {
+        const PhotonTarget::Aim aim = target.sample(unit(random), {unit(random), unit(random)});
+        const float density = target.crossing(aim.point - 2.0f * direction, direction).density;
+        if (density > 0) inverse.add(1 / static_cast<double>(density));
+    }
+    const double area = 1.4 * 1.4 * static_cast<double>(glm::dot(direction, glm::normalize(glm::vec3(1, 1, 2))));
+    CHECK(mean_p_value(inverse, area, 0) > 1e-4);
+    CHECK(mean_p_value(inverse, 1.03 * area, 0) < 1e-4);
+}
