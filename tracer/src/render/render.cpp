@@ -131,12 +131,9 @@ class Renderer {
     Camera camera_;
     StartingPhases phases_;
     Film film_;
-<<<<<<< HEAD
     std::optional<Caustics> caustics_;
     std::optional<PhotonMap> photons_;  // of this pass
-=======
     std::mutex adding_;  // of tiles to the film
->>>>>>> main
     tbb::enumerable_thread_specific<PathCounters> counters_;
     std::atomic<bool> stopped_{false};
 };
