@@ -35,8 +35,8 @@ Moments with_photons(const Scene& scene, const glm::vec3& origin, const glm::vec
         const auto map = caustics.photons(pass, counters, [] { return false; });
         REQUIRE(map.has_value());
         Sampler sampler(static_cast<std::uint32_t>(pass), 0, 0, 1);
-        moments.add(
-            static_cast<double>(trace_path(world, scene, ray, sampler, counters, {&caustics.emission(), &*map}).x));
+        moments.add(static_cast<double>(
+            trace_path(world, scene, ray, sampler, counters, nullptr, {&caustics.emission(), &*map}).x));
     }
     return moments;
 }
@@ -119,7 +119,9 @@ TEST_CASE("the map finds what lies within the radius, each photon once") {
                            {0, 0, 1},
                            glm::vec3(1),
                            1,
-                           phasetree::Phase{static_cast<std::uint8_t>(i % 2)}});
+                           phasetree::Phase{static_cast<std::uint8_t>(i % 2)},
+                           {},
+                           {0, 0, 1}});
     const float radius = 0.4f;
     const PhotonMap map(photons, 3000, radius);
     CHECK(map.expected() == doctest::Approx(3000 * std::numbers::pi * 0.16));

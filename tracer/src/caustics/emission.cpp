@@ -111,8 +111,7 @@ std::optional<EmittedPhoton> PhotonEmission::sample(Sampler& sampler) const {
     const auto seen = scene_.lights.seen(origin, -direction, infinity, false);
     if (!(density > 0.0f) || !seen) return std::nullopt;
     const float line = density * squared_ior(scene_, phase);
-    return EmittedPhoton{
-        {origin, direction, phase, {}}, seen->distance, seen->radiance / line, density, number, aim.cell};
+    return EmittedPhoton{{origin, direction, phase, {}}, *seen, seen->radiance / line, density, number, aim.cell};
 }
 
 float PhotonEmission::line_density(const glm::vec3& origin, const glm::vec3& towards_light, Phase phase) const {

@@ -22,12 +22,12 @@ namespace phasetree::tracer {
 
 /// A photon that is about to start.
 struct EmittedPhoton {
-    Ray ray;               ///< its origin is outside of the object, or at the light if that is nearer
-    float light_distance;  ///< from there back to the light; infinite for infinite lights
-    glm::vec3 power;       ///< radiance of the light over the density
-    float line_density;    ///< p(line) over the square of the refractive index at the origin
-    std::size_t light;     ///< the number of the light that proposed it: less than PhotonEmission::lights()
-    std::size_t cell;      ///< of that light's target
+    Ray ray;                    ///< its origin is outside of the object, or at the light if that is nearer
+    Lights::Emission emission;  ///< what is seen from the origin backwards if nothing is in the way
+    glm::vec3 power;            ///< radiance of the light over the density
+    float line_density;         ///< p(line) over the square of the refractive index at the origin
+    std::size_t light;          ///< the number of the light that proposed it: less than PhotonEmission::lights()
+    std::size_t cell;           ///< of that light's target
 };
 
 class PhotonEmission {

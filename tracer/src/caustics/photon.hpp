@@ -4,6 +4,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "lights/lights.hpp"
 #include "phasetree/model/phase.hpp"
 
 namespace phasetree::tracer {
@@ -15,7 +16,9 @@ struct Photon {
     /// How densely the photon's line was sampled at the light, per area perpendicular to it and steradian, over the
     /// square of the refractive index around the light.
     float line_density;
-    Phase phase;  ///< in which it travelled when it fell
+    Phase phase;                ///< in which it travelled when it fell
+    Lights::Emission emission;  ///< of the light, and
+    glm::vec3 towards_light;    ///< the direction in which it is seen from where the photon met the first interface
 };
 
 }  // namespace phasetree::tracer

@@ -27,9 +27,10 @@ std::optional<Photon> trace_photon(const World& world, const Scene& scene, const
         if (!is_link(bsdf, *surface)) {
             if (length == 0 || !is_lit_by_photons(*surface, bsdf)) return std::nullopt;
             const Ray back{emitted.ray.origin, -emitted.ray.direction, emitted.ray.phase, {}};
-            const Visibility light = world.geometry().visibility(back, emitted.light_distance, counters);
+            const Visibility light = world.geometry().visibility(back, emitted.emission.distance, counters);
             if (!std::holds_alternative<Escaped>(light)) return std::nullopt;
-            return Photon{surface->near_side.origin, -ray.direction, power, emitted.line_density, ray.phase};
+            return Photon{surface->near_side.origin, -ray.direction, power, emitted.line_density, ray.phase,
+                          emitted.emission,          back.direction};
         }
         if (++length > longest_chain) return std::nullopt;
         const Frame frame(surface->normal);

@@ -6,6 +6,7 @@
 
 #include "caustics/trace_photon.hpp"
 #include "integrator/light_proposal.hpp"
+#include "integrator/path_recorder.hpp"
 #include "sampling/heuristic.hpp"
 #include "world/chain.hpp"
 
@@ -18,19 +19,26 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 // Photons that come in flatter than this are left to the other techniques: what they bring is divided by the cosine.
 constexpr float least_photon_cosine = 1e-3f;
 
-// What is found at the end of a chain.
-struct ChainEnd {
-    glm::vec3 emission{0.0f};
-    float line_density =
-        0.0f;  // with which photons take the same way, per EmittedPhoton; 0 for a chain of no interface
+// What a shadow ray finds: the radiance that arrives, and of which emission, in which direction in the end, it is.
+struct Arrival {
+    glm::vec3 radiance;
+    Lights::Emission emission;
+    glm::vec3 direction;
+    float line_density;  // with which photons start on the chain's last line; 0 for a chain of no interface
 };
+
+// With which density photons start on the line on which a ray leads to a light.
+float line_density(const Photons& photons, const Ray& ray) {
+    return photons ? photons.emission->line_density(ray.origin, ray.direction, ray.phase) : 0.0f;
+}
 
 // One random sample of E (path.hpp) along a shadow ray: the emission at the end of a chain of smooth clear interfaces,
 // each of which reflects or refracts the ray at random, times the transmittance of the media and the weights of the
-// interfaces. Up to its first interface the ray goes straight to the light that was sampled, which is known; after that
-// it is asked what light it sees.
-ChainEnd emission_through_chain(const World& world, const Scene& scene, Ray ray, const LightSample& sampled,
-                                const Photons& photons, Sampler& sampler, PathCounters& counters) {
+// interfaces; none if there is no light. Up to its first interface the ray goes straight to the light that was sampled,
+// which is known; after that it is asked what light it sees.
+std::optional<Arrival> emission_through_chain(const World& world, const Scene& scene, Ray ray,
+                                              const LightSample& sampled, const Photons& photons, Sampler& sampler,
+                                              PathCounters& counters) {
     glm::vec3 throughput(1.0f);
     for (int length = 0, segment = 0;; ++segment) {
         const float far = segment == 0 ? sampled.distance : infinity;
@@ -41,23 +49,23 @@ ChainEnd emission_through_chain(const World& world, const Scene& scene, Ray ray,
         const float distance = surface ? surface->distance : blocked ? blocked->distance : infinity;
         const Medium& medium = clear_at(scene, ray.phase).interior;
         const auto light = segment > 0 ? scene.lights.seen(ray.origin, ray.direction, distance, false)
-                           : escaped   ? std::optional(Lights::Emission{sampled.distance, sampled.radiance})
-                                       : std::nullopt;
+                           : escaped
+                               ? std::optional(Lights::Emission{sampled.distance, sampled.radiance, sampled.source})
+                               : std::nullopt;
         if (light)
-            return {
-                throughput * transmittance(medium, light->distance) * light->radiance,
-                photons && length > 0 ? photons.emission->line_density(ray.origin, ray.direction, ray.phase) : 0.0f};
-        if (!surface) return {};
+            return Arrival{throughput * transmittance(medium, light->distance) * light->radiance, *light, ray.direction,
+                           length > 0 ? line_density(photons, ray) : 0.0f};
+        if (!surface) return std::nullopt;
         throughput *= transmittance(medium, distance);
         const Bsdf bsdf = surface->bsdf();
         if (bsdf.passes_through()) {
             ray = surface->transmitted(ray.direction);
             continue;
         }
-        if (!is_link(bsdf, *surface) || ++length > longest_chain) return {};
+        if (!is_link(bsdf, *surface) || ++length > longest_chain) return std::nullopt;
         const Frame frame(surface->normal);
         const auto next = bsdf.sample(frame.to_local(-ray.direction), sampler.next(), glm::vec2(0.0f));
-        if (!next) return {};
+        if (!next) return std::nullopt;
         throughput *= next->weight;
         ray = continued(*surface, frame, *next);
     }
@@ -74,9 +82,11 @@ struct Chain {
     float by_photons = 0;
     int length = 0;
 
-    float weight(const Lights& lights, float line_density) const {
+    // Of light that is seen along the ray.
+    float weight(const Lights& lights, const Photons& photons, const Ray& ray) const {
         if (!pdf || length > longest_chain) return 1;
-        return power_heuristic(*pdf, proposal.pdf(lights, direction), by_photons * line_density);
+        const float line = by_photons > 0.0f && length > 0 ? line_density(photons, ray) : 0.0f;
+        return power_heuristic(*pdf, proposal.pdf(lights, direction), by_photons * line);
     }
 };
 
@@ -84,14 +94,15 @@ struct Chain {
 class Path {
   public:
     Path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters,
-         const Photons& photons)
+         const Photons& photons, PathRecord* record)
         : world_(world),
           scene_(scene),
           photons_(photons),
           sampler_(sampler),
           counters_(counters),
           ray_(ray),
-          camera_ior_(clear_at(scene, ray.phase).ior) {}
+          camera_ior_(clear_at(scene, ray.phase).ior),
+          recorder_(record, scene) {}
 
     glm::vec3 trace() {
         for (int depth = 0; depth < scene_.settings.max_depth;) {
@@ -100,6 +111,7 @@ class Path {
             const float distance = surface ? surface->distance : infinity;
             if (add_emission(distance) || !surface) break;
             throughput_ *= transmittance(clear_at(scene_, ray_.phase).interior, distance);
+            recorder_.travelled(ray_.phase, distance);
             ++depth;
             const Bsdf bsdf = surface->bsdf();
             if (bsdf.passes_through()) {  // equal indices scatter nothing, but do count for max_depth
@@ -108,6 +120,7 @@ class Path {
             }
             if (!scatter_and_continue(*surface, bsdf) || !roulette(depth)) break;
         }
+        recorder_.finish(radiance_);
         return radiance_;
     }
 
@@ -117,12 +130,28 @@ class Path {
         const auto light = scene_.lights.seen(ray_.origin, ray_.direction, distance, is_camera_ray_);
         if (!light) return false;
         const Medium& medium = clear_at(scene_, ray_.phase).interior;
-        const float line_density = chain_.by_photons > 0.0f && chain_.length > 0
-                                       ? photons_.emission->line_density(ray_.origin, ray_.direction, ray_.phase)
-                                       : 0.0f;
-        radiance_ += throughput_ * chain_.weight(scene_.lights, line_density) * transmittance(medium, light->distance) *
-                     light->radiance;
+        add_light(throughput_ * chain_.weight(scene_.lights, photons_, ray_) * transmittance(medium, light->distance) *
+                      light->radiance,
+                  *light, ray_.direction, false);
         return true;
+    }
+
+    // Adds to the path's radiance, of an emission that was seen in the direction.
+    void add_light(const glm::vec3& radiance, const Lights::Emission& emission, const glm::vec3& direction,
+                   bool by_shadow_ray) {
+        radiance_ += radiance;
+        recorder_.add_light(radiance, emission, direction, by_shadow_ray);
+    }
+
+    // Tells the recorder of a surface before the path's ray leaves it.
+    void record(const Surface& surface, const Bsdf& bsdf, const std::optional<BsdfSample>& next) {
+        if (!recorder_.is_asked()) return;
+        const auto ior = [&](Phase phase) { return clear_at(scene_, phase).ior; };
+        const Phase after = next && next->transmitted ? surface.far_side->phase : ray_.phase;
+        const glm::vec3 weight = next ? next->weight : glm::vec3(0.0f);
+        const float bent = ior(after) / ior(ray_.phase), from_camera = ior(after) / camera_ior_;
+        recorder_.scattered(surface, bsdf.is_delta(), is_link(bsdf, surface), weight * (bent * bent),
+                            throughput_ * weight * (from_camera * from_camera));
     }
 
     // Adds direct light, and samples the path's next ray. Whether there is one.
@@ -139,6 +168,7 @@ class Path {
         }
         const float lobe = sampler_.next();
         const auto next = bsdf.sample(wo, lobe, sampler_.next2());
+        record(surface, bsdf, next);
         if (!next) return false;
         throughput_ *= next->weight;
         ray_ = continued(surface, frame, *next);
@@ -160,10 +190,12 @@ class Path {
         const glm::vec3 f = bsdf.evaluate(wo, wi);
         if (f == glm::vec3(0.0f)) return;
         const Ray shadow = wi.z < 0 ? surface.transmitted(light->wi) : surface.reflected(light->wi);
-        const ChainEnd arrives = emission_through_chain(world_, scene_, shadow, *light, photons_, sampler_, counters_);
-        const float by_photons = density_by_photons(surface, bsdf, wi.z) * arrives.line_density;
-        radiance_ += throughput_ * f * arrives.emission *
-                     (power_heuristic(light->pdf, bsdf.pdf(wo, wi), by_photons) / light->pdf);
+        const auto arrival = emission_through_chain(world_, scene_, shadow, *light, photons_, sampler_, counters_);
+        if (!arrival) return;
+        const float by_photons = density_by_photons(surface, bsdf, wi.z) * arrival->line_density;
+        const float weight = power_heuristic(light->pdf, bsdf.pdf(wo, wi), by_photons);
+        add_light(throughput_ * f * arrival->radiance * (weight / light->pdf), arrival->emission, arrival->direction,
+                  true);
     }
 
     // With which density photons find a direction of this cosine at a surface, per line density at the light.
@@ -177,7 +209,6 @@ class Path {
     void add_caustics(const Surface& surface, const Bsdf& bsdf, const Frame& frame, const glm::vec3& wo,
                       const LightProposal& proposal) {
         if (!photons_ || !is_lit_by_photons(surface, bsdf)) return;
-        glm::vec3 sum(0.0f);
         photons_.map->near(
             surface.near_side.origin, surface.normal, surface.near_side.phase, [&](const Photon& photon) {
                 const glm::vec3 wi = frame.to_local(photon.direction);
@@ -185,9 +216,10 @@ class Path {
                 if (!(by_photons > 0.0f)) return;
                 const float weight =
                     power_heuristic(by_photons, bsdf.pdf(wo, wi), proposal.pdf(scene_.lights, photon.direction));
-                sum += bsdf.evaluate(wo, wi) * photon.power * (weight / wi.z);
+                const glm::vec3 irradiance = photon.power / photons_.map->expected();
+                add_light(throughput_ * bsdf.evaluate(wo, wi) * irradiance * (weight / wi.z), photon.emission,
+                          photon.towards_light, true);
             });
-        radiance_ += throughput_ * sum / photons_.map->expected();
     }
 
     // Russian roulette on what the path can still bring to the camera: radiance over η² is what refraction preserves.
@@ -214,15 +246,19 @@ class Path {
     glm::vec3 radiance_{0.0f}, throughput_{1.0f};
     Chain chain_;
     bool is_camera_ray_ = true;
+    PathRecorder recorder_;
 };
 
 }  // namespace
 
 glm::vec3 trace_path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters,
-                     const Photons& photons) {
+                     PathRecord* record, const Photons& photons) {
     ++counters.paths;
-    if (!is_clear(scene.materials[ray.phase.index])) return glm::vec3(0.0f);
-    return Path(world, scene, ray, sampler, counters, photons).trace();
+    if (!is_clear(scene.materials[ray.phase.index])) {
+        PathRecorder(record, scene).finish(glm::vec3(0.0f));
+        return glm::vec3(0.0f);
+    }
+    return Path(world, scene, ray, sampler, counters, photons, record).trace();
 }
 
 }  // namespace phasetree::tracer

@@ -122,7 +122,8 @@ class Renderer {
         const CameraRay ray = camera_.generate(on_film, sampler.next2());
         const Ray first{ray.origin, ray.direction, phases_.at(ray.origin), {}};
         const Photons photons = photons_ ? Photons{&caustics_->emission(), &*photons_} : Photons{};
-        return {trace_path(world_, scene_, first, sampler, counters, photons), static_cast<std::uint32_t>(number)};
+        return {trace_path(world_, scene_, first, sampler, counters, nullptr, photons),
+                static_cast<std::uint32_t>(number)};
     }
 
     const World& world_;
@@ -133,7 +134,7 @@ class Renderer {
     Film film_;
     std::optional<Caustics> caustics_;
     std::optional<PhotonMap> photons_;  // of this pass
-    std::mutex adding_;  // of tiles to the film
+    std::mutex adding_;                 // of tiles to the film
     tbb::enumerable_thread_specific<PathCounters> counters_;
     std::atomic<bool> stopped_{false};
 };
