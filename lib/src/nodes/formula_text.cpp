@@ -51,6 +51,7 @@ int operands(Op op) {
 namespace {
 
 constexpr std::size_t longest_text = 20'000, most_steps = 2'000;
+constexpr std::size_t most_squares = 16;
 constexpr int deepest = 100;
 
 using Index = std::uint32_t;
@@ -190,10 +191,10 @@ class Builder {
     bool is(Index i, double v) const { return is_constant(i) && steps_[i].value == v; }
     double value(Index i) const { return steps_[i].value; }
 
-    // Whether a value is a sum of squares, and of what.
+    // Whether a value is a sum of a few squares, and of what. Shared parts could make many of few steps.
     bool collect_squares(Index i, std::vector<Index>& sides, int depth = 0) {
         const FormulaStep s = steps_[i];
-        if (depth > deepest) return false;
+        if (depth > deepest || sides.size() > most_squares) return false;
         if (s.op == Op::add) return collect_squares(s.a, sides, depth + 1) && collect_squares(s.b, sides, depth + 1);
         if (s.op == Op::square) {
             sides.push_back(s.a);
