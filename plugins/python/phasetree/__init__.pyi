@@ -2334,14 +2334,15 @@ class textures:
 
 class lights:
     @staticmethod
-    def constant(radiance: Sequence[float] | str | None = ..., intensity: float | None = ...) -> Light:
+    def constant(radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | Expression | None = ...) -> Light:
         r"""The same radiance from everywhere.
 
         radiance: Radiance from every direction. (colour; zero or more; default [1, 1, 1])
         intensity: A factor of the radiance. (number; zero or more; default 1)
+        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
         """
     @staticmethod
-    def gradient(zenith: Sequence[float] | str, horizon: Sequence[float] | str, ground: Sequence[float] | str, intensity: float | None = ..., softness: float | None = ...) -> Light:
+    def gradient(zenith: Sequence[float] | str, horizon: Sequence[float] | str, ground: Sequence[float] | str, intensity: float | None = ..., softness: float | None = ..., group: str | Expression | None = ...) -> Light:
         r"""Three colours that run smoothly into each other with the height.
 
             mix(horizon, zenith or ground, S(min(|z|/softness, 1))),  S(t) = t² (3 − 2t)
@@ -2351,17 +2352,19 @@ class lights:
         ground: Radiance from straight below. (colour; zero or more)
         intensity: A factor of the three radiances. (number; zero or more; default 1)
         softness: Sine of the elevation at which the zenith's or the ground's colour is reached. (number; more than 0 and at most 1; default 1)
+        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
         """
     @staticmethod
-    def image(file: str | PathLike[str], rotation: float | None = ..., intensity: float | None = ...) -> Light:
+    def image(file: str | PathLike[str], rotation: float | None = ..., intensity: float | None = ..., group: str | Expression | None = ...) -> Light:
         r"""An environment from a lat-long image, which is twice as wide as high.
 
         file: An image of any format that OpenImageIO reads, at most 16384 × 8192 pixels. (name of a file)
         rotation: Angle by which it is turned, clockwise as seen from above. (number in degrees; default 0)
         intensity: A factor of the image. (number; zero or more; default 1)
+        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
         """
     @staticmethod
-    def sky(sun_elevation: float | None = ..., sun_azimuth: float | None = ..., sun_diameter: float | None = ..., turbidity: float | None = ..., ground: Sequence[float] | str | None = ..., intensity: float | None = ..., sun: bool | None = ...) -> Light:
+    def sky(sun_elevation: float | None = ..., sun_azimuth: float | None = ..., sun_diameter: float | None = ..., turbidity: float | None = ..., ground: Sequence[float] | str | None = ..., intensity: float | None = ..., sun: bool | None = ..., group: str | Expression | None = ...) -> Light:
         r"""A clear sky, its sun, and the ground below, by a model of the atmosphere. White level ground has the luminance 1 under a sun 45° high at turbidity 3.
 
         sun_elevation: Height of the sun above the horizon; down to −8 there is twilight. (number in degrees; at least -90 and at most 90; default 45)
@@ -2371,9 +2374,10 @@ class lights:
         ground: Reflectance of the ground, which is diffuse. (colour; at least 0 and at most 1; default [0.3, 0.3, 0.3])
         intensity: A factor of all of it. (number; at least 0 and at most 1e30; default 1)
         sun: Whether the sun itself shines, too. (true or false; default true)
+        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
         """
     @staticmethod
-    def sun(direction: Sequence[float] | np.ndarray, irradiance: Sequence[float] | str | None = ..., diameter: float | None = ...) -> Light:
+    def sun(direction: Sequence[float] | np.ndarray, irradiance: Sequence[float] | str | None = ..., diameter: float | None = ..., group: str | Expression | None = ...) -> Light:
         r"""A disk of constant radiance infinitely far away.
 
             L = E/(π sin²(δ/2))
@@ -2381,9 +2385,10 @@ class lights:
         direction: Direction towards the sun, of any length. ([x, y, z], not all zero)
         irradiance: What a surface receives that faces the sun, E. (colour; zero or more; default [1, 1, 1])
         diameter: Angular diameter, δ. A larger sun makes softer shadows of the same brightness. (number in degrees; more than 0 and at most 90; default 0.53)
+        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
         """
     @staticmethod
-    def rectangle(centre: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, width: float, height: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ...) -> Light:
+    def rectangle(centre: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, width: float, height: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | Expression | None = ...) -> Light:
         r"""A rectangle that shines to one side and is not there from behind.
 
         centre: Its centre. ([x, y, z] in m; at least -1e15 and at most 1e15)
@@ -2393,9 +2398,10 @@ class lights:
         radiance: Radiance of its side that shines. (colour; zero or more; default [1, 1, 1])
         intensity: A factor of the radiance. (number; zero or more; default 1)
         visible_to_camera: Whether the camera sees it by itself. (true or false; default true)
+        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
         """
     @staticmethod
-    def sphere(centre: Sequence[float] | np.ndarray, radius: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ...) -> Light:
+    def sphere(centre: Sequence[float] | np.ndarray, radius: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | Expression | None = ...) -> Light:
         r"""A ball that shines.
 
         centre: Its centre. ([x, y, z] in m; at least -1e15 and at most 1e15)
@@ -2403,6 +2409,7 @@ class lights:
         radiance: Radiance of its surface. (colour; zero or more; default [1, 1, 1])
         intensity: A factor of the radiance. (number; zero or more; default 1)
         visible_to_camera: Whether the camera sees it by itself. (true or false; default true)
+        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
         """
 
 class meshes:
