@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "bounding/enclose_primitive.hpp"
+#include "bounding/nearly_linear.hpp"
 #include "evaluation/interpret.hpp"
 #include "rewriting/readable_steps.hpp"
 
