@@ -4,17 +4,15 @@
 
 #include <doctest/doctest.h>
 
-#include <functional>
-
 #include "bounding/convex_in_box.hpp"
 #include "enclosure/difference.hpp"
 #include "math/dual.hpp"
 #include "phasetree/model/concepts.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/nodes/copies/endless_grid.hpp"
-#include "support/random_tree.hpp"
 #include "tree/node.hpp"
 #include "tree/walk.hpp"
+#include "support/random_tree.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;
@@ -36,38 +34,12 @@ constexpr double value_error = 1e-5, gradient_error = 1e-4;
 /// Of the mean of two values less a third, each of a few numbers up to 3 rounded to 2⁻²³.
 constexpr double chord_error = 2e-6;
 
-/// The distance over enclosures: one function for each primitive, since these equations take long to compile.
-template <class Primitive>
-[[gnu::noinline]] Enclosure enclosed(const Primitive& n, const Vec3<Enclosure>& p) {
-    return n.distance(p);
-}
-
-/// A primitive's distance as numbers of three types have it. What is asked of it is compiled once, and not for each
-/// type of primitives.
-struct Distance {
-    std::function<float(const glm::vec3&)> value;
-    std::function<Dual(const glm::vec3&)> dual;
-    /// Encloses it in the box of this point, of these half extents, or says that it cannot.
-    std::function<std::optional<Enclosure>(const Vec3<Enclosure>&, const Enclosure::Vector&)> enclosure;
-};
-
-/// The values of a primitive that outlives the result, and what encloses them.
-template <class Primitive, class Enclose>
-Distance distance_of(const Primitive& n, Enclose&& enclose) {
-    return {[&n](const glm::vec3& q) {
-                return n.distance(Vec3<float>{q.x, q.y, q.z});
-            },
-            [&n](const glm::vec3& q) {
-                return n.distance(Vec3<Dual>{Dual(q.x, 1, 0, 0), Dual(q.y, 0, 1, 0), Dual(q.z, 0, 0, 1)});
-            },
-            std::forward<Enclose>(enclose)};
-}
-
 /// Of two random points, near each other or not, the middle is above the mean of both by what the curvature allows. The
 /// values' rounding counts; so does that a chord is short for it to matter less than the curvature.
-void check_chord(const Distance& n, const Enclosure& e, const glm::vec3& centre, const glm::vec3& half, Random& rng,
+template <class Primitive>
+void check_chord(const Primitive& n, const Enclosure& e, const glm::vec3& centre, const glm::vec3& half, Random& rng,
                  CellBuffer& found) {
-    const auto at = [&](const glm::vec3& q) { return static_cast<double>(n.value(q)); };
+    const auto at = [&](const glm::vec3& q) { return static_cast<double>(n.distance(Vec3<float>{q.x, q.y, q.z})); };
     const auto inside = [&] { return glm::vec3(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)); };
     const glm::vec3 a = centre + half * inside(), b = centre + half * inside(), m = 0.5f * (a + b);
     const double squared = glm::dot(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(b) - glm::dvec3(a)) / 8;
@@ -82,8 +54,9 @@ void check_chord(const Distance& n, const Enclosure& e, const glm::vec3& centre,
     found.curved += !holds(0.5);
 }
 
-/// Looks at a distance in random boxes.
-void look(const Distance& n, Random& rng, int boxes, CellBuffer& found) {
+/// `enclose(p, half extents)` encloses the primitive's distance, or says that it cannot.
+template <class Primitive, class Enclose>
+void look(const Primitive& n, Random& rng, int boxes, CellBuffer& found, Enclose&& enclose) {
     for (int box = 0; box < boxes; ++box) {
         const glm::vec3 centre = rng.uniform(0, 1.5f) * rng.direction();
         const float size = std::exp2(rng.uniform(-9, 0));
@@ -95,14 +68,15 @@ void look(const Distance& n, Random& rng, int boxes, CellBuffer& found) {
             extent[static_cast<std::size_t>(i)] = static_cast<double>(half[i]);
             *axes[i] = Enclosure::coordinate(i, static_cast<double>(centre[i]), static_cast<double>(half[i]));
         }
-        const std::optional<Enclosure> enclosed = n.enclosure(p, extent);
+        const std::optional<Enclosure> enclosed = enclose(p, extent);
         if (!enclosed) continue;
         const Enclosure e = enclosed->tightened(extent);
-        CHECK(std::abs(e.centre - static_cast<double>(n.value(centre))) < value_error);
+        CHECK(std::abs(e.centre - static_cast<double>(n.distance(Vec3<float>{centre.x, centre.y, centre.z}))) <
+              value_error);
         for (int k = 0; k < 16; ++k) {
             const glm::vec3 d = half * glm::vec3(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
             const glm::vec3 q = centre + d;
-            const Dual g = n.dual(q);
+            const Dual g = n.distance(Vec3<Dual>{Dual(q.x, 1, 0, 0), Dual(q.y, 0, 1, 0), Dual(q.z, 0, 0, 1)});
             const auto v = static_cast<double>(g.value());
             ++found.points;
             found.outside += !(v >= e.value.low - value_error && v <= e.value.high + value_error);
@@ -138,9 +112,9 @@ TEST_CASE("an enclosure holds the values and the gradients of every primitive") 
                 [&](const auto& n) {
                     using N = std::remove_cvref_t<decltype(n)>;
                     if constexpr (Primitive<N> && !LongPrimitive<N>)
-                        look(distance_of(n, [&n](const Vec3<Enclosure>& p,
-                                                 const Enclosure::Vector&) { return std::optional(enclosed(n, p)); }),
-                             rng, 40, found);
+                        look(n, rng, 40, found, [&](const Vec3<Enclosure>& p, const Enclosure::Vector&) {
+                            return std::optional(n.distance(p));
+                        });
                 },
                 f.node()->node);
         }
@@ -294,12 +268,11 @@ TEST_CASE("what is known at a box's centre encloses rounded solids, behind affin
                     if constexpr (RoundedPrimitive<N>) {
                         is_rounded = true;
                         const Mapped<N> mapped{n, map};
-                        const auto enclose = [&](const Vec3<Enclosure>& p, const Enclosure::Vector& half) {
+                        look(mapped, rng, 40, found, [&](const Vec3<Enclosure>& p, const Enclosure::Vector& half) {
                             const auto at = AffinePoint::of(map(p), half);
                             Enclosure e;
                             return at && enclose_convex(n, *at, e) ? std::optional(e) : std::nullopt;
-                        };
-                        look(distance_of(mapped, enclose), rng, 40, found);
+                        });
                     }
                 },
                 f.node()->node);
@@ -348,9 +321,9 @@ struct EnclosingWalk {
             folds = true;  // only its slope is used; as good as nothing here
             return Enclosure(0.f);
         } else if constexpr (ConvexPrimitive<P>) {
-            return known_to_be_convex(enclosed(n, p), p).tightened(half);
+            return known_to_be_convex(n.distance(p), p).tightened(half);
         } else {
-            return enclosed(n, p).tightened(half);
+            return n.distance(p).tightened(half);
         }
     }
     Scalar one_lipschitz(const Scalar& value, const Point&) const { return value; }
