@@ -47,6 +47,12 @@ struct Pass {
     }
 };
 
+PlaneSubjects subjects_of(const Scene& scene) {
+    PlaneSubjects subjects{.phases = scene.phases.names, .groups = scene.lights.groups(), .objects = {"object"}};
+    for (const Mesh& mesh : scene.meshes) subjects.objects.push_back(mesh.name);
+    return subjects;
+}
+
 class Renderer {
   public:
     Renderer(const World& world, const Scene& scene, const RenderJob& job)
@@ -55,7 +61,10 @@ class Renderer {
           job_(job),
           camera_(scene.camera, scene.film.resolution()),
           phases_(world.geometry(), camera_),
-          film_(scene.film, job.pixels, {scene.phases.names}) {}
+          // Of a picture alone no path need tell more.
+          recording_(scene.film.planes.count() > 1),
+          axis_(camera_.generate(glm::dvec2(scene.film.resolution()) * 0.5, glm::vec2(0.5f))),
+          film_(scene.film, job.pixels, subjects_of(scene)) {}
 
     // Returns how many samples each pixel has in the end, at least. A pass that is cut off leaves some pixels with
     // more; of the first pass it leaves what there is, because something beats nothing.
@@ -106,13 +115,19 @@ class Renderer {
         film_.add(tile);
         return added;
     }
-    FilmSample sample(int x, int y, int number, PathCounters& counters) const {
+    // What it refers to is good until the next sample of the same thread.
+    FilmSample sample(int x, int y, int number, PathCounters& counters) {
         Sampler sampler(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
                         static_cast<std::uint32_t>(number), scene_.settings.seed);
         const glm::dvec2 on_film = film_.sample_position(x, y, sampler.next2());
         const CameraRay ray = camera_.generate(on_film, sampler.next2());
         const Ray first{ray.origin, ray.direction, phases_.at(ray.origin), {}};
-        return {trace_path(world_, scene_, first, sampler, counters), static_cast<std::uint32_t>(number)};
+        FilmSample result{.number = static_cast<std::uint32_t>(number)};
+        PathRecord* record = recording_ ? &records_.local() : nullptr;
+        result.radiance = trace_path(world_, scene_, first, sampler, counters, record);
+        result.record = record;
+        if (record && record->first) result.depth = glm::dot(record->first->position - axis_.origin, axis_.direction);
+        return result;
     }
 
     const World& world_;
@@ -120,9 +135,12 @@ class Renderer {
     const RenderJob& job_;
     Camera camera_;
     StartingPhases phases_;
+    bool recording_;
+    CameraRay axis_;  // through the middle of the picture
     Film film_;
     std::mutex adding_;  // of tiles to the film
     tbb::enumerable_thread_specific<PathCounters> counters_;
+    tbb::enumerable_thread_specific<PathRecord> records_;
     std::atomic<bool> stopped_{false};
 };
 
