@@ -3,6 +3,7 @@
 #include <OpenImageIO/imageio.h>
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <map>
@@ -149,7 +150,9 @@ TEST_CASE("a ball: depth, position, normal, albedo, numbers, lengths") {
         } else {
             ++on_floor;
             CHECK(object == 1);
-            CHECK(z[p] == doctest::Approx(-1.5).epsilon(1e-3));
+            // Points of meshes are recorded where rays leave them: off by 10⁻⁵ of the largest coordinate, or of the
+            // object's diagonal.
+            CHECK(std::abs(z[p] + 1.5f) <= 1.01e-5f * std::max({3.4642f, std::abs(x[p]), std::abs(y[p])}) + 2e-7f);
             CHECK(channel(image, "phase_entered.X")[p] == -1);
         }
     }
