@@ -23,6 +23,7 @@
 #include "phasetree/nodes/fields/displace.hpp"
 #include "phasetree/nodes/fields/dodecahedron.hpp"
 #include "phasetree/nodes/fields/ellipsoid.hpp"
+#include "phasetree/nodes/fields/formula.hpp"
 #include "phasetree/nodes/fields/gyroid.hpp"
 #include "phasetree/nodes/fields/height_map.hpp"
 #include "phasetree/nodes/fields/heightfield.hpp"
@@ -109,7 +110,7 @@ using PlainFields =
              SchwarzP, SchwarzD, Displace, FieldInstances, FieldPolarArray, FieldGrid, Polyline, FieldEndlessGrid, Blob,
              VoronoiCells, Siren, HeightMap, FieldFibonacciDisk, FieldFibonacciSphere, FieldScatter, Extrude, Revolve,
              Circle, Rectangle, Star, Slab, BoxFrame, Bowl, Dodecahedron, Icosahedron, Helix, Heightfield, Polygon,
-             Bezier>;
+             Bezier, Formula>;
 
 using Objects = TypeList<Set, ThinShell, Under, Over, Layered, IntersectShape, SubtractShape, Change, Remove, Contact,
                          Contacts, LayeredSequence, SmoothLayered, UniteShapeBelow, SmoothUniteShape,
