@@ -21,6 +21,7 @@ struct Mesh {
     std::vector<glm::vec3> normals;
     std::vector<glm::uvec3> triangles;
     Material material;
+    std::string name{};  // its kind, with a number behind it from the second of a kind on: "floor", "obj 2"
 };
 
 struct RenderSettings {
