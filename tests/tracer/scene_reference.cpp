@@ -185,7 +185,7 @@ void tell_settings(const Document& document, std::vector<float>& told) {
     const tracer::RenderSettings s = tracer::read_settings(document, document.root(), film);
     for (const int i : {film.width, film.height, s.samples, s.max_depth}) told.push_back(static_cast<float>(i));
     told.push_back(static_cast<float>(s.seed));
-    told.push_back(s.exposure_ev);
+    told.insert(told.end(), {s.exposure_ev, s.caustics ? 1.0f : 0.0f, s.photons, s.photon_radius});
     told.push_back(static_cast<float>(s.view ? s.view->size() : 0));
 }
 
@@ -511,6 +511,9 @@ TEST_CASE("an image has the size and the settings that the page promises, with o
         CHECK(read.settings.seed == number("seed"));
         CHECK(read.settings.max_depth == number("max_depth"));
         CHECK(static_cast<double>(read.settings.exposure_ev) == number("exposure"));
+        CHECK(!read.settings.caustics);
+        CHECK(static_cast<double>(read.settings.photons) == number("photons"));
+        CHECK(static_cast<double>(read.settings.photon_radius) == number("photon_radius"));
         CHECK(!read.settings.view);
     }
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "caustics/photon_map.hpp"
 #include "caustics/trace_photon.hpp"
 #include "integrator/light_proposal.hpp"
 #include "integrator/path_recorder.hpp"

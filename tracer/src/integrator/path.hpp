@@ -2,13 +2,14 @@
 // estimation, multiple importance sampling by the power heuristic (Veach & Guibas, SIGGRAPH 1995) and Russian roulette.
 #pragma once
 
-#include "caustics/emission.hpp"
-#include "caustics/photon_map.hpp"
 #include "film/path_record.hpp"
 #include "sampling/sobol.hpp"
 #include "world/world.hpp"
 
 namespace phasetree::tracer {
+
+class PhotonEmission;
+class PhotonMap;
 
 /// The photons that light what a path meets, if there are any.
 struct Photons {
