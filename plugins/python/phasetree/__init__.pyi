@@ -2358,7 +2358,7 @@ class lights:
     def image(file: str | PathLike[str], rotation: float | None = ..., intensity: float | None = ..., group: str | Expression | None = ...) -> Light:
         r"""An environment from a lat-long image, which is twice as wide as high.
 
-        file: An image of any format that OpenImageIO reads, at most 16384 × 8192 pixels. (name of a file)
+        file: An image that OpenImageIO reads row by row (OpenEXR, Radiance, TIFF, PNG, JPEG …), at most 16384 × 8192 pixels. (name of a file)
         rotation: Angle by which it is turned, clockwise as seen from above. (number in degrees; default 0)
         intensity: A factor of the image. (number; zero or more; default 1)
         group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
@@ -2484,7 +2484,7 @@ def camera(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np
     focus_at: In place of the distance: a point of the plane of focus. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
     """
 
-def image(width: int | None = ..., height: int | None = ..., samples: int | None = ..., seed: int | None = ..., max_depth: int | None = ..., exposure: float | None = ..., view: str | Expression | None = ...) -> ImageSettings:
+def image(width: int | None = ..., height: int | None = ..., samples: int | None = ..., seed: int | None = ..., max_depth: int | None = ..., caustics: bool | None = ..., photons: float | None = ..., photon_radius: float | None = ..., exposure: float | None = ..., view: str | Expression | None = ...) -> ImageSettings:
     r"""How large the image is, and how it is made.
 
     width: Width of the image. (whole number in pixels; at least 1 and at most 32768; default 1024)
@@ -2492,6 +2492,9 @@ def image(width: int | None = ..., height: int | None = ..., samples: int | None
     samples: Paths of each pixel. (whole number; at least 1 and at most 16777216; default 64)
     seed: Another whole number gives other noise. (whole number; zero or more; default 0)
     max_depth: The most surfaces that a path meets. One between equal indices counts, too. (whole number; at least 1 and at most 1048576; default 65536)
+    caustics: Whether photons look for the light that lamps throw through curved clear surfaces. They blur it by a pixel or two, less with more samples. (true or false; default false)
+    photons: For caustics: photons for each pixel and sample. (number; at least 0 and at most 64; default 1)
+    photon_radius: For caustics: how far around a point photons count as light on it, in the first pass. (number in pixels; at least 0.01 and at most 100; default 2)
     exposure: Brightness of pictures; one more is twice as bright. (number in EV; at least -50 and at most 50; default 0)
     view: View of the display transform; the default one without it. (text; default none)
     """
