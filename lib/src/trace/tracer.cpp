@@ -1,5 +1,8 @@
 #include "phasetree/trace/tracer.hpp"
 
+#include <cmath>
+#include <limits>
+
 #include "evaluation/assemble.hpp"
 #include "trace/march.hpp"
 #include "trace/normal.hpp"
@@ -18,12 +21,46 @@ InterfaceTracer::InterfaceTracer(const Phased& object, float resolution) {
     evaluator_ = std::make_shared<const Evaluator>(record(object));
 }
 
+InterfaceTracer::InterfaceTracer(const Phased& object, std::vector<HalfSpace> around, float resolution)
+    : InterfaceTracer(object, resolution) {
+    around_ = std::move(around);
+}
+
+namespace {
+
+// What of [near, far] along a ray is within half-spaces, a little moved outward; far < near if nothing is.
+void clip(const std::vector<HalfSpace>& around, double outward, const glm::vec3& origin, const glm::vec3& direction,
+          float& near, float& far) {
+    const glm::dvec3 o(origin), d(direction);
+    double from = near, to = far;
+    for (const HalfSpace& h : around) {
+        const double away = h.distance(o) - outward, slope = glm::dot(h.normal, d);
+        if (slope > 0)
+            to = std::min(to, -away / slope);
+        else if (slope < 0)
+            from = std::max(from, -away / slope);
+        else if (away > 0)
+            to = from - 1;
+    }
+    // Rounded outward.
+    if (from > near) near = std::nextafter(static_cast<float>(from), 0.f);
+    if (to < far) far = std::nextafter(static_cast<float>(to), std::numeric_limits<float>::infinity());
+    if (to < from) far = near - 1;
+}
+
+}  // namespace
+
 std::optional<Crossing> InterfaceTracer::first_crossing(const glm::vec3& origin, const glm::vec3& direction,
                                                         float t_min, float t_max, std::optional<Phase> carried,
                                                         Evaluator::Workspace& w, TraceCounters* counters) const {
     TraceCounters unused;
     TraceCounters& c = counters ? *counters : unused;
     const Assembly& assembly = *evaluator_->assembly_;
+    if (!around_.empty() && carried.value_or(vacuum) == vacuum) {
+        // A ray in the vacuum meets nothing before it comes to the half-spaces, and none after it has left them.
+        clip(around_, 4 * static_cast<double>(resolution_), origin, direction, t_min, t_max);
+        if (t_max < t_min) return std::nullopt;
+    }
     ++c.visits;
     const Routine routine = assembly.routine(evaluator_->program().constants.data());
     const TracedRay ray(origin, direction);
