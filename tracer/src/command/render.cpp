@@ -145,6 +145,15 @@ class Writing {
     bool all_is_well_ = true;
 };
 
+// What no sound scene leads to.
+void say_faults(const FilmFaults& faults) {
+    if (faults.not_finite > 0)
+        say("phasetree: {} values of samples were not finite numbers and count as black; please report this scene\n",
+            faults.not_finite);
+    if (faults.too_large > 0)
+        say("phasetree: {} values of samples were larger than 10^12 and are cut to that\n", faults.too_large);
+}
+
 bool write_all(const Options& options, const std::vector<std::string>& outputs, const DisplayTransform& display,
                const Scene& scene, const World& world, const Rendering& rendering) {
     Metadata metadata;
@@ -158,8 +167,7 @@ bool write_all(const Options& options, const std::vector<std::string>& outputs, 
             written += fmt::format("{} ({}x{}, {} samples a pixel, {:.1f} s)\n", output, rendering.image.width,
                                    rendering.image.height, rendering.samples, rendering.seconds);
     if (options.stats) writing([&] { write_stats(*options.stats, options, world, rendering); });
-    if (const std::size_t bad = count_non_finite(rendering.image))
-        say("phasetree: {} pixels are not finite numbers; please report this scene\n", bad);
+    say_faults(rendering.faults);
     if (!options.quiet) say(written);
     return writing.all_is_well();
 }

@@ -6,7 +6,8 @@
 
 namespace phasetree::tracer {
 
-/// Every plane, the picture first.
+/// Every plane, the picture first. Of its order depend only the order of channels in files, and of bytes in those that
+/// films are kept in.
 using Planes = PlaneList<RadiancePlane>;
 
 }  // namespace phasetree::tracer
