@@ -4,15 +4,15 @@
 
 #include <limits>
 
+#include "math/dual.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/io/write.hpp"
-#include "math/dual.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/program/program.hpp"
 #include "phasetree/trace/tracer.hpp"
-#include "tree/node.hpp"
 #include "support/dual_distances.hpp"
 #include "support/random_node.hpp"
+#include "tree/node.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;
@@ -193,9 +193,13 @@ auto chain(std::size_t depth) {
         Node node;
         for_each_parameter(node, [&](auto& value, const Parameter& p) {
             using Value = std::remove_cvref_t<decltype(value)>;
-            if constexpr (std::is_same_v<Value, Handle>)
-                value = current;
-            else if constexpr (std::is_same_v<Value, std::vector<Handle>>)
+            if constexpr (std::is_same_v<Value, Handle>) {
+                // What stands beside the chain, as a proxy does, is a leaf: else the tree has 2⁴⁰⁰ branches.
+                if (p.name == "of")
+                    value = current;
+                else
+                    fill<Node>(rng, value, p, 1);
+            } else if constexpr (std::is_same_v<Value, std::vector<Handle>>)
                 value = {current};
             else if constexpr (std::is_same_v<Value, PhaseSet>)
                 value = PhaseSet{p.optional ? 0u : 16u};
@@ -208,7 +212,7 @@ auto chain(std::size_t depth) {
             else if constexpr (std::is_same_v<Value, std::vector<glm::vec3>>)
                 value = std::vector<glm::vec3>(p.optional ? 0 : 1, glm::vec3(0.001f));
             else if constexpr (std::is_same_v<Value, std::vector<float>>)
-                value = {p.unit == "m" ? 1e-4f : 1.f};
+                value = std::vector<float>(p.optional ? 0 : 1, p.unit == "m" ? 1e-4f : 1.f);
             else if constexpr (std::is_same_v<Value, std::vector<Phase>>)
                 value = {Phase{1}};  // as many as there are numbers
             else

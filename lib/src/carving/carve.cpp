@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "carving/support.hpp"
+#include "math/clip_line.hpp"
 #include "phasetree/nodes/fields/merge.hpp"
 #include "phasetree/nodes/fields/polyhedron.hpp"
 #include "phasetree/nodes/phased/set.hpp"
@@ -35,17 +36,17 @@ class Carver {
           box_(box) {}
 
     CarvedBounds run() {
-        CarvedBounds result;
-        if (!carve_box()) {
-            result.box = {};
-            result.evaluations = field_.evaluations();
-            return result;
-        }
+        carve_box();
         if (options_.directions.empty()) {
             add_flat_sides();
             cut_corners();
         } else {
-            for (const glm::dvec3& d : options_.directions) add(glm::normalize(d), false);
+            for (const glm::dvec3& d : options_.directions) add(glm::normalize(d));
+        }
+        CarvedBounds result;
+        if (is_empty_) {
+            result.evaluations = field_.evaluations();
+            return result;
         }
         const ConvexPolyhedron solid(box_, planes_);
         result.box = box_;
@@ -59,34 +60,36 @@ class Carver {
     }
 
   private:
+    // How many evaluations are left; none if there is nothing to look for.
     std::size_t left() const {
+        if (is_empty_) return 0;
         return options_.most_evaluations - std::min(options_.most_evaluations, field_.evaluations());
     }
-    // Of what is left, no direction gets more than an even share of all.
-    Reach reach(const glm::dvec3& d) {
+    // The height of a plane across d. Of what is left, no direction gets more than twice an even share of all.
+    double reach(const glm::dvec3& d) {
         const auto planes = static_cast<std::size_t>(
             options_.directions.empty() ? options_.most_planes : static_cast<int>(options_.directions.size()) + 6);
         const Reach r =
             reach_along(d, field_, box_, tolerance_, std::min(left(), 2 * options_.most_evaluations / planes));
         is_within_tolerance_ = is_within_tolerance_ && r.is_within_tolerance;
-        return r;
+        is_empty_ = is_empty_ || r.height == -std::numeric_limits<double>::infinity();
+        return r.height;
     }
 
-    // False if there is nothing of the solid. Sides are rounded outward to floats.
-    bool carve_box() {
-        for (int side = 0; side < 6; ++side) {
+    // Sides are rounded outward to floats.
+    void carve_box() {
+        for (int side = 0; side < 6 && !is_empty_; ++side) {
             glm::dvec3 d(0);
             const int axis = side / 2;
             const bool is_high = side % 2 == 1;
             d[axis] = is_high ? 1 : -1;
-            const double height = reach(d).height;
-            if (height == -std::numeric_limits<double>::infinity()) return false;
+            const double height = reach(d);
+            if (is_empty_) return;
             float& to = is_high ? box_.high[axis] : box_.low[axis];
             const auto rounded = static_cast<float>(is_high ? height : -height);
             const float outward = std::nextafter(rounded, is_high ? Bounds::infinity : -Bounds::infinity);
             to = is_high ? std::min(to, outward) : std::max(to, outward);
         }
-        return !box_.empty();
     }
 
     bool is_known(const glm::dvec3& d) const {
@@ -97,13 +100,7 @@ class Carver {
     }
     int count() const { return 6 + static_cast<int>(planes_.size()); }
 
-    // Whether a plane across d was added; one that leaves all corners of `must_cut` in place is not.
-    bool add(const glm::dvec3& d, bool must_cut, double beyond = 0) {
-        const double height = reach(d).height;
-        if (must_cut && !(height < beyond - tolerance_)) return false;
-        planes_.push_back({d, height});
-        return true;
-    }
+    void add(const glm::dvec3& d) { planes_.push_back({d, reach(d)}); }
 
     // The normals where rays from all around meet the solid.
     std::vector<glm::dvec3> normals_around() {
@@ -157,7 +154,7 @@ class Carver {
         std::stable_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.votes > b.votes; });
         for (const Side& side : sides) {
             if (side.votes < 3 || count() >= options_.most_planes / 2 || left() == 0) return;
-            if (!is_known(side.normal)) add(side.normal, false);
+            if (!is_known(side.normal)) add(side.normal);
         }
     }
 
@@ -184,30 +181,34 @@ class Carver {
             if (!cut(next->second)) done.push_back(next->second);
         }
     }
-    // Across the way from the solid, or else from the middle.
+    // By a plane across the way from the solid, or else across that from the middle. Whether one takes it off.
     bool cut(const glm::dvec3& corner) {
         for (const glm::dvec3& way : {field_.gradient(corner), corner - glm::dvec3(box_.centre())}) {
             if (!(glm::length(way) > 1e-3 * tolerance_) || left() == 0) continue;
             const glm::dvec3 d = glm::normalize(way);
-            if (add(d, true, glm::dot(d, corner))) return true;
+            const double height = reach(d);
+            if (!(height < glm::dot(d, corner) - tolerance_)) continue;
+            planes_.push_back({d, height});
+            return true;
         }
         return false;
     }
 
+    HalfSpace side_of_box(std::size_t side) const {
+        const int axis = static_cast<int>(side % 3);
+        const double sign = side < 3 ? -1 : 1;
+        HalfSpace half{glm::dvec3(0), sign * static_cast<double>(side < 3 ? box_.low[axis] : box_.high[axis])};
+        half.normal[axis] = sign;
+        return half;
+    }
+    // Those that have a face; all of them around a solid so thin that there are no faces.
     std::vector<HalfSpace> planes_that_matter(const ConvexPolyhedron& solid) const {
         std::vector<HalfSpace> all;
-        for (const ConvexPolyhedron::Face& face : solid.faces()) {
-            if (face.plane >= 6) {
-                all.push_back(planes_[face.plane - 6]);
-                continue;
-            }
-            const int axis = static_cast<int>(face.plane % 3);
-            const double sign = face.plane < 3 ? -1 : 1;
-            HalfSpace side{glm::dvec3(0),
-                           sign * static_cast<double>(face.plane < 3 ? box_.low[axis] : box_.high[axis])};
-            side.normal[axis] = sign;
-            all.push_back(side);
-        }
+        for (const ConvexPolyhedron::Face& face : solid.faces())
+            all.push_back(face.plane < 6 ? side_of_box(face.plane) : planes_[face.plane - 6]);
+        if (!all.empty()) return all;
+        for (std::size_t side = 0; side < 6; ++side) all.push_back(side_of_box(side));
+        all.insert(all.end(), planes_.begin(), planes_.end());
         return all;
     }
 
@@ -217,6 +218,7 @@ class Carver {
     Bounds box_;
     std::vector<HalfSpace> planes_;
     bool is_within_tolerance_ = true;
+    bool is_empty_ = false;  // certainly
 };
 
 void check(const CarveOptions& options) {
@@ -254,17 +256,7 @@ void CarvedBounds::clip(const glm::dvec3& origin, const glm::dvec3& direction, d
         far = near - 1;
         return;
     }
-    for (const HalfSpace& h : planes) {
-        const double away = h.distance(origin), slope = glm::dot(h.normal, direction);
-        if (slope == 0) {
-            if (away > 0) far = near - 1;
-        } else if (slope > 0) {
-            far = std::min(far, -away / slope);
-        } else {
-            near = std::max(near, -away / slope);
-        }
-        if (far < near) return;
-    }
+    clip_line(planes, origin, direction, near, far);
 }
 
 Field as_field(const CarvedBounds& carved) {

@@ -1,9 +1,11 @@
 #include "phasetree/trace/tracer.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <span>
 
 #include "evaluation/assemble.hpp"
+#include "math/clip_line.hpp"
 #include "trace/march.hpp"
 #include "trace/normal.hpp"
 
@@ -28,24 +30,14 @@ InterfaceTracer::InterfaceTracer(const Phased& object, std::vector<HalfSpace> ar
 
 namespace {
 
-// What of [near, far] along a ray is within half-spaces, a little moved outward; far < near if nothing is.
-void clip(const std::vector<HalfSpace>& around, double outward, const glm::vec3& origin, const glm::vec3& direction,
-          float& near, float& far) {
-    const glm::dvec3 o(origin), d(direction);
-    double from = near, to = far;
-    for (const HalfSpace& h : around) {
-        const double away = h.distance(o) - outward, slope = glm::dot(h.normal, d);
-        if (slope > 0)
-            to = std::min(to, -away / slope);
-        else if (slope < 0)
-            from = std::max(from, -away / slope);
-        else if (away > 0)
-            to = from - 1;
-    }
-    // Rounded outward.
-    if (from > near) near = std::nextafter(static_cast<float>(from), 0.f);
-    if (to < far) far = std::nextafter(static_cast<float>(to), std::numeric_limits<float>::infinity());
-    if (to < from) far = near - 1;
+// Cuts [t_min, t_max] down to what of a ray is within half-spaces, a little moved outward.
+void clip(std::span<const HalfSpace> around, float outward, const glm::vec3& origin, const glm::vec3& direction,
+          float& t_min, float& t_max) {
+    double near = static_cast<double>(t_min), far = static_cast<double>(t_max);
+    clip_line(around, glm::dvec3(origin), glm::dvec3(direction), near, far, static_cast<double>(outward));
+    // Outward by more than the rounding to floats.
+    t_min = std::max(t_min, static_cast<float>(near - 1.2e-7 * std::abs(near)));
+    t_max = std::min(t_max, static_cast<float>(far + 1.2e-7 * std::abs(far)));
 }
 
 }  // namespace
@@ -58,7 +50,7 @@ std::optional<Crossing> InterfaceTracer::first_crossing(const glm::vec3& origin,
     const Assembly& assembly = *evaluator_->assembly_;
     if (!around_.empty() && carried.value_or(vacuum) == vacuum) {
         // A ray in the vacuum meets nothing before it comes to the half-spaces, and none after it has left them.
-        clip(around_, 4 * static_cast<double>(resolution_), origin, direction, t_min, t_max);
+        clip(around_, 8 * resolution_, origin, direction, t_min, t_max);
         if (t_max < t_min) return std::nullopt;
     }
     ++c.visits;

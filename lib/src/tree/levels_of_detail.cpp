@@ -63,21 +63,28 @@ class Choice {
         const std::optional<glm::vec3> below = view_below(node, view);
         if (!below) return tree;
         Node copy = node;
+        bool is_same = true;
+        const auto choose = [&](auto& child) {
+            auto other = chosen(child, *below);
+            is_same = is_same && other == child;
+            child = std::move(other);
+        };
         for_each_parameter(copy, [&](auto& value, const Parameter&) {
             using T = std::remove_cvref_t<decltype(value)>;
             if constexpr (std::is_same_v<T, Field> || std::is_same_v<T, Phased>) {
-                value = chosen(value, *below);
+                choose(value);
             } else if constexpr (std::is_same_v<T, std::vector<Field>> || std::is_same_v<T, std::vector<Phased>>) {
-                for (auto& child : value) child = chosen(child, *below);
+                for (auto& child : value) choose(child);
             }
         });
         if constexpr (IsLevelOfDetail<Node>) {
             if (copy.distances.empty() && !copy.errors.empty()) {
                 copy.viewpoint = view;
                 for (const float error : copy.errors) copy.distances.push_back(error / angle_);
+                is_same = false;
             }
         }
-        return Handle(std::move(copy));
+        return is_same ? tree : Handle(std::move(copy));
     }
 
     template <class Handle>

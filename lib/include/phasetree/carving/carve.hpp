@@ -26,7 +26,7 @@ struct CarveOptions {
     double tolerance = 1e-3;  ///< how far planes may be from the object, as a share of its diagonal, if work suffices
     /// The most evaluations, each of eight points. What is then not reached is larger than it need be, and certain all
     /// the same.
-    std::size_t most_evaluations = 200'000;
+    std::size_t most_evaluations = 50'000;
     std::function<bool()> cancelled{};  ///< called now and then; true ends the work
 };
 

@@ -54,35 +54,37 @@ struct Polyhedron {
         }
         return farthest;
     }
-    /// By the corners of the planes moved outward by the level. Sides are infinite where these are cut off by a cube
-    /// many times as large as the planes are far.
+    /// By the corners of the planes moved outward by the level, within a cube many times as large as they are far. What
+    /// reaches farthest along a direction is a corner of the solid, or else a corner on the cube, and then the solid
+    /// has no end there.
     Bounds bounds(BoundsQuery& q, float level) const {
-        const std::size_t count = normals.size();
         float far = 1e-6f;
         std::vector<HalfSpace> planes;
-        for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t i = 0; i < normals.size(); ++i) {
             const float* plane = table.data() + 1 + 4 * i;
             const glm::dvec3 n(plane[0], plane[1], plane[2]);
             const double length = glm::length(n);
             planes.push_back({n / length, (static_cast<double>(plane[3]) + static_cast<double>(level)) / length});
             far = std::max(far, std::abs(plane[3]) + std::abs(level));
         }
-        const float cube = 1e3f * far;
-        const ConvexPolyhedron solid(Bounds::centred(glm::vec3(cube)), planes);
+        const auto cube = 1e3 * static_cast<double>(far), margin = 1e-6 * static_cast<double>(far);
+        const ConvexPolyhedron solid(Bounds::centred(glm::vec3(static_cast<float>(cube))), planes);
         if (solid.empty()) return {};
-        const ConvexPolyhedron::Mesh mesh = solid.mesh();
+        std::vector<glm::dvec3> corners, on_cube;
+        for (const glm::dvec3& p : solid.mesh().corners)
+            (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > 0.999 * cube ? on_cube : corners).push_back(p);
+        const auto support = [&](const glm::dvec3& d) {
+            const double reach = detail::hull_support(d, corners) + glm::length(d) * margin;
+            return detail::hull_support(d, on_cube) > reach ? std::numeric_limits<double>::infinity() : reach;
+        };
         Bounds box;
-        for (const glm::dvec3& p : mesh.corners) box = unite(box, Bounds{glm::vec3(p), glm::vec3(p)});
-        box = box.inflated(1e-6f * far);
-        bool is_bounded = true;
         for (int i = 0; i < 3; ++i) {
-            if (box.low[i] < -0.999f * cube) box.low[i] = -Bounds::infinity, is_bounded = false;
-            if (box.high[i] > 0.999f * cube) box.high[i] = Bounds::infinity, is_bounded = false;
+            glm::dvec3 d(0);
+            d[i] = 1;
+            box.high[i] = static_cast<float>(support(d));
+            box.low[i] = static_cast<float>(-support(-d));
         }
-        if (!is_bounded) return q.placed(box);
-        return q.placed(box, [&](const glm::dvec3& d) {
-            return detail::hull_support(d, mesh.corners) + glm::length(d) * 1e-6 * static_cast<double>(far);
-        });
+        return q.placed(box.inflated(2e-7f * far), support);
     }
 };
 

@@ -20,8 +20,10 @@ struct Slab {
     }
     void prepare() {
         const glm::dvec3 n(normal);
-        if (!(glm::length(n) > 0)) throw ModelError("slab: the normal has no direction");
-        normal = glm::vec3(glm::normalize(n));
+        const double length = glm::length(n);
+        if (!(length > 0)) throw ModelError("slab: the normal has no direction");
+        // One of unit length stays to the last bit, so that a tree that is written and read again is the same.
+        if (std::abs(length - 1) > 1e-6) normal = glm::vec3(n / length);
     }
     template <class T>
     T distance(const Vec3<T>& p) const {

@@ -32,7 +32,7 @@ typedef struct PhasetreeCarveOptions {
 static inline void phasetreeInitCarveOptions(PhasetreeCarveOptions* options) {
     options->mostPlanes = 40;
     options->tolerance = 1e-3f;
-    options->mostEvaluations = 200000;
+    options->mostEvaluations = 50000;
     options->cancelled = NULL;
     options->cancelledUserPtr = NULL;
 }
@@ -55,7 +55,8 @@ typedef struct PhasetreeCarvedBounds {
  * planeCount  receives how many there are; none if there is nothing of the phases. NULL if planes is.
  * bounds      receives the rest, or NULL.
  *
- * On the calling thread, and long beside phasetreeGetTreeBounds: about a millisecond a plane for a hundred nodes.
+ * On the calling thread. It takes longer than phasetreeGetTreeBounds: milliseconds where the tree's distances are
+ * exact, up to a second for a tree of a thousand nodes whose distances are not.
  *
  * PHASETREE_ERROR_INVALID_TREE  the tree is unbounded, or too far from the origin for its size */
 PHASETREE_API PhasetreeError phasetreeCarveTree(PhasetreeTree tree, PhasetreePhaseSet phases,
