@@ -8,6 +8,7 @@
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/math/float_mode.hpp"
 #include "phasetree/model/handle.hpp"
+#include "phasetree/model/renumber.hpp"
 #include "phasetree/nodes/list.hpp"
 #include "phasetree/program/program.hpp"
 #include "phasetree/trace/tracer.hpp"

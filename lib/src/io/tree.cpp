@@ -32,8 +32,14 @@ static_assert(Document::max_depth >= 3 * max_tree_depth + 8, "the deepest tree t
 
 class Reader {
   public:
-    Reader(const Document& document, PhaseNames names, std::optional<Value> shapes, const FileReaders& files)
-        : document_(document), names_(std::move(names)), shapes_(shapes), files_(files) {}
+    Reader(const Document& document, PhaseNames names, std::optional<Value> shapes, const FileReaders& files,
+           KnownShapes known = {})
+        : document_(document),
+          names_(std::move(names)),
+          shapes_(shapes),
+          files_(files),
+          fields_(std::move(known.fields)),
+          objects_(std::move(known.objects)) {}
 
     template <class Handle>
     Handle read(Value value) {
@@ -100,20 +106,26 @@ class Reader {
         if (const auto found = known<Handle>().find(name); found != known<Handle>().end()) return found->second;
         const std::optional<Value> shape = shapes_ ? shapes_->find(name) : std::nullopt;
         if (!shape) {
+            using Other = std::conditional_t<std::is_same_v<Handle, Field>, Phased, Field>;
+            if (known<Other>().contains(name)) throw other_kind<Handle>(reference);
             throw document_.error(reference, fmt::format("there is no shape \"{}\"", name),
                                   closest(name, shape_names()));
         }
         if (std::find(open_.begin(), open_.end(), name) != open_.end())
             throw document_.error(reference, fmt::format("the shape \"{}\" is made of itself", name));
-        if (is_field(*shape) != std::is_same_v<Handle, Field>)
-            throw document_.error(
-                reference, fmt::format("\"{}\" is {}, but {} is needed here", name,
-                                       is_field(*shape) ? kind_name<Field> : kind_name<Phased>, kind_name<Handle>));
+        if (is_field(*shape) != std::is_same_v<Handle, Field>) throw other_kind<Handle>(reference);
         open_.emplace_back(name);
         Handle result = read<Handle>(*shape);
         open_.pop_back();
         known<Handle>().emplace(std::string(name), result);
         return result;
+    }
+
+    template <class Handle>
+    SceneError other_kind(Value reference) const {
+        using Other = std::conditional_t<std::is_same_v<Handle, Field>, Phased, Field>;
+        return document_.error(reference, fmt::format("\"{}\" is {}, but {} is needed here", reference.string(),
+                                                      kind_name<Other>, kind_name<Handle>));
     }
 
     // Whether a shape is a plain field, told from its node's name; a warp is what its child is.
@@ -343,6 +355,14 @@ SceneTree read_tree(const Document& document, const FileReaders& files) {
     SceneTree result{names, reader.read<Phased>(*tree)};
     reader.read_unused();
     return result;
+}
+
+Field read_field(const Document& document, const PhaseNames& names, KnownShapes known, const FileReaders& files) {
+    return Reader(document, names, std::nullopt, files, std::move(known)).read<Field>(document.root());
+}
+
+Phased read_object(const Document& document, const PhaseNames& names, KnownShapes known, const FileReaders& files) {
+    return Reader(document, names, std::nullopt, files, std::move(known)).read<Phased>(document.root());
 }
 
 }  // namespace phasetree

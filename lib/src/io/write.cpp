@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -34,12 +35,13 @@ class Writer {
   public:
     explicit Writer(const SceneTree& tree) : tree_(tree) { count(tree.object); }
 
-    // `material` is each phase's.
-    std::string document(std::string_view material) {
+    // material(i) is that of phase i.
+    template <class Material>
+    std::string document(Material&& material) {
         const std::string object = node(tree_.object);
         std::string text = "{\n  \"version\": 1,\n  \"phases\": {";
         for (std::size_t i = 1; i < tree_.phases.names.size(); ++i)
-            text += fmt::format("{}\n    {}: {}", i > 1 ? "," : "", in_quotes(tree_.phases.names[i]), material);
+            text += fmt::format("{}\n    {}: {}", i > 1 ? "," : "", in_quotes(tree_.phases.names[i]), material(i));
         text += "\n  },\n";
         if (!shapes_.empty()) {
             text += "  \"shapes\": {";
@@ -121,11 +123,16 @@ class Writer {
 }  // namespace
 
 std::string write_tree(const SceneTree& tree) {
-    return Writer(tree).document(R"({"diffuse": {"color": [0.5, 0.5, 0.5]}})");
+    return Writer(tree).document([](std::size_t) { return R"({"diffuse": {"color": [0.5, 0.5, 0.5]}})"; });
+}
+
+std::string write_tree(const SceneTree& tree, std::span<const std::string> materials) {
+    if (materials.size() != tree.phases.size()) throw std::out_of_range("a material for each phase is needed");
+    return Writer(tree).document([&](std::size_t i) { return materials[i - 1]; });
 }
 
 std::string write_tree_without_materials(const SceneTree& tree) {
-    return Writer(tree).document("null");
+    return Writer(tree).document([](std::size_t) { return "null"; });
 }
 
 }  // namespace phasetree
