@@ -89,8 +89,8 @@ def main():
             {"rectangle": {"centre": [-5.2, -3.4, 4.0], "target": [0, 0, 0], "width": 3.4, "height": 4.2, "radiance": [1.0, 0.95, 0.88], "intensity": 6.5, "visible_to_camera": False}},
             {"rectangle": {"centre": [6.0, 0.6, 2.0], "target": [0, 0, 0], "width": 1.8, "height": 4.5, "radiance": [0.88, 0.94, 1.0], "intensity": 3.6, "visible_to_camera": False}},
             {"gradient": {"zenith": [0.62, 0.64, 0.68], "horizon": [0.30, 0.30, 0.31], "ground": [0.12, 0.115, 0.11]}}],
-        "camera": {"position": [0.3, -9.6, 1.9], "look_at": [-0.1, 0, -0.05], "fov": 19},
-        "render": {"width": 900, "height": 520, "samples": 64},
+        "camera": {"position": [0.2, -10.2, 2.0], "look_at": [-0.13, 0, 0.0], "fov": 18.5},
+        "render": {"width": 720, "height": 400, "samples": 64},
     }
     lines = [f"  {json.dumps(key)}: " + ("{\n" + ",\n".join(f"    {json.dumps(k)}: {json.dumps(v)}" for k, v in value.items()) + "\n  }"
                                           if isinstance(value, dict) and key in ("phases", "shapes") else json.dumps(value))

@@ -193,13 +193,9 @@ auto chain(std::size_t depth) {
         Node node;
         for_each_parameter(node, [&](auto& value, const Parameter& p) {
             using Value = std::remove_cvref_t<decltype(value)>;
-            if constexpr (std::is_same_v<Value, Handle>) {
-                // What stands beside the chain, as a proxy does, is a leaf: else the tree has 2⁴⁰⁰ branches.
-                if (p.name == "of")
-                    value = current;
-                else
-                    fill<Node>(rng, value, p, 1);
-            } else if constexpr (std::is_same_v<Value, std::vector<Handle>>)
+            if constexpr (std::is_same_v<Value, Handle>)
+                value = current;
+            else if constexpr (std::is_same_v<Value, std::vector<Handle>>)
                 value = {current};
             else if constexpr (std::is_same_v<Value, PhaseSet>)
                 value = PhaseSet{p.optional ? 0u : 16u};
@@ -231,6 +227,9 @@ auto chain(std::size_t depth) {
             if (current.node()->depth == 20) break;
         }
         if constexpr (requires { node.surface; }) node.surface = Sphere{};
+        // What stands beside the chain must not be the chain again, or the tree has 2⁴⁰⁰ branches.
+        if constexpr (requires { node.volume; }) node.volume = Sphere{};
+        if constexpr (requires { node.proxy; }) node.proxy = Sphere{};
         if constexpr (IsEndlessGrid<Node>) {
             if (!bounds(current).finite()) break;
             node.spacing = glm::vec3(1.1f * bounds(current).extent().x + 0.01f, 0, 0);
