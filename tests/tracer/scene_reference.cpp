@@ -154,6 +154,7 @@ void tell_lights(const Document& document, std::vector<float>& told) {
         tell(told, sample->radiance);
         told.push_back(sample->pdf);
     }
+    told.push_back(static_cast<float>(lights.groups().size()));
 }
 
 void tell_meshes(const Document& document, std::vector<float>& told) {
@@ -355,8 +356,8 @@ TEST_CASE("a default is what is read when the key is left out") {
 TEST_CASE("every key changes what is read") {
     // Another value than the default, or than what is needed, for each.
     const std::map<std::string, std::string> others{
-        {"metal", "\"iron\""}, {"filter", "\"box\""}, {"view", "\"Raw\""},           {"sun", "false"},
-        {"y_up", "true"},      {"smooth", "false"},   {"visible_to_camera", "false"}};
+        {"metal", "\"iron\""}, {"filter", "\"box\""},          {"view", "\"Raw\""}, {"sun", "false"}, {"y_up", "true"},
+        {"smooth", "false"},   {"visible_to_camera", "false"}, {"group", "\"key\""}};
     for (const Case& c : cases()) {
         CAPTURE(c.name);
         for (const Value property : properties_of(c)) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "integrator/light_proposal.hpp"
+#include "integrator/path_recorder.hpp"
 #include "shading/frame.hpp"
 
 namespace phasetree::tracer {
@@ -39,12 +40,19 @@ Ray continued(const Surface& surface, const Frame& frame, const BsdfSample& samp
     return sample.transmitted ? surface.transmitted(direction) : surface.reflected(direction);
 }
 
+// What a shadow ray finds: the radiance that arrives, and of which emission, in which direction in the end, it is.
+struct Arrival {
+    glm::vec3 radiance;
+    Lights::Emission emission;
+    glm::vec3 direction;
+};
+
 // One random sample of E (path.hpp) along a shadow ray: the emission at the end of a chain of smooth clear interfaces,
 // each of which reflects or refracts the ray at random, times the transmittance of the media and the weights of the
-// interfaces. Up to its first interface the ray goes straight to the light that was sampled, which is known; after that
-// it is asked what light it sees.
-glm::vec3 emission_through_chain(const World& world, const Scene& scene, Ray ray, const LightSample& sampled,
-                                 Sampler& sampler, PathCounters& counters) {
+// interfaces; none if there is no light. Up to its first interface the ray goes straight to the light that was sampled,
+// which is known; after that it is asked what light it sees.
+std::optional<Arrival> emission_through_chain(const World& world, const Scene& scene, Ray ray,
+                                              const LightSample& sampled, Sampler& sampler, PathCounters& counters) {
     glm::vec3 throughput(1.0f);
     for (int length = 0, segment = 0;; ++segment) {
         const float far = segment == 0 ? sampled.distance : infinity;
@@ -55,20 +63,23 @@ glm::vec3 emission_through_chain(const World& world, const Scene& scene, Ray ray
         const float distance = surface ? surface->distance : blocked ? blocked->distance : infinity;
         const Medium& medium = clear_at(scene, ray.phase).interior;
         const auto light = segment > 0 ? scene.lights.seen(ray.origin, ray.direction, distance, false)
-                           : escaped   ? std::optional(Lights::Emission{sampled.distance, sampled.radiance})
-                                       : std::nullopt;
-        if (light) return throughput * transmittance(medium, light->distance) * light->radiance;
-        if (!surface) return glm::vec3(0.0f);
+                           : escaped
+                               ? std::optional(Lights::Emission{sampled.distance, sampled.radiance, sampled.source})
+                               : std::nullopt;
+        if (light)
+            return Arrival{throughput * transmittance(medium, light->distance) * light->radiance, *light,
+                           ray.direction};
+        if (!surface) return std::nullopt;
         throughput *= transmittance(medium, distance);
         const Bsdf bsdf = surface->bsdf();
         if (bsdf.passes_through()) {
             ray = surface->transmitted(ray.direction);
             continue;
         }
-        if (!is_link(bsdf, *surface) || ++length > longest_chain) return glm::vec3(0.0f);
+        if (!is_link(bsdf, *surface) || ++length > longest_chain) return std::nullopt;
         const Frame frame(surface->normal);
         const auto next = bsdf.sample(frame.to_local(-ray.direction), sampler.next(), glm::vec2(0.0f));
-        if (!next) return glm::vec3(0.0f);
+        if (!next) return std::nullopt;
         throughput *= next->weight;
         ray = continued(*surface, frame, *next);
     }
@@ -92,13 +103,15 @@ struct Chain {
 // One path, and what it needs at every step.
 class Path {
   public:
-    Path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters)
+    Path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters,
+         PathRecord* record)
         : world_(world),
           scene_(scene),
           sampler_(sampler),
           counters_(counters),
           ray_(ray),
-          camera_ior_(clear_at(scene, ray.phase).ior) {}
+          camera_ior_(clear_at(scene, ray.phase).ior),
+          recorder_(record, scene) {}
 
     glm::vec3 trace() {
         for (int depth = 0; depth < scene_.settings.max_depth;) {
@@ -107,6 +120,7 @@ class Path {
             const float distance = surface ? surface->distance : infinity;
             if (add_emission(distance) || !surface) break;
             throughput_ *= transmittance(clear_at(scene_, ray_.phase).interior, distance);
+            recorder_.travelled(ray_.phase, distance);
             ++depth;
             const Bsdf bsdf = surface->bsdf();
             if (bsdf.passes_through()) {  // equal indices scatter nothing, but do count for max_depth
@@ -115,6 +129,7 @@ class Path {
             }
             if (!scatter_and_continue(*surface, bsdf) || !roulette(depth)) break;
         }
+        recorder_.finish(radiance_);
         return radiance_;
     }
 
@@ -124,9 +139,27 @@ class Path {
         const auto light = scene_.lights.seen(ray_.origin, ray_.direction, distance, is_camera_ray_);
         if (!light) return false;
         const Medium& medium = clear_at(scene_, ray_.phase).interior;
-        radiance_ +=
-            throughput_ * chain_.weight(scene_.lights) * transmittance(medium, light->distance) * light->radiance;
+        add_light(throughput_ * chain_.weight(scene_.lights) * transmittance(medium, light->distance) * light->radiance,
+                  *light, ray_.direction, false);
         return true;
+    }
+
+    // Adds to the path's radiance, of an emission that was seen in the direction.
+    void add_light(const glm::vec3& radiance, const Lights::Emission& emission, const glm::vec3& direction,
+                   bool by_shadow_ray) {
+        radiance_ += radiance;
+        recorder_.add_light(radiance, emission, direction, by_shadow_ray);
+    }
+
+    // Tells the recorder of a surface before the path's ray leaves it.
+    void record(const Surface& surface, const Bsdf& bsdf, const std::optional<BsdfSample>& next) {
+        if (!recorder_.is_asked()) return;
+        const auto ior = [&](Phase phase) { return clear_at(scene_, phase).ior; };
+        const Phase after = next && next->transmitted ? surface.far_side->phase : ray_.phase;
+        const glm::vec3 weight = next ? next->weight : glm::vec3(0.0f);
+        const float bent = ior(after) / ior(ray_.phase), from_camera = ior(after) / camera_ior_;
+        recorder_.scattered(surface, bsdf.is_delta(), is_link(bsdf, surface), weight * (bent * bent),
+                            throughput_ * weight * (from_camera * from_camera));
     }
 
     // Adds direct light, and samples the path's next ray. Whether there is one.
@@ -142,6 +175,7 @@ class Path {
         }
         const float lobe = sampler_.next();
         const auto next = bsdf.sample(wo, lobe, sampler_.next2());
+        record(surface, bsdf, next);
         if (!next) return false;
         throughput_ *= next->weight;
         ray_ = continued(surface, frame, *next);
@@ -163,8 +197,10 @@ class Path {
         const glm::vec3 f = bsdf.evaluate(wo, wi);
         if (f == glm::vec3(0.0f)) return;
         const Ray shadow = wi.z < 0 ? surface.transmitted(light->wi) : surface.reflected(light->wi);
-        const glm::vec3 arrives = emission_through_chain(world_, scene_, shadow, *light, sampler_, counters_);
-        radiance_ += throughput_ * f * arrives * (power_heuristic(light->pdf, bsdf.pdf(wo, wi)) / light->pdf);
+        const auto arrival = emission_through_chain(world_, scene_, shadow, *light, sampler_, counters_);
+        if (!arrival) return;
+        add_light(throughput_ * f * arrival->radiance * (power_heuristic(light->pdf, bsdf.pdf(wo, wi)) / light->pdf),
+                  arrival->emission, arrival->direction, true);
     }
 
     // Russian roulette on what the path can still bring to the camera: radiance over η² is what refraction preserves.
@@ -190,14 +226,19 @@ class Path {
     glm::vec3 radiance_{0.0f}, throughput_{1.0f};
     Chain chain_;
     bool is_camera_ray_ = true;
+    PathRecorder recorder_;
 };
 
 }  // namespace
 
-glm::vec3 trace_path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters) {
+glm::vec3 trace_path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters,
+                     PathRecord* record) {
     ++counters.paths;
-    if (!is_clear(scene.materials[ray.phase.index])) return glm::vec3(0.0f);
-    return Path(world, scene, ray, sampler, counters).trace();
+    if (!is_clear(scene.materials[ray.phase.index])) {
+        PathRecorder(record, scene).finish(glm::vec3(0.0f));
+        return glm::vec3(0.0f);
+    }
+    return Path(world, scene, ray, sampler, counters, record).trace();
 }
 
 }  // namespace phasetree::tracer

@@ -2,6 +2,7 @@
 // estimation, multiple importance sampling by the power heuristic (Veach & Guibas, SIGGRAPH 1995) and Russian roulette.
 #pragma once
 
+#include "film/path_record.hpp"
 #include "sampling/sobol.hpp"
 #include "world/world.hpp"
 
@@ -18,6 +19,9 @@ namespace phasetree::tracer {
 /// and combine by the power heuristic of their densities *of ω*: of the light sampling, and of the BSDF. A path keeps
 /// these two through the chain. Nothing is counted twice and nothing is lost, whatever the light is seen through. In
 /// which directions shadow rays start is for light_proposal.hpp.
-glm::vec3 trace_path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters);
+///
+/// With a record it also fills that in. Neither the radiance nor the random numbers that are drawn depend on it.
+glm::vec3 trace_path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters,
+                     PathRecord* record = nullptr);
 
 }  // namespace phasetree::tracer
