@@ -102,6 +102,8 @@ class Writer {
             std::vector<Phase> all;
             for_each_phase(v.bits, [&](int i) { all.push_back(Phase{static_cast<std::uint8_t>(i)}); });
             return value(all, p);
+        } else if constexpr (std::is_same_v<T, std::string>) {
+            return in_quotes(v);
         } else if constexpr (requires { v.content; }) {
             if (v.path.empty()) throw ModelError(fmt::format("\"{}\" was not read from a file", p.name));
             return in_quotes(v.path);

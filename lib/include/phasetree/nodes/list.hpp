@@ -23,6 +23,7 @@
 #include "phasetree/nodes/fields/displace.hpp"
 #include "phasetree/nodes/fields/dodecahedron.hpp"
 #include "phasetree/nodes/fields/ellipsoid.hpp"
+#include "phasetree/nodes/fields/formula.hpp"
 #include "phasetree/nodes/fields/gyroid.hpp"
 #include "phasetree/nodes/fields/height_map.hpp"
 #include "phasetree/nodes/fields/heightfield.hpp"
@@ -113,7 +114,7 @@ using PlainFields =
              SchwarzP, SchwarzD, Displace, FieldInstances, FieldPolarArray, FieldGrid, Polyline, FieldEndlessGrid, Blob,
              VoronoiCells, Siren, HeightMap, FieldFibonacciDisk, FieldFibonacciSphere, FieldScatter, Extrude, Revolve,
              Circle, Rectangle, Star, Slab, BoxFrame, Bowl, Dodecahedron, Icosahedron, Helix, Heightfield, Polygon,
-             Bezier, Polyhedron, FieldBoundingVolume, FieldProxy, FieldLevelOfDetail>;
+             Bezier, Formula, Polyhedron, FieldBoundingVolume, FieldProxy, FieldLevelOfDetail>;
 
 using Objects =
     TypeList<Set, ThinShell, Under, Over, Layered, IntersectShape, SubtractShape, Change, Remove, Contact, Contacts,
