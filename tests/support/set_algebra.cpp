@@ -8,6 +8,7 @@
 #include "support/set_algebra/outlines.hpp"
 #include "support/set_algebra/patterns.hpp"
 #include "support/set_algebra/primitives.hpp"
+#include "support/set_algebra/proxies.hpp"
 #include "support/set_algebra/regions.hpp"
 #include "support/set_algebra/textures.hpp"
 #include "support/set_algebra/warps.hpp"

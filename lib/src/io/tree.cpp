@@ -148,7 +148,8 @@ class Reader {
             if (!may_be_field) return false;
             const std::optional<Value> child = shape[0].find("of");
             if (!child) return true;
-            shape = *child;
+            // Of a list, such as that of levels of detail, all are of one kind.
+            shape = child->is_array() && child->size() > 0 ? (*child)[0] : *child;
         }
         return true;
     }

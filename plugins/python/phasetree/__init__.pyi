@@ -271,6 +271,42 @@ class Field:
         of: The field; what its section has beyond the axis is cut off. (field)
         offset: How far the section is moved away from the axis first. (number in m; default 0)
         """
+    def bounding_volume(self, margin: float, volume: Field | None = ...) -> Field:
+        r"""A field or an object, and a volume around it whose distance stands in far away. What sticks out of the volume is cut off.
+
+            max(b, min(f, 2m − b));  φᵢ likewise,  φ₀ = min(−b, max(a₀, b − 2m))
+
+        Section 4.1, 7.3 of the paper.
+
+        of: What is bounded: a field or an object. (object)
+        margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
+        volume: A field around it. Default: the box around it. (field; default none)
+        """
+    def proxy(self, proxy: Field, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+        r"""A field or an object, and a simpler field g near it, which stands in for it away from the surface, outside and inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled.
+
+            min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e
+
+        Section 4.1, 7.3 of the paper.
+
+        of: What is stood in for: a field or an object. (object)
+        proxy: The simpler field, g. (field)
+        error: How far apart the surfaces of both may be, e. (number in m; zero or more)
+        margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
+        inside: Of an object: the phase that fills it from e inside of the proxy on. Without it the proxy stands in outside alone. (phase or list of phases; default all)
+        """
+    def level_of_detail(self, *of: Field, viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Field:
+        r"""Levels of a field or an object, from fine to coarse: each stands between two distances from a viewpoint. Without distances the finest stands everywhere, unless a picture is rendered with --detail.
+
+            min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike
+
+        Section 4.1, 7.3 of the paper.
+
+        of: The levels, fields or objects, the finest first. (list of objects)
+        viewpoint: From where distances are measured. ([x, y, z] in m; default [0, 0, 0])
+        distances: Where each level gives way to the next, rising; one less than there are levels. (list of numbers in m; positive; default [])
+        errors: How far the surface of each level but the finest is from that of the finest, rising: what --detail compares with the size of a pixel. A promise of the scene's. (list of numbers in m; positive; default [])
+        """
     def set(self, phase: Phase | str) -> Object:
         r"""A field filled with one phase.
 
@@ -551,6 +587,42 @@ tolerance: by which share the distance may be more than the least."""
         spacing: The least distance between two copies' origins. (number in m; zero or more; default 0)
         smallest: Sizes are random between this factor and 1. (number; at least 0.01 and at most 1; default 1)
         seed: Another number, other places. (whole number; at least 0 and at most 1000000; default 1)
+        """
+    def bounding_volume(self, margin: float, volume: Field | None = ...) -> Object:
+        r"""A field or an object, and a volume around it whose distance stands in far away. What sticks out of the volume is cut off.
+
+            max(b, min(f, 2m − b));  φᵢ likewise,  φ₀ = min(−b, max(a₀, b − 2m))
+
+        Section 4.1, 7.3 of the paper.
+
+        of: What is bounded: a field or an object. (object)
+        margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
+        volume: A field around it. Default: the box around it. (field; default none)
+        """
+    def proxy(self, proxy: Field, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+        r"""A field or an object, and a simpler field g near it, which stands in for it away from the surface, outside and inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled.
+
+            min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e
+
+        Section 4.1, 7.3 of the paper.
+
+        of: What is stood in for: a field or an object. (object)
+        proxy: The simpler field, g. (field)
+        error: How far apart the surfaces of both may be, e. (number in m; zero or more)
+        margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
+        inside: Of an object: the phase that fills it from e inside of the proxy on. Without it the proxy stands in outside alone. (phase or list of phases; default all)
+        """
+    def level_of_detail(self, *of: Object, viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Object:
+        r"""Levels of a field or an object, from fine to coarse: each stands between two distances from a viewpoint. Without distances the finest stands everywhere, unless a picture is rendered with --detail.
+
+            min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike
+
+        Section 4.1, 7.3 of the paper.
+
+        of: The levels, fields or objects, the finest first. (list of objects)
+        viewpoint: From where distances are measured. ([x, y, z] in m; default [0, 0, 0])
+        distances: Where each level gives way to the next, rising; one less than there are levels. (list of numbers in m; positive; default [])
+        errors: How far the surface of each level but the finest is from that of the finest, rising: what --detail compares with the size of a pixel. A promise of the scene's. (list of numbers in m; positive; default [])
         """
     def under(self, *of: Object) -> Object:
         r"""Objects together; where several are, a later one replaces the earlier. Folded from the first object to the last.
@@ -1641,6 +1713,97 @@ def formula(text: str | Expression, bounds: Sequence[Sequence[float]] | np.ndarr
     """
 
 def set(of: Field | Expression, phase: Phase | str) -> Object:
+def polyhedron(normals: Sequence[Sequence[float]] | np.ndarray, offsets: float | Sequence[float]) -> Field:
+    r"""A convex polyhedron with any faces: what is behind all of some planes.
+
+        max over i of nᵢ·p − hᵢ
+
+    normals: The planes' normals, outward, of any length but 0. (list of [x, y, z]s)
+    offsets: How far each plane is from the origin along its normal, h; one number for all, or as many as there are planes. (number or list of numbers in m)
+    """
+
+@overload
+def bounding_volume(of: Field, margin: float, volume: Field | None = ...) -> Field:
+    r"""A field or an object, and a volume around it whose distance stands in far away. What sticks out of the volume is cut off.
+
+        max(b, min(f, 2m − b));  φᵢ likewise,  φ₀ = min(−b, max(a₀, b − 2m))
+
+    Section 4.1, 7.3 of the paper.
+
+    of: What is bounded: a field or an object. (object)
+    margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
+    volume: A field around it. Default: the box around it. (field; default none)
+    """
+@overload
+def bounding_volume(of: Object, margin: float, volume: Field | None = ...) -> Object:
+    r"""A field or an object, and a volume around it whose distance stands in far away. What sticks out of the volume is cut off.
+
+        max(b, min(f, 2m − b));  φᵢ likewise,  φ₀ = min(−b, max(a₀, b − 2m))
+
+    Section 4.1, 7.3 of the paper.
+
+    of: What is bounded: a field or an object. (object)
+    margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
+    volume: A field around it. Default: the box around it. (field; default none)
+    """
+
+@overload
+def proxy(of: Field, proxy: Field, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+    r"""A field or an object, and a simpler field g near it, which stands in for it away from the surface, outside and inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled.
+
+        min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e
+
+    Section 4.1, 7.3 of the paper.
+
+    of: What is stood in for: a field or an object. (object)
+    proxy: The simpler field, g. (field)
+    error: How far apart the surfaces of both may be, e. (number in m; zero or more)
+    margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
+    inside: Of an object: the phase that fills it from e inside of the proxy on. Without it the proxy stands in outside alone. (phase or list of phases; default all)
+    """
+@overload
+def proxy(of: Object, proxy: Field, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+    r"""A field or an object, and a simpler field g near it, which stands in for it away from the surface, outside and inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled.
+
+        min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e
+
+    Section 4.1, 7.3 of the paper.
+
+    of: What is stood in for: a field or an object. (object)
+    proxy: The simpler field, g. (field)
+    error: How far apart the surfaces of both may be, e. (number in m; zero or more)
+    margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
+    inside: Of an object: the phase that fills it from e inside of the proxy on. Without it the proxy stands in outside alone. (phase or list of phases; default all)
+    """
+
+@overload
+def level_of_detail(*of: Field | Sequence[Object], viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Field:
+    r"""Levels of a field or an object, from fine to coarse: each stands between two distances from a viewpoint. Without distances the finest stands everywhere, unless a picture is rendered with --detail.
+
+        min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike
+
+    Section 4.1, 7.3 of the paper.
+
+    of: The levels, fields or objects, the finest first. (list of objects)
+    viewpoint: From where distances are measured. ([x, y, z] in m; default [0, 0, 0])
+    distances: Where each level gives way to the next, rising; one less than there are levels. (list of numbers in m; positive; default [])
+    errors: How far the surface of each level but the finest is from that of the finest, rising: what --detail compares with the size of a pixel. A promise of the scene's. (list of numbers in m; positive; default [])
+    """
+@overload
+def level_of_detail(*of: Object | Sequence[Object], viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Object:
+    r"""Levels of a field or an object, from fine to coarse: each stands between two distances from a viewpoint. Without distances the finest stands everywhere, unless a picture is rendered with --detail.
+
+        min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike
+
+    Section 4.1, 7.3 of the paper.
+
+    of: The levels, fields or objects, the finest first. (list of objects)
+    viewpoint: From where distances are measured. ([x, y, z] in m; default [0, 0, 0])
+    distances: Where each level gives way to the next, rising; one less than there are levels. (list of numbers in m; positive; default [])
+    errors: How far the surface of each level but the finest is from that of the finest, rising: what --detail compares with the size of a pixel. A promise of the scene's. (list of numbers in m; positive; default [])
+    """
+
+def set(of: Field, phase: Phase | str) -> Object:
     r"""A field filled with one phase.
 
         φₖ = f,  φ₀ = −f
@@ -2335,6 +2498,7 @@ class textures:
 class lights:
     @staticmethod
     def constant(radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | Expression | None = ...) -> Light:
+    def constant(radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | None = ...) -> Light:
         r"""The same radiance from everywhere.
 
         radiance: Radiance from every direction. (colour; zero or more; default [1, 1, 1])
@@ -2343,6 +2507,7 @@ class lights:
         """
     @staticmethod
     def gradient(zenith: Sequence[float] | str, horizon: Sequence[float] | str, ground: Sequence[float] | str, intensity: float | None = ..., softness: float | None = ..., group: str | Expression | None = ...) -> Light:
+    def gradient(zenith: Sequence[float] | str, horizon: Sequence[float] | str, ground: Sequence[float] | str, intensity: float | None = ..., softness: float | None = ..., group: str | None = ...) -> Light:
         r"""Three colours that run smoothly into each other with the height.
 
             mix(horizon, zenith or ground, S(min(|z|/softness, 1))),  S(t) = t² (3 − 2t)
@@ -2356,6 +2521,7 @@ class lights:
         """
     @staticmethod
     def image(file: str | PathLike[str], rotation: float | None = ..., intensity: float | None = ..., group: str | Expression | None = ...) -> Light:
+    def image(file: str | PathLike[str], rotation: float | None = ..., intensity: float | None = ..., group: str | None = ...) -> Light:
         r"""An environment from a lat-long image, which is twice as wide as high.
 
         file: An image that OpenImageIO reads row by row (OpenEXR, Radiance, TIFF, PNG, JPEG …), at most 16384 × 8192 pixels. (name of a file)
@@ -2365,6 +2531,7 @@ class lights:
         """
     @staticmethod
     def sky(sun_elevation: float | None = ..., sun_azimuth: float | None = ..., sun_diameter: float | None = ..., turbidity: float | None = ..., ground: Sequence[float] | str | None = ..., intensity: float | None = ..., sun: bool | None = ..., group: str | Expression | None = ...) -> Light:
+    def sky(sun_elevation: float | None = ..., sun_azimuth: float | None = ..., sun_diameter: float | None = ..., turbidity: float | None = ..., ground: Sequence[float] | str | None = ..., intensity: float | None = ..., sun: bool | None = ..., group: str | None = ...) -> Light:
         r"""A clear sky, its sun, and the ground below, by a model of the atmosphere. White level ground has the luminance 1 under a sun 45° high at turbidity 3.
 
         sun_elevation: Height of the sun above the horizon; down to −8 there is twilight. (number in degrees; at least -90 and at most 90; default 45)
@@ -2378,6 +2545,7 @@ class lights:
         """
     @staticmethod
     def sun(direction: Sequence[float] | np.ndarray, irradiance: Sequence[float] | str | None = ..., diameter: float | None = ..., group: str | Expression | None = ...) -> Light:
+    def sun(direction: Sequence[float] | np.ndarray, irradiance: Sequence[float] | str | None = ..., diameter: float | None = ..., group: str | None = ...) -> Light:
         r"""A disk of constant radiance infinitely far away.
 
             L = E/(π sin²(δ/2))
@@ -2389,6 +2557,7 @@ class lights:
         """
     @staticmethod
     def rectangle(centre: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, width: float, height: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | Expression | None = ...) -> Light:
+    def rectangle(centre: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, width: float, height: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | None = ...) -> Light:
         r"""A rectangle that shines to one side and is not there from behind.
 
         centre: Its centre. ([x, y, z] in m; at least -1e15 and at most 1e15)
@@ -2402,6 +2571,7 @@ class lights:
         """
     @staticmethod
     def sphere(centre: Sequence[float] | np.ndarray, radius: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | Expression | None = ...) -> Light:
+    def sphere(centre: Sequence[float] | np.ndarray, radius: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | None = ...) -> Light:
         r"""A ball that shines.
 
         centre: Its centre. ([x, y, z] in m; at least -1e15 and at most 1e15)

@@ -12,6 +12,7 @@
 #include "command/build_quality.hpp"
 #include "command/cells_report.hpp"
 #include "command/commands.hpp"
+#include "command/detail.hpp"
 #include "command/empty_object.hpp"
 #include "command/load.hpp"
 #include "command/max_memory.hpp"
@@ -38,7 +39,7 @@ struct Options {
     BuildQuality quality = BuildQuality::medium;
     std::size_t most_bytes = 0;
     std::optional<std::uint32_t> seed;
-    std::optional<float> exposure;
+    std::optional<float> exposure, detail;
     std::optional<std::string> display, view, stats, cells, planes;
     bool quiet = false;
 };
@@ -198,6 +199,7 @@ int render_scene(const Options& options) {
     const Document document = read_document(*options.scene);
     Scene scene = load_scene(document);
     apply(options, scene);
+    if (options.detail) made_of_tree(document, [&] { choose_levels_of_detail(scene, *options.detail); });
     const std::vector<std::string> outputs = outputs_of(options);
     const DisplayTransform display =
         display_of(document, scene.settings, options.display, options.view, options.exposure);
@@ -268,6 +270,12 @@ void add_render(CLI::App& app, Run& run) {
     command->add_option("--seed", o->seed, "Seed of the sampling");
     command->add_option("--exposure", o->exposure, "Stops by which display images are brighter; EXR stays as it is")
         ->check(CLI::Range(-50.0, 50.0));
+    command
+        ->add_option("--detail", o->detail,
+                     "Lets coarser levels of detail stand where their errors look no larger than so many pixels; "
+                     "without it the finest stand everywhere")
+        ->check(CLI::Range(1e-3, 1e3))
+        ->option_text("PIXELS");
     command->add_option("--display", o->display, "OpenColorIO display");
     command->add_option("--view", o->view, "OpenColorIO view");
     command->add_option("--planes", o->planes,
