@@ -4,8 +4,8 @@
 
 #include <bit>
 
-#include "phasetree/evaluation/evaluator.hpp"
 #include "math/dual.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/program/program.hpp"
 #include "support/dual_distances.hpp"
