@@ -355,9 +355,15 @@ TEST_CASE("a default is what is read when the key is left out") {
 
 TEST_CASE("every key changes what is read") {
     // Another value than the default, or than what is needed, for each.
-    const std::map<std::string, std::string> others{
-        {"metal", "\"iron\""}, {"filter", "\"box\""},          {"view", "\"Raw\""}, {"sun", "false"}, {"y_up", "true"},
-        {"smooth", "false"},   {"visible_to_camera", "false"}, {"group", "\"key\""}};
+    const std::map<std::string, std::string> others{{"metal", "\"iron\""},
+                                                    {"filter", "\"box\""},
+                                                    {"view", "\"Raw\""},
+                                                    {"sun", "false"},
+                                                    {"y_up", "true"},
+                                                    {"smooth", "false"},
+                                                    {"visible_to_camera", "false"},
+                                                    {"group", "\"key\""},
+                                                    {"caustics", "true"}};
     for (const Case& c : cases()) {
         CAPTURE(c.name);
         for (const Value property : properties_of(c)) {

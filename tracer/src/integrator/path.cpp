@@ -17,6 +17,9 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
+// A path that can still bring this share of what it began with survives Russian roulette for certain: 1 / 4.
+constexpr float survival_per_worth = 4.0f;
+
 // Photons that come in flatter than this are left to the other techniques: what they bring is divided by the cosine.
 constexpr float least_photon_cosine = 1e-3f;
 
@@ -224,13 +227,14 @@ class Path {
     }
 
     // Russian roulette on what the path can still bring to the camera: radiance over η² is what refraction preserves.
-    // Whether the path goes on.
+    // Whether the path goes on. Survival is several times the worth, because in long chains of clear interfaces what is
+    // rouletted often comes back as noise that costs more than the steps that are saved.
     bool roulette(int depth) {
         const float ior = clear_at(scene_, ray_.phase).ior / camera_ior_;
         const float worth = std::max({throughput_.x, throughput_.y, throughput_.z}) * ior * ior;
         if (!(worth > 0)) return false;
-        if (depth > 3 && worth < 0.95f) {
-            const float survival = std::max(worth, 0.05f);
+        const float survival = std::max(survival_per_worth * worth, 0.05f);
+        if (depth > 3 && survival < 0.95f) {
             if (sampler_.next() >= survival) return false;
             throughput_ /= survival;
         }

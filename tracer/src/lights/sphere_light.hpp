@@ -5,10 +5,10 @@
 // d that sees all of it receives E = πL (r/d)² cos θ.
 //
 // Directions are floats, so one that was sampled in the cone may pass the ball by a rounding error. The ball therefore
-// reaches that much farther, 2·10⁻⁷ d, where it is asked what a ray meets: otherwise the light of what was sampled there
-// would be lost, a hundredth of it from a ball that is seen 10⁻⁴ degrees large. What a surface receives from the light
-// by sampling it is right for the smallest of balls. In a mirror they look larger than they are: one of 10⁻³ degrees has
-// five per cent more area there.
+// reaches that much farther, 2·10⁻⁷ d, where it is asked what a ray meets: otherwise the light of what was sampled
+// there would be lost, a hundredth of it from a ball that is seen 10⁻⁴ degrees large. What a surface receives from the
+// light by sampling it is right for the smallest of balls. In a mirror they look larger than they are: one of 10⁻³
+// degrees has five per cent more area there.
 #pragma once
 
 #include <glm/glm.hpp>
