@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <unordered_map>
@@ -17,9 +18,9 @@ std::string in_quotes(std::string_view text) {
     return nlohmann::json(text).dump();
 }
 
-// The shortest text that reads as the same float.
+// The shortest text that reads as the same float. "-0" would be read as a whole number, which has no negative zero.
 std::string as_text(float v) {
-    return fmt::format("{}", v);
+    return v == 0 && std::signbit(v) ? "-0.0" : fmt::format("{}", v);
 }
 std::string as_text(int v) {
     return fmt::format("{}", v);

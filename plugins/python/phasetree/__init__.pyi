@@ -271,7 +271,7 @@ class Field:
         of: The field; what its section has beyond the axis is cut off. (field)
         offset: How far the section is moved away from the axis first. (number in m; default 0)
         """
-    def bounding_volume(self, margin: float, volume: Field | None = ...) -> Field:
+    def bounding_volume(self, margin: float, volume: Field | Expression | None = ...) -> Field:
         r"""A field or an object, and a volume around it whose distance stands in far away. What sticks out of the volume is cut off.
 
             max(b, min(f, 2m − b));  φᵢ likewise,  φ₀ = min(−b, max(a₀, b − 2m))
@@ -282,7 +282,7 @@ class Field:
         margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
         volume: A field around it. Default: the box around it. (field; default none)
         """
-    def proxy(self, proxy: Field, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+    def proxy(self, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
         r"""A field or an object, and a simpler field g near it, which stands in for it away from the surface, outside and inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled.
 
             min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e
@@ -588,7 +588,7 @@ tolerance: by which share the distance may be more than the least."""
         smallest: Sizes are random between this factor and 1. (number; at least 0.01 and at most 1; default 1)
         seed: Another number, other places. (whole number; at least 0 and at most 1000000; default 1)
         """
-    def bounding_volume(self, margin: float, volume: Field | None = ...) -> Object:
+    def bounding_volume(self, margin: float, volume: Field | Expression | None = ...) -> Object:
         r"""A field or an object, and a volume around it whose distance stands in far away. What sticks out of the volume is cut off.
 
             max(b, min(f, 2m − b));  φᵢ likewise,  φ₀ = min(−b, max(a₀, b − 2m))
@@ -599,7 +599,7 @@ tolerance: by which share the distance may be more than the least."""
         margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
         volume: A field around it. Default: the box around it. (field; default none)
         """
-    def proxy(self, proxy: Field, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+    def proxy(self, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
         r"""A field or an object, and a simpler field g near it, which stands in for it away from the surface, outside and inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled.
 
             min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e
@@ -1712,7 +1712,6 @@ def formula(text: str | Expression, bounds: Sequence[Sequence[float]] | np.ndarr
     bounds: The lowest and the highest corner of a box to which the solid is cut. Without it the formula's slope must be bounded everywhere. (list of [x, y, z]s in m; default [])
     """
 
-def set(of: Field | Expression, phase: Phase | str) -> Object:
 def polyhedron(normals: Sequence[Sequence[float]] | np.ndarray, offsets: float | Sequence[float]) -> Field:
     r"""A convex polyhedron with any faces: what is behind all of some planes.
 
@@ -1723,7 +1722,7 @@ def polyhedron(normals: Sequence[Sequence[float]] | np.ndarray, offsets: float |
     """
 
 @overload
-def bounding_volume(of: Field, margin: float, volume: Field | None = ...) -> Field:
+def bounding_volume(of: Field, margin: float, volume: Field | Expression | None = ...) -> Field:
     r"""A field or an object, and a volume around it whose distance stands in far away. What sticks out of the volume is cut off.
 
         max(b, min(f, 2m − b));  φᵢ likewise,  φ₀ = min(−b, max(a₀, b − 2m))
@@ -1735,7 +1734,7 @@ def bounding_volume(of: Field, margin: float, volume: Field | None = ...) -> Fie
     volume: A field around it. Default: the box around it. (field; default none)
     """
 @overload
-def bounding_volume(of: Object, margin: float, volume: Field | None = ...) -> Object:
+def bounding_volume(of: Object, margin: float, volume: Field | Expression | None = ...) -> Object:
     r"""A field or an object, and a volume around it whose distance stands in far away. What sticks out of the volume is cut off.
 
         max(b, min(f, 2m − b));  φᵢ likewise,  φ₀ = min(−b, max(a₀, b − 2m))
@@ -1748,7 +1747,7 @@ def bounding_volume(of: Object, margin: float, volume: Field | None = ...) -> Ob
     """
 
 @overload
-def proxy(of: Field, proxy: Field, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+def proxy(of: Field, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
     r"""A field or an object, and a simpler field g near it, which stands in for it away from the surface, outside and inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled.
 
         min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e
@@ -1762,7 +1761,7 @@ def proxy(of: Field, proxy: Field, error: float, margin: float, inside: Phase | 
     inside: Of an object: the phase that fills it from e inside of the proxy on. Without it the proxy stands in outside alone. (phase or list of phases; default all)
     """
 @overload
-def proxy(of: Object, proxy: Field, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+def proxy(of: Object, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
     r"""A field or an object, and a simpler field g near it, which stands in for it away from the surface, outside and inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled.
 
         min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e
@@ -1803,7 +1802,7 @@ def level_of_detail(*of: Object | Sequence[Object], viewpoint: Sequence[float] |
     errors: How far the surface of each level but the finest is from that of the finest, rising: what --detail compares with the size of a pixel. A promise of the scene's. (list of numbers in m; positive; default [])
     """
 
-def set(of: Field, phase: Phase | str) -> Object:
+def set(of: Field | Expression, phase: Phase | str) -> Object:
     r"""A field filled with one phase.
 
         φₖ = f,  φ₀ = −f
@@ -2498,7 +2497,6 @@ class textures:
 class lights:
     @staticmethod
     def constant(radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | Expression | None = ...) -> Light:
-    def constant(radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | None = ...) -> Light:
         r"""The same radiance from everywhere.
 
         radiance: Radiance from every direction. (colour; zero or more; default [1, 1, 1])
@@ -2507,7 +2505,6 @@ class lights:
         """
     @staticmethod
     def gradient(zenith: Sequence[float] | str, horizon: Sequence[float] | str, ground: Sequence[float] | str, intensity: float | None = ..., softness: float | None = ..., group: str | Expression | None = ...) -> Light:
-    def gradient(zenith: Sequence[float] | str, horizon: Sequence[float] | str, ground: Sequence[float] | str, intensity: float | None = ..., softness: float | None = ..., group: str | None = ...) -> Light:
         r"""Three colours that run smoothly into each other with the height.
 
             mix(horizon, zenith or ground, S(min(|z|/softness, 1))),  S(t) = t² (3 − 2t)
@@ -2521,7 +2518,6 @@ class lights:
         """
     @staticmethod
     def image(file: str | PathLike[str], rotation: float | None = ..., intensity: float | None = ..., group: str | Expression | None = ...) -> Light:
-    def image(file: str | PathLike[str], rotation: float | None = ..., intensity: float | None = ..., group: str | None = ...) -> Light:
         r"""An environment from a lat-long image, which is twice as wide as high.
 
         file: An image that OpenImageIO reads row by row (OpenEXR, Radiance, TIFF, PNG, JPEG …), at most 16384 × 8192 pixels. (name of a file)
@@ -2531,7 +2527,6 @@ class lights:
         """
     @staticmethod
     def sky(sun_elevation: float | None = ..., sun_azimuth: float | None = ..., sun_diameter: float | None = ..., turbidity: float | None = ..., ground: Sequence[float] | str | None = ..., intensity: float | None = ..., sun: bool | None = ..., group: str | Expression | None = ...) -> Light:
-    def sky(sun_elevation: float | None = ..., sun_azimuth: float | None = ..., sun_diameter: float | None = ..., turbidity: float | None = ..., ground: Sequence[float] | str | None = ..., intensity: float | None = ..., sun: bool | None = ..., group: str | None = ...) -> Light:
         r"""A clear sky, its sun, and the ground below, by a model of the atmosphere. White level ground has the luminance 1 under a sun 45° high at turbidity 3.
 
         sun_elevation: Height of the sun above the horizon; down to −8 there is twilight. (number in degrees; at least -90 and at most 90; default 45)
@@ -2545,7 +2540,6 @@ class lights:
         """
     @staticmethod
     def sun(direction: Sequence[float] | np.ndarray, irradiance: Sequence[float] | str | None = ..., diameter: float | None = ..., group: str | Expression | None = ...) -> Light:
-    def sun(direction: Sequence[float] | np.ndarray, irradiance: Sequence[float] | str | None = ..., diameter: float | None = ..., group: str | None = ...) -> Light:
         r"""A disk of constant radiance infinitely far away.
 
             L = E/(π sin²(δ/2))
@@ -2557,7 +2551,6 @@ class lights:
         """
     @staticmethod
     def rectangle(centre: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, width: float, height: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | Expression | None = ...) -> Light:
-    def rectangle(centre: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, width: float, height: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | None = ...) -> Light:
         r"""A rectangle that shines to one side and is not there from behind.
 
         centre: Its centre. ([x, y, z] in m; at least -1e15 and at most 1e15)
@@ -2571,7 +2564,6 @@ class lights:
         """
     @staticmethod
     def sphere(centre: Sequence[float] | np.ndarray, radius: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | Expression | None = ...) -> Light:
-    def sphere(centre: Sequence[float] | np.ndarray, radius: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | None = ...) -> Light:
         r"""A ball that shines.
 
         centre: Its centre. ([x, y, z] in m; at least -1e15 and at most 1e15)
