@@ -245,7 +245,7 @@ Report light(const Settings& settings) {
                                     return painted_here(world, scene, techniques, settings.threads, seed);
                                 }});
         };
-        add("both", tracer::Techniques::both);
+        add("all", tracer::Techniques::all);
         std::optional<OtherBuild> other;
         if (settings.against) {
             other.emplace(*settings.against, name, scene.film.resolution(), settings.samples, settings.threads);

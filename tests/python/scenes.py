@@ -46,6 +46,18 @@ class Files(unittest.TestCase):
         scene.save(self.folder / "small.json")
         self.assertEqual(pt.load(self.folder / "small.json"), scene)
 
+    def test_a_medium_s_density_is_a_field(self):
+        ball = pt.sphere(0.5)
+        density = ball.translate((0.4, 0, 0)) | ball.translate((-0.4, 0, 0))
+        fog = pt.phase("fog", pt.clear(ior=1, scattering=(9, 9, 9), density=density, density_depth=0.2))
+        scene = small_scene().with_(object=fog(pt.sphere(1.5)))
+        scene.save(self.folder / "fog.json")
+        again = pt.load(self.folder / "fog.json")
+        self.assertEqual(again, scene)
+        self.assertTrue(np.array_equal(again.render().pixels, scene.render().pixels))
+        clear = scene.with_(object=pt.phase("fog", pt.clear(ior=1))(pt.sphere(1.5)))
+        self.assertFalse(np.array_equal(clear.render().pixels, scene.render().pixels))
+
     def test_what_differs_is_not_equal(self):
         scene = small_scene()
         self.assertNotEqual(scene, scene.with_(camera=pt.camera((0, -6, 2), (0, 0, 0), fov=30)))

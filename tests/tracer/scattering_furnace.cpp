@@ -102,7 +102,7 @@ TEST_CASE("shadow rays alone, sampled directions alone, and both find the same l
             return radiance_along(world, scene, from, towards, count);
         };
         const std::uint32_t count = long_form ? 2000000 : 40000;
-        const auto both = by(Techniques::both, count);
+        const auto both = by(Techniques::all, count);
         for (const Techniques alone : {Techniques::shadow_rays_alone, Techniques::directions_alone}) {
             const auto found = by(alone, 2 * count);
             for (std::size_t c = 0; c < 3; ++c) {

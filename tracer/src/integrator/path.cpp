@@ -4,58 +4,31 @@
 #include <cmath>
 #include <limits>
 
+#include "caustics/photon_map.hpp"
+#include "caustics/trace_photon.hpp"
 #include "integrator/light_proposal.hpp"
 #include "integrator/path_recorder.hpp"
-#include "shading/frame.hpp"
+#include "sampling/heuristic.hpp"
+#include "world/chain.hpp"
 
 namespace phasetree::tracer {
 
 namespace {
 
-float power_heuristic(float a, float b) {
-    // The square of the quotient does not overflow where a² could.
-    const float q = b / a;
-    return 1.0f / (1.0f + q * q);
+// The weight of what one technique found with the density `pdf`, and others would have found with theirs. It is 1 or 0
+// where one of them works alone.
+float technique_weight(const Scene& scene, Techniques own, float pdf, float other, float by_photons) {
+    if (scene.settings.techniques == Techniques::all) return power_heuristic(pdf, other, by_photons);
+    return scene.settings.techniques == own ? 1.0f : 0.0f;
 }
-
-// The weights of the two techniques that find a light in one direction, by the densities with which each proposes that
-// direction: for what shadow rays find, and for what the directions of BSDFs find. They add up to 1.
-struct TechniqueWeights {
-    float shadow_ray, direction;
-};
-TechniqueWeights technique_weights(Techniques techniques, float shadow_ray_pdf, float direction_pdf) {
-    if (techniques == Techniques::shadow_rays_alone) return {1, 0};
-    if (techniques == Techniques::directions_alone) return {0, 1};
-    return {power_heuristic(shadow_ray_pdf, direction_pdf), power_heuristic(direction_pdf, shadow_ray_pdf)};
-}
-
-// Shadow rays follow no chain of more interfaces than this. Light at the end of a longer one is left to the directions
-// that BSDFs sample: it then has their weight alone (Chain::weight).
-constexpr int longest_chain = 128;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// Roulette spares a path of which so much is left. To end paths as soon as anything is lost, at 1, makes most of the
-// noise of glass, where long chains of interfaces lose a little at each and then find a bright light.
-constexpr float spared_worth = 0.25f;
-// And of those that bring next to nothing one in so many goes on, or their weights would have no bound.
-constexpr float least_survival = 0.05f;
+// A path that can still bring this share of what it began with survives Russian roulette for certain: 1 / 4.
+constexpr float survival_per_worth = 4.0f;
 
-// Rays travel in clear phases only.
-const Clear& clear_at(const Scene& scene, Phase phase) {
-    return std::get<Clear>(scene.materials[phase.index]);
-}
-
-// Whether a surface is a link of a chain: smooth, and clear on both sides. A mirror is none: shadow rays end there.
-bool is_link(const Bsdf& bsdf, const Surface& surface) {
-    return bsdf.is_delta() && surface.far_side;
-}
-
-// The ray on which a sampled direction goes on.
-Ray continued(const Surface& surface, const Frame& frame, const BsdfSample& sample) {
-    const glm::vec3 direction = glm::normalize(frame.to_world(sample.wi));
-    return sample.transmitted ? surface.transmitted(direction) : surface.reflected(direction);
-}
+// Photons that come in flatter than this are left to the other techniques: what they bring is divided by the cosine.
+constexpr float least_photon_cosine = 1e-3f;
 
 // Deep in a medium next to nothing of a shadow ray is left when it gets to the boundary, and where the chain goes from
 // there is rarely worth a ray. Below this share it goes on in proportion to what is left.
@@ -74,14 +47,21 @@ struct Arrival {
     glm::vec3 radiance;
     Lights::Emission emission;
     glm::vec3 direction;
+    float line_density;  // with which photons start on the chain's last line; 0 for a chain of no interface
 };
+
+// With which density photons start on the line on which a ray leads to a light.
+float line_density(const Photons& photons, const Ray& ray) {
+    return photons ? photons.emission->line_density(ray.origin, ray.direction, ray.phase) : 0.0f;
+}
 
 // One random sample of E (path.hpp) along a shadow ray: the emission at the end of a chain of smooth clear interfaces,
 // each of which reflects or refracts the ray at random, times the transmittance of the media and the weights of the
 // interfaces; none if there is no light. Up to its first interface the ray goes straight to the light that was sampled,
 // which is known; after that it is asked what light it sees.
 std::optional<Arrival> emission_through_chain(const World& world, const Scene& scene, Ray ray,
-                                              const LightSample& sampled, Sampler& sampler, PathCounters& counters) {
+                                              const LightSample& sampled, const Photons& photons, Sampler& sampler,
+                                              PathCounters& counters) {
     glm::vec3 throughput(1.0f);
     for (int length = 0, segment = 0;; ++segment) {
         const float far = segment == 0 ? sampled.distance : infinity;
@@ -97,7 +77,9 @@ std::optional<Arrival> emission_through_chain(const World& world, const Scene& s
                                : std::nullopt;
         if (!light && !surface) return std::nullopt;
         throughput *= transmittance(medium, {ray.origin, ray.direction, light ? light->distance : distance}, sampler);
-        if (light) return Arrival{throughput * light->radiance, *light, ray.direction};
+        if (light)
+            return Arrival{throughput * light->radiance, *light, ray.direction,
+                           length > 0 ? line_density(photons, ray) : 0.0f};
         if (phase_function(medium) && !passes_roulette(throughput, sampler)) return std::nullopt;
         const Bsdf bsdf = surface->bsdf();
         if (bsdf.passes_through()) {
@@ -120,11 +102,16 @@ struct Chain {
     std::optional<float> pdf;
     LightProposal proposal{};
     glm::vec3 direction{0};
+    // Photons find the direction with this density, times the line density at the end of the chain.
+    float by_photons = 0;
     int length = 0;
 
-    float weight(const Scene& scene) const {
+    // Of light that is seen along the ray.
+    float weight(const Scene& scene, const Photons& photons, const Ray& ray) const {
         if (!pdf || length > longest_chain) return 1;
-        return technique_weights(scene.settings.techniques, proposal.pdf(scene.lights, direction), *pdf).direction;
+        const float line = by_photons > 0.0f && length > 0 ? line_density(photons, ray) : 0.0f;
+        return technique_weight(scene, Techniques::directions_alone, *pdf, proposal.pdf(scene.lights, direction),
+                                by_photons * line);
     }
 };
 
@@ -132,9 +119,10 @@ struct Chain {
 class Path {
   public:
     Path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters,
-         PathRecord* record)
+         const Photons& photons, PathRecord* record)
         : world_(world),
           scene_(scene),
+          photons_(photons),
           sampler_(sampler),
           counters_(counters),
           ray_(ray),
@@ -150,7 +138,7 @@ class Path {
             const Flight flight = through_medium(light ? light->distance : distance);
             add_emission_of_medium(flight.emitted);
             if (light && !flight.scattered_at) {
-                add_light(throughput_ * chain_.weight(scene_) * flight.weight * light->radiance, *light, ray_.direction,
+                add_light(throughput_ * chain_.weight(scene_, photons_, ray_) * flight.weight * light->radiance, *light, ray_.direction,
                           false);
                 break;
             }
@@ -224,6 +212,7 @@ class Path {
         if (!bsdf.is_delta()) {
             if (!surface.far_side) proposal = LightProposal::at(surface, world_, scene_, counters_);
             add_direct_light(surface, bsdf, frame, wo, proposal);
+            add_caustics(surface, bsdf, frame, wo, proposal);
         }
         const float lobe = sampler_.next();
         const auto next = bsdf.sample(wo, lobe, sampler_.next2());
@@ -233,7 +222,7 @@ class Path {
         ray_ = continued(surface, frame, *next);
         entered_ = next->transmitted ? surface.normal : -surface.normal;
         if (!next->delta)
-            chain_ = {next->pdf, proposal, ray_.direction, 0};
+            chain_ = {next->pdf, proposal, ray_.direction, density_by_photons(surface, bsdf, next->wi.z), 0};
         else if (is_link(bsdf, surface))
             ++chain_.length;
         else
@@ -248,12 +237,12 @@ class Path {
         const auto proposal = LightProposal::at(point, entered_, world_, scene_);
         if (const auto light = sampled_light(proposal)) {
             const float f = phase.evaluate(glm::dot(ray_.direction, light->wi));
-            add_direct_light(*light, glm::vec3(f), f, point.leaving(light->wi));
+            add_direct_light(*light, glm::vec3(f), f, 0.0f, point.leaving(light->wi));
         }
         const glm::vec3 direction = glm::normalize(Frame(ray_.direction).to_world(phase.sample(sampler_.next2())));
         const float pdf = phase.evaluate(glm::dot(ray_.direction, direction));
         ray_ = point.leaving(direction);
-        chain_ = {pdf, proposal, direction, 0};
+        chain_ = {pdf, proposal, direction, 0.0f, 0};
     }
 
     // Next-event estimation: what arrives from the lights by a shadow ray, and is scattered into the path.
@@ -264,31 +253,60 @@ class Path {
         const glm::vec3 wi = frame.to_local(light->wi);
         const glm::vec3 f = bsdf.evaluate(wo, wi);
         if (f == glm::vec3(0.0f)) return;
-        add_direct_light(*light, f, bsdf.pdf(wo, wi),
+        add_direct_light(*light, f, bsdf.pdf(wo, wi), density_by_photons(surface, bsdf, wi.z),
                          wi.z < 0 ? surface.transmitted(light->wi) : surface.reflected(light->wi));
     }
+
     std::optional<LightSample> sampled_light(const LightProposal& proposal) {
         return proposal.sample(scene_.lights, sampler_.next2());
     }
+
     // f is what of the light is scattered into the path, and pdf the density with which the path itself would go on in
-    // that direction.
-    void add_direct_light(const LightSample& light, const glm::vec3& f, float pdf, const Ray& shadow) {
-        const float weight = technique_weights(scene_.settings.techniques, light.pdf, pdf).shadow_ray;
-        if (weight == 0.0f) return;
-        const auto arrival = emission_through_chain(world_, scene_, shadow, light, sampler_, counters_);
+    // that direction; photons find it with the density by_photons, per line density at the light.
+    void add_direct_light(const LightSample& light, const glm::vec3& f, float pdf, float by_photons,
+                          const Ray& shadow) {
+        if (scene_.settings.techniques == Techniques::directions_alone) return;
+        const auto arrival = emission_through_chain(world_, scene_, shadow, light, photons_, sampler_, counters_);
         if (!arrival) return;
+        const float weight = technique_weight(scene_, Techniques::shadow_rays_alone, light.pdf, pdf,
+                                              by_photons * arrival->line_density);
         add_light(throughput_ * f * arrival->radiance * (weight / light.pdf), arrival->emission, arrival->direction,
                   true);
     }
 
+    // With which density photons find a direction of this cosine at a surface, per line density at the light.
+    float density_by_photons(const Surface& surface, const Bsdf& bsdf, float cosine) const {
+        if (!photons_ || !(cosine > least_photon_cosine) || !is_lit_by_photons(surface, bsdf)) return 0.0f;
+        const float ior = clear_at(scene_, surface.near_side.phase).ior;
+        return photons_.map->expected() * ior * ior * cosine;
+    }
+
+    // What photons bring that fell near the surface's point.
+    void add_caustics(const Surface& surface, const Bsdf& bsdf, const Frame& frame, const glm::vec3& wo,
+                      const LightProposal& proposal) {
+        if (!photons_ || scene_.settings.techniques != Techniques::all || !is_lit_by_photons(surface, bsdf)) return;
+        photons_.map->near(
+            surface.near_side.origin, surface.normal, surface.near_side.phase, [&](const Photon& photon) {
+                const glm::vec3 wi = frame.to_local(photon.direction);
+                const float by_photons = density_by_photons(surface, bsdf, wi.z) * photon.line_density;
+                if (!(by_photons > 0.0f)) return;
+                const float weight =
+                    power_heuristic(by_photons, bsdf.pdf(wo, wi), proposal.pdf(scene_.lights, photon.direction));
+                const glm::vec3 irradiance = photon.power / photons_.map->expected();
+                add_light(throughput_ * bsdf.evaluate(wo, wi) * irradiance * (weight / wi.z), photon.emission,
+                          photon.towards_light, true);
+            });
+    }
+
     // Russian roulette on what the path can still bring to the camera: radiance over η² is what refraction preserves.
-    // Whether the path goes on.
+    // Whether the path goes on. Survival is several times the worth, because in long chains of clear interfaces what is
+    // rouletted often comes back as noise that costs more than the steps that are saved.
     bool roulette(int depth) {
         const float ior = clear_at(scene_, ray_.phase).ior / camera_ior_;
         const float worth = std::max({throughput_.x, throughput_.y, throughput_.z}) * ior * ior;
         if (!(worth > 0)) return false;
-        if (depth > 3 && worth < spared_worth) {
-            const float survival = std::max(worth / spared_worth, least_survival);
+        const float survival = std::max(survival_per_worth * worth, 0.05f);
+        if (depth > 3 && survival < 0.95f) {
             if (sampler_.next() >= survival) return false;
             throughput_ /= survival;
         }
@@ -297,6 +315,7 @@ class Path {
 
     const World& world_;
     const Scene& scene_;
+    const Photons& photons_;
     Sampler& sampler_;
     PathCounters& counters_;
     Ray ray_;
@@ -311,13 +330,13 @@ class Path {
 }  // namespace
 
 glm::vec3 trace_path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters,
-                     PathRecord* record) {
+                     PathRecord* record, const Photons& photons) {
     ++counters.paths;
     if (!is_clear(scene.materials[ray.phase.index])) {
         PathRecorder(record, scene).finish(glm::vec3(0.0f));
         return glm::vec3(0.0f);
     }
-    return Path(world, scene, ray, sampler, counters, record).trace();
+    return Path(world, scene, ray, sampler, counters, photons, record).trace();
 }
 
 }  // namespace phasetree::tracer

@@ -21,21 +21,26 @@ struct Mesh {
     std::vector<glm::vec3> normals;
     std::vector<glm::uvec3> triangles;
     Material material;
+    std::string name{};  // its kind, with a number behind it from the second of a kind on: "floor", "obj 2"
 };
 
-// How the light of lamps is found: by shadow rays and by directions that surfaces and media sample, weighted by the
-// power heuristic; or by one of the two alone, which is as right and shows in a measurement what each is good for.
-enum class Techniques { both, shadow_rays_alone, directions_alone };
+// How the light of lamps is found: by shadow rays, by directions that surfaces and media sample, and by photons if the
+// scene asks for caustics, weighted by the power heuristic; or by one of the first two alone, which is as right and
+// shows in a measurement what each is good for.
+enum class Techniques { all, shadow_rays_alone, directions_alone };
 
 struct RenderSettings {
     int samples = 64;  // per pixel
-    Techniques techniques = Techniques::both;
+    Techniques techniques = Techniques::all;
     std::uint32_t seed = 0;
     // The most surfaces that a path meets, those between equal indices included, and points in media that scatter it;
     // what it would bring beyond is lost.
     // Roulette ends paths long before where light is absorbed. In lossless glass a few in a million meet thousands of
     // surfaces, and to cut those off would lose light.
     int max_depth = 1 << 16;
+    bool caustics = false;    // whether photons look for caustics (caustics/caustics.hpp)
+    float photons = 1;        // of each pass, per pixel of the whole picture
+    float photon_radius = 2;  // in which they are gathered in the first pass, in pixels
     float exposure_ev = 0.0f;
     std::optional<std::string> view;  // of the display transform
 };
