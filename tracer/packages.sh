@@ -12,7 +12,7 @@ packages_to_build=(g++ cmake ninja-build pkg-config ccache libembree-dev libopen
     libopencolorio-dev libtbb-dev libglm-dev libhwy-dev nlohmann-json3-dev libcli11-dev libfmt-dev libtinyobjloader-dev)
 # shellcheck disable=SC2034 # the scripts use it
 packages_to_test=("${packages_to_build[@]}" doctest-dev dpkg-dev file pybind11-dev python3-dev
-    python3-numpy)
+    python3-numpy python3-matplotlib)
 
 # Why packages could not be installed, and which; empty when all are there.
 packages_problem=

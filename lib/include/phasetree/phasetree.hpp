@@ -3,6 +3,7 @@
 // phasetree/phasetree_embree.h.
 #pragma once
 
+#include "phasetree/carving/carve.hpp"
 #include "phasetree/cells/cells.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/math/float_mode.hpp"
@@ -11,4 +12,5 @@
 #include "phasetree/nodes/list.hpp"
 #include "phasetree/program/program.hpp"
 #include "phasetree/trace/tracer.hpp"
+#include "phasetree/tree/levels_of_detail.hpp"
 #include "phasetree/version.hpp"

@@ -4,7 +4,9 @@
 
 #include <map>
 
+#include "io/string_offset.hpp"
 #include "model/preparation.hpp"
+#include "model/text_error.hpp"
 #include "phasetree/io/object_reader.hpp"
 #include "phasetree/io/suggest.hpp"
 #include "tree/node.hpp"
@@ -146,7 +148,8 @@ class Reader {
             if (!may_be_field) return false;
             const std::optional<Value> child = shape[0].find("of");
             if (!child) return true;
-            shape = *child;
+            // Of a list, such as that of levels of detail, all are of one kind.
+            shape = child->is_array() && child->size() > 0 ? (*child)[0] : *child;
         }
         return true;
     }
@@ -157,10 +160,13 @@ class Reader {
         N node{};
         if (member.is_array())
             read_list(node, member);
-        else
+        else if (!(member.is_string() && read_text(node, member)))
             read_parameters(node, member);
         try {
             return Handle(std::move(node));
+        } catch (const TextError& e) {
+            const Value text = member.is_string() ? member : member.find(e.parameter()).value();
+            throw document_.error(io::offset_in_string(document_.text(), text.offset(), e.offset()), e.message());
         } catch (const ModelError& e) {
             throw document_.error(member.key_offset(), e.what());
         }
@@ -176,6 +182,21 @@ class Reader {
             if (p.optional && !reader.value(p.name)) return;
             read_value(target, reader.required_value(p.name), p);
         });
+    }
+
+    // The text of a node whose one required parameter is a text; whether it is such a node.
+    template <class N>
+    bool read_text(N& node, Value text) {
+        std::size_t required = 0;
+        std::string* only = nullptr;
+        for_each_parameter(node, [&](auto& target, const Parameter& p) {
+            if (p.optional) return;
+            ++required;
+            if constexpr (std::is_same_v<std::remove_cvref_t<decltype(target)>, std::string>) only = &target;
+        });
+        if (required != 1 || !only) return false;
+        *only = text.string();
+        return true;
     }
 
     template <class N>

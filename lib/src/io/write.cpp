@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <unordered_map>
@@ -17,9 +18,9 @@ std::string in_quotes(std::string_view text) {
     return nlohmann::json(text).dump();
 }
 
-// The shortest text that reads as the same float.
+// The shortest text that reads as the same float. "-0" would be read as a whole number, which has no negative zero.
 std::string as_text(float v) {
-    return fmt::format("{}", v);
+    return v == 0 && std::signbit(v) ? "-0.0" : fmt::format("{}", v);
 }
 std::string as_text(int v) {
     return fmt::format("{}", v);
@@ -102,6 +103,8 @@ class Writer {
             std::vector<Phase> all;
             for_each_phase(v.bits, [&](int i) { all.push_back(Phase{static_cast<std::uint8_t>(i)}); });
             return value(all, p);
+        } else if constexpr (std::is_same_v<T, std::string>) {
+            return in_quotes(v);
         } else if constexpr (requires { v.content; }) {
             if (v.path.empty()) throw ModelError(fmt::format("\"{}\" was not read from a file", p.name));
             return in_quotes(v.path);

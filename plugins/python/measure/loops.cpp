@@ -21,7 +21,7 @@ void blocks(std::size_t count, std::size_t block, F&& f) {
     });
 }
 
-std::size_t label(const Evaluator& evaluator, const Points& points) {
+std::size_t label_loop(const Evaluator& evaluator, const Points& points) {
     const std::size_t n = count_of(points, "points");
     const std::unique_ptr<std::uint8_t[]> labels(new std::uint8_t[n]);
     blocks(n, points_a_block,
@@ -29,7 +29,7 @@ std::size_t label(const Evaluator& evaluator, const Points& points) {
     return labels[n - 1];
 }
 
-float phi(const Evaluator& evaluator, const Points& points, std::size_t columns) {
+float phi_loop(const Evaluator& evaluator, const Points& points, std::size_t columns) {
     const std::size_t n = count_of(points, "points");
     const std::unique_ptr<float[]> values(new float[n * columns]);
     blocks(n, points_a_block, [&](std::size_t begin, std::size_t end) {
@@ -38,7 +38,7 @@ float phi(const Evaluator& evaluator, const Points& points, std::size_t columns)
     return values[n - 1];
 }
 
-std::size_t trace(const PreparedObject& object, const Points& origins, const Points& directions) {
+std::size_t trace_loop(const PreparedObject& object, const Points& origins, const Points& directions) {
     constexpr std::size_t block = 256;
     const std::size_t n = count_of(origins, "origins");
     const RaysIn rays{origins.data(), directions.data()};
@@ -52,7 +52,7 @@ std::size_t trace(const PreparedObject& object, const Points& origins, const Poi
     return total;
 }
 
-float intersect(const PreparedObject& object, const Points& origins, const Points& directions) {
+float intersect_loop(const PreparedObject& object, const Points& origins, const Points& directions) {
     const std::size_t n = count_of(origins, "origins");
     const RaysIn rays{origins.data(), directions.data()};
     const std::unique_ptr<float[]> t(new float[n]), normal(new float[3 * n]);
@@ -66,8 +66,8 @@ float intersect(const PreparedObject& object, const Points& origins, const Point
 }  // namespace
 
 PYBIND11_MODULE(_loops, module) {
-    module.def("label", &label, py::call_guard<py::gil_scoped_release>());
-    module.def("phi", &phi, py::call_guard<py::gil_scoped_release>());
-    module.def("trace", &trace, py::call_guard<py::gil_scoped_release>());
-    module.def("intersect", &intersect, py::call_guard<py::gil_scoped_release>());
+    module.def("label", &label_loop, py::call_guard<py::gil_scoped_release>());
+    module.def("phi", &phi_loop, py::call_guard<py::gil_scoped_release>());
+    module.def("trace", &trace_loop, py::call_guard<py::gil_scoped_release>());
+    module.def("intersect", &intersect_loop, py::call_guard<py::gil_scoped_release>());
 }

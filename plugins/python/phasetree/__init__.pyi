@@ -43,7 +43,7 @@ class ImageSettings:
 class Phase:
     name: str
     material: Material | None
-    def __call__(self, *fields: Field) -> Object: ...
+    def __call__(self, *fields: Field | Expression) -> Object: ...
 
 vacuum: Phase
 
@@ -96,9 +96,9 @@ class Field:
         r"""The number of nodes; those that are shared count once."""
     def to_json(self):
         r"""The field as a scene file says it, with the shapes that it shares."""
-    def __or__(self, other: Field) -> Field: ...
-    def __and__(self, other: Field) -> Field: ...
-    def __sub__(self, other: Field) -> Field: ...
+    def __or__(self, other: Field | Expression) -> Field: ...
+    def __and__(self, other: Field | Expression) -> Field: ...
+    def __sub__(self, other: Field | Expression) -> Field: ...
     def union(self, *of: Field) -> Field:
         r"""All that is in any of the fields.
 
@@ -113,7 +113,7 @@ class Field:
 
         of: The fields, at least one. (list of fields)
         """
-    def difference(self, *subtract: Field | Sequence[Field]) -> Field:
+    def difference(self, *subtract: Field | Expression | Sequence[Field | Expression]) -> Field:
         r"""A field without others.
 
             max(f, −min gᵢ)
@@ -141,7 +141,7 @@ class Field:
         of: The fields, at least one. (list of fields)
         radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
         """
-    def smooth_difference(self, *subtract: Field | Sequence[Field], radius: float) -> Field:
+    def smooth_difference(self, *subtract: Field | Expression | Sequence[Field | Expression], radius: float) -> Field:
         r"""A field without others, its new edges worn.
 
             −smin(−f, smin gᵢ)
@@ -243,7 +243,7 @@ class Field:
         count: How many. (whole number; at least 1 and at most 100000)
         radius: Of the sphere that the copies' origins are on. (number in m; positive)
         """
-    def scatter(self, on: Field, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Field:
+    def scatter(self, on: Field | Expression, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Field:
         r"""Copies strewn over a field's surface, standing on it, each turned at random.
 
             copies at random points of the surface f = 0, their z axis along ∇f; of objects, the later over the earlier
@@ -270,6 +270,42 @@ class Field:
 
         of: The field; what its section has beyond the axis is cut off. (field)
         offset: How far the section is moved away from the axis first. (number in m; default 0)
+        """
+    def bounding_volume(self, margin: float, volume: Field | Expression | None = ...) -> Field:
+        r"""A field or an object, and a volume around it whose distance stands in far away. What sticks out of the volume is cut off.
+
+            max(b, min(f, 2m − b));  φᵢ likewise,  φ₀ = min(−b, max(a₀, b − 2m))
+
+        Section 4.1, 7.3 of the paper.
+
+        of: What is bounded: a field or an object. (object)
+        margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
+        volume: A field around it. Default: the box around it. (field; default none)
+        """
+    def proxy(self, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+        r"""A field or an object, and a simpler field g near it, which stands in for it away from the surface, outside and inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled.
+
+            min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e
+
+        Section 4.1, 7.3 of the paper.
+
+        of: What is stood in for: a field or an object. (object)
+        proxy: The simpler field, g. (field)
+        error: How far apart the surfaces of both may be, e. (number in m; zero or more)
+        margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
+        inside: Of an object: the phase that fills it from e inside of the proxy on. Without it the proxy stands in outside alone. (phase or list of phases; default all)
+        """
+    def level_of_detail(self, *of: Field, viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Field:
+        r"""Levels of a field or an object, from fine to coarse: each stands between two distances from a viewpoint. Without distances the finest stands everywhere, unless a picture is rendered with --detail.
+
+            min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike
+
+        Section 4.1, 7.3 of the paper.
+
+        of: The levels, fields or objects, the finest first. (list of objects)
+        viewpoint: From where distances are measured. ([x, y, z] in m; default [0, 0, 0])
+        distances: Where each level gives way to the next, rising; one less than there are levels. (list of numbers in m; positive; default [])
+        errors: How far the surface of each level but the finest is from that of the finest, rising: what --detail compares with the size of a pixel. A promise of the scene's. (list of numbers in m; positive; default [])
         """
     def set(self, phase: Phase | str) -> Object:
         r"""A field filled with one phase.
@@ -540,7 +576,7 @@ tolerance: by which share the distance may be more than the least."""
         count: How many. (whole number; at least 1 and at most 100000)
         radius: Of the sphere that the copies' origins are on. (number in m; positive)
         """
-    def scatter(self, on: Field, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Object:
+    def scatter(self, on: Field | Expression, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Object:
         r"""Copies strewn over a field's surface, standing on it, each turned at random.
 
             copies at random points of the surface f = 0, their z axis along ∇f; of objects, the later over the earlier
@@ -551,6 +587,42 @@ tolerance: by which share the distance may be more than the least."""
         spacing: The least distance between two copies' origins. (number in m; zero or more; default 0)
         smallest: Sizes are random between this factor and 1. (number; at least 0.01 and at most 1; default 1)
         seed: Another number, other places. (whole number; at least 0 and at most 1000000; default 1)
+        """
+    def bounding_volume(self, margin: float, volume: Field | Expression | None = ...) -> Object:
+        r"""A field or an object, and a volume around it whose distance stands in far away. What sticks out of the volume is cut off.
+
+            max(b, min(f, 2m − b));  φᵢ likewise,  φ₀ = min(−b, max(a₀, b − 2m))
+
+        Section 4.1, 7.3 of the paper.
+
+        of: What is bounded: a field or an object. (object)
+        margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
+        volume: A field around it. Default: the box around it. (field; default none)
+        """
+    def proxy(self, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+        r"""A field or an object, and a simpler field g near it, which stands in for it away from the surface, outside and inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled.
+
+            min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e
+
+        Section 4.1, 7.3 of the paper.
+
+        of: What is stood in for: a field or an object. (object)
+        proxy: The simpler field, g. (field)
+        error: How far apart the surfaces of both may be, e. (number in m; zero or more)
+        margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
+        inside: Of an object: the phase that fills it from e inside of the proxy on. Without it the proxy stands in outside alone. (phase or list of phases; default all)
+        """
+    def level_of_detail(self, *of: Object, viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Object:
+        r"""Levels of a field or an object, from fine to coarse: each stands between two distances from a viewpoint. Without distances the finest stands everywhere, unless a picture is rendered with --detail.
+
+            min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike
+
+        Section 4.1, 7.3 of the paper.
+
+        of: The levels, fields or objects, the finest first. (list of objects)
+        viewpoint: From where distances are measured. ([x, y, z] in m; default [0, 0, 0])
+        distances: Where each level gives way to the next, rising; one less than there are levels. (list of numbers in m; positive; default [])
+        errors: How far the surface of each level but the finest is from that of the finest, rising: what --detail compares with the size of a pixel. A promise of the scene's. (list of numbers in m; positive; default [])
         """
     def under(self, *of: Object) -> Object:
         r"""Objects together; where several are, a later one replaces the earlier. Folded from the first object to the last.
@@ -581,7 +653,7 @@ tolerance: by which share the distance may be more than the least."""
         phase: The phase of the layer. (phase)
         thickness: Thickness of the layer. (number in m; positive)
         """
-    def intersect_shape(self, shape: Field, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+    def intersect_shape(self, shape: Field | Expression, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
         r"""Keeps what lies within a shape: of all phases, or of some and the rest unchanged.
 
             φₖ = max(aₖ, f),  φ₀ = min(a₀, −f) if all phases are cut, else min(a₀, min over the cut k of max(aₖ, −f))
@@ -592,7 +664,7 @@ tolerance: by which share the distance may be more than the least."""
         shape: The field to keep within. (field)
         phases: The phases that are cut; all if left out. (phase or list of phases; default all)
         """
-    def subtract_shape(self, shape: Field, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+    def subtract_shape(self, shape: Field | Expression, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
         r"""Cuts a shape away: from all phases, or from some and the rest unchanged.
 
             φₖ = max(aₖ, −f),  φ₀ = min(a₀, f) if all phases are cut, else min(a₀, min over the cut k of max(aₖ, f))
@@ -603,7 +675,7 @@ tolerance: by which share the distance may be more than the least."""
         shape: The field to cut away. (field)
         phases: The phases that are cut; all if left out. (phase or list of phases; default all)
         """
-    def change(self, from_: Phase | str, to: Phase | str, shape: Field | None = ...) -> Object:
+    def change(self, from_: Phase | str, to: Phase | str, shape: Field | Expression | None = ...) -> Object:
         r"""Turns one phase into another within a shape (everywhere without one).
 
             φᵢ = max(aᵢ, −f),  φₖ = min(aₖ, max(aᵢ, f)),  φ₀ = a₀
@@ -674,7 +746,7 @@ tolerance: by which share the distance may be more than the least."""
         thickness: Thickness of the layer away from the grooves. (number in m; positive)
         radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
         """
-    def unite_shape_below(self, shape: Field, phase: Phase | str) -> Object:
+    def unite_shape_below(self, shape: Field | Expression, phase: Phase | str) -> Object:
         r"""Adds a shape to one phase, below the other phases.
 
             φₖ = max(min(aₖ, f), −min over j ≠ k of aⱼ),  φ₀ = max(a₀, −f)
@@ -685,7 +757,7 @@ tolerance: by which share the distance may be more than the least."""
         shape: The field to add. (field)
         phase: The phase that grows. (phase)
         """
-    def smooth_unite_shape(self, shape: Field, phase: Phase | str, radius: float) -> Object:
+    def smooth_unite_shape(self, shape: Field | Expression, phase: Phase | str, radius: float) -> Object:
         r"""Melts a shape into one phase, over the other phases.
 
             s = smin(aₖ, f),  φₖ = s,  φᵢ = max(aᵢ, −s),  φ₀ = max(a₀, −s)
@@ -697,7 +769,7 @@ tolerance: by which share the distance may be more than the least."""
         phase: The phase that grows. (phase)
         radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
         """
-    def smooth_unite_shape_below(self, shape: Field, phase: Phase | str, radius: float) -> Object:
+    def smooth_unite_shape_below(self, shape: Field | Expression, phase: Phase | str, radius: float) -> Object:
         r"""Melts a shape into one phase, below the other phases.
 
             s = smin(aₖ, f),  φₖ = max(s, −min over j ≠ k of aⱼ),  φ₀ = max(a₀, −s)
@@ -709,7 +781,7 @@ tolerance: by which share the distance may be more than the least."""
         phase: The phase that grows. (phase)
         radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
         """
-    def smooth_intersect_shape(self, shape: Field, phase: Phase | str, radius: float) -> Object:
+    def smooth_intersect_shape(self, shape: Field | Expression, phase: Phase | str, radius: float) -> Object:
         r"""Keeps of one phase what lies within a shape, its new edges worn.
 
             s = −smin(−aₖ, −f),  φₖ = s,  φ₀ = min(a₀, max(aₖ, −s, −f − r))
@@ -721,7 +793,7 @@ tolerance: by which share the distance may be more than the least."""
         phase: The phase that is cut. (phase)
         radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
         """
-    def smooth_subtract_shape(self, shape: Field, phase: Phase | str, radius: float) -> Object:
+    def smooth_subtract_shape(self, shape: Field | Expression, phase: Phase | str, radius: float) -> Object:
         r"""Cuts a shape away from one phase, its new edges worn.
 
             s = −smin(−aₖ, f),  φₖ = s,  φ₀ = min(a₀, max(aₖ, −s, f − r))
@@ -912,6 +984,50 @@ class Scene:
 image: settings in place of the scene's own, such as samples=16, width=400. crop: (x0, y0, x1, y1) in pixels.
 progress: True for a line on standard error, or a function of a stage and a share in [0, 1]. Ctrl-C ends it."""
 
+class Expression:
+    r"""A number for each point: x, y, z and what is computed of them. Immutable.
+
+    It stands for a field wherever one is needed, glass(x**2 + y**2 - 1), and is the solid where it is negative.
+    within(low, high) cuts that to a box, which formulas need whose slope grows without bound. Floats of the formula are
+    those of single precision; it is divided by a bound of its slope, which is found when the field is made."""
+    @property
+    def text(self):
+        r"""The formula as a scene file has it."""
+    def within(self, low, high):
+        r"""The same, cut to the box with these corners; a number stands for the same along each axis."""
+    def field(self):
+        r"""The field: Error if the slope has no bound, with the place in the formula."""
+    def __add__(self, other: Expression | float) -> Expression: ...
+    def __radd__(self, other: Expression | float) -> Expression: ...
+    def __sub__(self, other: Expression | float) -> Expression: ...
+    def __rsub__(self, other: Expression | float) -> Expression: ...
+    def __mul__(self, other: Expression | float) -> Expression: ...
+    def __rmul__(self, other: Expression | float) -> Expression: ...
+    def __truediv__(self, other: Expression | float) -> Expression: ...
+    def __rtruediv__(self, other: Expression | float) -> Expression: ...
+    def __pow__(self, other: float) -> Expression: ...
+    def __neg__(self) -> Expression: ...
+    def __abs__(self) -> Expression: ...
+    def __or__(self, other: Field | Expression) -> Field: ...
+    def __and__(self, other: Field | Expression) -> Field: ...
+
+def coordinates() -> tuple[Expression, Expression, Expression]: ...
+
+def sqrt(*values: Expression | float) -> Expression: ...
+def abs(*values: Expression | float) -> Expression: ...
+def min(*values: Expression | float) -> Expression: ...
+def max(*values: Expression | float) -> Expression: ...
+def sin(*values: Expression | float) -> Expression: ...
+def cos(*values: Expression | float) -> Expression: ...
+def tan(*values: Expression | float) -> Expression: ...
+def exp(*values: Expression | float) -> Expression: ...
+def tanh(*values: Expression | float) -> Expression: ...
+def length(*values: Expression | float) -> Expression: ...
+def clamp(*values: Expression | float) -> Expression: ...
+def smooth_min(*values: Expression | float) -> Expression: ...
+def smooth_max(*values: Expression | float) -> Expression: ...
+def square(*values: Expression | float) -> Expression: ...
+
 def load(path: str | PathLike[str]) -> Scene: ...
 
 def sphere(radius: float) -> Field:
@@ -986,7 +1102,7 @@ def plane(normal: Sequence[float] | np.ndarray | None = ..., offset: float | Non
     offset: Distance of the plane from the origin along the normal. (number in m; default 0)
     """
 
-def union(*of: Field | Sequence[Field]) -> Field:
+def union(*of: Field | Expression | Sequence[Field | Expression]) -> Field:
     r"""All that is in any of the fields.
 
         min fᵢ
@@ -994,7 +1110,7 @@ def union(*of: Field | Sequence[Field]) -> Field:
     of: The fields, at least one. (list of fields)
     """
 
-def intersection(*of: Field | Sequence[Field]) -> Field:
+def intersection(*of: Field | Expression | Sequence[Field | Expression]) -> Field:
     r"""What is in all of the fields.
 
         max fᵢ
@@ -1002,7 +1118,7 @@ def intersection(*of: Field | Sequence[Field]) -> Field:
     of: The fields, at least one. (list of fields)
     """
 
-def difference(from_: Field, *subtract: Field | Sequence[Field]) -> Field:
+def difference(from_: Field | Expression, *subtract: Field | Expression | Sequence[Field | Expression]) -> Field:
     r"""A field without others.
 
         max(f, −min gᵢ)
@@ -1011,7 +1127,7 @@ def difference(from_: Field, *subtract: Field | Sequence[Field]) -> Field:
     subtract: The fields to cut away, at least one. (list of fields)
     """
 
-def smooth_union(*of: Field | Sequence[Field], radius: float) -> Field:
+def smooth_union(*of: Field | Expression | Sequence[Field | Expression], radius: float) -> Field:
     r"""Union whose seams are filled; folded from the first field to the last.
 
         smin(a, b) = min(a, b) − r/6 · max(1 − |b − a|/r, 0)³
@@ -1022,7 +1138,7 @@ def smooth_union(*of: Field | Sequence[Field], radius: float) -> Field:
     radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
     """
 
-def smooth_intersection(*of: Field | Sequence[Field], radius: float) -> Field:
+def smooth_intersection(*of: Field | Expression | Sequence[Field | Expression], radius: float) -> Field:
     r"""Intersection whose edges are worn; folded from the first field to the last.
 
         −smin(−a, −b)
@@ -1033,7 +1149,7 @@ def smooth_intersection(*of: Field | Sequence[Field], radius: float) -> Field:
     radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
     """
 
-def smooth_difference(from_: Field, *subtract: Field | Sequence[Field], radius: float) -> Field:
+def smooth_difference(from_: Field | Expression, *subtract: Field | Expression | Sequence[Field | Expression], radius: float) -> Field:
     r"""A field without others, its new edges worn.
 
         −smin(−f, smin gᵢ)
@@ -1045,7 +1161,7 @@ def smooth_difference(from_: Field, *subtract: Field | Sequence[Field], radius: 
     radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
     """
 
-def offset(of: Field, distance: float) -> Field:
+def offset(of: Field | Expression, distance: float) -> Field:
     r"""A field inflated by t (deflated for a negative t).
 
         f − t
@@ -1056,7 +1172,7 @@ def offset(of: Field, distance: float) -> Field:
     distance: How far the surface moves outwards. (number in m)
     """
 
-def shell(of: Field, half_thickness: float) -> Field:
+def shell(of: Field | Expression, half_thickness: float) -> Field:
     r"""A wall of thickness 2t about a field's surface.
 
         |f| − t
@@ -1216,7 +1332,7 @@ def schwarz_d(period: float, thickness: float) -> Field:
     thickness: Least thickness of the wall. (number in m; positive)
     """
 
-def displace(of: Field, amplitude: float, scale: float, octaves: float | None = ...) -> Field:
+def displace(of: Field | Expression, amplitude: float, scale: float, octaves: float | None = ...) -> Field:
     r"""A field whose surface is moved in and out by fractal noise.
 
         min(max((f + a n)/λ, f − a), f + a),  λ = 1 + a L,  L = 15 octaves/(4 scale Σ 2⁻ⁱ)
@@ -1324,7 +1440,7 @@ def endless_grid(of: Object, spacing: Sequence[float] | np.ndarray) -> Object:
     spacing: From one copy to the next along x, y and z; 0 for no copies along that axis. ([x, y, z] in m; zero or more)
     """
 
-def blob(radii: float | Sequence[float], points: Sequence[Sequence[float]] | np.ndarray | None = ..., polyline: Sequence[Sequence[float]] | np.ndarray | None = ..., of: Field | Sequence[Field] | None = ..., weights: float | Sequence[float] | None = ..., threshold: float | None = ...) -> Field:
+def blob(radii: float | Sequence[float], points: Sequence[Sequence[float]] | np.ndarray | None = ..., polyline: Sequence[Sequence[float]] | np.ndarray | None = ..., of: Field | Expression | Sequence[Field | Expression] | None = ..., weights: float | Sequence[float] | None = ..., threshold: float | None = ...) -> Field:
     r"""A BlobTree: points, a chain of segments and other fields as skeletons, whose compactly supported contributions add up and melt into each other.
 
         max((T − Σ wᵢ (1 − (dᵢ/Rᵢ)²)³)/λ, min dᵢ − rᵢ),  rᵢ = Rᵢ √(1 − ∛(T/Σw)),  λ ≥ sup ‖∇Σ‖
@@ -1430,7 +1546,7 @@ def fibonacci_sphere(of: Object, count: int, radius: float) -> Object:
     """
 
 @overload
-def scatter(of: Field, on: Field, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Field:
+def scatter(of: Field, on: Field | Expression, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Field:
     r"""Copies strewn over a field's surface, standing on it, each turned at random.
 
         copies at random points of the surface f = 0, their z axis along ∇f; of objects, the later over the earlier
@@ -1443,7 +1559,7 @@ def scatter(of: Field, on: Field, count: int, spacing: float | None = ..., small
     seed: Another number, other places. (whole number; at least 0 and at most 1000000; default 1)
     """
 @overload
-def scatter(of: Object, on: Field, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Object:
+def scatter(of: Object, on: Field | Expression, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Object:
     r"""Copies strewn over a field's surface, standing on it, each turned at random.
 
         copies at random points of the surface f = 0, their z axis along ∇f; of objects, the later over the earlier
@@ -1456,7 +1572,7 @@ def scatter(of: Object, on: Field, count: int, spacing: float | None = ..., smal
     seed: Another number, other places. (whole number; at least 0 and at most 1000000; default 1)
     """
 
-def extrude(of: Field, height: float) -> Field:
+def extrude(of: Field | Expression, height: float) -> Field:
     r"""A field's cross-section at z = 0, moved along z; exact where the field is the exact distance to its cross-section.
 
         a = f(x, y, 0),  b = |z| − h/2;  |(max(a, 0), max(b, 0))| + min(max(a, b), 0)
@@ -1465,7 +1581,7 @@ def extrude(of: Field, height: float) -> Field:
     height: Whole height, centred at z = 0. (number in m; positive)
     """
 
-def revolve(of: Field, offset: float | None = ...) -> Field:
+def revolve(of: Field | Expression, offset: float | None = ...) -> Field:
     r"""A field's cross-section at z = 0 turned about its y axis, which becomes the z axis; exact where the field is the exact distance to its cross-section and that does not cross the axis.
 
         f(|pxy| − o, z, 0)
@@ -1587,7 +1703,106 @@ def bezier(points: Sequence[Sequence[float]] | np.ndarray, thickness: float | No
     thickness: Width of a line along the curve; 0 fills a closed curve, even-odd where it crosses itself. (number in m; zero or more; default 0)
     """
 
-def set(of: Field, phase: Phase | str) -> Object:
+def formula(text: str | Expression, bounds: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Field:
+    r"""The solid where a formula of x, y and z is negative. It knows + − * / ^ with whole exponents, sqrt, abs, min, max, sin, cos, tan, exp, tanh, length, clamp, smooth_min, smooth_max, pi, and names: "r = sqrt(x^2 + y^2); r - 1".
+
+        f(x, y, z)/λ;  with bounds B: max(b(p), f(nearest point of B)/λ),  λ ≥ sup |∇f|
+
+    text: The formula. (text)
+    bounds: The lowest and the highest corner of a box to which the solid is cut. Without it the formula's slope must be bounded everywhere. (list of [x, y, z]s in m; default [])
+    """
+
+def polyhedron(normals: Sequence[Sequence[float]] | np.ndarray, offsets: float | Sequence[float]) -> Field:
+    r"""A convex polyhedron with any faces: what is behind all of some planes.
+
+        max over i of nᵢ·p − hᵢ
+
+    normals: The planes' normals, outward, of any length but 0. (list of [x, y, z]s)
+    offsets: How far each plane is from the origin along its normal, h; one number for all, or as many as there are planes. (number or list of numbers in m)
+    """
+
+@overload
+def bounding_volume(of: Field, margin: float, volume: Field | Expression | None = ...) -> Field:
+    r"""A field or an object, and a volume around it whose distance stands in far away. What sticks out of the volume is cut off.
+
+        max(b, min(f, 2m − b));  φᵢ likewise,  φ₀ = min(−b, max(a₀, b − 2m))
+
+    Section 4.1, 7.3 of the paper.
+
+    of: What is bounded: a field or an object. (object)
+    margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
+    volume: A field around it. Default: the box around it. (field; default none)
+    """
+@overload
+def bounding_volume(of: Object, margin: float, volume: Field | Expression | None = ...) -> Object:
+    r"""A field or an object, and a volume around it whose distance stands in far away. What sticks out of the volume is cut off.
+
+        max(b, min(f, 2m − b));  φᵢ likewise,  φ₀ = min(−b, max(a₀, b − 2m))
+
+    Section 4.1, 7.3 of the paper.
+
+    of: What is bounded: a field or an object. (object)
+    margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
+    volume: A field around it. Default: the box around it. (field; default none)
+    """
+
+@overload
+def proxy(of: Field, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+    r"""A field or an object, and a simpler field g near it, which stands in for it away from the surface, outside and inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled.
+
+        min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e
+
+    Section 4.1, 7.3 of the paper.
+
+    of: What is stood in for: a field or an object. (object)
+    proxy: The simpler field, g. (field)
+    error: How far apart the surfaces of both may be, e. (number in m; zero or more)
+    margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
+    inside: Of an object: the phase that fills it from e inside of the proxy on. Without it the proxy stands in outside alone. (phase or list of phases; default all)
+    """
+@overload
+def proxy(of: Object, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+    r"""A field or an object, and a simpler field g near it, which stands in for it away from the surface, outside and inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled.
+
+        min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e
+
+    Section 4.1, 7.3 of the paper.
+
+    of: What is stood in for: a field or an object. (object)
+    proxy: The simpler field, g. (field)
+    error: How far apart the surfaces of both may be, e. (number in m; zero or more)
+    margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
+    inside: Of an object: the phase that fills it from e inside of the proxy on. Without it the proxy stands in outside alone. (phase or list of phases; default all)
+    """
+
+@overload
+def level_of_detail(*of: Field | Sequence[Object], viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Field:
+    r"""Levels of a field or an object, from fine to coarse: each stands between two distances from a viewpoint. Without distances the finest stands everywhere, unless a picture is rendered with --detail.
+
+        min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike
+
+    Section 4.1, 7.3 of the paper.
+
+    of: The levels, fields or objects, the finest first. (list of objects)
+    viewpoint: From where distances are measured. ([x, y, z] in m; default [0, 0, 0])
+    distances: Where each level gives way to the next, rising; one less than there are levels. (list of numbers in m; positive; default [])
+    errors: How far the surface of each level but the finest is from that of the finest, rising: what --detail compares with the size of a pixel. A promise of the scene's. (list of numbers in m; positive; default [])
+    """
+@overload
+def level_of_detail(*of: Object | Sequence[Object], viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Object:
+    r"""Levels of a field or an object, from fine to coarse: each stands between two distances from a viewpoint. Without distances the finest stands everywhere, unless a picture is rendered with --detail.
+
+        min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike
+
+    Section 4.1, 7.3 of the paper.
+
+    of: The levels, fields or objects, the finest first. (list of objects)
+    viewpoint: From where distances are measured. ([x, y, z] in m; default [0, 0, 0])
+    distances: Where each level gives way to the next, rising; one less than there are levels. (list of numbers in m; positive; default [])
+    errors: How far the surface of each level but the finest is from that of the finest, rising: what --detail compares with the size of a pixel. A promise of the scene's. (list of numbers in m; positive; default [])
+    """
+
+def set(of: Field | Expression, phase: Phase | str) -> Object:
     r"""A field filled with one phase.
 
         φₖ = f,  φ₀ = −f
@@ -1598,7 +1813,7 @@ def set(of: Field, phase: Phase | str) -> Object:
     phase: The phase inside. (phase)
     """
 
-def thin_shell(of: Field, shell: Phase | str, inside: Phase | str, half_thickness: float) -> Object:
+def thin_shell(of: Field | Expression, shell: Phase | str, inside: Phase | str, half_thickness: float) -> Object:
     r"""A wall of thickness 2t about a field's surface, and what it encloses.
 
         φᵢ = |f| − t,  φⱼ = f + t,  φ₀ = t − f
@@ -1643,7 +1858,7 @@ def layered(of: Object, phase: Phase | str, thickness: float) -> Object:
     thickness: Thickness of the layer. (number in m; positive)
     """
 
-def intersect_shape(of: Object, shape: Field, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+def intersect_shape(of: Object, shape: Field | Expression, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
     r"""Keeps what lies within a shape: of all phases, or of some and the rest unchanged.
 
         φₖ = max(aₖ, f),  φ₀ = min(a₀, −f) if all phases are cut, else min(a₀, min over the cut k of max(aₖ, −f))
@@ -1655,7 +1870,7 @@ def intersect_shape(of: Object, shape: Field, phases: Phase | str | Sequence[Pha
     phases: The phases that are cut; all if left out. (phase or list of phases; default all)
     """
 
-def subtract_shape(of: Object, shape: Field, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+def subtract_shape(of: Object, shape: Field | Expression, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
     r"""Cuts a shape away: from all phases, or from some and the rest unchanged.
 
         φₖ = max(aₖ, −f),  φ₀ = min(a₀, f) if all phases are cut, else min(a₀, min over the cut k of max(aₖ, f))
@@ -1667,7 +1882,7 @@ def subtract_shape(of: Object, shape: Field, phases: Phase | str | Sequence[Phas
     phases: The phases that are cut; all if left out. (phase or list of phases; default all)
     """
 
-def change(of: Object, from_: Phase | str, to: Phase | str, shape: Field | None = ...) -> Object:
+def change(of: Object, from_: Phase | str, to: Phase | str, shape: Field | Expression | None = ...) -> Object:
     r"""Turns one phase into another within a shape (everywhere without one).
 
         φᵢ = max(aᵢ, −f),  φₖ = min(aₖ, max(aᵢ, f)),  φ₀ = a₀
@@ -1744,7 +1959,7 @@ def smooth_layered(of: Object, phase: Phase | str, thickness: float, radius: flo
     radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
     """
 
-def unite_shape_below(of: Object, shape: Field, phase: Phase | str) -> Object:
+def unite_shape_below(of: Object, shape: Field | Expression, phase: Phase | str) -> Object:
     r"""Adds a shape to one phase, below the other phases.
 
         φₖ = max(min(aₖ, f), −min over j ≠ k of aⱼ),  φ₀ = max(a₀, −f)
@@ -1756,7 +1971,7 @@ def unite_shape_below(of: Object, shape: Field, phase: Phase | str) -> Object:
     phase: The phase that grows. (phase)
     """
 
-def smooth_unite_shape(of: Object, shape: Field, phase: Phase | str, radius: float) -> Object:
+def smooth_unite_shape(of: Object, shape: Field | Expression, phase: Phase | str, radius: float) -> Object:
     r"""Melts a shape into one phase, over the other phases.
 
         s = smin(aₖ, f),  φₖ = s,  φᵢ = max(aᵢ, −s),  φ₀ = max(a₀, −s)
@@ -1769,7 +1984,7 @@ def smooth_unite_shape(of: Object, shape: Field, phase: Phase | str, radius: flo
     radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
     """
 
-def smooth_unite_shape_below(of: Object, shape: Field, phase: Phase | str, radius: float) -> Object:
+def smooth_unite_shape_below(of: Object, shape: Field | Expression, phase: Phase | str, radius: float) -> Object:
     r"""Melts a shape into one phase, below the other phases.
 
         s = smin(aₖ, f),  φₖ = max(s, −min over j ≠ k of aⱼ),  φ₀ = max(a₀, −s)
@@ -1782,7 +1997,7 @@ def smooth_unite_shape_below(of: Object, shape: Field, phase: Phase | str, radiu
     radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
     """
 
-def smooth_intersect_shape(of: Object, shape: Field, phase: Phase | str, radius: float) -> Object:
+def smooth_intersect_shape(of: Object, shape: Field | Expression, phase: Phase | str, radius: float) -> Object:
     r"""Keeps of one phase what lies within a shape, its new edges worn.
 
         s = −smin(−aₖ, −f),  φₖ = s,  φ₀ = min(a₀, max(aₖ, −s, −f − r))
@@ -1795,7 +2010,7 @@ def smooth_intersect_shape(of: Object, shape: Field, phase: Phase | str, radius:
     radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
     """
 
-def smooth_subtract_shape(of: Object, shape: Field, phase: Phase | str, radius: float) -> Object:
+def smooth_subtract_shape(of: Object, shape: Field | Expression, phase: Phase | str, radius: float) -> Object:
     r"""Cuts a shape away from one phase, its new edges worn.
 
         s = −smin(−aₖ, f),  φₖ = s,  φ₀ = min(a₀, max(aₖ, −s, f − r))
@@ -2281,14 +2496,15 @@ class textures:
 
 class lights:
     @staticmethod
-    def constant(radiance: Sequence[float] | str | None = ..., intensity: float | None = ...) -> Light:
+    def constant(radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | Expression | None = ...) -> Light:
         r"""The same radiance from everywhere.
 
         radiance: Radiance from every direction. (colour; zero or more; default [1, 1, 1])
         intensity: A factor of the radiance. (number; zero or more; default 1)
+        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
         """
     @staticmethod
-    def gradient(zenith: Sequence[float] | str, horizon: Sequence[float] | str, ground: Sequence[float] | str, intensity: float | None = ..., softness: float | None = ...) -> Light:
+    def gradient(zenith: Sequence[float] | str, horizon: Sequence[float] | str, ground: Sequence[float] | str, intensity: float | None = ..., softness: float | None = ..., group: str | Expression | None = ...) -> Light:
         r"""Three colours that run smoothly into each other with the height.
 
             mix(horizon, zenith or ground, S(min(|z|/softness, 1))),  S(t) = t² (3 − 2t)
@@ -2298,17 +2514,19 @@ class lights:
         ground: Radiance from straight below. (colour; zero or more)
         intensity: A factor of the three radiances. (number; zero or more; default 1)
         softness: Sine of the elevation at which the zenith's or the ground's colour is reached. (number; more than 0 and at most 1; default 1)
+        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
         """
     @staticmethod
-    def image(file: str | PathLike[str], rotation: float | None = ..., intensity: float | None = ...) -> Light:
+    def image(file: str | PathLike[str], rotation: float | None = ..., intensity: float | None = ..., group: str | Expression | None = ...) -> Light:
         r"""An environment from a lat-long image, which is twice as wide as high.
 
-        file: An image of any format that OpenImageIO reads, at most 16384 × 8192 pixels. (name of a file)
+        file: An image that OpenImageIO reads row by row (OpenEXR, Radiance, TIFF, PNG, JPEG …), at most 16384 × 8192 pixels. (name of a file)
         rotation: Angle by which it is turned, clockwise as seen from above. (number in degrees; default 0)
         intensity: A factor of the image. (number; zero or more; default 1)
+        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
         """
     @staticmethod
-    def sky(sun_elevation: float | None = ..., sun_azimuth: float | None = ..., sun_diameter: float | None = ..., turbidity: float | None = ..., ground: Sequence[float] | str | None = ..., intensity: float | None = ..., sun: bool | None = ...) -> Light:
+    def sky(sun_elevation: float | None = ..., sun_azimuth: float | None = ..., sun_diameter: float | None = ..., turbidity: float | None = ..., ground: Sequence[float] | str | None = ..., intensity: float | None = ..., sun: bool | None = ..., group: str | Expression | None = ...) -> Light:
         r"""A clear sky, its sun, and the ground below, by a model of the atmosphere. White level ground has the luminance 1 under a sun 45° high at turbidity 3.
 
         sun_elevation: Height of the sun above the horizon; down to −8 there is twilight. (number in degrees; at least -90 and at most 90; default 45)
@@ -2318,9 +2536,10 @@ class lights:
         ground: Reflectance of the ground, which is diffuse. (colour; at least 0 and at most 1; default [0.3, 0.3, 0.3])
         intensity: A factor of all of it. (number; at least 0 and at most 1e30; default 1)
         sun: Whether the sun itself shines, too. (true or false; default true)
+        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
         """
     @staticmethod
-    def sun(direction: Sequence[float] | np.ndarray, irradiance: Sequence[float] | str | None = ..., diameter: float | None = ...) -> Light:
+    def sun(direction: Sequence[float] | np.ndarray, irradiance: Sequence[float] | str | None = ..., diameter: float | None = ..., group: str | Expression | None = ...) -> Light:
         r"""A disk of constant radiance infinitely far away.
 
             L = E/(π sin²(δ/2))
@@ -2328,9 +2547,10 @@ class lights:
         direction: Direction towards the sun, of any length. ([x, y, z], not all zero)
         irradiance: What a surface receives that faces the sun, E. (colour; zero or more; default [1, 1, 1])
         diameter: Angular diameter, δ. A larger sun makes softer shadows of the same brightness. (number in degrees; more than 0 and at most 90; default 0.53)
+        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
         """
     @staticmethod
-    def rectangle(centre: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, width: float, height: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ...) -> Light:
+    def rectangle(centre: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, width: float, height: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | Expression | None = ...) -> Light:
         r"""A rectangle that shines to one side and is not there from behind.
 
         centre: Its centre. ([x, y, z] in m; at least -1e15 and at most 1e15)
@@ -2340,9 +2560,10 @@ class lights:
         radiance: Radiance of its side that shines. (colour; zero or more; default [1, 1, 1])
         intensity: A factor of the radiance. (number; zero or more; default 1)
         visible_to_camera: Whether the camera sees it by itself. (true or false; default true)
+        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
         """
     @staticmethod
-    def sphere(centre: Sequence[float] | np.ndarray, radius: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ...) -> Light:
+    def sphere(centre: Sequence[float] | np.ndarray, radius: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | Expression | None = ...) -> Light:
         r"""A ball that shines.
 
         centre: Its centre. ([x, y, z] in m; at least -1e15 and at most 1e15)
@@ -2350,6 +2571,7 @@ class lights:
         radiance: Radiance of its surface. (colour; zero or more; default [1, 1, 1])
         intensity: A factor of the radiance. (number; zero or more; default 1)
         visible_to_camera: Whether the camera sees it by itself. (true or false; default true)
+        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
         """
 
 class meshes:
@@ -2424,7 +2646,7 @@ def camera(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np
     focus_at: In place of the distance: a point of the plane of focus. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
     """
 
-def image(width: int | None = ..., height: int | None = ..., samples: int | None = ..., seed: int | None = ..., max_depth: int | None = ..., exposure: float | None = ..., view: str | None = ...) -> ImageSettings:
+def image(width: int | None = ..., height: int | None = ..., samples: int | None = ..., seed: int | None = ..., max_depth: int | None = ..., caustics: bool | None = ..., photons: float | None = ..., photon_radius: float | None = ..., exposure: float | None = ..., view: str | Expression | None = ...) -> ImageSettings:
     r"""How large the image is, and how it is made.
 
     width: Width of the image. (whole number in pixels; at least 1 and at most 32768; default 1024)
@@ -2432,6 +2654,9 @@ def image(width: int | None = ..., height: int | None = ..., samples: int | None
     samples: Paths of each pixel. (whole number; at least 1 and at most 16777216; default 64)
     seed: Another whole number gives other noise. (whole number; zero or more; default 0)
     max_depth: The most surfaces that a path meets. One between equal indices counts, too. (whole number; at least 1 and at most 1048576; default 65536)
+    caustics: Whether photons look for the light that lamps throw through curved clear surfaces. They blur it by a pixel or two, less with more samples. (true or false; default false)
+    photons: For caustics: photons for each pixel and sample. (number; at least 0 and at most 64; default 1)
+    photon_radius: For caustics: how far around a point photons count as light on it, in the first pass. (number in pixels; at least 0.01 and at most 100; default 2)
     exposure: Brightness of pictures; one more is twice as bright. (number in EV; at least -50 and at most 50; default 0)
     view: View of the display transform; the default one without it. (text; default none)
     """

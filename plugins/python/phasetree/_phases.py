@@ -33,7 +33,7 @@ class Phase:
         """The object of this phase that is where the field is negative; of several fields, their union."""
         from phasetree import _trees
 
-        if len(fields) == 1 and isinstance(fields[0], _trees.Field):
+        if len(fields) == 1 and not isinstance(fields[0], (list, tuple)):
             return _trees.functions["set"](fields[0], self)
         return _trees.functions["set"](_trees.functions["union"](*fields), self)
 

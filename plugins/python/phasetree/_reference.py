@@ -126,6 +126,8 @@ def written(value, what):
         return value
     if hasattr(value, "written"):
         return value.written()
+    if hasattr(value, "text") and hasattr(value, "within"):
+        return value.text  # a formula
     if hasattr(value, "tolist"):
         value = value.tolist()
     if isinstance(value, int):

@@ -9,15 +9,15 @@ from __future__ import annotations
 import inspect
 import textwrap
 
-from phasetree import _parts, _scene, _trees
+from phasetree import _formula, _parts, _scene, _trees
 
 _TYPES = {
     "number": "float",
     "whole number": "int",
     "true or false": "bool",
-    "text": "str",
+    "text": "str | Expression",
     "name of a file": "str | PathLike[str]",
-    "field": "Field",
+    "field": "Field | Expression",
     "object": "Object",
     "phase": "Phase | str",
     "phase or list of phases": "Phase | str | Sequence[Phase | str]",
@@ -25,7 +25,7 @@ _TYPES = {
     "colour": "Sequence[float] | str",
     "colour or texture": "Sequence[float] | str | Texture",
     "opaque material": "Material",
-    "list of fields": "Field | Sequence[Field]",
+    "list of fields": "Field | Expression | Sequence[Field | Expression]",
     "list of objects": "Object | Sequence[Object]",
 }
 _CLASSES = {
@@ -109,6 +109,7 @@ def _untyped(signature):
     return str(signature.replace(parameters=parameters)).replace("Ellipsis", "...")
 
 
+_NUMBER = "Expression | float"
 _OPERATORS = ("__or__", "__and__", "__sub__")
 
 
@@ -121,7 +122,7 @@ def _class(cls, methods=""):
             text += _plain(member)
     if cls is _trees.Field:
         for name in _OPERATORS:
-            text += f"    def {name}(self, other: Field) -> Field: ...\n"
+            text += f"    def {name}(self, other: Field | Expression) -> Field: ...\n"
     for name in getattr(cls, "__annotations__", {}):
         text += f"    {name}: np.ndarray\n"
     return text + methods
@@ -145,7 +146,7 @@ def text():
     for name in _CLASSES.values():
         out += f"class {name}:\n    kind: str\n    def parameters(self) -> dict[str, Any]: ...\n\n"
     out += "class Phase:\n    name: str\n    material: Material | None\n"
-    out += "    def __call__(self, *fields: Field) -> Object: ...\n\n"
+    out += "    def __call__(self, *fields: Field | Expression) -> Object: ...\n\n"
     out += "vacuum: Phase\n\ndef phase(name: str, material: Material | None = ...) -> Phase: ...\n\n"
     for cls in (_trees.Crossings, _trees.Hits, _trees.Closest):
         out += _class(cls).replace(f"class {cls.__name__}:", f"class {cls.__name__}(NamedTuple):") + "\n"
@@ -153,7 +154,17 @@ def text():
     out += "".join(["class Object:\n    phases: tuple[Phase, ...]\n", _class(_trees.Object).split("\n", 1)[1]])
     out += _methods(_trees.Object) + "\n"
     out += _class(_scene.Image) + "\n" + _class(_scene.Scene) + "\n"
-    out += "def load(path: str | PathLike[str]) -> Scene: ...\n\n"
+    out += _class(_formula.Expression)
+    for name in ("add", "radd", "sub", "rsub", "mul", "rmul", "truediv", "rtruediv"):
+        out += f"    def __{name}__(self, other: {_NUMBER}) -> Expression: ...\n"
+    out += "    def __pow__(self, other: float) -> Expression: ...\n"
+    out += "    def __neg__(self) -> Expression: ...\n    def __abs__(self) -> Expression: ...\n"
+    out += "    def __or__(self, other: Field | Expression) -> Field: ...\n"
+    out += "    def __and__(self, other: Field | Expression) -> Field: ...\n\n"
+    out += "def coordinates() -> tuple[Expression, Expression, Expression]: ...\n\n"
+    for name in _formula.functions:
+        out += f"def {name}(*values: {_NUMBER}) -> Expression: ...\n"
+    out += "\ndef load(path: str | PathLike[str]) -> Scene: ...\n\n"
     for name, function in _trees.functions.items():
         out += _overloads(name, function) + "\n"
     for title, kinds in _parts.kinds.items():

@@ -9,6 +9,7 @@ import numpy as np
 
 from phasetree import _phasetree, _reference
 from phasetree._errors import Error
+from phasetree._formula import Expression
 from phasetree._phases import Phase, merged, vacuum
 
 
@@ -112,6 +113,7 @@ class Field:
         return Field(self._handle, self._phases, radius)
 
     def _with(self, other, sign, sharp, smooth):
+        other = other.field() if isinstance(other, Expression) else other
         if isinstance(other, Object) or not isinstance(other, Field):
             return NotImplemented if not isinstance(other, Object) else other._refuse(self, sign)
         radii = {r for r in (self._radius, other._radius) if r is not None}
@@ -384,6 +386,7 @@ def _node_text(kind, values):
             raise Error(f'{kind.name}: "{p.name}" must be several fields or objects, but is {value!r}')
         for i, one in enumerate(several):
             if p.is_handle:
+                one = one.field() if isinstance(one, Expression) else one
                 if not isinstance(one, (Field, Object)):
                     raise Error(f'{kind.name}: "{p.name}" must be {_A[p.type]}, but is {one!r}')
                 handles.append((f"{p.name}[{i}]" if p.is_list else p.name, one))
@@ -428,6 +431,8 @@ def _function(name, of_field, of_object):
         first = next(iter(values.values()), None)
         if isinstance(first, (list, tuple)):
             first = next(iter(first), None)
+        if isinstance(first, Expression) and kind.parameters[0].is_handle:
+            first = first.field()
         chosen, is_field = kind, of_object is None
         if of_field and of_object and isinstance(first, Field):
             chosen, is_field = of_field, True

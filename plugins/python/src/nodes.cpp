@@ -18,6 +18,12 @@ namespace phasetree::python {
 
 namespace {
 
+// What stands in a formula from a place on, up to its end.
+std::string part_of_formula(const std::string& text, std::size_t from) {
+    const std::size_t end = std::min(text.find('"', from), from + 30);
+    return text.substr(from, end - from);
+}
+
 // A text that a person has not written has no lines to show: the sentence alone, of the node that it is about.
 ModelError without_place(const SceneError& e, const Document& document) {
     std::string text = e.message();
@@ -26,6 +32,9 @@ ModelError without_place(const SceneError& e, const Document& document) {
         const std::string name(root[0].key());
         if (text.rfind(name + ":", 0) != 0) text = fmt::format("{}: {}", name, text);
     }
+    // Of a formula, the part that is meant: the text is one line of ASCII.
+    if (e.line() == 1 && e.column() > 1 && root.is_object() && root.size() == 1 && root[0].key() == "formula")
+        text += fmt::format(", at \"{}\"", part_of_formula(document.text(), e.column() - 1));
     if (e.suggestion()) text += fmt::format(" (did you mean \"{}\"?)", *e.suggestion());
     return ModelError(text);
 }

@@ -24,6 +24,7 @@ Image FilmTile::image(const FilmSettings& settings) const {
 }
 
 void FilmTile::write_into(Image& image, const PixelRange& area) const {
+    if (image.attributes.empty()) image.attributes = sums_.attributes();
     for (int y = area_.y0; y < area_.y1; ++y)
         for (int x = area_.x0; x < area_.x1; ++x) {
             const std::size_t pixel = area_.index(x, y);

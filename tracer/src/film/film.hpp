@@ -52,7 +52,8 @@ class FilmTile {
 
     /// An image of the whole area. Pixels without samples are black.
     Image image(const FilmSettings& settings) const;
-    /// Writes the pixels of this tile into an image of a larger area that has the same channels.
+    /// Writes the pixels of this tile into an image of a larger area that has the same channels, and what files say of
+    /// the planes.
     void write_into(Image& image, const PixelRange& area) const;
 
     /// A row of the area as bytes; and back, into a tile that has no samples in that row. Reading throws BytesError.

@@ -69,6 +69,8 @@ class Lights {
                        std::span<glm::vec3> groups) const;
 
     bool empty() const { return infinite_.empty() && area_.empty(); }
+    std::span<const InfiniteLight> infinite() const { return infinite_; }
+    std::span<const AreaLight> area() const { return area_; }
 
     /// `u` in [0, 1)². Its x chooses the light, and what is left of it, stretched to [0, 1) again, is the x that the
     /// light's own sampling gets: points that are stratified in the square are so for each light. Nothing when no light

@@ -46,9 +46,9 @@ SirenNetwork read_siren(const std::filesystem::path&);
 ///     "tree":   {"under": [{"set": {"phase": "glass", "of": "bulb"}}, …]}
 ///
 /// A node is an object of one member: the node's name, and its parameters; a node whose one required parameter is a
-/// list of children takes the list in place of the parameters. A string is a named shape. Names of phases are
-/// strings, sets of phases lists of them. Throws SceneError, at the place in the text.
-/// Files are sought from the scene file's folder.
+/// list of children takes the list in place of the parameters, as does one whose required parameter is a text. A string
+/// is a named shape. Names of phases are strings, sets of phases lists of them. Throws SceneError, at the place in the
+/// text. Files are sought from the scene file's folder.
 SceneTree read_tree(const Document&, const FileReaders& = {});
 
 /// What a node's text may name that stands nowhere in it: handles that a program has, by names that it gives them.
