@@ -40,8 +40,7 @@ using AnyBsdf = BsdfOf<DiffuseBsdf, SmoothDielectricBsdf, RoughDielectricBsdf, S
 class Bsdf {
   public:
     template <class Kind>
-    requires(!std::is_same_v<Kind, Bsdf>)
-    Bsdf(Kind kind) : kind_(std::move(kind)) {}
+    requires(!std::is_same_v<Kind, Bsdf>) Bsdf(Kind kind) : kind_(std::move(kind)) {}
 
     std::optional<BsdfSample> sample(const glm::vec3& wo, float u_lobe, const glm::vec2& u) const {
         return std::visit([&](const auto& bsdf) { return bsdf.sample(wo, u_lobe, u); }, kind_);

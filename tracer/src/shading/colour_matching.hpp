@@ -6,8 +6,8 @@
 //
 // with g(μ, σ₁, σ₂) = exp(−(λ − μ)²/(2σ²)), σ = σ₁ below μ and σ₂ above it; wavelengths are in nanometres.
 //
-// References: Wyman, Sloan & Shirley, Simple Analytic Approximations to the CIE XYZ Color Matching Functions, JCGT 2(2),
-// 2013, section 2.2; ITU-R BT.709-6, item 1.4 (the primaries, from which the matrix follows).
+// References: Wyman, Sloan & Shirley, Simple Analytic Approximations to the CIE XYZ Color Matching Functions, JCGT
+// 2(2), 2013, section 2.2; ITU-R BT.709-6, item 1.4 (the primaries, from which the matrix follows).
 #pragma once
 
 #include <cmath>

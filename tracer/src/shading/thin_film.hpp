@@ -28,9 +28,9 @@ class ThinFilm {
     static constexpr float thickest = 5000.0f;
 
     struct Layers {
-        float outside;             ///< index of the clear medium in which light arrives
-        float film;                ///< of the film
-        glm::vec3 eta, k{0.0f};    ///< of what is behind it, for red, green and blue
+        float outside;           ///< index of the clear medium in which light arrives
+        float film;              ///< of the film
+        glm::vec3 eta, k{0.0f};  ///< of what is behind it, for red, green and blue
         bool operator==(const Layers&) const = default;
     };
 

@@ -32,7 +32,8 @@ int intervals_of(const ValueRange& range, float widest) {
 
 }  // namespace
 
-CoatingAlbedo::CoatingAlbedo(const DielectricSurface& surface, const ValueRange& roughness, const ValueRange& film_thickness)
+CoatingAlbedo::CoatingAlbedo(const DielectricSurface& surface, const ValueRange& roughness,
+                             const ValueRange& film_thickness)
     : surface_(surface),
       roughnesses_(roughness),
       middle_thickness_(film_thickness.middle()),
@@ -41,7 +42,8 @@ CoatingAlbedo::CoatingAlbedo(const DielectricSurface& surface, const ValueRange&
         if (roughnesses_.size() == 1)
             tables_.push_back(table_of(roughness.least));
         else
-            for (std::size_t i = 0; i < roughnesses_.size(); ++i) tables_.push_back(table_of(roughnesses_.roughness(i)));
+            for (std::size_t i = 0; i < roughnesses_.size(); ++i)
+                tables_.push_back(table_of(roughnesses_.roughness(i)));
     }
     if (roughness.least > 0.0f) return;
     const int intervals = intervals_of(film_thickness, 4.0f);

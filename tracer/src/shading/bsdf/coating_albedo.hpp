@@ -28,8 +28,8 @@ class CoatingAlbedo {
     /// `roughness` is GGX's α; 0 is smooth.
     CoatingAlbedo(float eta, float roughness)
         : CoatingAlbedo(DielectricSurface(1.0f, eta), ValueRange{roughness, roughness}, ValueRange{}) {}
-    /// From the clear medium into the coating. Roughness varies over the surface in its range, and so does the thickness
-    /// of the film where the coating is smooth; where it is rough the film is as thick as the middle.
+    /// From the clear medium into the coating. Roughness varies over the surface in its range, and so does the
+    /// thickness of the film where the coating is smooth; where it is rough the film is as thick as the middle.
     CoatingAlbedo(const DielectricSurface& surface, const ValueRange& roughness, const ValueRange& film_thickness);
 
     /// Of one place.
@@ -69,7 +69,7 @@ class CoatingAlbedo {
     DielectricSurface surface_;
     RoughnessNodes roughnesses_;  ///< of the tables
     float middle_thickness_;
-    std::vector<Table> tables_;    ///< none if the coating is nowhere rough
+    std::vector<Table> tables_;               ///< none if the coating is nowhere rough
     std::vector<glm::vec3> smooth_averages_;  ///< where it is smooth, by the thickness of the film
     ValueRange thickness_;
 };

@@ -21,13 +21,17 @@ LossTable losses_of(float alpha) {
     });
 }
 
+// The part of light scattered several times that gets away at each further scattering: q.
+float gets_away(float roughness) {
+    return 1.0f / (1.0f + (0.5f + 0.2f * roughness) * roughness);
+}
+
 }  // namespace
 
 ConductorSurface::ConductorSurface(float ior, const glm::vec3& eta, const glm::vec3& k,
                                    const std::optional<ValueRange>& roughness, const std::optional<FilmOfSurface>& film)
     : eta_(eta / ior), k_(k / ior) {
-    if (film)
-        film_.emplace(ThinFilm::Layers{ior, film->ior, eta, k}, film->thickness.least, film->thickness.greatest);
+    if (film) film_.emplace(ThinFilm::Layers{ior, film->ior, eta, k}, film->thickness.least, film->thickness.greatest);
     if (!roughness) return;
     losses_.emplace(*roughness, losses_of);
     // The midpoint rule for 2 ∫ F μ dμ.
@@ -45,8 +49,8 @@ glm::vec3 ConductorSurface::fresnel(float cos_theta, float thickness) const {
 ConductorSurface::Multiple ConductorSurface::multiple(float roughness, float thickness) const {
     const LossTables::At losses = losses_->at(roughness);
     const glm::vec3 f = film_ ? film_->average(thickness) : mean_reflectance_;
-    const glm::vec3 lost = losses.average();
-    return {losses, f * f * (1.0f - lost) / (1.0f - f * lost)};
+    const float q = gets_away(roughness);
+    return {losses, f * f * q / (1.0f - f * (1.0f - q))};
 }
 
 }  // namespace phasetree::tracer

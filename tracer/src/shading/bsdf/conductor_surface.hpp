@@ -2,9 +2,11 @@
 // for a rough one the light that its BSDF has to give back after several scatterings (lost_energy.hpp).
 //
 // Of what a lossless metal of that roughness would give back after several scatterings, a real one gives
-//     F̄² Ē / (1 − F̄ (1 − Ē)),   Ē = 1 − L̄,
+//     c = F̄² q / (1 − F̄ (1 − q)),   q = 1 / (1 + α/2 + α²/5),
 // the sum over the second, third … scattering, of each of which F̄ is left, Fresnel's reflectance under uniform light,
-// and the part Ē gets away. So the colour of a rough metal is deeper than that of a polished one.
+// and the part q of the light gets away. So the colour of a rough metal is deeper than that of a polished one. We
+// fitted q to walks on the microsurface: the light that meets the surface again gets away more readily than that which
+// comes from outside, of which the part 1 − L̄ does.
 //
 // Reference: Kulla & Conty 2017 (lost_energy.hpp), and for the square of F̄ Hill, A Multi-Faceted Exploration, 2018.
 #pragma once
@@ -22,8 +24,8 @@ class ConductorSurface {
   public:
     /// The index η + ik is that against vacuum, as is `ior` of the clear medium in front. `roughness` is that of GGX,
     /// for a surface that is rough somewhere.
-    ConductorSurface(float ior, const glm::vec3& eta, const glm::vec3& k, const std::optional<ValueRange>& roughness = {},
-                     const std::optional<FilmOfSurface>& film = {});
+    ConductorSurface(float ior, const glm::vec3& eta, const glm::vec3& k,
+                     const std::optional<ValueRange>& roughness = {}, const std::optional<FilmOfSurface>& film = {});
 
     glm::vec3 fresnel(float cos_theta, float thickness) const;
 

@@ -4,8 +4,8 @@
 // Of the light that is scattered several times on the side a, the part t_ab leaves through the surface to the side b.
 // Reciprocity asks that t_ab/t_ba = n_b² L̄_b / (n_a² L̄_a), with L̄ the loss of lost_energy.hpp of each side. Of what is
 // free after that, t_ab + t_ba, we take (1 − F̄_a) + (1 − F̄_b), with F̄ Fresnel's reflectance under uniform light:
-// each further scattering lets through so much. Neither is more than 1. A walk on the microsurface lets through up to 7 %
-// of the light more from outside (η = 1.5), and up to 30 % more or less from inside where α is 1.
+// each further scattering lets through so much. Neither is more than 1. A walk on the microsurface lets through up to 7
+// % of the light more from outside (η = 1.5), and up to 30 % more or less from inside where α is 1.
 #pragma once
 
 #include <memory>

@@ -16,12 +16,11 @@ struct ValueRange {
     bool operator==(const ValueRange&) const = default;
 };
 
-/// Roughnesses at which there are tables for a range of them. What is lost at an angle depends on the ratio of roughness
-/// and cosine, so they are the closer the smaller: evenly in the fourth root.
+/// Roughnesses at which there are tables for a range of them. What is lost at an angle depends on the ratio of
+/// roughness and cosine, so they are the closer the smaller: evenly in the fourth root.
 class RoughnessNodes {
   public:
-    explicit RoughnessNodes(const ValueRange& range)
-        : first_(root(range.least)), step_(root(range.greatest) - first_) {
+    explicit RoughnessNodes(const ValueRange& range) : first_(root(range.least)), step_(root(range.greatest) - first_) {
         constexpr float widest_step = 1.0f / 32.0f;
         intervals_ = step_ > 0.0f ? static_cast<std::size_t>(std::ceil(step_ / widest_step)) : 0;
         if (intervals_ > 0) step_ /= static_cast<float>(intervals_);

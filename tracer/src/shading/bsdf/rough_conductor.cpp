@@ -10,10 +10,7 @@
 namespace phasetree::tracer {
 
 RoughConductorBsdf::RoughConductorBsdf(const ConductorSurface& surface, float roughness, float thickness)
-    : surface_(&surface),
-      ggx_(roughness),
-      thickness_(thickness),
-      multiple_(surface.multiple(roughness, thickness)) {}
+    : surface_(&surface), ggx_(roughness), thickness_(thickness), multiple_(surface.multiple(roughness, thickness)) {}
 
 RoughConductorBsdf::Scattered RoughConductorBsdf::scattered(const glm::vec3& wo, const glm::vec3& wi,
                                                             const glm::vec3& m) const {

@@ -43,8 +43,9 @@ RoughDielectricBsdf::Scattered RoughDielectricBsdf::once(const glm::vec3& wo, co
     const float cos_i = -glm::dot(wi, m);
     const float denominator = cos_o - eta_ * cos_i;
     const float squared = denominator * denominator;
-    return {(1.0f - reflectance) * (distribution * ggx_.transmission_visibility(wo, wi) * cos_o * cos_i * -wi.z / squared),
-            (1.0f - chosen) * normal_pdf * eta_ * eta_ * cos_i / squared};
+    return {
+        (1.0f - reflectance) * (distribution * ggx_.transmission_visibility(wo, wi) * cos_o * cos_i * -wi.z / squared),
+        (1.0f - chosen) * normal_pdf * eta_ * eta_ * cos_i / squared};
 }
 
 RoughDielectricBsdf::Scattered RoughDielectricBsdf::scattered(const glm::vec3& wo, const glm::vec3& wi,

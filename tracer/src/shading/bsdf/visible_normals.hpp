@@ -1,4 +1,5 @@
-// The mean of a function over the microfacet normals that a direction sees, by a quadrature that is the same every time.
+// The mean of a function over the microfacet normals that a direction sees, by a quadrature that is the same every
+// time.
 #pragma once
 
 #include <algorithm>
