@@ -255,9 +255,10 @@ def draw_march(data):
         f.rect(84, 414 + 18 * k, 14, 11, kind + " bar")
         unit = "batches of eight points" if kind == "c2" else "evaluations"
         f.text(104, 424 + 18 * k, f"{names[k]}: {ways[key]['evaluations']:.0f} {unit} for {ways[key]['crossings']:.0f} crossings")
-    for k, (tint, name) in enumerate([("p0", "glass"), ("p1", "sand"), ("p2", "wood"), ("p3", "brass")]):
-        f.rect(560 + 70 * k, 394, 14, 11, tint)
-        f.text(579 + 70 * k, 404, name, "small")
+    met = [(tints[p], name) for p, name in enumerate(["glass", "sand", "wood", "brass"], 1) if p in {phase for _, _, phase in bands}]
+    for k, (tint, name) in enumerate(met):
+        f.rect(640 + 80 * k, 394, 14, 11, tint)
+        f.text(659 + 80 * k, 404, name, "small")
     f.write("march.svg")
 
 

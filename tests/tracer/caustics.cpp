@@ -166,6 +166,29 @@ TEST_CASE("no photons where nothing bends light or no light has a middle") {
     CHECK(lights("1.5", R"({"constant": {}})") == 0);
 }
 
+TEST_CASE("a lamp above a wall throws no photons through what is below it") {
+    const auto found_on_the_floor = [](const std::string& lamp_height) {
+        const Scene scene = scene_of(
+            R"("glass": {"clear": {"ior": 1.5}})",
+            R"({"set": {"phase": "glass", "of": {"translate": {"by": [0, 0, 1.1], "of": {"sphere": {"radius": 1}}}}}})",
+            R"("meshes": [{"floor": {"material": {"diffuse": {"color": [0.5, 0.5, 0.5]}}}}, {"floor": {"height": 3, "material": {"diffuse": {"color": [0.5, 0.5, 0.5]}}}}],
+               "lights": [{"rectangle": {"centre": [0, 0, )" +
+                lamp_height + R"(], "target": [0, 0, 0], "width": 1, "height": 1, "radiance": [5, 5, 5]}}])" +
+                few_wide_photons);
+        const World world(scene);
+        const Caustics caustics(world, scene);
+        PathCounters counters;
+        const auto map = caustics.photons(0, counters, [] { return false; });
+        REQUIRE(map.has_value());
+        int found = 0;
+        for (const float x : {-0.2f, -0.1f, 0.0f, 0.1f, 0.2f})
+            map->near({x, 0, 0}, {0, 0, 1}, phasetree::vacuum, [&](const Photon&) { ++found; });
+        return found;
+    };
+    CHECK(found_on_the_floor("2.9") > 0);
+    CHECK(found_on_the_floor("3.1") == 0);
+}
+
 TEST_CASE("a target's lines are as dense as it says") {
     PhotonTarget target({1, 2, 3}, glm::normalize(glm::vec3(1, 1, 2)), 0.7f);
     std::vector<double> weights(PhotonTarget::cells);
