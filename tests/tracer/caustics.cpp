@@ -125,6 +125,30 @@ TEST_CASE("behind a ball of coloured glass it is as bright as by paths alone") {
     }
 }
 
+TEST_CASE("a lamp in water, behind a ball of glass: as bright as by paths alone") {
+    // The chain starts and ends where the index is not 1.
+    const Scene scene = scene_of(
+        R"("glass": {"clear": {"ior": 1.6}}, "water": {"clear": {"ior": 1.33}})",
+        R"({"over": [{"set": {"phase": "glass", "of": {"translate": {"by": [0, 0, 1.1], "of": {"sphere": {"radius": 1}}}}}},
+                     {"set": {"phase": "water", "of": {"translate": {"by": [0, 0, 4.5], "of": {"box": {"size": [9, 9, 10]}}}}}}]})",
+        R"("meshes": [{"floor": {"material": {"diffuse": {"color": [0.02, 0.02, 0.02]}}}}],
+           "lights": [{"rectangle": {"centre": [1, 1, 4], "target": [0, 0, 0], "width": 6, "height": 6, "radiance": [5, 5, 5]}}],
+           "render": {"width": 64, "height": 64, "photons": 3, "photon_radius": 2})");
+    const World world(scene);
+    const glm::vec3 origin(-2, -2, 0.1f), direction(1.9f, 1.9f, -0.1f);
+    const Moments paths = radiance_along(world, scene, origin, direction, long_form ? 3000000 : 300000)[0];
+    const Moments photons = with_photons(scene, origin, direction);
+    const double error = std::hypot(paths.standard_error(), photons.standard_error());
+    const auto p_value = [&](double factor) {
+        return phasetree::tests::normal_two_sided((factor * photons.mean() - paths.mean()) / error);
+    };
+    CAPTURE(photons.mean() / paths.mean());
+    CAPTURE(paths.standard_error() / paths.mean());
+    CAPTURE(photons.standard_error() / photons.mean());
+    CHECK(p_value(1) > 1e-4);
+    CHECK(p_value(planted) < 1e-4);
+}
+
 TEST_CASE("the map finds what lies within the radius, each photon once") {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> place(-3, 3);
