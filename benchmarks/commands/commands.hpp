@@ -15,6 +15,10 @@ Report quality(const Settings&);
 Report simd(const Settings&);
 Report host(const Settings&);
 Report light(const Settings&);
+Report carve(const Settings&);
+Report proxies(const Settings&);
+Report resolution(const Settings&);
+Report march(const Settings&);
 Report fingerprint(const Settings&);
 
 }  // namespace phasetree::bench

@@ -154,10 +154,11 @@ inline double chandrasekhar_h(double albedo, double mu) {
         for (std::size_t j = 0; j < nodes.size(); ++j) integral += weights[j] * nodes[j] * h[j] / (at + nodes[j]);
         return 1 / (std::sqrt(1 - albedo) + albedo / 2 * integral);
     };
-    // The nearer the albedo is to 1 the slower this comes to an end.
-    for (double change = 1; change > 1e-8;) {
+    // Where nothing is absorbed a factor of H returns as its reciprocal, for ever: the geometric mean of two steps rids
+    // of it.
+    for (double change = 1; change > 1e-10;) {
         std::vector<double> improved;
-        for (const double node : nodes) improved.push_back(next(node));
+        for (std::size_t j = 0; j < nodes.size(); ++j) improved.push_back(std::sqrt(h[j] * next(nodes[j])));
         change = std::abs(improved.front() - h.front()) + std::abs(improved.back() - h.back());
         h = improved;
     }

@@ -18,8 +18,8 @@ std::optional<Photon> trace_photon(const World& world, const Scene& scene, const
         const Hit hit = world.geometry().intersect(ray, counters);
         const Surface* surface = std::get_if<Surface>(&hit);
         if (!surface) return std::nullopt;
-        power *= transmittance(clear_at(scene, ray.phase).interior, {ray.origin, ray.direction, surface->distance},
-                               sampler);
+        power *=
+            transmittance(clear_at(scene, ray.phase).interior, {ray.origin, ray.direction, surface->distance}, sampler);
         const Bsdf bsdf = surface->bsdf();
         if (bsdf.passes_through()) {
             ray = surface->transmitted(ray.direction);

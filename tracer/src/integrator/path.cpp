@@ -138,8 +138,8 @@ class Path {
             const Flight flight = through_medium(light ? light->distance : distance);
             add_emission_of_medium(flight.emitted);
             if (light && !flight.scattered_at) {
-                add_light(throughput_ * chain_.weight(scene_, photons_, ray_) * flight.weight * light->radiance, *light, ray_.direction,
-                          false);
+                add_light(throughput_ * chain_.weight(scene_, photons_, ray_) * flight.weight * light->radiance, *light,
+                          ray_.direction, false);
                 break;
             }
             throughput_ *= flight.weight;
@@ -268,8 +268,8 @@ class Path {
         if (scene_.settings.techniques == Techniques::directions_alone) return;
         const auto arrival = emission_through_chain(world_, scene_, shadow, light, photons_, sampler_, counters_);
         if (!arrival) return;
-        const float weight = technique_weight(scene_, Techniques::shadow_rays_alone, light.pdf, pdf,
-                                              by_photons * arrival->line_density);
+        const float weight =
+            technique_weight(scene_, Techniques::shadow_rays_alone, light.pdf, pdf, by_photons * arrival->line_density);
         add_light(throughput_ * f * arrival->radiance * (weight / light.pdf), arrival->emission, arrival->direction,
                   true);
     }
