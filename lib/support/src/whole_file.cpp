@@ -103,4 +103,15 @@ void WholeFile::finish() {
     is_renamed_ = true;
 }
 
+void WholeFile::finish_on_disk() {
+    if (::fsync(descriptor_) != 0) throw FileError(errno);
+    finish();
+    // The name is kept by the folder.
+    const int folder = ::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder < 0) throw FileError(errno);
+    const int failure = ::fsync(folder) == 0 ? 0 : errno;
+    ::close(folder);
+    if (failure != 0 && failure != EINVAL) throw FileError(failure);  // EINVAL: this file system has no such call
+}
+
 }  // namespace phasetree::support

@@ -21,6 +21,8 @@ class WholeFile {
 
     void write(std::span<const std::byte>);
     void finish();
+    /// The same, and the file is on the disk and not only in the system's memory, so that it outlives a loss of power.
+    void finish_on_disk();
 
   private:
     std::filesystem::path target_, temporary_;

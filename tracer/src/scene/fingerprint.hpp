@@ -1,0 +1,16 @@
+// Which scene a picture is of.
+#pragma once
+
+#include <cstdint>
+
+#include "phasetree/io/document.hpp"
+
+namespace phasetree::tracer {
+
+/// A number that differs, but for one chance in 2⁶⁴, if anything differs that a scene file says of the scene: the
+/// values of its JSON, in their order, and the content of every file that one of its strings names. Comments, spaces,
+/// and how numbers are written do not matter, and neither does "render", which says how the picture is made and not of
+/// what.
+std::uint64_t fingerprint(const Document& document);
+
+}  // namespace phasetree::tracer
