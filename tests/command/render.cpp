@@ -68,6 +68,30 @@ TEST_CASE("an image and its twin: the same bytes, whatever the threads") {
     CHECK_FALSE(same);
 }
 
+TEST_CASE("--planes: the same bytes whatever the threads, and what is no plane is refused") {
+    const Shell shell;
+    write_text(shell.directory / "scene.json", SceneText().text());
+    for (const char* threads : {"1", "3"})
+        CHECK(shell
+                  .run({"render", "scene.json", "--quiet", "--planes", "all", "--threads", threads, "-o",
+                        std::string(threads) + ".exr"})
+                  .code == 0);
+    CHECK(bytes_of(shell.directory / "1.exr") == bytes_of(shell.directory / "3.exr"));
+    CHECK(shell.run({"render", "scene.json", "--quiet", "-o", "plain.exr"}).code == 0);
+    CHECK(bytes_of(shell.directory / "plain.exr").size() < bytes_of(shell.directory / "1.exr").size());
+    for (const char* list : {"depht", "depth,", "", "all,depth"}) {
+        CAPTURE(list);
+        const Outcome outcome = shell.run({"render", "scene.json", "--planes", list, "-o", "bad.exr"});
+        CHECK(outcome.code == 2);
+        CHECK(outcome.err.find("there is no plane") != std::string::npos);
+        CHECK(outcome.err.find("crypto_phase") != std::string::npos);
+        CHECK_FALSE(std::filesystem::exists(shell.directory / "bad.exr"));
+    }
+    const Outcome png = shell.run({"render", "scene.json", "--planes", "depth", "-o", "bad.png"});
+    CHECK(png.code == 2);
+    CHECK(png.err.find(".exr") != std::string::npos);
+}
+
 TEST_CASE("without -o: the scene's name, .exr and .png, here") {
     const Shell shell;
     std::filesystem::create_directory(shell.directory / "scenes");
@@ -187,7 +211,7 @@ TEST_CASE("--cells keeps the prepared object from one rendering to the next") {
     CHECK(render({"--cells", "."}).code == 2);
 }
 
-TEST_CASE("Ctrl-C writes what there is and exits with 1") {
+TEST_CASE("Ctrl-C writes what there is and exits with 130") {
     const Shell shell;
     write_text(shell.directory / "scene.json", SceneText().text());
     Interrupt interrupt{SIGINT};
@@ -195,7 +219,7 @@ TEST_CASE("Ctrl-C writes what there is and exits with 1") {
                                 "", std::ref(interrupt));
     CAPTURE(o.err);
     CHECK(interrupt.is_sent);
-    CHECK(o.code == 1);
+    CHECK(o.code == 130);
     CHECK(o.signal == 0);
     CHECK(o.processor_seconds - interrupt.used < 3);
     CHECK(o.err.find("interrupted") != std::string::npos);
@@ -226,14 +250,14 @@ TEST_CASE("Ctrl-C while the object is prepared ends it at once and writes nothin
 }
 
 // Even a picture of one sample a pixel, cut off in its only pass, is not told to be whole.
-TEST_CASE("Ctrl-C in the first pass exits with 1 too") {
+TEST_CASE("Ctrl-C in the first pass exits with 130 too") {
     const Shell shell;
     write_text(shell.directory / "scene.json", SceneText().text());
     Interrupt interrupt{SIGINT};
     const Outcome o = shell.run({"render", "scene.json", "-o", "a.exr", "--quiet", "--spp", "1", "--size", "8000x6000"},
                                 "", std::ref(interrupt));
     CAPTURE(o.err);
-    CHECK(o.code == 1);
+    CHECK(o.code == 130);
     CHECK(o.err.find("interrupted") != std::string::npos);
     CHECK(shell.directory.size() == 2);
 }

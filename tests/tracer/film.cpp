@@ -198,7 +198,7 @@ TEST_CASE("planes beside the picture become further channels, if they are chosen
     using Three = PlaneList<RadiancePlane, FirstPlane, PhasesPlane>;
     CHECK(Three::names == std::array<std::string_view, 3>{"beauty", "first", "phases"});
     CHECK(Three::by_default().to_string() == "101");  // the last first
-    const PlaneSubjects subjects{{"vacuum", "glass"}};
+    const PlaneSubjects subjects{{"vacuum", "glass"}, {}, {}};
     const auto image_of = [&](const Three::Choice& choice) {
         Three::Sums sums(choice, subjects, 2);
         FilmFaults faults;

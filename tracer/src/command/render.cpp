@@ -1,7 +1,6 @@
 #include "render/render.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -11,7 +10,9 @@
 #include "command/cells_report.hpp"
 #include "command/checkpoints.hpp"
 #include "command/commands.hpp"
+#include "command/detail.hpp"
 #include "command/empty_object.hpp"
+#include "command/film_header.hpp"
 #include "command/load.hpp"
 #include "command/pictures.hpp"
 #include "command/render_options.hpp"
@@ -20,9 +21,7 @@
 #include "output/interrupt.hpp"
 #include "output/progress.hpp"
 #include "phasetree/cells/file.hpp"
-#include "phasetree/version.hpp"
 #include "render/threads.hpp"
-#include "scene/fingerprint.hpp"
 
 namespace phasetree::tracer {
 
@@ -65,53 +64,31 @@ std::vector<std::string> outputs_of(const RenderOptions& options, const SampleRa
             outputs = {stem + ".exr", stem + ".png"};
     }
     check_outputs(outputs);
+    const auto keeps_planes = [](const std::string& output) {
+        return is_film_file(output) || format_of(output) == Format::exr;
+    };
+    if (options.planes && std::ranges::none_of(outputs, keeps_planes))
+        throw OutputError("--planes needs an output that can hold them: name a .exr file with -o");
     if (options.stats) check_file_writable(*options.stats);
     if (options.checkpoint) check_file_writable(*options.checkpoint);
     return outputs;
 }
 
-FilmFileHeader header_of(const RenderOptions& options, const Document& document, const Scene& scene,
-                         const RenderJob& job) {
-    FilmFileHeader h;
-    const PixelRange& a = job.pixels;
-    std::vector<std::string_view> planes;
-    for (std::size_t i = 0; i < Planes::size; ++i)
-        if (scene.film.planes[i]) planes.push_back(Planes::names[i]);
-    h.settings = {{"version", fmt::format("{} with Embree {}", version(), PHASETREE_EMBREE_MAJOR)},
-                  {"scene", fmt::format("{:016x}", fingerprint(document))},
-                  {"size", fmt::format("{}x{}", scene.film.width, scene.film.height)},
-                  {"crop", fmt::format("{},{},{},{}", a.x0, a.y0, a.x1, a.y1)},
-                  {"planes", fmt::format("{}", fmt::join(planes, ","))},
-                  {"seed", std::to_string(scene.settings.seed)},
-                  {"max_depth", std::to_string(scene.settings.max_depth)},
-                  {"build quality", options.quality == BuildQuality::low ? "low" : "medium"},
-                  {"max memory", options.most_bytes == 0 ? "by default" : fmt::format("{} bytes", options.most_bytes)}};
-    h.film = scene.film;
-    h.subjects = {scene.phases.names};
-    h.area = job.pixels;
-    h.samples = *job.samples;
-    h.samples_in_all = scene.settings.samples;
-    h.scene = std::filesystem::path(options.scene->shown()).filename().string();
-    h.seed = scene.settings.seed;
-    h.exposure_ev = scene.settings.exposure_ev;
-    h.view = scene.settings.view;
-    return h;
-}
-
-// Adds what there is already. Throws FilmFileError.
-void resume(const RenderOptions& options, const FilmFileHeader& header, Film& film) {
-    if (!options.resume) return;
+// What there is already, if that can be gone on with. Throws FilmFileError.
+std::optional<FilmFile> found_to_resume(const RenderOptions& options, const FilmFileHeader& header) {
+    if (!options.resume) return std::nullopt;
     try {
-        const FilmFile file(*options.resume);
+        FilmFile file(*options.resume);
         file.check_picture(header);
         const SampleRange &wanted = header.samples, &found = file.header().samples;
         // The whole may have become more: samples are numbered, and the first of them are the same.
         if (found.first != wanted.first || found.last > wanted.last)
             throw file.error(fmt::format("it is to have the samples {}:{}, not {}:{}", found.first, found.last,
                                          wanted.first, wanted.last));
-        file.add_to(film);
+        return file;
     } catch (const FilmFileMissing&) {
         if (!options.may_start) throw;
+        return std::nullopt;
     }
 }
 
@@ -128,7 +105,7 @@ struct Everything {
 // Returns whether all could be written, and sets whether the render can be resumed.
 bool write_all(const Everything& e, const Rendering& rendering, bool& can_resume) {
     Metadata metadata;
-    metadata.scene = e.options.scene->shown();
+    metadata.scene = e.header.scene;
     metadata.samples_per_pixel = rendering.samples;
     metadata.seed = e.scene.settings.seed;
     Writing writing;
@@ -193,10 +170,12 @@ Rendering rendered(const RenderOptions& options, const World& world, const Scene
 }
 
 int render_scene(const RenderOptions& options) {
+    expect_checkpoint_requests();
     const AvailableThreads threads(options.threads);
     const Document document = read_document(*options.scene);
     Scene scene = load_scene(document);
     apply(options, scene);
+    if (options.detail) made_of_tree(document, [&] { choose_levels_of_detail(scene, *options.detail); });
     RenderJob job;
     job.pixels = pixels_of(options, scene);
     job.samples = samples_of(options, scene);
@@ -207,9 +186,8 @@ int render_scene(const RenderOptions& options) {
         display_of(document, scene.settings, options.display, options.view, options.exposure);
     if (threads.count() < threads.wanted())
         say("phasetree: only {} of {} threads can be started\n", threads.count(), threads.wanted());
-    const FilmFileHeader header = header_of(options, document, scene, job);
-    Film film = film_of(scene, job);
-    resume(options, header, film);
+    FilmFileHeader header = header_of(options, document, scene, job);
+    const std::optional<FilmFile> found = found_to_resume(options, header);
 
     const InterruptGuard guard;
     std::optional<World> world;
@@ -218,6 +196,12 @@ int render_scene(const RenderOptions& options) {
     if (!options.quiet && world->geometry().object().statistics().is_coarser)
         say("phasetree: the object would take more memory than --max-memory allows: rays are slower\n");
     if (!options.quiet) print_warning(document.name(), world->geometry().object().warning());
+    add_cells(header, options, world->geometry().object().statistics());
+    Film film = film_of(scene, job);
+    if (found) {
+        found->check_picture(header);
+        found->add_to(film);
+    }
     const Rendering rendering = rendered(options, *world, scene, job, header, film);
 
     bool can_resume = false;

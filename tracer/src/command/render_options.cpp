@@ -1,8 +1,10 @@
 #include "command/render_options.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 
 #include "command/build_quality.hpp"
@@ -29,7 +31,28 @@ std::vector<int> integers(const std::string& text, char separator, std::size_t c
     return values;
 }
 
+namespace {
+
+Planes::Choice planes_of(const std::string& list) {
+    if (list == "all") return Planes::all();
+    Planes::Choice choice = Planes::by_default();
+    for (std::size_t from = 0; from <= list.size();) {
+        const std::size_t to = std::min(list.find(',', from), list.size());
+        const std::string_view name = std::string_view(list).substr(from, to - from);
+        const auto found = std::ranges::find(Planes::names, name);
+        if (found == Planes::names.end())
+            throw OutputError(fmt::format("--planes: there is no plane \"{}\"; the planes are {}, and \"all\"", name,
+                                          fmt::join(Planes::names, ", ")));
+        choice[static_cast<std::size_t>(found - Planes::names.begin())] = true;
+        from = to + 1;
+    }
+    return choice;
+}
+
+}  // namespace
+
 void apply(const RenderOptions& options, Scene& scene) {
+    if (options.planes) scene.film.planes = planes_of(*options.planes);
     if (options.samples_in_all) scene.settings.samples = *options.samples_in_all;
     if (options.seed) scene.settings.seed = *options.seed;
     if (options.size) {
@@ -116,7 +139,16 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
         ->option_text("FILE");
     command.add_flag("--or-start", o.may_start, "With --resume: start anew if there is no such file");
     command.add_option("--seed", o.seed, "Seed of the sampling");
+    command
+        .add_option("--detail", o.detail,
+                    "Lets coarser levels of detail stand where their errors look no larger than so many pixels; "
+                    "without it the finest stand everywhere")
+        ->check(CLI::Range(1e-3, 1e3))
+        ->option_text("PIXELS");
     add_display_options(command, o.exposure, o.display, o.view);
+    command.add_option("--planes", o.planes,
+                       "Planes that .exr files hold beside the picture: names with commas between them, such as "
+                       "depth,normal,crypto_phase, or all");
     command.add_option("--stats", o.stats, "Write what rendering cost, as JSON");
     command.add_flag("--quiet", o.quiet, "No progress, errors only");
 }

@@ -23,8 +23,8 @@ struct RenderOptions {
     BuildQuality quality = BuildQuality::medium;
     std::size_t most_bytes = 0;
     std::optional<std::uint32_t> seed;
-    std::optional<float> exposure;
-    std::optional<std::string> display, view, stats, cells;
+    std::optional<float> exposure, detail;
+    std::optional<std::string> display, view, stats, cells, planes;
     std::optional<std::string> checkpoint, resume;
     double checkpoint_seconds = 300;
     bool may_start = false;  // where there is nothing to resume

@@ -19,15 +19,23 @@
 
 namespace phasetree::tracer {
 
+struct PathRecord;
+
 /// What one path brings to the film. Who makes one leaves out what he does not know.
 struct FilmSample {
     glm::vec3 radiance{0};     ///< linear Rec.709, in the unit of the lights (lights/contract.hpp)
     std::uint32_t number = 0;  ///< of the sample in its pixel, from 0
+    float depth = 0;           ///< of the first surface, along the camera's axis from the plane in which the camera is
+    const PathRecord* record = nullptr;  ///< what else the path has to tell; none if no plane asks for it
 };
 
 /// What planes name channels after.
 struct PlaneSubjects {
-    std::vector<std::string> phases;  ///< in order, the vacuum first
+    std::vector<std::string> phases;   ///< in order, the vacuum first
+    std::vector<std::string> groups;   ///< of lights, in the order of Lights::groups
+    std::vector<std::string> objects;  ///< the object of phases, then the meshes
+
+    bool operator==(const PlaneSubjects&) const = default;
 };
 
 /// A sum is what a plane keeps of the samples. Each kind of sum has its own way to add a sample's value:
@@ -64,6 +72,7 @@ concept SumKind = std::regular<S> && requires(S& sum, const S& other, ByteWriter
 /// * sums(): how many it keeps at a pixel. Of a plane that is not chosen nothing is kept.
 /// * add(sums, sample, faults): adds a sample to the sums of its pixel. Values that no sum can take as they are (a NaN)
 ///   are changed by the sums, which count them in `faults`.
+/// * attributes(), which may be missing: what the header of a file says of it, as pairs of names and texts.
 /// * resolve(sums, samples, values): the channels' values at a pixel with so many samples, at least one. It is given
 ///   zeros.
 template <class P>

@@ -25,6 +25,7 @@ Image FilmTile::image(const FilmSettings& settings) const {
 }
 
 void FilmTile::write_into(Image& image, const PixelRange& area) const {
+    if (image.attributes.empty()) image.attributes = sums_.attributes();
     for (int y = area_.y0; y < area_.y1; ++y)
         for (int x = area_.x0; x < area_.x1; ++x) {
             const std::size_t pixel = area_.index(x, y);
@@ -41,7 +42,7 @@ std::uint64_t FilmTile::write_row(int y, ByteWriter& out) const {
         const std::size_t pixel = area_.index(x, y);
         out.number(samples_[pixel]);
         count += samples_[pixel];
-        if (samples_[pixel] > 0) sums_.write(pixel, out);
+        sums_.write(pixel, out);
     }
     return count;
 }
@@ -55,7 +56,7 @@ std::uint64_t FilmTile::read_row(int y, ByteReader& in) {
         const std::size_t pixel = area_.index(x, y);
         samples_[pixel] = in.number<std::uint32_t>();
         count += samples_[pixel];
-        if (samples_[pixel] > 0) sums_.read(pixel, in);
+        sums_.read(pixel, in);
     }
     return count;
 }

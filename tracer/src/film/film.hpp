@@ -62,11 +62,13 @@ class FilmTile {
     std::vector<std::string> channels() const { return sums_.channels(); }
     /// An image of the whole area. Pixels without samples are black.
     Image image(const FilmSettings& settings) const;
-    /// Writes the pixels of this tile into an image of a larger area that has the same channels.
+    /// Writes the pixels of this tile into an image of a larger area that has the same channels, and what files say of
+    /// the planes.
     void write_into(Image& image, const PixelRange& area) const;
 
     /// A row of the area as bytes; and back, into a tile that has no samples in that row. Both return how many samples
-    /// the row has. Reading throws BytesError.
+    /// the row has. Reading throws BytesError. A tile takes no more than some thirty times the bytes of its rows,
+    /// whatever they say, because pixels without samples have theirs, too.
     std::uint64_t write_row(int y, ByteWriter& out) const;
     std::uint64_t read_row(int y, ByteReader& in);
 

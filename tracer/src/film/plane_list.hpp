@@ -5,8 +5,10 @@
 #include <bitset>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "film/contract.hpp"
@@ -112,6 +114,17 @@ class PlaneList<Picture, Others...>::Sums {
             names.insert(names.end(), more.begin(), more.end());
         });
         return names;
+    }
+    /// What the header of a file says of the planes.
+    std::vector<std::pair<std::string, std::string>> attributes() const {
+        std::vector<std::pair<std::string, std::string>> all;
+        each([&](const auto& kept) {
+            if constexpr (requires { kept->plane.attributes(); }) {
+                if (!kept) return;
+                for (auto& attribute : kept->plane.attributes()) all.push_back(std::move(attribute));
+            }
+        });
+        return all;
     }
     /// Writes the values of pixel `pixel` to place `place` of an image that has the further channels of channels().
     /// `samples` is at least 1.

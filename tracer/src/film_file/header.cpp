@@ -10,7 +10,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-constexpr std::size_t longest_text = 4096, most_settings = 256, most_phases = 256;
+constexpr std::size_t longest_text = 1 << 20, longest_list = 1 << 20;
 constexpr int largest_side = 32768, most_samples = 1 << 24;
 
 void write_text(ByteWriter& out, std::string_view text) {
@@ -45,7 +45,7 @@ int read_int(ByteReader& in, int low, int high) {
 
 Planes::Choice read_planes(ByteReader& in) {
     Planes::Choice planes;
-    const std::size_t count = read_count(in, most_settings);
+    const std::size_t count = read_count(in, longest_list);
     for (std::size_t i = 0; i < count; ++i) {
         const std::string name = read_text(in);
         const auto found = std::ranges::find(Planes::names, name);
@@ -75,8 +75,10 @@ void FilmFileHeader::write(ByteWriter& out) const {
     write_int(out, static_cast<int>(film.planes.count()));
     for (std::size_t i = 0; i < Planes::size; ++i)
         if (film.planes[i]) write_text(out, Planes::names[i]);
-    write_int(out, static_cast<int>(subjects.phases.size()));
-    for (const std::string& phase : subjects.phases) write_text(out, phase);
+    for (const auto* names : {&subjects.phases, &subjects.groups, &subjects.objects}) {
+        write_int(out, static_cast<int>(names->size()));
+        for (const std::string& name : *names) write_text(out, name);
+    }
     for (const int n : {samples.first, samples.last, samples_in_all}) write_int(out, n);
     write_text(out, scene);
     out.number(seed);
@@ -87,7 +89,7 @@ void FilmFileHeader::write(ByteWriter& out) const {
 
 FilmFileHeader FilmFileHeader::read(ByteReader& in) {
     FilmFileHeader h;
-    for (std::size_t left = read_count(in, most_settings); left > 0; --left) {
+    for (std::size_t left = read_count(in, longest_list); left > 0; --left) {
         std::string name = read_text(in);
         h.settings.emplace_back(std::move(name), read_text(in));
     }
@@ -98,7 +100,8 @@ FilmFileHeader FilmFileHeader::read(ByteReader& in) {
     h.area.x1 = read_int(in, h.area.x0 + 1, h.film.width);
     h.area.y1 = read_int(in, h.area.y0 + 1, h.film.height);
     h.film.planes = read_planes(in);
-    for (std::size_t left = read_count(in, most_phases); left > 0; --left) h.subjects.phases.push_back(read_text(in));
+    for (auto* names : {&h.subjects.phases, &h.subjects.groups, &h.subjects.objects})
+        for (std::size_t left = read_count(in, longest_list); left > 0; --left) names->push_back(read_text(in));
     h.samples.first = read_int(in, 0, most_samples - 1);
     h.samples.last = read_int(in, h.samples.first + 1, most_samples);
     h.samples_in_all = read_int(in, h.samples.last, most_samples);
@@ -111,9 +114,8 @@ FilmFileHeader FilmFileHeader::read(ByteReader& in) {
 }
 
 std::string difference(const FilmFileHeader& wanted, const FilmFileHeader& found) {
-    for (std::size_t i = 0; i < std::max(wanted.settings.size(), found.settings.size()); ++i) {
-        if (i >= wanted.settings.size() || i >= found.settings.size() ||
-            wanted.settings[i].first != found.settings[i].first)
+    for (std::size_t i = 0; i < wanted.settings.size(); ++i) {
+        if (i >= found.settings.size() || wanted.settings[i].first != found.settings[i].first)
             return "it is of another version of phasetree";
         const auto& [name, value] = wanted.settings[i];
         const std::string& other = found.settings[i].second;
@@ -128,7 +130,7 @@ std::string difference(const FilmFileHeader& wanted, const FilmFileHeader& found
     // The settings say this too, unless the file was forged.
     if (wanted.film.planes != found.film.planes || wanted.film.width != found.film.width ||
         wanted.film.height != found.film.height || !same_range(wanted.area, found.area) ||
-        wanted.subjects.phases != found.subjects.phases)
+        wanted.subjects != found.subjects)
         return "it is of another picture";
     return "";
 }

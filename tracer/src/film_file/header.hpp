@@ -60,7 +60,7 @@ struct FilmFileHeader {
 };
 
 /// The first setting in which two films differ, as half a sentence about the second: "it has seed 3, not 4". Empty if
-/// they are of the same picture.
+/// they are of the same picture. Whoever does not know the last settings yet may ask about the first.
 std::string difference(const FilmFileHeader& wanted, const FilmFileHeader& found);
 
 }  // namespace phasetree::tracer

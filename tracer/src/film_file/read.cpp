@@ -65,9 +65,12 @@ bool equal(std::span<const std::byte> bytes, std::string_view text) {
     return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()) == text;
 }
 
-// The least that a band can have: of each row the faults, of each pixel the number of its samples.
-std::uint64_t least_bytes(const PixelRange& band) {
-    return 16 * static_cast<std::uint64_t>(band.height()) + 4 * std::uint64_t{band.size()};
+// The least that a pixel can have in a band: what two pixels in a row have more than one, without samples.
+std::uint64_t least_bytes_of_pixel(const FilmFileHeader& header) {
+    ByteWriter one, two;
+    FilmTile({0, 0, 1, 1}, header.film.planes, header.subjects).write_row(0, one);
+    FilmTile({0, 0, 2, 1}, header.film.planes, header.subjects).write_row(0, two);
+    return two.bytes().size() - one.bytes().size();
 }
 
 }  // namespace
@@ -94,11 +97,12 @@ FilmFile::FilmFile(const std::filesystem::path& path) : path_(path) {
         if (contents_end != bytes_ - end_bytes) throw error("it is damaged");
         ByteReader of_contents(contents);
         // The bands lie one behind the other, from the header to the contents.
+        least_of_pixel_ = least_bytes_of_pixel(header_);
         std::uint64_t least = header_end;
         for (std::size_t i = 0; i < bands; ++i) {
             bands_.push_back(of_contents.number<std::uint64_t>());
             if (bands_.back() < least || bands_.back() > start) throw error("it is damaged");
-            least = bands_.back() + around_block + least_bytes(header_.band(static_cast<int>(i)));
+            least = bands_.back() + around_block + least_of_pixel_ * header_.band(static_cast<int>(i)).size();
         }
         if (least > start) throw error("it is damaged");
         samples_ = of_contents.number<std::uint64_t>();
@@ -111,7 +115,7 @@ FilmFile::FilmFile(const std::filesystem::path& path) : path_(path) {
 FilmTile FilmFile::band(int i) const {
     Input input(path_);
     const PixelRange area = header_.band(i);
-    const auto bytes = input.block(bands_[static_cast<std::size_t>(i)], least_bytes(area)).first;
+    const auto bytes = input.block(bands_[static_cast<std::size_t>(i)], least_of_pixel_ * area.size()).first;
     FilmTile tile(area, header_.film.planes, header_.subjects);
     try {
         ByteReader in(bytes);

@@ -36,7 +36,7 @@ class FilmFile {
     std::filesystem::path path_;
     FilmFileHeader header_;
     std::vector<std::uint64_t> bands_;  // the offsets of their blocks
-    std::uint64_t bytes_ = 0, samples_ = 0;
+    std::uint64_t bytes_ = 0, samples_ = 0, least_of_pixel_ = 0;
     bool is_finished_ = false;
 };
 

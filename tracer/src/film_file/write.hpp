@@ -8,7 +8,7 @@
 namespace phasetree::tracer {
 
 /// A film file that is written from the top down. It appears complete or not at all, and outlives a loss of power. All
-/// functions throw support::FileError, which knows no names.
+/// functions throw OutputError, which names the file; then an existing file is untouched.
 class FilmFileWriter {
   public:
     FilmFileWriter(const std::filesystem::path& path, const FilmFileHeader& header);

@@ -38,7 +38,6 @@ extern "C" void phasetree_on_checkpoint(int) {
 InterruptGuard::InterruptGuard() {
     if (guard_lives.exchange(true)) throw std::logic_error("one InterruptGuard at a time");
     signal_arrived = 0;
-    checkpoint_asked = false;
     struct sigaction action {};
     sigemptyset(&action.sa_mask);
     for (const int signal : handled_signals) sigaddset(&action.sa_mask, signal);  // one after the other
@@ -62,6 +61,16 @@ bool interrupted() {
 
 int interrupting_signal() {
     return signal_arrived.load(std::memory_order_relaxed);
+}
+
+void expect_checkpoint_requests() {
+    struct sigaction action {};
+    sigemptyset(&action.sa_mask);
+    action.sa_flags = SA_RESTART;
+    action.sa_handler = phasetree_on_checkpoint;
+    struct sigaction current {};
+    sigaction(SIGUSR1, nullptr, &current);
+    if (current.sa_handler != SIG_IGN) sigaction(SIGUSR1, &action, nullptr);
 }
 
 bool take_checkpoint_request() {

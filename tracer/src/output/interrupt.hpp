@@ -26,6 +26,8 @@ class InterruptGuard {
 bool interrupted();
 /// That signal, or 0.
 int interrupting_signal();
+/// From now on SIGUSR1 does not end the program, whether it can be followed yet or not.
+void expect_checkpoint_requests();
 /// Whether SIGUSR1 has arrived since this was asked last.
 bool take_checkpoint_request();
 

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "camera/camera.hpp"
+#include "caustics/caustics.hpp"
 #include "phasetree/math/float_mode.hpp"
 
 namespace phasetree::tracer {
@@ -51,14 +52,25 @@ class Renderer {
           samples_(job.samples.value_or(SampleRange{0, scene.settings.samples})),
           camera_(scene.camera, scene.film.resolution()),
           phases_(world.geometry(), camera_),
-          film_(film) {}
+          // Of a picture alone no path need tell more.
+          recording_(scene.film.planes.count() > 1),
+          axis_(camera_.generate(glm::dvec2(scene.film.resolution()) * 0.5, glm::vec2(0.5f))),
+          film_(film) {
+        if (scene.settings.caustics) caustics_.emplace(world, scene);
+    }
 
     // Returns how many samples each pixel has in the end, at least. A pass that is cut off leaves some pixels with
     // more; of the first pass it leaves what there is, because something beats nothing.
     int run() {
         int done = fewest_samples();
         while (done < samples_.size() && !stopped_) {
-            const int next = after_pass(done, samples_.size());
+            // Each sample of a pixel sees photons of its own, so with photons a pass is one sample.
+            const int next = caustics_ ? done + 1 : after_pass(done, samples_.size());
+            if (caustics_) {
+                photons_ = caustics_->photons(samples_.first + done, counters_.local(), job_.cancelled);
+                stopped_ = !photons_;
+                if (stopped_) break;
+            }
             run(next);
             if (!stopped_ || done == 0) done = next;
         }
@@ -108,13 +120,20 @@ class Renderer {
         film_.add(tile);
         return added;
     }
-    FilmSample sample(int x, int y, int number, PathCounters& counters) const {
+    // What it refers to is good until the next sample of the same thread.
+    FilmSample sample(int x, int y, int number, PathCounters& counters) {
         Sampler sampler(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
                         static_cast<std::uint32_t>(number), scene_.settings.seed);
         const glm::dvec2 on_film = film_.sample_position(x, y, sampler.next2());
         const CameraRay ray = camera_.generate(on_film, sampler.next2());
         const Ray first{ray.origin, ray.direction, phases_.at(ray.origin), {}};
-        return {trace_path(world_, scene_, first, sampler, counters), static_cast<std::uint32_t>(number)};
+        FilmSample result{.number = static_cast<std::uint32_t>(number)};
+        PathRecord* record = recording_ ? &records_.local() : nullptr;
+        const Photons photons = photons_ ? Photons{&caustics_->emission(), &*photons_} : Photons{};
+        result.radiance = trace_path(world_, scene_, first, sampler, counters, record, photons);
+        result.record = record;
+        if (record && record->first) result.depth = glm::dot(record->first->position - axis_.origin, axis_.direction);
+        return result;
     }
 
     const World& world_;
@@ -123,15 +142,26 @@ class Renderer {
     SampleRange samples_;
     Camera camera_;
     StartingPhases phases_;
+    bool recording_;
+    CameraRay axis_;  // through the middle of the picture
     Film& film_;
+    std::optional<Caustics> caustics_;
+    std::optional<PhotonMap> photons_;  // of this pass
     tbb::enumerable_thread_specific<PathCounters> counters_;
+    tbb::enumerable_thread_specific<PathRecord> records_;
     std::atomic<bool> stopped_{false};
 };
 
 }  // namespace
 
+PlaneSubjects subjects_of(const Scene& scene) {
+    PlaneSubjects subjects{.phases = scene.phases.names, .groups = scene.lights.groups(), .objects = {"object"}};
+    for (const Mesh& mesh : scene.meshes) subjects.objects.push_back(mesh.name);
+    return subjects;
+}
+
 Film film_of(const Scene& scene, const RenderJob& job) {
-    return {scene.film, job.pixels, {scene.phases.names}};
+    return {scene.film, job.pixels, subjects_of(scene)};
 }
 
 Rendering render(const World& world, const Scene& scene, const RenderJob& job) {

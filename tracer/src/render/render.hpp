@@ -42,6 +42,8 @@ Rendering render(const World& world, const Scene& scene, const RenderJob& job, F
 /// The same from the beginning.
 Rendering render(const World& world, const Scene& scene, const RenderJob& job);
 
+/// What the planes of a scene's film name their channels after.
+PlaneSubjects subjects_of(const Scene& scene);
 /// The film for a job on a scene, without samples.
 Film film_of(const Scene& scene, const RenderJob& job);
 

@@ -1,11 +1,15 @@
 #include "scene/fingerprint.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <string_view>
 #include <system_error>
 
 #include "phasetree_support/checksum.hpp"
+#include "scene/image_parameters.hpp"
 
 namespace phasetree::tracer {
 
@@ -72,6 +76,18 @@ std::uint64_t fingerprint(const Document& document) {
     for (const Value part : document.root())
         if (part.key() != "render") put_value(sum, document, part);
     return sum.get();
+}
+
+std::vector<std::pair<std::string, std::string>> settings_of_samples(const RenderSettings& settings) {
+    constexpr std::array<std::string_view, 5> others{"width", "height", "samples", "exposure", "view"};
+    const ImageParameters values{settings};
+    std::vector<std::pair<std::string, std::string>> all;
+    ImageParameters::parameters([&](auto member, const Parameter& p) {
+        if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(values.*member)>>)
+            if (std::ranges::find(others, p.name) == others.end())
+                all.emplace_back(p.name, fmt::format("{}", values.*member));
+    });
+    return all;
 }
 
 }  // namespace phasetree::tracer

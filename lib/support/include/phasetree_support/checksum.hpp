@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "phasetree_support/mixed_hash.hpp"
+
 namespace phasetree::support {
 
 /// A checksum of bytes, eight at a time. Each step is a bijection both of the sum so far and of the bytes that are put
@@ -25,10 +27,7 @@ class Checksum {
         for (std::size_t i = 0; i < count; ++i) w |= std::uint64_t{from[i]} << (8 * i);
         return w;
     }
-    void put(std::uint64_t w) {
-        sum_ = (sum_ ^ w) * 0x9e3779b97f4a7c15u;
-        sum_ ^= sum_ >> 32;
-    }
+    void put(std::uint64_t w) { sum_ = mixed(sum_, w); }
     std::uint64_t sum_ = 0x70686173657472u;
 };
 
