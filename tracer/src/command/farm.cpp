@@ -57,6 +57,7 @@ int write_farm(const Options& options) {
     farm.program = options.program;
     farm.scene = as_file(options.scene->name);
     farm.render_options = options.render_words;
+    farm.has_threads = render.threads > 0;
     if (options.scene->assets_within) {
         farm.render_options.push_back("--assets-within");
         farm.render_options.push_back(*options.scene->assets_within);
@@ -110,6 +111,7 @@ void add_farm(CLI::App& app, Run& run) {
                      "Option of sbatch, for both jobs, as in --sbatch=--time=60; may be repeated")
         ->take_all()
         ->expected(1)
+        ->allow_extra_args(false)  // else it eats a "--" behind it
         ->option_text("OPTION");
     command->add_option("--program", o->program, "How the machines of the farm call phasetree (default: phasetree)")
         ->option_text("PATH");

@@ -91,7 +91,7 @@ stop() {{
     is_stopped=yes
     kill -HUP "$render"
 }}
-(trap '' TERM; exec {head} --samples "$first:$last" --checkpoint "$part" --resume "$part" --or-start -o "$part"{tail}) &
+(trap '' TERM; exec {head} --samples "$first:$last" --checkpoint "$part" --resume "$part" --or-start -o "$part"{tail}{threads}) &
 render=$!
 trap stop TERM
 code=0
@@ -100,8 +100,9 @@ if [ "$is_stopped" = yes ]; then
     code=0
     wait "$render" || code=$?
 fi
-# 75: there is a checkpoint to go on from. Above 128: a signal came too early for one.
-if [ "$code" = 75 ] || {{ [ "$is_stopped" = yes ] && [ "$code" -gt 128 ]; }}; then
+# 75: there is a checkpoint to go on from. Above 128: a signal came too early for one, or was another, such as the system's
+# when memory runs out, after which it is tried again three times.
+if [ "$code" = 75 ] || {{ [ "$code" -gt 128 ] && {{ [ "$is_stopped" = yes ] || [ "${{SLURM_RESTART_COUNT:-0}}" -lt 3 ]; }}; }}; then
     scontrol requeue "${{SLURM_ARRAY_JOB_ID}}_$SLURM_ARRAY_TASK_ID"
 fi
 exit "$code"
@@ -114,7 +115,9 @@ END
 )",
         fmt::arg("shares", farm.shares), fmt::arg("samples", farm.samples), fmt::arg("last", farm.shares - 1),
         fmt::arg("options", options), fmt::arg("parts", shell_word(farm.parts)), fmt::arg("head", render_head(farm)),
-        fmt::arg("tail", render_tail(farm)), fmt::arg("merge", merge_command(farm)));
+        fmt::arg("tail", render_tail(farm)),
+        fmt::arg("threads", farm.has_threads ? "" : R"( ${SLURM_CPUS_PER_TASK:+--threads "$SLURM_CPUS_PER_TASK"})"),
+        fmt::arg("merge", merge_command(farm)));
 }
 
 }  // namespace phasetree::tracer

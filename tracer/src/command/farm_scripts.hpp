@@ -11,6 +11,7 @@ struct Farm {
     std::string program;                      // the command, as the machines of the farm find it
     std::string scene;                        // its file
     std::vector<std::string> render_options;  // of every share
+    bool has_threads = false;                 // whether they say how many threads it has
     std::vector<std::string> outputs;         // of the merge
     std::vector<std::string> merge_options;
     std::string parts;  // the beginning of the parts' names

@@ -95,7 +95,8 @@ void add_outputs(CLI::App& command, std::vector<std::string>& outputs, const std
                     "merge joins with others; may be repeated (default: " +
                         by_default + ")")
         ->take_all()
-        ->expected(1);
+        ->expected(1)
+        ->allow_extra_args(false);  // else it eats a "--" behind it
 }
 
 void add_display_options(CLI::App& command, std::optional<float>& exposure, std::optional<std::string>& display,
