@@ -229,7 +229,7 @@ std::vector<Case> cases() {
     texture("field", R"("of": {"sphere": {"radius": 1}}, "ramp": [[0, [0, 0, 0]], [1, [1, 1, 1]]])");
     texture("image", R"("file": "sky.hdr")");
     texture("mesh_image", R"("file": "sky.hdr")");
-    all.push_back({"Numbers of materials", "field", R"("of": {"sphere": {"radius": 1}}, "ramp": [[-2, 0], [2, 0.5]])",
+    all.push_back({"Numbers", "field", R"("of": {"sphere": {"radius": 1}}, "ramp": [[-2, 0], [2, 0.5]])",
                    scene + R"(coated": {"color": [1, 1, 1], "roughness": {"field": )", "}}}}", tell_material_of_scene});
     const auto light = [&](const std::string& name, const std::string& needed) {
         all.push_back({"Lights", name, needed, "{\"lights\": [{\"" + name + "\": ", "}]}", tell_lights});
@@ -298,7 +298,7 @@ std::string vector_of(Value property, const std::string& first, const std::strin
 
 Value properties_of(const Case& c) {
     const std::map<std::string, std::string> definitions{
-        {"Materials", "material"}, {"Textures", "texture"}, {"Numbers of materials", "number_texture"},
+        {"Materials", "material"}, {"Textures", "texture"}, {"Numbers", "number_texture"},
         {"Lights", "light"},       {"Meshes", "mesh"},      {"Cameras", "camera"}};
     if (c.chapter == "Image") return *schema().definition(c.name).find("properties");
     Value kinds = schema().definition(definitions.at(c.chapter));

@@ -35,7 +35,7 @@ std::vector<Chapter> scene_chapters() {
         {"Materials", "A phase or a mesh is of one material, `{\"kind\": {parameters}}`.", pages_of(MaterialKinds())});
     chapters.push_back({"Textures", "A material's colour may be a texture, which is a colour for each point of space.",
                         pages_of(NamedTextures())});
-    chapters.push_back({"Numbers of materials",
+    chapters.push_back({"Numbers",
                         "A material's roughness, and the thickness of a film on it, may be another at each point.",
                         pages_of(NumberTextures())});
     chapters.push_back({"Lights", "Radiances have no unit. Those of all lights and the exposure belong together.",
