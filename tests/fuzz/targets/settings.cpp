@@ -34,12 +34,13 @@ void shine(const tracer::Lights& lights, const glm::vec3& p) {
 }
 
 void scatter(const tracer::Scene& scene) {
-    const tracer::InterfaceTable table(scene.materials);
+    tracer::SharedSurfaces shared;
+    const tracer::InterfaceTable table(scene.materials, shared);
     const std::size_t count = std::min<std::size_t>(scene.materials.size(), 4);
     const glm::vec3 wo = glm::normalize(glm::vec3(0.3f, 0.4f, 0.5f));
     for (std::size_t from = 0; from < count; ++from)
         for (std::size_t to = 0; to < count; ++to) {
-            const tracer::Bsdf bsdf = table.between(from, to).at({0.1f, 0.2f, 0.3f});
+            const tracer::Bsdf bsdf = table.between(from, to).at(glm::vec3(0.1f, 0.2f, 0.3f));
             for (const float u : {0.0f, 0.4f, 0.9999999f}) {
                 const auto sample = bsdf.sample(wo, u, {u, 0.3f});
                 if (!sample) continue;
