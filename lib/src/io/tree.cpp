@@ -360,7 +360,8 @@ PhaseNames read_phases(const Document& document, Value root) {
 }
 
 std::optional<Value> shapes_of(const Document& document) {
-    const std::optional<Value> shapes = document.root().find("shapes");
+    const Value root = document.root();
+    const std::optional<Value> shapes = root.is_object() ? root.find("shapes") : std::nullopt;
     if (shapes && !shapes->is_object())
         throw document.error(*shapes, fmt::format("\"shapes\" must be an object, but is {}", name_of(shapes->kind())));
     return shapes;
@@ -392,6 +393,13 @@ Field read_field(const Document& document, const PhaseNames& names, KnownShapes 
 
 Phased read_object(const Document& document, const PhaseNames& names, KnownShapes known, const FileReaders& files) {
     return Reader(document, names, std::nullopt, files, std::move(known)).read<Phased>(document.root());
+}
+
+Field read_field(const Document& document, Value value, const FileReaders& files) {
+    const Value root = document.root();
+    PhaseNames names;
+    if (root.is_object() && root.find("phases")) names = read_phases(document, root);
+    return Reader(document, std::move(names), shapes_of(document), files).read<Field>(value);
 }
 
 }  // namespace phasetree

@@ -21,7 +21,7 @@ std::vector<std::string_view> names_of_media();
 
 // What clear, conducting and coated materials have of a thin film on their surface.
 struct FilmParameters {
-    std::optional<float> film_thickness{};
+    std::optional<Number> film_thickness{};
     float film_ior = SurfaceFilm{}.ior;
 
     template <class P, class V>
@@ -49,7 +49,7 @@ struct ClearParameters : FilmParameters {
     std::optional<glm::vec3> absorption{};
     std::optional<glm::vec3> color{};
     float color_distance = 1.0f;
-    float roughness = 0.0f;
+    Number roughness = 0.0f;
     std::optional<glm::vec3> scattering{};
     std::optional<glm::vec3> albedo{};
     std::optional<glm::vec3> mean_free_path{};
@@ -131,7 +131,7 @@ struct ConductorParameters : FilmParameters {
     std::optional<std::string> metal{};
     std::optional<glm::vec3> eta{};
     std::optional<glm::vec3> k{};
-    float roughness = 0.0f;
+    Number roughness = 0.0f;
 
     template <class V>
     static void parameters(V&& v) {
@@ -152,7 +152,7 @@ struct CoatedParameters : FilmParameters {
 
     Texture color{};
     float ior = Coated{}.ior;
-    float roughness = 0.0f;
+    Number roughness = 0.0f;
 
     template <class V>
     static void parameters(V&& v) {
