@@ -78,23 +78,24 @@ SurfaceRays leaving(const FieldScene& field, const MeshScene& mesh, const Rays& 
     return rays;
 }
 
-}  // namespace
+struct NamedScene {
+    std::string name;
+    Phased object;
+    std::optional<tracer::AnyCameraParameters> camera;
+};
 
-Report mesh(const Settings& settings) {
-    Report report("mesh", "four scenes' outer surfaces, as fields and as triangles by surface nets");
-    const int cubes = settings.quick ? 256 : 512;
-    struct Scene {
-        std::string name;
-        Phased object;
-        std::optional<tracer::AnyCameraParameters> camera;
-    };
-    std::vector<Scene> scenes;
+std::vector<NamedScene> scenes_to_compare() {
+    std::vector<NamedScene> scenes;
     for (const std::string name : {"hourglass", "cable", "cake"}) {
         const tracer::Scene scene = scene_file("benchmark/" + name + "_monophase");
         scenes.push_back({name, scene.object, scene.camera});
     }
     // With all its phases: that they are opaque leaves the surface.
     scenes.push_back({"tentacle, 3,000 bumps", tentacle(3000), std::nullopt});
+    return scenes;
+}
+
+void say_what_is_compared(Report& report, const Settings& settings, int cubes) {
     report.say(fmt::format(
         "the field: one phase, of the tentacle four; the mesh: {}³ cubes{}, Embree triangles of medium and of high "
         "build quality, not robust",
@@ -113,7 +114,14 @@ Report mesh(const Settings& settings) {
     report.say(
         "field + normal: with the surface's normal at the hit, which a field computes apart; a triangle's comes with "
         "it");
+}
 
+}  // namespace
+
+Report mesh(const Settings& settings) {
+    Report report("mesh", "four scenes' outer surfaces, as fields and as triangles by surface nets");
+    const int cubes = settings.quick ? 256 : 512;
+    say_what_is_compared(report, settings, cubes);
     Table table({{"scene", "scene", ""},
                  {"what", "", ""},
                  {"primitives", "primitives", "{:.0f}"},
@@ -129,7 +137,7 @@ Report mesh(const Settings& settings) {
                       {"difference", "mean |Δt| in cubes", "{:.4f}"},
                       {"largest", "largest", "{:.2f}"}});
     double least_primary = 1e30, least_random = 1e30, most_memory = 0;
-    for (const Scene& scene : scenes) {
+    for (const NamedScene& scene : scenes_to_compare()) {
         const tbb::global_control one(tbb::global_control::max_allowed_parallelism,
                                       static_cast<std::size_t>(settings.threads));
         const auto timed = [](auto&& make, double& taken) {

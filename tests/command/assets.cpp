@@ -97,6 +97,29 @@ TEST_CASE("an image that claims more than it holds is refused before it costs me
     CHECK(o.peak_megabytes < good.peak_megabytes + 100);
 }
 
+TEST_CASE("an image of a kind that opening decodes is refused, whatever it is called") {
+    const Shell shell;
+    // A WebP image without loss of 16383×16383 pixels, of one colour; and the beginnings of the others.
+    const std::string webp(
+        "RIFF\x1e\0\0\0WEBPVP8L\x11\0\0\0\x2f\xfe\xbf\xff\x0f\x07\x10\x11\xff\xff\xff\xff\x0f\0\0\0\0\0", 38);
+    const std::string heif(
+        "\0\0\0\x18"
+        "ftypheic\0\0\0\0mif1heic",
+        24);
+    const std::string jpeg_2000("\0\0\0\x0cjP  \r\n\x87\n", 12), codestream("\xff\x4f\xff\x51\0\x29", 6);
+    for (const std::string& bytes : {webp, heif, jpeg_2000, codestream})
+        for (const std::string name : {"sky.webp", "sky.png", "sky.exr"}) {
+            write_text(shell.directory / name, bytes);
+            write_text(shell.directory / "scene.json", with_images(name, 1).text());
+            const Outcome o = shell.run({"check", "scene.json"});
+            CAPTURE(o.err);
+            CHECK(o.code == 2);
+            CHECK(o.err.find("scene.json:5:31: cannot use the environment image \"" + name + "\": it is a") == 0);
+            CHECK(o.err.find("save it as OpenEXR, PNG or TIFF") != std::string::npos);
+            CHECK(o.peak_megabytes < 200);
+        }
+}
+
 TEST_CASE("an image is in memory once, however many lights it makes") {
     const Shell shell;
     write_text(shell.directory / "sky.hdr", short_hdr(2048, 1024, 1024));

@@ -48,195 +48,228 @@ struct Case {
     std::string name, text, message;
 };
 
-std::vector<Case> wrong_scenes() {
-    std::vector<Case> cases;
-    const auto add = [&](const std::string& name, const std::string& message, auto&& change) {
+// Scenes that are each wrong in one thing, and what is said of it.
+class WrongScenes {
+  public:
+    WrongScenes() {
+        add_texts();
+        add_keys_and_numbers();
+        add_phases();
+        add_trees();
+        add_trees_without_end();
+        add_cameras_and_lights();
+        add_meshes_and_settings();
+    }
+    const std::vector<Case>& cases() const { return cases_; }
+
+  private:
+    template <class Change>
+    void add(const std::string& name, const std::string& message, Change&& change) {
         SceneText scene;
         change(scene);
-        cases.push_back({name, scene.text(), message});
-    };
-    const auto tree = [&](const std::string& name, const std::string& message, const std::string& text) {
+        cases_.push_back({name, scene.text(), message});
+    }
+    void tree(const std::string& name, const std::string& message, const std::string& text) {
         add(name, message, [&](SceneText& s) { s.tree = text; });
-    };
-    const auto ball = [&](const std::string& name, const std::string& message, const std::string& shape) {
+    }
+    void ball(const std::string& name, const std::string& message, const std::string& shape) {
         add(name, message, [&](SceneText& s) { s.shapes = R"({"ball": )" + shape + "}"; });
-    };
-    const auto camera = [&](const std::string& name, const std::string& message, const std::string& text) {
+    }
+    void camera(const std::string& name, const std::string& message, const std::string& text) {
         add(name, message, [&](SceneText& s) { s.camera = text; });
-    };
-    const auto light = [&](const std::string& name, const std::string& message, const std::string& text) {
+    }
+    void light(const std::string& name, const std::string& message, const std::string& text) {
         add(name, message, [&](SceneText& s) { s.lights = "[" + text + "]"; });
-    };
-    const auto rest = [&](const std::string& name, const std::string& message, const std::string& text) {
+    }
+    void rest(const std::string& name, const std::string& message, const std::string& text) {
         add(name, message, [&](SceneText& s) { s.rest = text; });
-    };
-    const auto phases = [&](const std::string& name, const std::string& message, const std::string& text) {
+    }
+    void phases(const std::string& name, const std::string& message, const std::string& text) {
         add(name, message, [&](SceneText& s) { s.phases = text; });
-    };
+    }
 
     // Not JSON, or not this kind.
-    cases.push_back({"empty", "", "empty"});
-    cases.push_back({"blank", " \n\t\n", "empty"});
-    cases.push_back({"an array", "[]", "object"});
-    cases.push_back({"a number", "1", "object"});
-    cases.push_back({"noise", std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16), ""});
-    cases.push_back({"arrays 10⁵ deep", nested("[", "", "]", 100000), "nested"});
-    cases.push_back({"arrays 10⁵ deep, never closed", nested("[", "", "", 100000), "nested"});
-    tree(
-        "nodes 401 deep", "deeper than 400 nodes",
-        nested(R"({"translate": {"by": [0, 0, 1], "of": )", R"({"set": {"phase": "glass", "of": "ball"}})", "}}", 400));
-    tree("nodes 10⁵ deep", "nested",
-         nested(R"({"translate": {"by": [0, 0, 1], "of": )", R"({"set": {"phase": "glass", "of": "ball"}})", "}}",
-                100000));
-    cases.push_back({"two scenes", SceneText().text() + SceneText().text(), ""});
-    cases.push_back({"a quote too few", R"({"version: 1})", ""});
-    cases.push_back({"no version", "{}", "version"});
-    cases.push_back({"another version", R"({"version": 2})", "version 1"});
-
+    void add_texts() {
+        cases_.push_back({"empty", "", "empty"});
+        cases_.push_back({"blank", " \n\t\n", "empty"});
+        cases_.push_back({"an array", "[]", "object"});
+        cases_.push_back({"a number", "1", "object"});
+        cases_.push_back({"noise", std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16), ""});
+        cases_.push_back({"arrays 10⁵ deep", nested("[", "", "]", 100000), "nested"});
+        cases_.push_back({"arrays 10⁵ deep, never closed", nested("[", "", "", 100000), "nested"});
+        tree("nodes 401 deep", "deeper than 400 nodes",
+             nested(R"({"translate": {"by": [0, 0, 1], "of": )", R"({"set": {"phase": "glass", "of": "ball"}})", "}}",
+                    400));
+        tree("nodes 10⁵ deep", "nested",
+             nested(R"({"translate": {"by": [0, 0, 1], "of": )", R"({"set": {"phase": "glass", "of": "ball"}})", "}}",
+                    100000));
+        cases_.push_back({"two scenes", SceneText().text() + SceneText().text(), ""});
+        cases_.push_back({"a quote too few", R"({"version: 1})", ""});
+        cases_.push_back({"no version", "{}", "version"});
+        cases_.push_back({"another version", R"({"version": 2})", "version 1"});
+    }
     // Keys, kinds and numbers.
-    rest("unknown key", "did you mean \"background\"", R"("backgruond": [0, 0, 0])");
-    rest("a key twice", "lights", R"("lights": [])");
-    ball("misspelt parameter", "did you mean \"radius\"", R"({"sphere": {"raduis": 1}})");
-    ball("misspelt node", "did you mean \"sphere\"", R"({"shpere": {"radius": 1}})");
-    ball("missing parameter", "radius", R"({"sphere": {}})");
-    ball("not a number", "NaN", R"({"sphere": {"radius": NaN}})");
-    ball("infinite", "", R"({"sphere": {"radius": Infinity}})");
-    ball("too large for a double", "", R"({"sphere": {"radius": 1e999}})");
-    ball("too large for a float", "", R"({"sphere": {"radius": 1e39}})");
-    ball("negative", "radius", R"({"sphere": {"radius": -1}})");
-    ball("zero", "radius", R"({"sphere": {"radius": 0}})");
-    ball("text for a number", "radius", R"({"sphere": {"radius": "1"}})");
-    ball("list for a number", "radius", R"({"sphere": {"radius": [1]}})");
-    ball("number for a node", "node", "1");
-    ball("two nodes in one", "one member", R"({"sphere": {"radius": 1}, "box": {"size": [1, 1, 1]}})");
-    ball("two numbers for three", "three", R"({"box": {"size": [1, 1]}})");
-    ball("no children", "empty", R"({"union": []})");
-    ball("a plane without direction", "direction", R"({"plane": {"normal": [0, 0, 0]}})");
-    phases("no phases", "empty", "{}");
-    phases("vacuum as a phase", "vacuum", R"({"vacuum": {"clear": {"ior": 1}}})");
-    phases("unknown material", "did you mean \"clear\"", R"({"glass": {"claer": {"ior": 1.5}}})");
-    phases("material of two kinds", "one member", R"({"glass": {"clear": {"ior": 1}, "diffuse": {}}})");
-    phases("material without index", "ior", R"({"glass": {"clear": {}}})");
-    phases("index out of range", "ior", R"({"glass": {"clear": {"ior": 0}}})");
-    phases("metal nobody knows", "did you mean \"gold\"", R"({"glass": {"conductor": {"metal": "glod"}}})");
-    phases("too many phases", "63", [] {
-        std::string all = "{";
-        for (int i = 0; i < 80; ++i) all += (i ? ", \"p" : "\"p") + std::to_string(i) + R"(": {"clear": {"ior": 1.5}})";
-        return all + "}";
-    }());
+    void add_keys_and_numbers() {
+        rest("unknown key", "did you mean \"background\"", R"("backgruond": [0, 0, 0])");
+        rest("a key twice", "lights", R"("lights": [])");
+        ball("misspelt parameter", "did you mean \"radius\"", R"({"sphere": {"raduis": 1}})");
+        ball("misspelt node", "did you mean \"sphere\"", R"({"shpere": {"radius": 1}})");
+        ball("missing parameter", "radius", R"({"sphere": {}})");
+        ball("not a number", "NaN", R"({"sphere": {"radius": NaN}})");
+        ball("infinite", "", R"({"sphere": {"radius": Infinity}})");
+        ball("too large for a double", "", R"({"sphere": {"radius": 1e999}})");
+        ball("too large for a float", "", R"({"sphere": {"radius": 1e39}})");
+        ball("negative", "radius", R"({"sphere": {"radius": -1}})");
+        ball("zero", "radius", R"({"sphere": {"radius": 0}})");
+        ball("text for a number", "radius", R"({"sphere": {"radius": "1"}})");
+        ball("list for a number", "radius", R"({"sphere": {"radius": [1]}})");
+        ball("number for a node", "node", "1");
+        ball("two nodes in one", "one member", R"({"sphere": {"radius": 1}, "box": {"size": [1, 1, 1]}})");
+        ball("two numbers for three", "three", R"({"box": {"size": [1, 1]}})");
+        ball("no children", "empty", R"({"union": []})");
+        ball("a plane without direction", "direction", R"({"plane": {"normal": [0, 0, 0]}})");
+    }
+    // Phases and their materials.
+    void add_phases() {
+        phases("no phases", "empty", "{}");
+        phases("vacuum as a phase", "vacuum", R"({"vacuum": {"clear": {"ior": 1}}})");
+        phases("unknown material", "did you mean \"clear\"", R"({"glass": {"claer": {"ior": 1.5}}})");
+        phases("material of two kinds", "one member", R"({"glass": {"clear": {"ior": 1}, "diffuse": {}}})");
+        phases("material without index", "ior", R"({"glass": {"clear": {}}})");
+        phases("index out of range", "ior", R"({"glass": {"clear": {"ior": 0}}})");
+        phases("metal nobody knows", "did you mean \"gold\"", R"({"glass": {"conductor": {"metal": "glod"}}})");
+        phases("too many phases", "63", [] {
+            std::string all = "{";
+            for (int i = 0; i < 80; ++i)
+                all += (i ? ", \"p" : "\"p") + std::to_string(i) + R"(": {"clear": {"ior": 1.5}})";
+            return all + "}";
+        }());
+    }
+    // Trees that are no object.
+    void add_trees() {
+        tree("unknown phase", "did you mean \"glass\"", R"({"set": {"phase": "galss", "of": "ball"}})");
+        tree("the vacuum", "vacuum", R"({"set": {"phase": "vacuum", "of": "ball"}})");
+        tree("unknown shape", "did you mean \"ball\"", R"({"set": {"phase": "glass", "of": "bell"}})");
+        tree("a field where phases are needed", "phases", R"("ball")");
+        tree("phases where a field is needed", "plain field",
+             R"({"set": {"phase": "glass", "of": {"set": {"phase": "glass", "of": "ball"}}}})");
+        tree("unbounded", "unbounded", R"({"set": {"phase": "glass", "of": {"plane": {}}}})");
+        tree("a twist of an unbounded object", "",
+             R"({"set": {"phase": "glass", "of": {"twist": {"rate": 10, "of": {"plane": {}}}}}})");
+        tree("empty object", "empty",
+             R"({"set": {"phase": "glass", "of": {"offset": {"distance": -2, "of": "ball"}}}})");
+    }
+    // Trees that have no end, or none that can be waited for.
+    void add_trees_without_end() {
+        ball("a shape of itself", "made of itself", R"({"translate": {"by": [0, 0, 1], "of": "ball"}})");
+        add("two shapes of each other", "made of itself",
+            [](SceneText& s) { s.shapes = R"({"ball": {"union": ["other"]}, "other": {"union": ["ball"]}})"; });
+        add("two names of each other", "itself",
+            [](SceneText& s) { s.shapes = R"({"ball": "other", "other": "ball"})"; });
+        add("10⁵ chained shapes", "deeper", [](SceneText& s) {
+            s.shapes = R"({"ball": {"union": ["s1"]})";
+            for (int i = 1; i <= 100000; ++i)
+                s.shapes += ", \"s" + std::to_string(i) + R"(": {"union": ["s)" + std::to_string(i + 1) + "\"]}";
+            s.shapes += R"(, "s100001": {"sphere": {"radius": 1}}})";
+        });
+        add("10⁵ names of names", "", [](SceneText& s) {
+            s.shapes = R"({"ball": "s1")";
+            for (int i = 1; i <= 100000; ++i)
+                s.shapes += ", \"s" + std::to_string(i) + R"(": "s)" + std::to_string(i + 1) + "\"";
+            s.shapes += R"(, "s100001": {"sphere": {"radius": 1}}})";
+        });
+        // Every shape is two of the last, moved apart: 2⁴⁰ spheres.
+        const auto laughs = [](SceneText& s) {
+            s.shapes = R"({"s0": {"sphere": {"radius": 1}})";
+            for (int i = 1; i <= 40; ++i) {
+                const std::string last = "\"s" + std::to_string(i - 1) + "\"";
+                s.shapes += ", \"s" + std::to_string(i) + R"(": {"union": [{"translate": {"by": [0.1, 0, 0], "of": )" +
+                            last + R"(}}, {"rotate": {"angle": 7, "of": )" + last + "}}]}";
+            }
+            s.shapes += R"(, "ball": "s40"})";
+        };
+        add("a billion laughs", "instructions", laughs);
+        add("a billion laughs about the camera", "instructions", [&](SceneText& s) {
+            laughs(s);
+            s.camera = R"({"position": [0.1, 0, 0.3], "look_at": [0, 0, 0]})";
+        });
+        add("a billion laughs in phases", "instructions", [](SceneText& s) {
+            s.shapes = R"({"ball": {"sphere": {"radius": 1}}, "s0": {"set": {"phase": "glass", "of": "ball"}})";
+            for (int i = 1; i <= 40; ++i) {
+                const std::string last = "\"s" + std::to_string(i - 1) + "\"";
+                s.shapes += ", \"s" + std::to_string(i) + R"(": {"under": [{"translate": {"by": [0.1, 0, 0], "of": )" +
+                            last + R"(}}, {"rotate": {"angle": 7, "of": )" + last + "}}]}";
+            }
+            s.shapes += "}";
+            s.tree = "\"s40\"";
+        });
+    }
+    // Cameras and lights.
+    void add_cameras_and_lights() {
+        camera("camera that looks at itself", "", R"({"position": [0, 0, 3], "look_at": [0, 0, 3]})");
+        camera("camera without a place", "position", R"({"look_at": [0, 0, 0]})");
+        camera("camera that sees all", "fov", R"({"position": [0, -5, 0], "look_at": [0, 0, 0], "fov": 180})");
+        camera("camera that sees nothing", "fov", R"({"position": [0, -5, 0], "look_at": [0, 0, 0], "fov": 0})");
+        camera("camera as text", "camera", R"("front")");
+        camera("camera of no kind that there is", "orthographic", R"({"fisheye": {"position": [0, -5, 0]}})");
+        camera("orthographic camera as wide as the world", "height",
+               R"({"orthographic": {"position": [0, -5, 0], "look_at": [0, 0, 0], "height": 2e18}})");
+        camera("orthographic camera of no height", "height",
+               R"({"orthographic": {"position": [0, -5, 0], "look_at": [0, 0, 0], "height": -1}})");
+        // Farther than rays can come from.
+        camera("camera at the end of the world", "position", R"({"position": [0, -2e18, 0], "look_at": [0, 0, 0]})");
+        camera("camera of a boundless lens", "lens_radius",
+               R"({"position": [0, -5, 0], "look_at": [0, 0, 0], "lens_radius": 1e19})");
+        camera("focus at the end of the world", "focus_at",
+               R"({"position": [0, -5, 0], "look_at": [0, 0, 0], "focus_at": [0, 1e19, 0]})");
+        light("light at the end of the world", "centre", R"({"sphere": {"centre": [0, 0, 3e18], "radius": 1}})");
+        light("a light as large as the world", "width",
+              R"({"rectangle": {"centre": [0, 0, 3], "target": [0, 0, 0], "width": 1e20, "height": 1}})");
+        add("camera in wood", "inside \"wood\"", [](SceneText& s) {
+            s.tree = R"({"set": {"phase": "wood", "of": "ball"}})";
+            s.camera = R"({"position": [0, 0, 0.5], "look_at": [0, 0, 0]})";
+        });
+        light("no lights", "no lights", "");
+        light("unknown light", "did you mean \"sphere\"", R"({"shpere": {"centre": [0, 0, 3], "radius": 1}})");
+        light("a light without size", "radius", R"({"sphere": {"centre": [0, 0, 3], "radius": 0}})");
+        light("negative light", "radiance", R"({"constant": {"radiance": [1, -1, 1]}})");
+        light("an image that is not there", "nowhere.exr", R"({"image": {"file": "nowhere.exr"}})");
+        light("a directory for an image", "", R"({"image": {"file": "."}})");
+        light("the scene for an image", "", R"({"image": {"file": "scene.json"}})");
+    }
+    // Meshes, settings, and objects too large or too small for rays.
+    void add_meshes_and_settings() {
+        rest("floor at the end of the world", "height", R"("meshes": [{"floor": {"height": -1e20, "material":
+            {"diffuse": {"color": [1, 1, 1]}}}}])");
+        tree("too large for rays", "beyond what 32-bit floats can trace",
+             R"({"set": {"phase": "glass", "of": {"sphere": {"radius": 3e38}}}})");
+        tree("too small for rays", "beyond what 32-bit floats can trace",
+             R"({"set": {"phase": "glass", "of": {"sphere": {"radius": 1e-30}}}})");
+        rest("a view that is not there", "Nowhere", R"("render": {"width": 4, "height": 4, "view": "Nowhere"})");
+        rest("a mesh that is not there", "nowhere.obj",
+             R"("meshes": [{"obj": {"file": "nowhere.obj", "material": {"diffuse": {"color": [1, 1, 1]}}}}])");
+        rest("a directory for a mesh", "not a regular file",
+             R"("meshes": [{"obj": {"file": ".", "material": {"diffuse": {"color": [1, 1, 1]}}}}])");
+        rest("the scene for a mesh", "scene.json",
+             R"("meshes": [{"obj": {"file": "scene.json", "material": {"diffuse": {"color": [1, 1, 1]}}}}])");
+        rest("a mesh of glass", "", R"("meshes": [{"floor": {"material": {"clear": {"ior": 1.5}}}}])");
+        rest("meshes as an object", "list", R"("meshes": {})");
+        rest("no width", "width", R"("render": {"width": 0})");
+        rest("too wide", "width", R"("render": {"width": 1000000})");
+        rest("half a sample", "samples", R"("render": {"samples": 1.5})");
+        rest("no samples", "samples", R"("render": {"samples": 0})");
+        rest("a negative seed", "seed", R"("render": {"seed": -1})");
+    }
 
-    // The tree.
-    tree("unknown phase", "did you mean \"glass\"", R"({"set": {"phase": "galss", "of": "ball"}})");
-    tree("the vacuum", "vacuum", R"({"set": {"phase": "vacuum", "of": "ball"}})");
-    tree("unknown shape", "did you mean \"ball\"", R"({"set": {"phase": "glass", "of": "bell"}})");
-    tree("a field where phases are needed", "phases", R"("ball")");
-    tree("phases where a field is needed", "plain field",
-         R"({"set": {"phase": "glass", "of": {"set": {"phase": "glass", "of": "ball"}}}})");
-    tree("unbounded", "unbounded", R"({"set": {"phase": "glass", "of": {"plane": {}}}})");
-    tree("a twist of an unbounded object", "",
-         R"({"set": {"phase": "glass", "of": {"twist": {"rate": 10, "of": {"plane": {}}}}}})");
-    tree("empty object", "empty", R"({"set": {"phase": "glass", "of": {"offset": {"distance": -2, "of": "ball"}}}})");
-    ball("a shape of itself", "made of itself", R"({"translate": {"by": [0, 0, 1], "of": "ball"}})");
-    add("two shapes of each other", "made of itself",
-        [](SceneText& s) { s.shapes = R"({"ball": {"union": ["other"]}, "other": {"union": ["ball"]}})"; });
-    add("two names of each other", "itself", [](SceneText& s) { s.shapes = R"({"ball": "other", "other": "ball"})"; });
-    add("10⁵ chained shapes", "deeper", [](SceneText& s) {
-        s.shapes = R"({"ball": {"union": ["s1"]})";
-        for (int i = 1; i <= 100000; ++i)
-            s.shapes += ", \"s" + std::to_string(i) + R"(": {"union": ["s)" + std::to_string(i + 1) + "\"]}";
-        s.shapes += R"(, "s100001": {"sphere": {"radius": 1}}})";
-    });
-    add("10⁵ names of names", "", [](SceneText& s) {
-        s.shapes = R"({"ball": "s1")";
-        for (int i = 1; i <= 100000; ++i)
-            s.shapes += ", \"s" + std::to_string(i) + R"(": "s)" + std::to_string(i + 1) + "\"";
-        s.shapes += R"(, "s100001": {"sphere": {"radius": 1}}})";
-    });
-    // Every shape is two of the last, moved apart: 2⁴⁰ spheres.
-    const auto laughs = [](SceneText& s) {
-        s.shapes = R"({"s0": {"sphere": {"radius": 1}})";
-        for (int i = 1; i <= 40; ++i) {
-            const std::string last = "\"s" + std::to_string(i - 1) + "\"";
-            s.shapes += ", \"s" + std::to_string(i) + R"(": {"union": [{"translate": {"by": [0.1, 0, 0], "of": )" +
-                        last + R"(}}, {"rotate": {"angle": 7, "of": )" + last + "}}]}";
-        }
-        s.shapes += R"(, "ball": "s40"})";
-    };
-    add("a billion laughs", "instructions", laughs);
-    add("a billion laughs about the camera", "instructions", [&](SceneText& s) {
-        laughs(s);
-        s.camera = R"({"position": [0.1, 0, 0.3], "look_at": [0, 0, 0]})";
-    });
-    add("a billion laughs in phases", "instructions", [](SceneText& s) {
-        s.shapes = R"({"ball": {"sphere": {"radius": 1}}, "s0": {"set": {"phase": "glass", "of": "ball"}})";
-        for (int i = 1; i <= 40; ++i) {
-            const std::string last = "\"s" + std::to_string(i - 1) + "\"";
-            s.shapes += ", \"s" + std::to_string(i) + R"(": {"under": [{"translate": {"by": [0.1, 0, 0], "of": )" +
-                        last + R"(}}, {"rotate": {"angle": 7, "of": )" + last + "}}]}";
-        }
-        s.shapes += "}";
-        s.tree = "\"s40\"";
-    });
-
-    // Camera, lights, meshes, settings.
-    camera("camera that looks at itself", "", R"({"position": [0, 0, 3], "look_at": [0, 0, 3]})");
-    camera("camera without a place", "position", R"({"look_at": [0, 0, 0]})");
-    camera("camera that sees all", "fov", R"({"position": [0, -5, 0], "look_at": [0, 0, 0], "fov": 180})");
-    camera("camera that sees nothing", "fov", R"({"position": [0, -5, 0], "look_at": [0, 0, 0], "fov": 0})");
-    camera("camera as text", "camera", R"("front")");
-    camera("camera of no kind that there is", "orthographic", R"({"fisheye": {"position": [0, -5, 0]}})");
-    camera("orthographic camera as wide as the world", "height",
-           R"({"orthographic": {"position": [0, -5, 0], "look_at": [0, 0, 0], "height": 2e18}})");
-    camera("orthographic camera of no height", "height",
-           R"({"orthographic": {"position": [0, -5, 0], "look_at": [0, 0, 0], "height": -1}})");
-    // Farther than rays can come from.
-    camera("camera at the end of the world", "position", R"({"position": [0, -2e18, 0], "look_at": [0, 0, 0]})");
-    camera("camera of a boundless lens", "lens_radius",
-           R"({"position": [0, -5, 0], "look_at": [0, 0, 0], "lens_radius": 1e19})");
-    camera("focus at the end of the world", "focus_at",
-           R"({"position": [0, -5, 0], "look_at": [0, 0, 0], "focus_at": [0, 1e19, 0]})");
-    light("light at the end of the world", "centre", R"({"sphere": {"centre": [0, 0, 3e18], "radius": 1}})");
-    light("a light as large as the world", "width",
-          R"({"rectangle": {"centre": [0, 0, 3], "target": [0, 0, 0], "width": 1e20, "height": 1}})");
-    rest("floor at the end of the world", "height", R"("meshes": [{"floor": {"height": -1e20, "material":
-        {"diffuse": {"color": [1, 1, 1]}}}}])");
-    tree("too large for rays", "beyond what 32-bit floats can trace",
-         R"({"set": {"phase": "glass", "of": {"sphere": {"radius": 3e38}}}})");
-    tree("too small for rays", "beyond what 32-bit floats can trace",
-         R"({"set": {"phase": "glass", "of": {"sphere": {"radius": 1e-30}}}})");
-    rest("a view that is not there", "Nowhere", R"("render": {"width": 4, "height": 4, "view": "Nowhere"})");
-    add("camera in wood", "inside \"wood\"", [](SceneText& s) {
-        s.tree = R"({"set": {"phase": "wood", "of": "ball"}})";
-        s.camera = R"({"position": [0, 0, 0.5], "look_at": [0, 0, 0]})";
-    });
-    light("no lights", "no lights", "");
-    light("unknown light", "did you mean \"sphere\"", R"({"shpere": {"centre": [0, 0, 3], "radius": 1}})");
-    light("a light without size", "radius", R"({"sphere": {"centre": [0, 0, 3], "radius": 0}})");
-    light("negative light", "radiance", R"({"constant": {"radiance": [1, -1, 1]}})");
-    light("an image that is not there", "nowhere.exr", R"({"image": {"file": "nowhere.exr"}})");
-    light("a directory for an image", "", R"({"image": {"file": "."}})");
-    light("the scene for an image", "", R"({"image": {"file": "scene.json"}})");
-    rest("a mesh that is not there", "nowhere.obj",
-         R"("meshes": [{"obj": {"file": "nowhere.obj", "material": {"diffuse": {"color": [1, 1, 1]}}}}])");
-    rest("a directory for a mesh", "not a regular file",
-         R"("meshes": [{"obj": {"file": ".", "material": {"diffuse": {"color": [1, 1, 1]}}}}])");
-    rest("the scene for a mesh", "scene.json",
-         R"("meshes": [{"obj": {"file": "scene.json", "material": {"diffuse": {"color": [1, 1, 1]}}}}])");
-    rest("a mesh of glass", "", R"("meshes": [{"floor": {"material": {"clear": {"ior": 1.5}}}}])");
-    rest("meshes as an object", "list", R"("meshes": {})");
-    rest("no width", "width", R"("render": {"width": 0})");
-    rest("too wide", "width", R"("render": {"width": 1000000})");
-    rest("half a sample", "samples", R"("render": {"samples": 1.5})");
-    rest("no samples", "samples", R"("render": {"samples": 0})");
-    rest("a negative seed", "seed", R"("render": {"seed": -1})");
-    return cases;
-}
+    std::vector<Case> cases_;
+};
 
 }  // namespace
 
 TEST_CASE("wrong scenes: one error with its place, exit code 2, at once, nothing left behind") {
     int count = 0;
-    for (const Case& c : wrong_scenes()) {
+    const WrongScenes wrong;
+    for (const Case& c : wrong.cases()) {
         CAPTURE(c.name);
         const Shell shell;
         write_text(shell.directory / "scene.json", c.text);
@@ -254,7 +287,8 @@ TEST_CASE("wrong scenes: one error with its place, exit code 2, at once, nothing
 
 TEST_CASE("eval, trace and info: the same errors of the tree") {
     Shell shell;
-    for (const Case& c : wrong_scenes()) {
+    const WrongScenes wrong;
+    for (const Case& c : wrong.cases()) {
         for (const char* part :
              {"deep", "laughs in", "of itself", "each other", "chained", "unknown phase", "negative"}) {
             if (c.name.find(part) == std::string::npos || c.name.find("light") != std::string::npos ||

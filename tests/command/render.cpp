@@ -68,6 +68,30 @@ TEST_CASE("an image and its twin: the same bytes, whatever the threads") {
     CHECK_FALSE(same);
 }
 
+TEST_CASE("--planes: the same bytes whatever the threads, and what is no plane is refused") {
+    const Shell shell;
+    write_text(shell.directory / "scene.json", SceneText().text());
+    for (const char* threads : {"1", "3"})
+        CHECK(shell
+                  .run({"render", "scene.json", "--quiet", "--planes", "all", "--threads", threads, "-o",
+                        std::string(threads) + ".exr"})
+                  .code == 0);
+    CHECK(bytes_of(shell.directory / "1.exr") == bytes_of(shell.directory / "3.exr"));
+    CHECK(shell.run({"render", "scene.json", "--quiet", "-o", "plain.exr"}).code == 0);
+    CHECK(bytes_of(shell.directory / "plain.exr").size() < bytes_of(shell.directory / "1.exr").size());
+    for (const char* list : {"depht", "depth,", "", "all,depth"}) {
+        CAPTURE(list);
+        const Outcome outcome = shell.run({"render", "scene.json", "--planes", list, "-o", "bad.exr"});
+        CHECK(outcome.code == 2);
+        CHECK(outcome.err.find("there is no plane") != std::string::npos);
+        CHECK(outcome.err.find("crypto_phase") != std::string::npos);
+        CHECK_FALSE(std::filesystem::exists(shell.directory / "bad.exr"));
+    }
+    const Outcome png = shell.run({"render", "scene.json", "--planes", "depth", "-o", "bad.png"});
+    CHECK(png.code == 2);
+    CHECK(png.err.find(".exr") != std::string::npos);
+}
+
 TEST_CASE("without -o: the scene's name, .exr and .png, here") {
     const Shell shell;
     std::filesystem::create_directory(shell.directory / "scenes");

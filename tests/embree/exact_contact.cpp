@@ -106,6 +106,9 @@ const std::vector<Meant> meant = {
      "The screen is a braid of thin wires, which the sheath fills."},
     {"cable", {film("vacuum", "copper", "vacuum")}, "Strands of copper are thin."},
     {"cable", {film("copper", "vacuum", "copper")}, "Twisted strands lie a hair from each other."},
+    {"carving",
+     {film("vacuum", "air", any), film("air", "glass", any), film("air", "wire", any)},
+     "Bounds touch what they hold, so the air within them is thin there; edges are wires, and the bulb is a shell."},
     {"drinks",
      {film("cosmopolitan", "glass", "vacuum"), film("tonic", "glass", "vacuum"), film("vacuum", "glass", "vacuum")},
      "Glasses have thin walls."},
@@ -257,6 +260,7 @@ TEST_CASE("no phase of the gallery is thinner than its author says") {
     std::size_t scenes = 0, seen = 0;
     for (const auto& entry : std::filesystem::directory_iterator(source_directory() + "/scenes")) {
         if (entry.path().extension() != ".json" || entry.path().stem() == "scene.schema") continue;
+        if (entry.path().stem() == "drinks_in_the_sun") continue;  // the same object, which the next test case says
         ++scenes;
         const std::string scene = entry.path().stem().string();
         const auto all = films(device, read_tree(Document::from_file(entry.path())), count);
@@ -281,6 +285,18 @@ TEST_CASE("no phase of the gallery is thinner than its author says") {
     }
     CHECK(scenes > 20);
     CHECK(seen >= 5);  // or nothing thin is seen at all
+}
+
+TEST_CASE("the drinks in the sun are the drinks") {
+    const auto object = [](const std::string& scene) {
+        const std::string text = bytes_of(source_directory() + "/scenes/" + scene + ".json");
+        const std::size_t from = text.find("\"phases\""), to = text.find("\"meshes\"");
+        REQUIRE(from < to);
+        REQUIRE(to != std::string::npos);
+        return text.substr(from, to - from);
+    };
+    const bool same = object("drinks") == object("drinks_in_the_sun");
+    CHECK(same);
 }
 
 TEST_CASE("a shell of drink 0.4 % of the diagonal thick is found") {

@@ -21,6 +21,20 @@ if(EXISTS "${prefix}/bin/phasetree")
     expect("${output}" "phasetree ")
 endif()
 
+# The reference of nodes shows pictures and examples.
+file(READ "${prefix}/share/phasetree/scenes/nodes.md" page)
+string(REGEX MATCHALL "\\(nodes/[^)]+\\)" links "${page}")
+list(LENGTH links count)
+if(count LESS 200)
+    message(FATAL_ERROR "nodes.md has only ${count} links to pictures and examples")
+endif()
+foreach(link ${links})
+    string(REGEX REPLACE "^\\((.*)\\)$" "\\1" file "${link}")
+    if(NOT EXISTS "${prefix}/share/phasetree/scenes/${file}")
+        message(FATAL_ERROR "nodes.md links ${file}, which is not installed")
+    endif()
+endforeach()
+
 # Nothing but the interface is exported.
 file(GLOB_RECURSE library "${prefix}/*/libphasetree_embree${MAJOR}.so")
 run(nm -D --defined-only "${library}")

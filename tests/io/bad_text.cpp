@@ -20,8 +20,8 @@ struct Bad {
     std::string suggestion = {};
 };
 
-const std::vector<Bad>& bad_texts() {
-    static const std::vector<Bad> table = {
+std::vector<Bad> structure() {
+    return {
         // Nothing, or not all of it.
         {"", 1, 1, "the file is empty"},
         {" \n\t\r\n", 1, 1, "the file is empty"},
@@ -66,6 +66,11 @@ const std::vector<Bad>& bad_texts() {
         {"[tr/**/ue]", 1, 2, "expected a value, found 'tr'", "true"},
         {"[\"//\", \"/*\", \"\\\"/*\", /]", 1, 22, "expected a value, found '/'"},
         {"# a scene\n{}", 1, 1, "a comment begins with // or /*, not with #"},
+    };
+}
+
+std::vector<Bad> words_and_numbers() {
+    return {
         // Words.
         {"[True]", 1, 2, "expected a value, found 'True'", "true"},
         {"[flase]", 1, 2, "expected a value, found 'flase'", "false"},
@@ -102,6 +107,11 @@ const std::vector<Bad>& bad_texts() {
         {"[1.5f]", 1, 2, "'1.5f' is not a number as JSON writes it"},
         {"[1.2.3]", 1, 2, "'1.2.3' is not a number as JSON writes it"},
         {"[truest]", 1, 2, "expected a value, found 'truest'", "true"},
+    };
+}
+
+std::vector<Bad> strings_and_bytes() {
+    return {
         // Strings.
         {"[\"abc", 1, 2, "unterminated string: no closing quote on this line"},
         {"[\"abc\n\"]", 1, 2, "unterminated string: no closing quote on this line"},
@@ -133,7 +143,13 @@ const std::vector<Bad>& bad_texts() {
         {"\t\t[\"äöü→𝄞\",\tx]", 1, 13, "expected a value, found 'x'"},
         {"/* äöü */ // →\r\n\t/*\n*/ x", 3, 4, "expected a value, found 'x'"},
     };
-    return table;
+}
+
+std::vector<Bad> bad_texts() {
+    std::vector<Bad> all;
+    for (const std::vector<Bad>& some : {structure(), words_and_numbers(), strings_and_bytes()})
+        all.insert(all.end(), some.begin(), some.end());
+    return all;
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 
 #include <bit>
 
-#include "phasetree/evaluation/evaluator.hpp"
 #include "math/dual.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/program/program.hpp"
 #include "support/dual_distances.hpp"
@@ -205,8 +205,10 @@ TEST_CASE("gradients equal central differences away from kinks") {
                 CAPTURE(p.x);
                 CAPTURE(p.y);
                 CAPTURE(p.z);
-                // Rounding of a position, some 10⁻⁷, turns the gradient by up to curvature times that.
-                REQUIRE(error < 1e-4);
+                // Rounding of a position, some 10⁻⁷, turns the gradient by up to curvature times that. And where two
+                // places of a surface are as near but for rounding, the direction from either may be given: a share δ
+                // of the distance apart they are nearer by δ²/2, which is less than 2⁻²⁴ up to δ = 3.5·10⁻⁴.
+                REQUIRE(error < 4e-4);
             });
         }
     });

@@ -4,15 +4,15 @@
 
 #include <limits>
 
+#include "math/dual.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/io/write.hpp"
-#include "math/dual.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/program/program.hpp"
 #include "phasetree/trace/tracer.hpp"
-#include "tree/node.hpp"
 #include "support/dual_distances.hpp"
 #include "support/random_node.hpp"
+#include "tree/node.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;
@@ -208,7 +208,7 @@ auto chain(std::size_t depth) {
             else if constexpr (std::is_same_v<Value, std::vector<glm::vec3>>)
                 value = std::vector<glm::vec3>(p.optional ? 0 : 1, glm::vec3(0.001f));
             else if constexpr (std::is_same_v<Value, std::vector<float>>)
-                value = {p.unit == "m" ? 1e-4f : 1.f};
+                value = std::vector<float>(p.optional ? 0 : 1, p.unit == "m" ? 1e-4f : 1.f);
             else if constexpr (std::is_same_v<Value, std::vector<Phase>>)
                 value = {Phase{1}};  // as many as there are numbers
             else
@@ -227,6 +227,9 @@ auto chain(std::size_t depth) {
             if (current.node()->depth == 20) break;
         }
         if constexpr (requires { node.surface; }) node.surface = Sphere{};
+        // What stands beside the chain must not be the chain again, or the tree has 2⁴⁰⁰ branches.
+        if constexpr (requires { node.volume; }) node.volume = Sphere{};
+        if constexpr (requires { node.proxy; }) node.proxy = Sphere{};
         if constexpr (IsEndlessGrid<Node>) {
             if (!bounds(current).finite()) break;
             node.spacing = glm::vec3(1.1f * bounds(current).extent().x + 0.01f, 0, 0);

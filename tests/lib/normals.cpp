@@ -94,6 +94,7 @@ Solids every_primitive() {
     s.add(SchwarzP{.period = 1, .thickness = 0.25f});
     s.add(SchwarzD{.period = 1, .thickness = 0.25f});
     s.add(Polyline{.points = {{-1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {0, 1, 1}}, .radius = 0.25f});
+    s.add(Polyhedron{.normals = {{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}}, .offsets = {0.5f}});
     s.add(VoronoiCells{.size = 0.5f, .gap = 0.125f, .jitter = 0});
     s.add(HeightMap{.file = symmetric_grid(), .size_x = 1, .size_y = 1, .height = 0.5f});
     s.add(Circle{.radius = 0.5f});

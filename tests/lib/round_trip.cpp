@@ -7,6 +7,7 @@
 #include "phasetree/nodes/fields/sphere.hpp"
 #include "phasetree/nodes/phased/set.hpp"
 #include "phasetree/nodes/phased/under.hpp"
+#include "phasetree/nodes/warps/translate.hpp"
 #include "phasetree/program/program.hpp"
 #include "support/random_tree.hpp"
 
@@ -55,6 +56,14 @@ TEST_CASE("a tree of any node, written and read again, records into the same pro
         read += of_kind;
     }
     CHECK(read > 500);
+}
+
+TEST_CASE("a negative zero stays negative") {
+    const Field moved = warped(Translate{{0, -0.f, 0}}, Field(Sphere{}));
+    const std::string text = write_tree({{{"vacuum", "a"}}, Set{.phase = Phase{1}, .of = moved}});
+    CAPTURE(text);
+    CHECK(text.find("[0, -0.0, 0]") != std::string::npos);
+    CHECK(write_tree(read_tree(Document::from_text(text))) == text);
 }
 
 TEST_CASE("a shared shape is written once") {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "light_checks.hpp"
+#include "lights/lights.hpp"
 #include "lights/rectangle_light.hpp"
 #include "lights/sphere_light.hpp"
 
@@ -233,6 +234,31 @@ TEST_CASE("sphere: irradiance by its form factor, wholly visible, E = π (r/d)²
     const glm::vec3 p(0.0f);
     for (const glm::vec3 normal : {glm::vec3(0, 0, 1), glm::vec3(0.6f, 0, 0.8f)}) {
         check(irradiance_test(light, p, normal, half_turn / 9.0 * normal.z));
+    }
+}
+
+TEST_CASE("sphere: however small, it gives E = π (r/d)² cos θ, though directions are rounded") {
+    const glm::vec3 centre(0.3f, 7.0f, 7.0f), p(0.1f, 0.2f, 0.3f), normal(0, 0, 1);
+    const glm::dvec3 to_centre = glm::dvec3(centre) - glm::dvec3(p);
+    const double squared_distance = glm::dot(to_centre, to_centre);
+    for (const float radius : {1e-2f, 1e-4f, 1e-5f, 1e-6f}) {
+        CAPTURE(radius);
+        Lights lights;
+        lights.add(SphereLight(centre, radius, glm::vec3(1.0f)));
+        Uniform random(9);
+        double sum = 0;
+        constexpr int count = 20000;
+        for (int i = 0; i < count; ++i) {
+            const auto sample = lights.sample(p, random.two());
+            if (!sample) continue;
+            sum += static_cast<double>(glm::dot(sample->wi, normal)) / static_cast<double>(sample->pdf);
+            // What samples the light and what meets it agree.
+            CHECK(lights.seen(p, sample->wi, INFINITY, false)->distance < 20);
+            CHECK(lights.pdf(p, sample->wi) == sample->pdf);
+        }
+        const double exact = half_turn * static_cast<double>(radius) * static_cast<double>(radius) / squared_distance *
+                             to_centre.z / std::sqrt(squared_distance);
+        CHECK(sum / count / exact == doctest::Approx(1).epsilon(1e-4));
     }
 }
 

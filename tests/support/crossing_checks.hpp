@@ -93,9 +93,21 @@ bool is_within_rounding(const Tracer& tracer, const glm::vec3& p, Phase phase) {
     return false;
 }
 
+/// What is wrong along one ray: its crossings are told to `totals`, and what a person should look at to `complaints`.
 template <class Tracer>
-void check_ray(const Scene& scene, const Tracer& tracer, const Probe& probe, int number, Totals& totals,
-               std::vector<std::string>& complaints) {
+class RayCheck {
+  public:
+    RayCheck(const Scene& scene, const Tracer& tracer, const Probe& probe, int number, Totals& totals,
+             std::vector<std::string>& complaints)
+        : scene_(scene), tracer_(tracer), probe_(probe), number_(number), totals_(totals), complaints_(complaints) {}
+
+    void operator()() {
+        trace();
+        compare_labels();
+        check_isolated_crossings();
+    }
+
+  private:
     using Hit = typename Tracer::Hit;
     struct Step {
         double t_in, t_out;
@@ -103,154 +115,186 @@ void check_ray(const Scene& scene, const Tracer& tracer, const Probe& probe, int
         double aside;  ///< how far beside the exact ray it was looked for
         bool is_rounded;
     };
-    const double resolution = tracer.resolution();
-    const dvec3 o(probe.o), d(probe.d);
-    const float length = 4 * tracer.bounds().diagonal();
-    const auto complain = [&](const char* what) {
-        if (complaints.size() < 10) complaints.push_back(report(what, scene, probe, number));
-    };
 
-    // The tracer's sequence.
-    std::vector<Step> steps;
-    const Phase first = tracer.label(probe.o);
-    Phase carried = first;
-    glm::vec3 origin = probe.o;
-    double aside = 0;
-    ++totals.rays;
-    bool creeps = false;
-    for (int n = 0; n < 200'000; ++n) {  // along all of a face at five resolutions a step
-        TraceCounters counters;
-        const std::optional<Hit> hit = tracer.first_crossing(
-            origin, probe.d, length, carried, steps.empty() ? nullptr : &steps.back().crossing, counters);
-        creeps = creeps || counters.batches > 256;
-        totals.most_batches = std::max(totals.most_batches, counters.batches);
-        if (!hit) break;
-        steps.push_back({glm::dot(dvec3(hit->p_in) - o, d), glm::dot(dvec3(hit->p_out) - o, d), *hit, aside, false});
-        ++totals.crossings;
-        const bool certified = hit->from == carried && hit->from != hit->to && tracer.label(hit->p_out) == hit->to &&
-                               (tracer.label(hit->p_in) == hit->from || (hit->t_in == 0 && hit->t_out == 0));
-        // Along a face at an angle of 10⁻⁵ the label at a point depends on how it was rounded, for long.
-        const bool is_rounded = !certified && hit->from == carried && hit->from != hit->to &&
-                                is_within_rounding(tracer, hit->p_in, hit->from) &&
-                                is_within_rounding(tracer, hit->p_out, hit->to);
-        totals.rounded += is_rounded;
-        steps.back().is_rounded = is_rounded;
-        if (!certified && !is_rounded && totals.uncertified++ < 3) complain("not certified");
-        const double width = glm::length(dvec3(hit->p_out) - dvec3(hit->p_in));
-        // The bracket is cut down to a resolution, and its ends are rounded to float coordinates. One that passes a
-        // sliver of a third phase, undecided for up to 1.5 resolutions, is that much longer.
-        totals.over_sliver += width > 1.01 * resolution + 1e-6 * glm::length(dvec3(hit->p_in));
-        if (width > 2.7 * resolution + 1e-6 * glm::length(dvec3(hit->p_in)) && totals.wide++ < 3)
-            complain("wide bracket");
-        carried = hit->to;
-        origin = hit->p_out;
-        aside = std::max(aside, glm::length(glm::cross(dvec3(origin) - o, d)));
+    void complain(const char* what) {
+        if (complaints_.size() < 10) complaints_.push_back(report(what, scene_, probe_, number_));
     }
-    totals.creeping += creeps;
-    totals.most_crossings = std::max(totals.most_crossings, steps.size());
-    totals.flickering += steps.size() > 100;
 
-    // Where the two step functions differ.
-    const std::vector<Piece> exact = exact_pieces(scene.object, o, d, length);
-    std::vector<double> breaks{0, length};
-    for (const Piece& p : exact) breaks.push_back(p.start);
-    for (const Step& s : steps) breaks.push_back(0.5 * (s.t_in + s.t_out));
-    std::sort(breaks.begin(), breaks.end());
-    const auto exact_label = [&](double t) {
-        std::size_t i = 0;
-        while (i + 1 < exact.size() && exact[i + 1].start <= t) ++i;
-        return exact[i].phase;
-    };
-    const auto traced_label = [&](double t) {
-        Phase l = first;
-        for (const Step& s : steps)
-            if (0.5 * (s.t_in + s.t_out) <= t) l = s.crossing.to;
-        return l;
-    };
-    double wrong_since = -1;
-    for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
-        const double low = std::max(breaks[i], 0.0), high = breaks[i + 1];
-        if (!(high > low)) continue;
-        const double mid = 0.5 * (low + high);
-        const bool wrong = exact_label(mid) != traced_label(mid);
-        if (wrong && wrong_since < 0) wrong_since = low;
-        const bool ends = wrong_since >= 0 && (!wrong || i + 2 == breaks.size());
-        if (!ends) continue;
-        const double begin = wrong_since, end = wrong ? high : low;
-        wrong_since = -1;
-        if (end - begin <= 4 * resolution) continue;
-        double deepest = 0;
-        for (int k = 0; k <= 64; ++k)
-            deepest =
-                std::max(deepest, values(scene.object, o + (begin + (end - begin) * k / 64) * d).interface_distance());
-        if (deepest <= resolution + aside) continue;
-        if (totals.wrong++ < 3) {
-            std::ostringstream what;
-            what.precision(9);
-            what << "wrong from t = " << begin << " to " << end << " (" << (end - begin) / resolution
-                 << " resolutions, " << deepest / resolution << " deep" << (creeps ? ", creeping" : "")
-                 << "), exact phase " << int(exact_label(0.5 * (begin + end)).index) << ", traced "
-                 << int(traced_label(0.5 * (begin + end)).index);
-            complain(what.str().c_str());
+    /// The tracer's crossings: each leads from the phase that is carried to another, and is as short as it should be.
+    void trace() {
+        Phase carried = first_;
+        glm::vec3 origin = probe_.o;
+        ++totals_.rays;
+        for (int n = 0; n < 200'000; ++n) {  // along all of a face at five resolutions a step
+            TraceCounters counters;
+            const std::optional<Hit> hit = tracer_.first_crossing(
+                origin, probe_.d, length_, carried, steps_.empty() ? nullptr : &steps_.back().crossing, counters);
+            creeps_ = creeps_ || counters.batches > 256;
+            totals_.most_batches = std::max(totals_.most_batches, counters.batches);
+            if (!hit) break;
+            steps_.push_back(
+                {glm::dot(dvec3(hit->p_in) - o_, d_), glm::dot(dvec3(hit->p_out) - o_, d_), *hit, aside_, false});
+            ++totals_.crossings;
+            const bool certified = hit->from == carried && hit->from != hit->to &&
+                                   tracer_.label(hit->p_out) == hit->to &&
+                                   (tracer_.label(hit->p_in) == hit->from || (hit->t_in == 0 && hit->t_out == 0));
+            // Along a face at an angle of 10⁻⁵ the label at a point depends on how it was rounded, for long.
+            const bool is_rounded = !certified && hit->from == carried && hit->from != hit->to &&
+                                    is_within_rounding(tracer_, hit->p_in, hit->from) &&
+                                    is_within_rounding(tracer_, hit->p_out, hit->to);
+            totals_.rounded += is_rounded;
+            steps_.back().is_rounded = is_rounded;
+            if (!certified && !is_rounded && totals_.uncertified++ < 3) complain("not certified");
+            const double width = glm::length(dvec3(hit->p_out) - dvec3(hit->p_in));
+            // The bracket is cut down to a resolution, and its ends are rounded to float coordinates. One that passes
+            // a sliver of a third phase, undecided for up to 1.5 resolutions, is that much longer.
+            totals_.over_sliver += width > 1.01 * resolution_ + 1e-6 * glm::length(dvec3(hit->p_in));
+            if (width > 2.75 * resolution_ + 1e-6 * glm::length(dvec3(hit->p_in)) && totals_.wide++ < 3)
+                complain("wide bracket");
+            carried = hit->to;
+            origin = hit->p_out;
+            aside_ = std::max(aside_, glm::length(glm::cross(dvec3(origin) - o_, d_)));
+        }
+        totals_.creeping += creeps_;
+        totals_.most_crossings = std::max(totals_.most_crossings, steps_.size());
+        totals_.flickering += steps_.size() > 100;
+    }
+
+    /// Where the two step functions differ, the exact one and the tracer's.
+    void compare_labels() {
+        std::vector<double> breaks{0, length_};
+        for (const Piece& p : exact_) breaks.push_back(p.start);
+        for (const Step& s : steps_) breaks.push_back(0.5 * (s.t_in + s.t_out));
+        std::sort(breaks.begin(), breaks.end());
+        const auto exact_label = [&](double t) {
+            std::size_t i = 0;
+            while (i + 1 < exact_.size() && exact_[i + 1].start <= t) ++i;
+            return exact_[i].phase;
+        };
+        const auto traced_label = [&](double t) {
+            Phase l = first_;
+            for (const Step& s : steps_)
+                if (0.5 * (s.t_in + s.t_out) <= t) l = s.crossing.to;
+            return l;
+        };
+        double wrong_since = -1;
+        for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+            const double low = std::max(breaks[i], 0.0), high = breaks[i + 1];
+            if (!(high > low)) continue;
+            const double mid = 0.5 * (low + high);
+            const bool wrong = exact_label(mid) != traced_label(mid);
+            if (wrong && wrong_since < 0) wrong_since = low;
+            const bool ends = wrong_since >= 0 && (!wrong || i + 2 == breaks.size());
+            if (!ends) continue;
+            const double begin = wrong_since, end = wrong ? high : low;
+            wrong_since = -1;
+            if (end - begin <= 4 * resolution_) continue;
+            double deepest = 0;
+            for (int k = 0; k <= 64; ++k)
+                deepest = std::max(
+                    deepest, values(scene_.object, o_ + (begin + (end - begin) * k / 64) * d_).interface_distance());
+            if (deepest <= resolution_ + aside_) continue;
+            if (totals_.wrong++ < 3) {
+                std::ostringstream what;
+                what.precision(9);
+                what << "wrong from t = " << begin << " to " << end << " (" << (end - begin) / resolution_
+                     << " resolutions, " << deepest / resolution_ << " deep" << (creeps_ ? ", creeping" : "")
+                     << "), exact phase " << int(exact_label(0.5 * (begin + end)).index) << ", traced "
+                     << int(traced_label(0.5 * (begin + end)).index);
+                complain(what.str().c_str());
+            }
         }
     }
 
-    // Isolated crossings: where they are, their normals, and what is reflected there.
-    for (std::size_t i = 1; i + 1 <= exact.size(); ++i) {
-        const double t = exact[i].start, last = i + 1 < exact.size() ? exact[i + 1].start : length;
-        if (t - exact[i - 1].start < 100 * resolution || last - t < 100 * resolution) continue;
-        dvec3 n = exact[i].normal;
-        double cosine = glm::dot(n, d);
-        if (cosine < 0) n = -n, cosine = -cosine;
-        if (cosine < 0.02) continue;
-        if (!is_smooth(scene.object, o + t * d, n, exact[i - 1].phase, exact[i].phase, resolution)) continue;
-        const Step* nearest = nullptr;
-        for (const Step& s : steps)
-            if (!nearest || std::abs(s.t_out - t) < std::abs(nearest->t_out - t)) nearest = &s;
-        // The field's own rounding, below half a resolution, moves the interface along a slanted ray.
-        const double tolerance = (0.5 * resolution + (nearest ? nearest->aside : 0)) / cosine;
-        if (!nearest || nearest->t_in > t + tolerance || nearest->t_out < t - tolerance) {
-            if (totals.misplaced++ < 3) complain("misplaced");
-            continue;
+    /// Crossings far from others: where they are, their normals, and what is reflected there.
+    void check_isolated_crossings() {
+        for (std::size_t i = 1; i + 1 <= exact_.size(); ++i) {
+            const double t = exact_[i].start, last = i + 1 < exact_.size() ? exact_[i + 1].start : length_;
+            if (t - exact_[i - 1].start < 100 * resolution_ || last - t < 100 * resolution_) continue;
+            dvec3 n = exact_[i].normal;
+            double cosine = glm::dot(n, d_);
+            if (cosine < 0) n = -n, cosine = -cosine;
+            if (cosine < 0.02) continue;
+            if (!is_smooth(scene_.object, o_ + t * d_, n, exact_[i - 1].phase, exact_[i].phase, resolution_)) continue;
+            const Step* nearest = nullptr;
+            for (const Step& s : steps_)
+                if (!nearest || std::abs(s.t_out - t) < std::abs(nearest->t_out - t)) nearest = &s;
+            // The field's own rounding, below half a resolution, moves the interface along a slanted ray.
+            const double tolerance = (0.5 * resolution_ + (nearest ? nearest->aside : 0)) / cosine;
+            if (!nearest || nearest->t_in > t + tolerance || nearest->t_out < t - tolerance) {
+                if (totals_.misplaced++ < 3) complain("misplaced");
+                continue;
+            }
+            check_normal(*nearest, n);
+            // Who knows nothing else may take a label there that is another by rounding for a change.
+            if (!nearest->is_rounded) check_leaving_rays(nearest->crossing);
         }
-        const Hit& hit = nearest->crossing;
-        const glm::vec3 normal = tracer.normal(hit, probe.d);
-        ++totals.normals;
+    }
+
+    /// The normal of a crossing, which is exactly n, and the ray that is reflected there.
+    void check_normal(const Step& step, const dvec3& n) {
+        const Hit& hit = step.crossing;
+        const glm::vec3 normal = tracer_.normal(hit, probe_.d);
+        ++totals_.normals;
         // It is taken at an end of the bracket, and on the way there a small ball's normal turns.
         const auto is_off = [&](const dvec3& m) { return glm::length(glm::cross(dvec3(normal), m)) > 1e-3; };
         if (glm::dot(dvec3(normal), n) < 0 ||
-            (is_off(n) && is_off(growth(scene.object, dvec3(hit.p_in), hit.from, resolution)) &&
-             is_off(growth(scene.object, dvec3(hit.p_out), hit.to, resolution)))) {
-            if (totals.bad_normals++ < 3) complain("normal");
+            (is_off(n) && is_off(growth(scene_.object, dvec3(hit.p_in), hit.from, resolution_)) &&
+             is_off(growth(scene_.object, dvec3(hit.p_out), hit.to, resolution_)))) {
+            if (totals_.bad_normals++ < 3) complain("normal");
         }
-        const glm::vec3 back = glm::normalize(probe.d - 2 * glm::dot(probe.d, normal) * normal);
+        const glm::vec3 back = glm::normalize(probe_.d - 2 * glm::dot(probe_.d, normal) * normal);
         TraceCounters unused;
-        const auto again = tracer.first_crossing(hit.p_in, back, length, hit.from, &hit, unused);
-        ++totals.reflections;
-        if (again && again->t_out < tracer.resolution()) {
-            if (totals.self_hits++ < 3) complain("a reflected ray hits where it starts");
+        const auto again = tracer_.first_crossing(hit.p_in, back, length_, hit.from, &hit, unused);
+        ++totals_.reflections;
+        if (again && again->t_out < tracer_.resolution()) {
+            if (totals_.self_hits++ < 3) complain("a reflected ray hits where it starts");
         }
-        // What is known of a ray's start changes nothing of what it meets, on whichever side it leaves; unless the
-        // label there is another by rounding, and who knows nothing else takes it for a change.
-        if (nearest->is_rounded) continue;
-        Random rng(static_cast<std::uint64_t>(number) + 1);
+    }
+
+    /// What is known of a ray's start changes nothing of what it meets, on whichever side it leaves.
+    void check_leaving_rays(const Hit& hit) {
+        const glm::vec3 normal = tracer_.normal(hit, probe_.d);
+        Random rng(static_cast<std::uint64_t>(number_) + 1);
         for (const bool is_near : {true, false}) {
             glm::vec3 away = rng.direction();
             if ((glm::dot(away, normal) < 0) != is_near) away = -away;
             TraceCounters knowing, unknowing;
             const auto leave = [&](const Hit* start, TraceCounters& counters) {
-                return tracer.first_crossing(is_near ? hit.p_in : hit.p_out, away, length, is_near ? hit.from : hit.to,
-                                             start, counters);
+                return tracer_.first_crossing(is_near ? hit.p_in : hit.p_out, away, length_,
+                                              is_near ? hit.from : hit.to, start, counters);
             };
             const auto known = leave(&hit, knowing), unknown = leave(nullptr, unknowing);
-            totals.batches_knowing += knowing.batches;
-            totals.batches_unknowing += unknowing.batches;
-            ++totals.departures;
+            totals_.batches_knowing += knowing.batches;
+            totals_.batches_unknowing += unknowing.batches;
+            ++totals_.departures;
             if (known.has_value() != unknown.has_value() ||
-                (known && std::abs(known->t_in - unknown->t_in) > 4 * tracer.resolution()))
-                if (totals.strayed++ < 3) complain("a ray that leaves an interface strays");
+                (known && std::abs(known->t_in - unknown->t_in) > 4 * tracer_.resolution()))
+                if (totals_.strayed++ < 3) complain("a ray that leaves an interface strays");
         }
     }
+
+    const Scene& scene_;
+    const Tracer& tracer_;
+    const Probe& probe_;
+    const int number_;
+    Totals& totals_;
+    std::vector<std::string>& complaints_;
+
+    const double resolution_ = tracer_.resolution();
+    const dvec3 o_{probe_.o}, d_{probe_.d};
+    const float length_ = 4 * tracer_.bounds().diagonal();
+    const Phase first_ = tracer_.label(probe_.o);
+    const std::vector<Piece> exact_ = exact_pieces(scene_.object, o_, d_, length_);
+    std::vector<Step> steps_;
+    bool creeps_ = false;
+    double aside_ = 0;  ///< how far the last crossings lie beside the exact ray, at most
+};
+
+template <class Tracer>
+void check_ray(const Scene& scene, const Tracer& tracer, const Probe& probe, int number, Totals& totals,
+               std::vector<std::string>& complaints) {
+    RayCheck<Tracer>(scene, tracer, probe, number, totals, complaints)();
 }
 
 /// `make(object, whole)` gives a tracer of the object, whose whole program's is given; `probe(rng, scene, whole,

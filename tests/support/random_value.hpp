@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -53,6 +55,28 @@ inline Phased bounded(Random& rng, Phased a) {
     return IntersectShape{.of = std::move(a), .shape = Sphere{.radius = rng.uniform(0.8f, 1.6f)}, .phases_cut = {}};
 }
 
+/// A formula; some of them need bounds, and are refused without.
+inline std::string random_formula(Random& rng) {
+    static constexpr const char* formulas[] = {
+        "length(x, y, z) - A",
+        "r = sqrt(x^2 + y^2); sqrt((r - A)^2 + z^2) - B / 3",
+        "max(abs(x) - A, abs(y - B) - A, abs(z) - B) + 0.05",
+        "min(length(x - A, y), length(y, z + B)) - 0.3",
+        "smooth_min(length(x, y, z) - A, abs(z - B) - 0.1, B)",
+        "x^2 + B * y^2 + z^4 - A",
+        "sin(3 * x) * cos(2 * y) - z * A",
+        "exp(-x^2) * B - abs(z) / 2 + tanh(y * A) / 4",
+        "-smooth_max(A * x - y^3, z / (1 + x^2), B) + 0.2",
+    };
+    std::string text = formulas[rng.below(static_cast<int>(std::size(formulas)))];
+    for (const char* letter : {"A", "B"}) {
+        const std::string number = std::to_string(rng.uniform(0.3f, 1));
+        for (std::size_t at = text.find(letter); at != std::string::npos; at = text.find(letter))
+            text.replace(at, 1, number);
+    }
+    return text;
+}
+
 /// A value of a parameter; what is random of a child is bounded if the node needs that.
 template <class Value>
 void fill(Random& rng, Value& value, const Parameter& p, int depth, bool needs_bounded) {
@@ -69,6 +93,8 @@ void fill(Random& rng, Value& value, const Parameter& p, int depth, bool needs_b
     } else if constexpr (std::is_same_v<Value, int>) {
         // Counts multiply, in a grid and down the tree. A slope that is only sampled is not proven.
         value = p.name == "samples" ? 0 : 1 + rng.below(2);
+    } else if constexpr (std::is_same_v<Value, std::string>) {
+        value = random_formula(rng);
     } else if constexpr (std::is_same_v<Value, glm::vec3>) {
         for (int i = 0; i < 3; ++i) value[i] = random_number(rng, p);
     } else if constexpr (std::is_same_v<Value, glm::vec2>) {
@@ -104,6 +130,13 @@ void fill(Random& rng, Value& value, const Parameter& p, int depth, bool needs_b
         // Mostly two or three, now and then the single child that a fold over the rest must survive.
         using Entry = typename Value::value_type;
         const bool is_outline = std::is_same_v<Entry, glm::vec2>;
+        if constexpr (std::is_same_v<Entry, glm::vec3>) {
+            if (p.name == "bounds") {
+                const glm::vec3 middle(rng.uniform(-0.3f, 0.3f), 0, 0), half(rng.uniform(0.8f, 1.6f));
+                value = {middle - half, middle + half};
+                return;
+            }
+        }
         value.resize(static_cast<std::size_t>(is_outline ? 3 + rng.below(4) : rng.chance(0.1) ? 1 : 2 + rng.below(2)));
         if constexpr (std::is_same_v<Entry, Field> || std::is_same_v<Entry, Phased>) {
             for (auto& child : value) draw(child);

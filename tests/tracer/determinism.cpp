@@ -13,8 +13,9 @@ using namespace phasetree::tracer::tests;
 
 namespace {
 
-// Some of everything: clear, rough, diffuse, textured, coated and metal phases, a mesh, lights near and far, a lens.
-Scene everything() {
+// Some of everything: clear, rough, diffuse, textured, coated and metal phases, a mesh, lights near and far, a lens;
+// and caustics, if wanted.
+Scene everything(bool caustics = false) {
     return scene_of(
         R"("glass": {"clear": {"ior": 1.5, "absorption": [0.2, 0.1, 0.3]}}, "water": {"clear": {"ior": 1.33}},
            "frost": {"clear": {"ior": 1.4, "roughness": 0.2}}, "sand": {"diffuse": {"color": {"speckle": {"grain": 0.02}}}},
@@ -26,11 +27,12 @@ Scene everything() {
             {"set": {"phase": "metal", "of": {"translate": {"by": [0.5, -0.9, -0.5], "of": {"twist": {"rate": 120, "of": {"box": {"size": [0.2, 0.3, 1]}}}}}}}},
             {"set": {"phase": "frost", "of": {"translate": {"by": [-0.7, -0.9, -0.6], "of": {"torus": {"major": 0.3, "minor": 0.1}}}}}},
             {"set": {"phase": "wood", "of": {"translate": {"by": [0, 0, -1], "of": {"cylinder": {"radius": 1.5, "height": 0.3}}}}}}]})",
-        R"("meshes": [{"floor": {"height": -1.3, "material": {"diffuse": {"color": [0.5, 0.4, 0.3]}}}}],
+        std::string(R"("meshes": [{"floor": {"height": -1.3, "material": {"diffuse": {"color": [0.5, 0.4, 0.3]}}}}],
            "lights": [{"gradient": {"zenith": [0.5, 0.6, 0.9], "horizon": [0.5, 0.5, 0.5], "ground": [0.1, 0.1, 0.1]}},
                       {"rectangle": {"centre": [-2, -2, 3], "target": [0, 0, 0], "width": 1, "height": 1, "radiance": [9, 8, 7]}}],
            "camera": {"position": [0.5, -4, 1.2], "look_at": [0, 0, -0.3], "fov": 40, "lens_radius": 0.05},
-           "render": {"width": 37, "height": 29, "samples": 5, "seed": 3})");
+           "render": {"width": 37, "height": 29, "samples": 5, "seed": 3, "caustics": )") +
+            (caustics ? "true" : "false") + "}");
 }
 
 Image image_with(const World& world, const Scene& scene, int threads, std::optional<PixelRange> part = {}) {
@@ -83,6 +85,22 @@ TEST_CASE("any number of threads, any crop") {
     // The comparison can fail.
     scene.settings.seed = 4;
     CHECK_FALSE(equal_bits(one, image_with(world, scene, 1)));
+}
+
+TEST_CASE("any number of threads, any crop, with photons") {
+    const Scene scene = everything(true);
+    const World world(scene);
+    const Image one = image_with(world, scene, 1);
+    CHECK(equal_bits(one, image_with(world, scene, 3)));
+    const PixelRange part{5, 3, 30, 20};
+    const Image crop = image_with(world, scene, 2, part);
+    int different = 0;
+    for (int y = part.y0; y < part.y1; ++y)
+        for (int x = part.x0; x < part.x1; ++x)
+            different += !equal_bits(crop.pixels[part.index(x, y)], one.pixels[scene.film.whole().index(x, y)]);
+    CHECK(different == 0);
+    // Photons did something.
+    CHECK_FALSE(equal_bits(one, image_with(world, everything(), 1)));
 }
 
 TEST_CASE("any instruction set") {

@@ -1,86 +1,152 @@
-// The film: tiles that are merged in any order, the values that planes record, and crops.
+// The film: samples that are divided among tiles in any way, the values that planes record, and crops.
 #include "film/film.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <limits>
+#include <random>
+
+#include "film/sums/count.hpp"
+#include "film/sums/first_value.hpp"
 
 using namespace phasetree::tracer;
 
 namespace {
 
-// The greatest radiance of any sample, and their number: two channels of a layer.
-struct GreatestPlane {
-    struct Sum {
-        float greatest = 0;
-        int count = 0;
-        bool operator==(const Sum&) const = default;
-    };
-    static constexpr std::array<std::string_view, 2> channels{"greatest.Y", "greatest.count"};
-
-    static void add(Sum& sum, const FilmSample& sample) {
-        sum.greatest = std::max(sum.greatest, sample.radiance.g);
-        ++sum.count;
+// What the first sample brought, and how many there were: two channels of a layer.
+struct FirstPlane {
+    using Sum = FirstValue<1>;
+    static constexpr std::string_view name = "first";
+    static constexpr bool by_default = false;
+    explicit FirstPlane(const PlaneSubjects&) {}
+    std::vector<std::string> channels() const { return {"first.Y", "first.count"}; }
+    std::size_t sums() const { return 1; }
+    void add(std::span<Sum> sums, const FilmSample& sample, FilmFaults&) const {
+        sums[0].add({sample.radiance.g}, sample.number);
     }
-    static std::array<float, 2> resolve(const Sum& sum, int) { return {sum.greatest, static_cast<float>(sum.count)}; }
+    void resolve(std::span<const Sum> sums, std::uint32_t samples, std::span<float> values) const {
+        values[0] = sums[0].values(-1)[0];
+        values[1] = static_cast<float>(samples);
+    }
 };
 
-// A plane whose values are fewer than its channels.
-struct WrongPlane : GreatestPlane {
-    static std::array<float, 1> resolve(const Sum&, int) { return {0}; }
+// A channel for each phase, as planes have that depend on the scene.
+struct PhasesPlane {
+    using Sum = Count;
+    static constexpr std::string_view name = "phases";
+    static constexpr bool by_default = true;
+    explicit PhasesPlane(const PlaneSubjects& subjects) : names(subjects.phases) {}
+    std::vector<std::string> channels() const { return names; }
+    std::size_t sums() const { return names.size(); }
+    void add(std::span<Sum> sums, const FilmSample& sample, FilmFaults&) const {
+        ++sums[sample.number % sums.size()].count;
+    }
+    void resolve(std::span<const Sum> sums, std::uint32_t, std::span<float> values) const {
+        for (std::size_t i = 0; i < sums.size(); ++i) values[i] = static_cast<float>(sums[i].count);
+    }
+    std::vector<std::string> names;
 };
 
-static_assert(PlaneKind<RadiancePlane> && PlaneKind<GreatestPlane> && !PlaneKind<WrongPlane> && !PlaneKind<int>);
+// A plane whose sums depend on the order.
+struct WrongPlane : FirstPlane {
+    using Sum = float;
+};
 
-// Sums of which in floats would depend on the order: the value of sample s of a pixel.
+static_assert(PlaneKind<RadiancePlane> && PlaneKind<FirstPlane> && PlaneKind<PhasesPlane>);
+static_assert(!PlaneKind<WrongPlane> && !PlaneKind<int>);
+
+// Values of which a sum of floats would depend on the order: sample s of a pixel.
 FilmSample sample_of(int x, int y, int s) {
     const float value = 1.0f / static_cast<float>(3 + 7 * x + 11 * y + 13 * s);
-    return {{value, 1e10f * value, 1e-10f * value}};
+    return {{value, 1e10f * value, 1e-10f * value}, static_cast<std::uint32_t>(s)};
+}
+
+const FilmSettings small{.width = 10, .height = 6};
+
+bool equal(const Film& a, const Film& b) {
+    ByteWriter of_a, of_b;
+    for (int y = a.area().y0; y < a.area().y1; ++y) {
+        a.pixels().write_row(y, of_a);
+        b.pixels().write_row(y, of_b);
+    }
+    return of_a.bytes() == of_b.bytes() && a.image().pixels == b.image().pixels &&
+           a.pixels().faults() == b.pixels().faults();
 }
 
 }  // namespace
 
-TEST_CASE("film: tiles may be merged in any order, over several passes") {
-    const FilmSettings settings{.width = 10, .height = 6};
-    const PixelRange left{0, 0, 4, 6}, right{4, 0, 10, 6};
-    Film one(settings, settings.whole()), other(settings, settings.whole());
-    const auto add = [](Film& film, const PixelRange& part, int first, int last) {
-        FilmTile tile = film.tile(part);
-        for (int y = part.y0; y < part.y1; ++y)
-            for (int x = part.x0; x < part.x1; ++x)
-                for (int s = first; s < last; ++s) tile.add(x, y, sample_of(x, y, s));
-        return tile;
+TEST_CASE("film: samples may be divided among tiles in any way") {
+    Film one(small, small.whole());
+    FilmTile all = one.tile(small.whole());
+    struct Place {
+        int x, y, s;
     };
-    one.merge(add(one, settings.whole(), 0, 5));
-    for (const auto& [first, last] : {std::pair(0, 1), std::pair(1, 5)}) {
-        const FilmTile a = add(other, left, first, last), b = add(other, right, first, last);
-        other.merge(b);
-        other.merge(a);
+    std::vector<Place> places;
+    for (int y = 0; y < 6; ++y)
+        for (int x = 0; x < 10; ++x)
+            for (int s = 0; s < 5; ++s) {
+                places.push_back({x, y, s});
+                all.add(x, y, sample_of(x, y, s));
+            }
+    one.add(all);
+
+    std::mt19937 random(1);
+    const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+    for (int round = 0; round < 30; ++round) {
+        // Overlapping tiles, each with some of the samples that fall into it; a film of one pixel for what remains.
+        std::vector<FilmTile> tiles;
+        for (int i = 0; i < 8; ++i) {
+            const int x = below(10), y = below(6);
+            tiles.push_back(one.tile({x, y, x + 1 + below(10 - x), y + 1 + below(6 - y)}));
+        }
+        tiles.push_back(one.tile(small.whole()));
+        std::ranges::shuffle(places, random);
+        for (const Place& p : places) {
+            std::size_t i = static_cast<std::size_t>(below(static_cast<int>(tiles.size())));
+            const PixelRange& a = tiles[i].area();
+            if (p.x < a.x0 || p.x >= a.x1 || p.y < a.y0 || p.y >= a.y1) i = tiles.size() - 1;
+            tiles[i].add(p.x, p.y, sample_of(p.x, p.y, p.s));
+        }
+        std::ranges::shuffle(tiles, random);
+        Film other(small, small.whole());
+        for (const FilmTile& tile : tiles) other.add(tile);
+        CHECK(equal(one, other));
     }
-    const Image expected = one.image(), found = other.image();
-    CHECK(found.pixels == expected.pixels);
     for (const glm::ivec2 p : {glm::ivec2(0, 0), glm::ivec2(9, 5), glm::ivec2(4, 3)}) {
         glm::dvec3 sum(0);
         for (int s = 0; s < 5; ++s) sum += glm::dvec3(sample_of(p.x, p.y, s).radiance);
-        CHECK(found.pixels[static_cast<std::size_t>(p.y * 10 + p.x)] == glm::vec3(sum / 5.0));
+        const glm::vec3 found = one.image().pixels[static_cast<std::size_t>(p.y * 10 + p.x)];
+        for (int c = 0; c < 3; ++c)
+            CHECK(found[c] == doctest::Approx(static_cast<float>(sum[c] / 5.0)).epsilon(c == 2 ? 1e-6 : 1e-7));
+        CHECK(one.pixels().samples(p.x, p.y) == 5);
     }
+    // The comparison can fail.
+    Film other(small, small.whole());
+    other.add(all);
+    FilmTile again = other.tile({3, 3, 4, 4});
+    again.add(3, 3, {glm::vec3(1e-16f), 5});
+    other.add(again);
+    CHECK_FALSE(equal(one, other));
 }
 
-TEST_CASE("film: a tile that is not merged changes nothing, and pixels without samples are black") {
+TEST_CASE("film: pixels without samples are black, and what is not finite is counted and leaves no trace") {
     const FilmSettings settings{.width = 3, .height = 2};
     Film film(settings, settings.whole());
-    FilmTile dropped = film.tile({0, 0, 2, 2});
-    dropped.add(1, 1, {glm::vec3(5)});
+    FilmTile tile = film.tile({0, 0, 2, 2});
+    tile.add(1, 1, {glm::vec3(5)});
     CHECK(film.image().pixels == std::vector<glm::vec3>(6, glm::vec3(0)));
-    film.merge(dropped);
+    film.add(tile);
     CHECK(film.image().pixels[4] == glm::vec3(5));
     CHECK(film.image().pixels[5] == glm::vec3(0));
-    CHECK(count_non_finite(film.image()) == 0);
     FilmTile broken = film.tile({2, 0, 3, 1});
-    broken.add(2, 0, {glm::vec3(0, std::numeric_limits<float>::quiet_NaN(), 0)});
-    film.merge(broken);
-    CHECK(count_non_finite(film.image()) == 1);
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    broken.add(2, 0, {glm::vec3(2, std::numeric_limits<float>::quiet_NaN(), 4)});
+    broken.add(2, 0, {glm::vec3(2, -infinity, 1e30f)});
+    film.add(broken);
+    CHECK(film.pixels().faults() == FilmFaults{.not_finite = 2, .too_large = 1});
+    CHECK(film.image().pixels[2] == glm::vec3(2, 0, 0x1p39f + 2));
+    CHECK(count_non_finite(film.image()) == 0);
 }
 
 TEST_CASE("film: a part of the picture is a crop, with the same positions of samples") {
@@ -103,20 +169,61 @@ TEST_CASE("film: a part of the picture is a crop, with the same positions of sam
     CHECK(smooth.sample_position(0, 0, {0, 0.5f}).x == doctest::Approx(-1.0));
 }
 
-TEST_CASE("planes beside the picture become further channels") {
-    using Two = PlaneList<RadiancePlane, GreatestPlane>;
-    Two::Sums sums{};
-    for (int s = 0; s < 4; ++s) Two::add(sums, {glm::vec3(1, static_cast<float>(s % 3), 0)});
-    Image image = Two::image(2, 1);
-    REQUIRE(image.further.size() == 2);
-    CHECK(image.further[0].name == "greatest.Y");
-    CHECK(image.further[1].name == "greatest.count");
-    Two::resolve(sums, 4, image, 1);
-    CHECK(image.pixels[0] == glm::vec3(0));
-    CHECK(image.pixels[1] == glm::vec3(1, 0.75f, 0));
-    CHECK(image.further[0].values == std::vector<float>{0, 2});
-    CHECK(image.further[1].values == std::vector<float>{0, 4});
-    CHECK(count_non_finite(image) == 0);
-    image.further[1].values[0] = std::numeric_limits<float>::infinity();
-    CHECK(count_non_finite(image) == 1);
+TEST_CASE("film: rows as bytes, and back") {
+    Film film(small, {2, 1, 7, 5});
+    FilmTile tile = film.tile({3, 1, 7, 4});
+    std::mt19937 random(2);
+    for (int i = 0; i < 100; ++i) {
+        const int x = 3 + static_cast<int>(random() % 4), y = 1 + static_cast<int>(random() % 3);
+        tile.add(x, y, sample_of(x, y, i));
+    }
+    film.add(tile);
+    Film read(small, {2, 1, 7, 5});
+    FilmTile rows = read.tile({2, 1, 7, 5});
+    for (int y = 1; y < 5; ++y) {
+        ByteWriter out;
+        film.pixels().write_row(y, out);
+        ByteReader in(out.bytes());
+        rows.read_row(y, in);
+        CHECK(in.left() == 0);
+        ByteReader cut(std::span<const std::byte>(out.bytes()).first(out.bytes().size() - 1));
+        FilmTile unused = read.tile({2, 1, 7, 5});
+        CHECK_THROWS_AS(unused.read_row(y, cut), BytesError);
+    }
+    read.add(rows);
+    CHECK(equal(film, read));
+}
+
+TEST_CASE("planes beside the picture become further channels, if they are chosen") {
+    using Three = PlaneList<RadiancePlane, FirstPlane, PhasesPlane>;
+    CHECK(Three::names == std::array<std::string_view, 3>{"beauty", "first", "phases"});
+    CHECK(Three::by_default().to_string() == "101");  // the last first
+    const PlaneSubjects subjects{{"vacuum", "glass"}, {}, {}};
+    const auto image_of = [&](const Three::Choice& choice) {
+        Three::Sums sums(choice, subjects, 2);
+        FilmFaults faults;
+        for (std::uint32_t s = 5; s-- > 0;) sums.add(1, {glm::vec3(1, 2.0f + static_cast<float>(s), 0), s}, faults);
+        Image image = black_image({.width = 2, .height = 1}, {0, 0, 2, 1}, sums.channels());
+        sums.resolve(1, 5, image, 1);
+        CHECK(image.pixels[0] == glm::vec3(0));
+        CHECK(image.pixels[1] == glm::vec3(1, 4, 0));
+        return image;
+    };
+    const Image all = image_of(Three::all());
+    REQUIRE(all.further.size() == 4);
+    CHECK(all.further[0].name == "first.Y");
+    CHECK(all.further[0].values == std::vector<float>{0, 2});
+    CHECK(all.further[1].name == "first.count");
+    CHECK(all.further[1].values == std::vector<float>{0, 5});
+    CHECK(all.further[2].name == "vacuum");
+    CHECK(all.further[2].values == std::vector<float>{0, 3});
+    CHECK(all.further[3].name == "glass");
+    CHECK(all.further[3].values == std::vector<float>{0, 2});
+    const Image some = image_of(Three::by_default());
+    REQUIRE(some.further.size() == 2);
+    CHECK(some.further[0].name == "vacuum");
+    // The picture is always kept, and what is not chosen takes nothing.
+    CHECK(image_of({}).further.empty());
+    CHECK(Three::Sums({}, subjects, 2).bytes_of_pixel() == 48);
+    CHECK(Three::Sums(Three::all(), subjects, 2).bytes_of_pixel() == 48 + sizeof(FirstValue<1>) + 2 * sizeof(Count));
 }

@@ -154,6 +154,7 @@ void tell_lights(const Document& document, std::vector<float>& told) {
         tell(told, sample->radiance);
         told.push_back(sample->pdf);
     }
+    told.push_back(static_cast<float>(lights.groups().size()));
 }
 
 void tell_meshes(const Document& document, std::vector<float>& told) {
@@ -184,7 +185,7 @@ void tell_settings(const Document& document, std::vector<float>& told) {
     const tracer::RenderSettings s = tracer::read_settings(document, document.root(), film);
     for (const int i : {film.width, film.height, s.samples, s.max_depth}) told.push_back(static_cast<float>(i));
     told.push_back(static_cast<float>(s.seed));
-    told.push_back(s.exposure_ev);
+    told.insert(told.end(), {s.exposure_ev, s.caustics ? 1.0f : 0.0f, s.photons, s.photon_radius});
     told.push_back(static_cast<float>(s.view ? s.view->size() : 0));
 }
 
@@ -318,8 +319,8 @@ TEST_CASE("what is needed at least is enough, and each of it is needed") {
         const Document document = c.document(c.needed);
         const auto error = error_of(c, document);
         CHECK(!error);
-        const Document needed = Document::from_text("{" + c.needed + "}");
-        if (c.name == "conductor") continue;  // a metal, or two numbers
+        // A conductor needs two numbers where it names no metal; it is the metal that may be left out.
+        const Document needed = Document::from_text("{" + c.needed_with(c.name == "conductor" ? "k" : "") + "}");
         for (const Value left_out : needed.root()) {
             std::string members;
             for (const Value member : needed.root()) {
@@ -354,9 +355,15 @@ TEST_CASE("a default is what is read when the key is left out") {
 
 TEST_CASE("every key changes what is read") {
     // Another value than the default, or than what is needed, for each.
-    const std::map<std::string, std::string> others{
-        {"metal", "\"iron\""}, {"filter", "\"box\""}, {"view", "\"Raw\""},           {"sun", "false"},
-        {"y_up", "true"},      {"smooth", "false"},   {"visible_to_camera", "false"}};
+    const std::map<std::string, std::string> others{{"metal", "\"iron\""},
+                                                    {"filter", "\"box\""},
+                                                    {"view", "\"Raw\""},
+                                                    {"sun", "false"},
+                                                    {"y_up", "true"},
+                                                    {"smooth", "false"},
+                                                    {"visible_to_camera", "false"},
+                                                    {"group", "\"key\""},
+                                                    {"caustics", "true"}};
     for (const Case& c : cases()) {
         CAPTURE(c.name);
         for (const Value property : properties_of(c)) {
@@ -510,6 +517,9 @@ TEST_CASE("an image has the size and the settings that the page promises, with o
         CHECK(read.settings.seed == number("seed"));
         CHECK(read.settings.max_depth == number("max_depth"));
         CHECK(static_cast<double>(read.settings.exposure_ev) == number("exposure"));
+        CHECK(!read.settings.caustics);
+        CHECK(static_cast<double>(read.settings.photons) == number("photons"));
+        CHECK(static_cast<double>(read.settings.photon_radius) == number("photon_radius"));
         CHECK(!read.settings.view);
     }
 }

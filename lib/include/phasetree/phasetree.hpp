@@ -3,11 +3,14 @@
 // phasetree/phasetree_embree.h.
 #pragma once
 
+#include "phasetree/carving/carve.hpp"
 #include "phasetree/cells/cells.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/math/float_mode.hpp"
 #include "phasetree/model/handle.hpp"
+#include "phasetree/model/renumber.hpp"
 #include "phasetree/nodes/list.hpp"
 #include "phasetree/program/program.hpp"
 #include "phasetree/trace/tracer.hpp"
+#include "phasetree/tree/levels_of_detail.hpp"
 #include "phasetree/version.hpp"

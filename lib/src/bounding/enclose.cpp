@@ -1,12 +1,11 @@
+// The enclosures of a program's values; interface_bounds.cpp has what follows from them for interfaces.
 #include "bounding/enclose.hpp"
 
 #include <cmath>
 #include <memory>
 
-#include "bounding/cut.hpp"
 #include "bounding/enclose_primitive.hpp"
 #include "bounding/nearly_linear.hpp"
-#include "bounding/plane_cut.hpp"
 #include "evaluation/interpret.hpp"
 #include "rewriting/readable_steps.hpp"
 
@@ -195,86 +194,6 @@ std::optional<ValueRanges> Encloser::value_ranges(const WorkingProgram& program)
     }
     for (const ProgramOutput& o : program.outputs) set(o.value, enclosure_of_output(o).value);
     return ValueRanges{low, high, program.lipschitz, last_, half_, margin};
-}
-
-// The bounds of the curvature of s, the distance within which the label stays the same. There are two choices of s
-// (Routine::is_by_own): minus the label's own component, whose curvature is at most minus the lower bound of that
-// component's; or the minimum of the other components, which curves upward no more than the most curved of them. The
-// choice with the smaller sum of bounds is taken.
-Curvature Encloser::curvature() const {
-    const std::span<const ProgramOutput> outputs = last_.program.outputs;
-    // Index 0 is for rays in the phase of the first output, 1 for rays in any other. `by_others` bounds the curvature
-    // of the components that may be among the others: all but the first, or any. `by_own` bounds that of minus the own
-    // component, and `of_first` that of the first component. Each is the largest of the bounds, and at least 0.
-    double by_others[] = {0, 0}, by_own[] = {0, 0}, of_first = 0;
-    for (std::size_t i = 0; i < outputs.size(); ++i) {
-        const Range& c = last_[outputs[i].value].curvature;
-        const Range curvature = outputs[i].negate ? -c : c;
-        if (i == 0) of_first = std::max(of_first, curvature.high);
-        if (i > 0) by_others[0] = std::max(by_others[0], curvature.high);
-        by_others[1] = std::max(by_others[1], curvature.high);
-        by_own[i == 0 ? 0 : 1] = std::max(by_own[i == 0 ? 0 : 1], -curvature.low);
-    }
-    const auto rounded_up = [](double bound) {
-        return bound < 1e30 ? static_cast<float>(bound) * (1 + 1e-3f) : Curvature::unknown;
-    };
-    const bool is_shared = outputs.size() == 2 && outputs[0].value == outputs[1].value;
-    Curvature result;
-    result.is_by_own = by_own[0] + by_own[1] < by_others[0] + by_others[1];
-    for (std::size_t i = 0; i < 2; ++i) result.bound[i] = rounded_up(result.is_by_own ? by_own[i] : by_others[i]);
-    result.is_by_first =
-        is_shared || std::ranges::none_of(outputs.subspan(1), [&](const ProgramOutput& o) { return is_clear(o); });
-    if (!is_shared) result.bound[0] = rounded_up(by_own[0]);  // In the first phase s is minus the first component.
-    // Where the first component alone tells where rays may be, it is s in the other phases.
-    if (result.is_by_first) result.bound[1] = rounded_up(of_first);
-    return result;
-}
-
-// The linear bound of the field f about the origin of coordinates, in floats.
-LinearBound Encloser::linear_bound(const NearlyLinear& linear, const Enclosure& f) const {
-    LinearBound bound;
-    if (!(linear.slack < 1e30)) return bound;
-    const glm::vec3 farthest = glm::max(glm::abs(box_.low), glm::abs(box_.high));
-    const float largest_coordinate = std::max({farthest.x, farthest.y, farthest.z});
-    for (int i = 0; i < 3; ++i) bound.normal[i] = static_cast<float>(linear.normal[static_cast<std::size_t>(i)]);
-    bound.offset = static_cast<float>(linear.at_centre - glm::dot(glm::dvec3(bound.normal), glm::dvec3(box_.centre())));
-    // The last summand is for the rounding of normal·p + offset.
-    bound.slack =
-        static_cast<float>(linear.slack) * (1 + 1e-6f) + 3 * context_.value_error + 1e-6f * largest_coordinate;
-    // Directions of rays are of unit length to within 10⁻⁵.
-    bound.spread = static_cast<float>(linear.spread(f, half_)) * (1 + 1e-3f) + 1e-5f;
-    return bound;
-}
-
-// A box around the zeros of the first component, by its own linear bound. That leaves a slab, and if half the slab's
-// thickness is less than 15 % of the box's extent along the normal, it is enough. Otherwise the zeros are also bounded
-// by those of the values that the component is made of.
-Bounds Encloser::box_around_interface(const NearlyLinear& linear, const LinearBound& bound) const {
-    const PlaneCut plane(linear, box_.centre(), cut_margin(box_, context_.value_error));
-    const Bounds box = plane.at(0, LaneBox(box_)).bounds();
-    if (bound.slack < 0.15f * glm::dot(glm::abs(bound.normal), box_.extent())) return box;
-    return cut_to_zero(last_.program.outputs[0].value, box, last_, scratch_);
-}
-
-InterfaceBounds Encloser::interface_bounds() const {
-    const std::span<const ProgramOutput> outputs = last_.program.outputs;
-    const Enclosure f = enclosure_of_output(outputs[0]);  // This is the first component, except for its sign.
-    const NearlyLinear linear(f, half_);
-    InterfaceBounds result;
-    result.specialisations = specialisations_;
-    result.curvature = curvature();
-    result.bound = linear_bound(linear, f);
-    result.box = box_;
-    // If the other phases are opaque, the only interfaces that rays can meet are zeros of the first component.
-    if (result.curvature.is_by_first) result.box = box_around_interface(linear, result.bound);
-    if (result.box.empty()) return result;
-
-    const bool is_shared = outputs.size() == 2 && outputs[0].value == outputs[1].value;
-    const auto is_needed_in = [&](std::size_t side) {
-        return !(result.curvature.bound[side] < Curvature::unknown) && is_clear(outputs[side]);
-    };
-    if (is_needed_in(0) || (is_shared && is_needed_in(1))) result.certificate = certify_sign(last_, scratch_);
-    return result;
 }
 
 }  // namespace phasetree::bounding

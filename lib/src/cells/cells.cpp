@@ -1,4 +1,4 @@
-// The questions that InterfaceCells answer.
+// The questions that InterfaceCells answer, but for the search along a ray (search.cpp).
 #include "phasetree/cells/cells.hpp"
 
 #include <algorithm>
@@ -21,20 +21,6 @@ Bounds InterfaceCells::bounds(std::size_t cell) const {
 }
 const Bounds& InterfaceCells::bounds() const {
     return data_->bounds;
-}
-
-std::optional<Crossing> InterfaceCells::first_crossing(std::size_t cell, const glm::vec3& origin,
-                                                       const glm::vec3& direction, float t_min, float t_max,
-                                                       std::optional<Phase> carried, Evaluator::Workspace& w,
-                                                       TraceCounters& counters) const {
-    return data_->first_crossing(cell, {TracedRay(origin, direction), t_min, t_max, carried, {}, &w}, counters);
-}
-
-std::optional<Crossing> InterfaceCells::first_crossing(std::size_t cell, const TracedRay& ray, float t_min, float t_max,
-                                                       std::optional<Phase> carried,
-                                                       const std::optional<LeavingHint>& leaving_hint,
-                                                       TraceCounters& counters) const {
-    return data_->first_crossing(cell, {ray, t_min, t_max, carried, leaving_hint, nullptr}, counters);
 }
 
 CrossingNormal InterfaceCells::normal(std::size_t cell, const Crossing& crossing, const glm::vec3& direction) const {

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "math/mixed_hash.hpp"
+
 namespace phasetree::cells {
 
 /// A checksum of bytes, eight at a time. Each step is a bijection both of the sum so far and of the bytes that are put
@@ -26,10 +28,7 @@ class Checksum {
         std::memcpy(&w, from, count);
         return w;
     }
-    void put(std::uint64_t w) {
-        sum_ = (sum_ ^ w) * 0x9e3779b97f4a7c15u;
-        sum_ ^= sum_ >> 32;
-    }
+    void put(std::uint64_t w) { sum_ = mixed(sum_, w); }
     std::uint64_t sum_ = 0x70686173657472u;
 };
 

@@ -5,7 +5,6 @@
 #include "cells/cells_file.hpp"
 #include "cells/curvature_code.hpp"
 #include "phasetree/cells/cells.hpp"
-#include "trace/march.hpp"
 
 namespace phasetree {
 
@@ -47,12 +46,13 @@ struct InterfaceCells::Data : cells::CellTables {
         const std::optional<LeavingHint>& leaving_hint;
         Evaluator::Workspace* workspace;  ///< null for the thread's own
     };
-    std::optional<Crossing> first_crossing(std::size_t cell, const Search&, TraceCounters&) const;
+    /// Defined in search.cpp, for that file alone.
+    inline std::optional<Crossing> first_crossing(std::size_t cell, const Search&, TraceCounters&) const;
 
   private:
     /// Whether the cell's bounds of curvature do not cover all phases that a ray may be in, so that it needs the
     /// certificate.
-    bool needs_certificate(const Cell&, const kernel::Routine&, const std::optional<Phase>& carried) const;
+    inline bool needs_certificate(const Cell&, const kernel::Routine&, const std::optional<Phase>& carried) const;
 };
 
 }  // namespace phasetree

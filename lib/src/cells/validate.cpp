@@ -10,8 +10,8 @@
 namespace phasetree::cells {
 
 using kernel::most_certificate_steps, kernel::OutputSlot, kernel::Step;
-using program::affine_map, program::first_map, program::first_placed, program::OpTraits, program::placed_floats,
-    program::traits;
+using program::affine_map, program::first_map, program::first_placed, program::has_constant, program::OpTraits,
+    program::placed_floats, program::traits;
 
 namespace {
 
@@ -22,9 +22,7 @@ constexpr std::uint32_t operations = first_placed + static_cast<std::uint32_t>(P
 // How many constants each operation has; 0 for a primitive with data, which has as many as it says itself.
 std::array<std::size_t, operations> all_floats() {
     std::array<std::size_t, operations> all{};
-    for (const Op op :
-         {Op::add_constant, Op::constant_minus, Op::multiply_constant, Op::smooth_minimum, Op::guarded, Op::falloff})
-        all[static_cast<std::size_t>(op)] = 1;
+    for (std::uint32_t op = 0; op < first_primitive; ++op) all[op] = has_constant(static_cast<Op>(op)) ? 1 : 0;
     std::size_t primitive = first_primitive, map = first_map, placed = first_placed;
     for_each_type(Primitives(), [&]<class P>() {
         all[primitive++] = sizeof(P) / sizeof(float);

@@ -4,7 +4,9 @@
 
 #include <map>
 
+#include "io/string_offset.hpp"
 #include "model/preparation.hpp"
+#include "model/text_error.hpp"
 #include "phasetree/io/object_reader.hpp"
 #include "phasetree/io/suggest.hpp"
 #include "tree/node.hpp"
@@ -32,8 +34,14 @@ static_assert(Document::max_depth >= 3 * max_tree_depth + 8, "the deepest tree t
 
 class Reader {
   public:
-    Reader(const Document& document, PhaseNames names, std::optional<Value> shapes, const FileReaders& files)
-        : document_(document), names_(std::move(names)), shapes_(shapes), files_(files) {}
+    Reader(const Document& document, PhaseNames names, std::optional<Value> shapes, const FileReaders& files,
+           KnownShapes known = {})
+        : document_(document),
+          names_(std::move(names)),
+          shapes_(shapes),
+          files_(files),
+          fields_(std::move(known.fields)),
+          objects_(std::move(known.objects)) {}
 
     template <class Handle>
     Handle read(Value value) {
@@ -100,20 +108,26 @@ class Reader {
         if (const auto found = known<Handle>().find(name); found != known<Handle>().end()) return found->second;
         const std::optional<Value> shape = shapes_ ? shapes_->find(name) : std::nullopt;
         if (!shape) {
+            using Other = std::conditional_t<std::is_same_v<Handle, Field>, Phased, Field>;
+            if (known<Other>().contains(name)) throw other_kind<Handle>(reference);
             throw document_.error(reference, fmt::format("there is no shape \"{}\"", name),
                                   closest(name, shape_names()));
         }
         if (std::find(open_.begin(), open_.end(), name) != open_.end())
             throw document_.error(reference, fmt::format("the shape \"{}\" is made of itself", name));
-        if (is_field(*shape) != std::is_same_v<Handle, Field>)
-            throw document_.error(
-                reference, fmt::format("\"{}\" is {}, but {} is needed here", name,
-                                       is_field(*shape) ? kind_name<Field> : kind_name<Phased>, kind_name<Handle>));
+        if (is_field(*shape) != std::is_same_v<Handle, Field>) throw other_kind<Handle>(reference);
         open_.emplace_back(name);
         Handle result = read<Handle>(*shape);
         open_.pop_back();
         known<Handle>().emplace(std::string(name), result);
         return result;
+    }
+
+    template <class Handle>
+    SceneError other_kind(Value reference) const {
+        using Other = std::conditional_t<std::is_same_v<Handle, Field>, Phased, Field>;
+        return document_.error(reference, fmt::format("\"{}\" is {}, but {} is needed here", reference.string(),
+                                                      kind_name<Other>, kind_name<Handle>));
     }
 
     // Whether a shape is a plain field, told from its node's name; a warp is what its child is.
@@ -134,7 +148,8 @@ class Reader {
             if (!may_be_field) return false;
             const std::optional<Value> child = shape[0].find("of");
             if (!child) return true;
-            shape = *child;
+            // Of a list, such as that of levels of detail, all are of one kind.
+            shape = child->is_array() && child->size() > 0 ? (*child)[0] : *child;
         }
         return true;
     }
@@ -145,10 +160,13 @@ class Reader {
         N node{};
         if (member.is_array())
             read_list(node, member);
-        else
+        else if (!(member.is_string() && read_text(node, member)))
             read_parameters(node, member);
         try {
             return Handle(std::move(node));
+        } catch (const TextError& e) {
+            const Value text = member.is_string() ? member : member.find(e.parameter()).value();
+            throw document_.error(io::offset_in_string(document_.text(), text.offset(), e.offset()), e.message());
         } catch (const ModelError& e) {
             throw document_.error(member.key_offset(), e.what());
         }
@@ -164,6 +182,21 @@ class Reader {
             if (p.optional && !reader.value(p.name)) return;
             read_value(target, reader.required_value(p.name), p);
         });
+    }
+
+    // The text of a node whose one required parameter is a text; whether it is such a node.
+    template <class N>
+    bool read_text(N& node, Value text) {
+        std::size_t required = 0;
+        std::string* only = nullptr;
+        for_each_parameter(node, [&](auto& target, const Parameter& p) {
+            if (p.optional) return;
+            ++required;
+            if constexpr (std::is_same_v<std::remove_cvref_t<decltype(target)>, std::string>) only = &target;
+        });
+        if (required != 1 || !only) return false;
+        *only = text.string();
+        return true;
     }
 
     template <class N>
@@ -342,6 +375,14 @@ SceneTree read_tree(const Document& document, const FileReaders& files) {
     SceneTree result{names, reader.read<Phased>(*tree)};
     reader.read_unused();
     return result;
+}
+
+Field read_field(const Document& document, const PhaseNames& names, KnownShapes known, const FileReaders& files) {
+    return Reader(document, names, std::nullopt, files, std::move(known)).read<Field>(document.root());
+}
+
+Phased read_object(const Document& document, const PhaseNames& names, KnownShapes known, const FileReaders& files) {
+    return Reader(document, names, std::nullopt, files, std::move(known)).read<Phased>(document.root());
 }
 
 }  // namespace phasetree

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -16,9 +18,9 @@ std::string in_quotes(std::string_view text) {
     return nlohmann::json(text).dump();
 }
 
-// The shortest text that reads as the same float.
+// The shortest text that reads as the same float. "-0" would be read as a whole number, which has no negative zero.
 std::string as_text(float v) {
-    return fmt::format("{}", v);
+    return v == 0 && std::signbit(v) ? "-0.0" : fmt::format("{}", v);
 }
 std::string as_text(int v) {
     return fmt::format("{}", v);
@@ -34,12 +36,13 @@ class Writer {
   public:
     explicit Writer(const SceneTree& tree) : tree_(tree) { count(tree.object); }
 
-    // `material` is each phase's.
-    std::string document(std::string_view material) {
+    // material(i) is that of phase i.
+    template <class Material>
+    std::string document(Material&& material) {
         const std::string object = node(tree_.object);
         std::string text = "{\n  \"version\": 1,\n  \"phases\": {";
         for (std::size_t i = 1; i < tree_.phases.names.size(); ++i)
-            text += fmt::format("{}\n    {}: {}", i > 1 ? "," : "", in_quotes(tree_.phases.names[i]), material);
+            text += fmt::format("{}\n    {}: {}", i > 1 ? "," : "", in_quotes(tree_.phases.names[i]), material(i));
         text += "\n  },\n";
         if (!shapes_.empty()) {
             text += "  \"shapes\": {";
@@ -100,6 +103,8 @@ class Writer {
             std::vector<Phase> all;
             for_each_phase(v.bits, [&](int i) { all.push_back(Phase{static_cast<std::uint8_t>(i)}); });
             return value(all, p);
+        } else if constexpr (std::is_same_v<T, std::string>) {
+            return in_quotes(v);
         } else if constexpr (requires { v.content; }) {
             if (v.path.empty()) throw ModelError(fmt::format("\"{}\" was not read from a file", p.name));
             return in_quotes(v.path);
@@ -121,11 +126,16 @@ class Writer {
 }  // namespace
 
 std::string write_tree(const SceneTree& tree) {
-    return Writer(tree).document(R"({"diffuse": {"color": [0.5, 0.5, 0.5]}})");
+    return Writer(tree).document([](std::size_t) { return R"({"diffuse": {"color": [0.5, 0.5, 0.5]}})"; });
+}
+
+std::string write_tree(const SceneTree& tree, std::span<const std::string> materials) {
+    if (materials.size() != tree.phases.size()) throw std::out_of_range("a material for each phase is needed");
+    return Writer(tree).document([&](std::size_t i) { return materials[i - 1]; });
 }
 
 std::string write_tree_without_materials(const SceneTree& tree) {
-    return Writer(tree).document("null");
+    return Writer(tree).document([](std::size_t) { return "null"; });
 }
 
 }  // namespace phasetree

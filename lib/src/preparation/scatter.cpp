@@ -6,16 +6,23 @@
 #include <span>
 #include <unordered_map>
 
+#include "phasetree_support/split_mix64.hpp"
 #include "preparation/prepared_field.hpp"
 
 namespace phasetree::detail {
 
 using model::Preparation;
 using preparation::BatchOfPoints, preparation::PreparedField;
+using support::SplitMix64;
 
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
+
+// The next number in [0, 1).
+double next_fraction(SplitMix64& random) {
+    return static_cast<double>(random() >> 11) * 0x1p-53;
+}
 
 // The points that were accepted, in a hashed grid, so that those near a place are found without a look at all.
 class Neighbourhood {
@@ -75,7 +82,7 @@ class Search {
           centre_(centre),
           radius_(radius),
           smallest_(2e-4f * radius),
-          state_(0x5851f42d4c957f2du + static_cast<std::uint64_t>(seed)) {}
+          random_(0x5851f42d4c957f2du + static_cast<std::uint64_t>(seed)) {}
 
     // The points where the next eight lines cross the surface, line after line.
     std::vector<glm::vec3> crossings() {
@@ -108,13 +115,14 @@ class Search {
   private:
     // A line of uniformly random direction through a uniformly random point of the disk across it.
     Line random_line() {
-        const double z = 2 * next_random(state_) - 1, a = 2 * pi * next_random(state_), rho = std::sqrt(1 - z * z);
+        const double z = 2 * next_fraction(random_) - 1, a = 2 * pi * next_fraction(random_),
+                     rho = std::sqrt(1 - z * z);
         const glm::dvec3 d(rho * std::cos(a), rho * std::sin(a), z);
         const glm::dvec3 u =
             glm::normalize(glm::cross(d, std::abs(z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
         const glm::dvec3 v = glm::cross(d, u);
-        const double r = static_cast<double>(radius_) * std::sqrt(next_random(state_)),
-                     angle = 2 * pi * next_random(state_);
+        const double r = static_cast<double>(radius_) * std::sqrt(next_fraction(random_)),
+                     angle = 2 * pi * next_fraction(random_);
         return {glm::vec3(glm::dvec3(centre_) + r * (std::cos(angle) * u + std::sin(angle) * v)), glm::vec3(d)};
     }
     // The field at one place of each line.
@@ -166,7 +174,7 @@ class Search {
     PreparedField surface_;
     glm::vec3 centre_;
     float radius_, smallest_;
-    std::uint64_t state_;
+    SplitMix64 random_;
     std::array<Line, batch_size> lines_;
 };
 
@@ -196,6 +204,17 @@ std::vector<SurfacePoint> scattered(const Field& surface, int count, float spaci
         }
     if (found.empty()) throw ModelError("scatter: no place was found on the surface");
     return found;
+}
+
+std::vector<Placement> scattered_placements(const Field& surface, int count, float spacing, float smallest, int seed) {
+    std::vector<Placement> placements;
+    SplitMix64 random(static_cast<std::uint64_t>(seed));
+    for (const SurfacePoint& at : scattered(surface, count, spacing, seed)) {
+        const double turn = 360 * next_fraction(random);
+        const double size = static_cast<double>(smallest) + (1 - static_cast<double>(smallest)) * next_fraction(random);
+        placements.push_back(Placement::standing(at.position, at.normal, turn, static_cast<float>(size)));
+    }
+    return placements;
 }
 
 }  // namespace phasetree::detail

@@ -5,18 +5,10 @@
 #include <bit>
 #include <cstring>
 
+#include "math/mixed_hash.hpp"
 #include "phasetree/model/handle.hpp"
 
 namespace phasetree::program {
-
-namespace {
-
-std::uint64_t mix(std::uint64_t h, std::uint64_t v) {
-    h = (h ^ v) * 0x9e3779b97f4a7c15u;
-    return h ^ (h >> 29);
-}
-
-}  // namespace
 
 InstructionList::InstructionList(Program& program, std::size_t limit) : program_(program), limit_(limit) {
     program_.instructions.push_back({});
@@ -26,8 +18,8 @@ InstructionList::InstructionList(Program& program, std::size_t limit) : program_
 std::uint32_t InstructionList::emit(Op op, std::uint32_t a, std::uint32_t b, std::span<const float> constants,
                                     float lipschitz) {
     work(1 + constants.size() / 16);
-    std::uint64_t hash = mix(mix(static_cast<std::uint64_t>(op), a), b);
-    for (const float f : constants) hash = mix(hash, std::bit_cast<std::uint32_t>(f));
+    std::uint64_t hash = mixed(mixed(static_cast<std::uint64_t>(op), a), b);
+    for (const float f : constants) hash = mixed(hash, std::bit_cast<std::uint32_t>(f));
     for (;; ++hash) {
         const auto next = static_cast<std::uint32_t>(program_.instructions.size());
         const auto [where, is_new] = known_.emplace(hash, next);

@@ -38,6 +38,9 @@ constexpr auto all_traits() {
     for (const Op op : {Op::add, Op::subtract, Op::minimum, Op::maximum, Op::far_bound, Op::far_bound_inside,
                         Op::smooth_minimum, Op::guarded, Op::corner})
         of(op).operands = 2;
+    for (const Op op :
+         {Op::add_constant, Op::constant_minus, Op::multiply_constant, Op::smooth_minimum, Op::guarded, Op::falloff})
+        of(op).has_constant = true;
     constexpr auto is_long = long_ones(Primitives());
     for (std::size_t i = 0; i < Primitives::size + DataPrimitives::size; ++i)
         all[first_primitive + i].is_long_primitive =

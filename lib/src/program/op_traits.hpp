@@ -12,6 +12,7 @@ struct OpTraits {
     std::uint8_t operands = 1;       ///< the number of values it takes
     std::uint16_t half_works = 2;    ///< its cost, in halves of that of a simple operation; a rough estimate
     bool gives_point = false;        ///< its result is a point and not a number
+    bool has_constant = false;       ///< its data are one constant
     bool is_long_primitive = false;  ///< a primitive whose equation is long (concepts.hpp)
     bool is_network = false;         ///< a neural field: Siren::Network
     bool is_fold = false;            ///< it folds space, so it is not continuous
@@ -29,6 +30,9 @@ inline const OpTraits& traits(Op op) {
 }
 inline int operands(Op op) {
     return traits(op).operands;
+}
+inline bool has_constant(Op op) {
+    return traits(op).has_constant;
 }
 inline bool gives_point(Op op) {
     return traits(op).gives_point;

@@ -4,7 +4,7 @@
 
 namespace phasetree::rewriting {
 
-using program::operands;
+using program::has_constant, program::operands;
 
 namespace {
 
@@ -13,29 +13,13 @@ Op opposite(Op op) {
     return op == Op::minimum ? Op::maximum : Op::minimum;
 }
 
-// Whether the data of an operation are a single constant. Then constants are compared, and not their indices, because
-// equal constants may have different indices.
-bool has_one_constant(Op op) {
-    switch (op) {
-        case Op::add_constant:
-        case Op::constant_minus:
-        case Op::multiply_constant:
-        case Op::smooth_minimum:
-        case Op::guarded:
-        case Op::falloff:
-            return true;
-        default:
-            return false;
-    }
-}
-
 bool is_commutative(Op op) {
     return op == Op::minimum || op == Op::maximum || op == Op::add || op == Op::corner;
 }
 
 // Whether an operation has data. If it has none, the index of its data means nothing.
 bool has_data(Op op) {
-    return has_one_constant(op) || op >= Op::first_primitive;
+    return has_constant(op) || op >= Op::first_primitive;
 }
 
 }  // namespace
@@ -68,7 +52,8 @@ SignedValue Rewriter::emit(const Instruction& in, float lipschitz) {
     // before and has each primitive of the input point only once, so there is nothing to look up.
     const bool was_rewritten = new_constants_ == nullptr;
     if (in.op >= Op::first_primitive && in.a == 0 && was_rewritten) return append(in, lipschitz);
-    const bool is_constant = has_one_constant(in.op), is_index = has_data(in.op);
+    // Constants are compared themselves and not their indices, because equal constants may have different ones.
+    const bool is_constant = has_constant(in.op), is_index = has_data(in.op);
     const auto content = [&](std::uint32_t data) {
         return is_constant ? std::bit_cast<std::uint32_t>(constants_[data]) : is_index ? data : 0u;
     };

@@ -1,6 +1,11 @@
 #include "phasetree/trace/tracer.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <span>
+
 #include "evaluation/assemble.hpp"
+#include "math/clip_line.hpp"
 #include "trace/march.hpp"
 #include "trace/normal.hpp"
 
@@ -18,12 +23,36 @@ InterfaceTracer::InterfaceTracer(const Phased& object, float resolution) {
     evaluator_ = std::make_shared<const Evaluator>(record(object));
 }
 
+InterfaceTracer::InterfaceTracer(const Phased& object, std::vector<HalfSpace> around, float resolution)
+    : InterfaceTracer(object, resolution) {
+    around_ = std::move(around);
+}
+
+namespace {
+
+// Cuts [t_min, t_max] down to what of a ray is within half-spaces, a little moved outward.
+void clip(std::span<const HalfSpace> around, float outward, const glm::vec3& origin, const glm::vec3& direction,
+          float& t_min, float& t_max) {
+    double near = static_cast<double>(t_min), far = static_cast<double>(t_max);
+    clip_line(around, glm::dvec3(origin), glm::dvec3(direction), near, far, static_cast<double>(outward));
+    // Outward by more than the rounding to floats.
+    t_min = std::max(t_min, static_cast<float>(near - 1.2e-7 * std::abs(near)));
+    t_max = std::min(t_max, static_cast<float>(far + 1.2e-7 * std::abs(far)));
+}
+
+}  // namespace
+
 std::optional<Crossing> InterfaceTracer::first_crossing(const glm::vec3& origin, const glm::vec3& direction,
                                                         float t_min, float t_max, std::optional<Phase> carried,
                                                         Evaluator::Workspace& w, TraceCounters* counters) const {
     TraceCounters unused;
     TraceCounters& c = counters ? *counters : unused;
     const Assembly& assembly = *evaluator_->assembly_;
+    if (!around_.empty() && carried.value_or(vacuum) == vacuum) {
+        // A ray in the vacuum meets nothing before it comes to the half-spaces, and none after it has left them.
+        clip(around_, 8 * resolution_, origin, direction, t_min, t_max);
+        if (t_max < t_min) return std::nullopt;
+    }
     ++c.visits;
     const Routine routine = assembly.routine(evaluator_->program().constants.data());
     const TracedRay ray(origin, direction);

@@ -3,6 +3,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "math/mixed_hash.hpp"
 #include "model/preparation.hpp"
 #include "tree/node.hpp"
 
@@ -11,12 +12,6 @@ namespace phasetree {
 using model::PreparationTogether;
 
 namespace {
-
-// Adds a value to a hash.
-void mix(std::size_t& hash, std::size_t value) {
-    hash = (hash ^ value) * 0x9e3779b97f4a7c15u;
-    hash ^= hash >> 29;
-}
 
 // A box with those sides of a tighter box that are tighter by more than a hundredth of its size. Other sides stay where
 // they are, so that rounding does not move them.
@@ -48,13 +43,13 @@ struct BoundsQuery::Memory {
     struct Hash {
         std::size_t operator()(const Key& k) const {
             std::size_t hash = std::hash<const void*>()(k.node);
-            mix(hash, std::hash<float>()(k.level));
+            hash = mixed(hash, std::hash<float>()(k.level));
             return hash;
         }
         std::size_t operator()(const DirectedKey& k) const {
             std::size_t hash = (*this)(k.key);
             for (const glm::dvec3& d : k.directions)
-                for (int i = 0; i < 3; ++i) mix(hash, std::hash<double>()(d[i]));
+                for (int i = 0; i < 3; ++i) hash = mixed(hash, std::hash<double>()(d[i]));
             return hash;
         }
     };

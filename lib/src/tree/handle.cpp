@@ -44,6 +44,8 @@ void count(const Handle& handle, std::unordered_set<const void*>& seen, TreeStat
             if constexpr (requires { n.found; }) s.bytes += n.found.size() * sizeof(n.found[0]);
             if constexpr (requires { n.slabs; }) s.bytes += n.slabs.size() * sizeof(n.slabs[0]);
             if constexpr (requires { n.heights; }) s.bytes += n.heights.size() * sizeof(n.heights[0]);
+            if constexpr (requires { n.terms; })
+                for (const auto& term : n.terms) s.bytes += sizeof(term) + term.data().size_bytes();
             if constexpr (requires { n.segments; }) s.bytes += n.segments.size() * sizeof(n.segments[0]);
             for_each_child(n, [&](const auto& child) { count(child, seen, s); });
         },

@@ -29,6 +29,8 @@ void check(const glm::vec3& v, std::string_view node, const Parameter& p) {
 void check(const glm::vec2& v, std::string_view node, const Parameter& p) {
     for (int i = 0; i < 2; ++i) check(v[i], node, p);
 }
+// Texts are checked by the node itself.
+void check(const std::string&, std::string_view, const Parameter&) {}
 void check(Phase v, std::string_view node, const Parameter& p) {
     require(v != vacuum && v.index < Phase::capacity, node, p, "must be a phase other than the vacuum");
 }

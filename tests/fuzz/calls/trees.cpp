@@ -86,6 +86,16 @@ void Calls::ask_tree() {
     check_with(of, phasetreeGetTreePhaseName(of, c_.below(5), c_.or_null(&name)));
     check_with(of, phasetreeGetTreePhaseByName(of, c_.or_null(name ? name : "b"), c_.or_null(&phase)));
     check_with(of, phasetreeGetTreeBounds(of, c_.or_null(&bounds)));
+    PhasetreeCarveOptions options;
+    phasetreeInitCarveOptions(&options);
+    options.mostPlanes = c_.below(12);
+    options.tolerance = 0.02f;
+    options.mostEvaluations = c_.below(300);
+    PhasetreePlane planes[12];
+    unsigned count = 0;
+    PhasetreeCarvedBounds carved;
+    check_with(of, phasetreeCarveTree(of, c_.below(16), &options, c_.or_null(planes), c_.or_null(&count),
+                                      c_.or_null(&carved)));
 }
 
 }  // namespace phasetree::fuzz

@@ -2,8 +2,8 @@
 
 /// Primitives: membership by textbook inequalities, signed distances from their parts in double.
 
-#include "tree/node.hpp"
 #include "support/set_algebra.hpp"
+#include "tree/node.hpp"
 
 namespace phasetree::tests::oracle {
 
@@ -50,6 +50,14 @@ inline bool member(const Torus& n, const dvec3& p) {
 }
 inline bool member(const Plane& n, const dvec3& p) {
     return glm::dot(p, dvec3(n.normal)) < n.offset;
+}
+/// Behind every plane.
+inline bool member(const Polyhedron& n, const dvec3& p) {
+    for (std::size_t i = 0; i < n.normals.size(); ++i) {
+        const double offset = n.offsets.size() == 1 ? n.offsets[0] : n.offsets[i];
+        if (glm::dot(p, dvec3(n.normals[i])) >= offset * glm::length(dvec3(n.normals[i]))) return false;
+    }
+    return true;
 }
 
 /// Sum of squares.
@@ -177,6 +185,13 @@ inline double signed_value(const Torus& n, const dvec3& p) {
 }
 inline double signed_value(const Plane& n, const dvec3& p) {
     return glm::dot(p, dvec3(n.normal)) - n.offset;
+}
+inline double signed_value(const Polyhedron& n, const dvec3& p) {
+    double farthest = -absent;
+    for (std::size_t i = 0; i < n.normals.size(); ++i)
+        farthest = std::max(farthest, glm::dot(p, glm::normalize(dvec3(n.normals[i]))) -
+                                          static_cast<double>(n.offsets.size() == 1 ? n.offsets[0] : n.offsets[i]));
+    return farthest;
 }
 inline double signed_value(const Ellipsoid& n, const dvec3& p) {
     const dvec3 r(n.radii);

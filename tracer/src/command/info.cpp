@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command/build_quality.hpp"
+#include "command/carve_report.hpp"
 #include "command/cells_report.hpp"
 #include "command/commands.hpp"
 #include "command/empty_object.hpp"
@@ -25,7 +26,13 @@ glm::vec3 unsigned_zeroes(const glm::vec3& v) {
     return {unsigned_zero(v.x), unsigned_zero(v.y), unsigned_zero(v.z)};
 }
 
-int info(const SceneFile& file, bool as_json, bool with_cells, const CellOptions& given) {
+struct Options {
+    bool as_json = false, with_cells = false, with_carving = false;
+    int most_planes = CarveOptions().most_planes;
+    CellOptions cells;
+};
+
+int info(const SceneFile& file, const Options& chosen) {
     const AvailableThreads threads;
     const Document document = read_document(file);
     const SceneTree tree = read_model(document);
@@ -43,16 +50,19 @@ int info(const SceneFile& file, bool as_json, bool with_cells, const CellOptions
         }
     }
     std::optional<CellStatistics> cells;
-    if (with_cells) {
-        CellOptions options = given;
+    if (chosen.with_cells) {
+        CellOptions options = chosen.cells;
         options.opaque = opaque_phases(document);
         CellProgress progress(ProgressOutput::standard_error(false));
         options.progress = [&](float done) { progress.tell(done); };
         cells = made_of_tree(document, [&] { return InterfaceCells(tree.object, options).statistics(); });
     }
     const bool nothing_left = is_empty(tree.object, evaluator);
+    std::vector<CarvedPart> carved;
+    if (chosen.with_carving && !nothing_left)
+        carved = made_of_tree(document, [&] { return carve_parts(tree, chosen.most_planes); });
 
-    if (as_json) {
+    if (chosen.as_json) {
         nlohmann::ordered_json json;
         json["scene"] = file.shown();
         json["nodes"] = s.nodes;
@@ -70,6 +80,7 @@ int info(const SceneFile& file, bool as_json, bool with_cells, const CellOptions
         json["program_bytes"] = evaluator.bytes();
         json["simd"] = simd_target();
         if (cells) add_cells(json, *cells);
+        if (chosen.with_carving) add_carved(json, carved);
         put("{}\n", json.dump(2));
         return 0;
     }
@@ -90,6 +101,7 @@ int info(const SceneFile& file, bool as_json, bool with_cells, const CellOptions
     put("{:<14}{}\n", "program bytes", evaluator.bytes());
     put("{:<14}{}\n", "SIMD", simd_target());
     if (cells) print_cells(*cells);
+    print_carved(carved);
     return 0;
 }
 
@@ -98,14 +110,20 @@ int info(const SceneFile& file, bool as_json, bool with_cells, const CellOptions
 void add_info(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand("info", "Print a scene's nodes, phases, bytes, bounds and instructions");
     const auto file = add_scene_file(*command);
-    auto json = std::make_shared<bool>(false), cells = std::make_shared<bool>(false);
-    command->add_flag("--json", *json, "As JSON");
-    auto options = std::make_shared<CellOptions>();
+    auto options = std::make_shared<Options>();
+    command->add_flag("--json", options->as_json, "As JSON");
     auto* const with_cells = command->add_flag(
-        "--cells", *cells, "Also build the cells in which a render traces rays, and say what they are");
-    add_build_quality(*command, options->quality)->needs(with_cells);
-    add_max_memory(*command, options->most_bytes)->needs(with_cells);
-    command->callback([=, &run] { run = [=] { return info(*file, *json, *cells, *options); }; });
+        "--cells", options->with_cells, "Also build the cells in which a render traces rays, and say what they are");
+    add_build_quality(*command, options->cells.quality)->needs(with_cells);
+    add_max_memory(*command, options->cells.most_bytes)->needs(with_cells);
+    auto* const with_carving =
+        command->add_flag("--carve", options->with_carving,
+                          "Also carve convex bounds around the object and each of its phases, and say what they are");
+    command->add_option("--planes", options->most_planes, "The most planes of each of these bounds (default: 40)")
+        ->check(CLI::Range(6, 256))
+        ->option_text("N")
+        ->needs(with_carving);
+    command->callback([=, &run] { run = [=] { return info(*file, *options); }; });
 }
 
 }  // namespace phasetree::tracer

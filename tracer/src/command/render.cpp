@@ -1,8 +1,10 @@
 #include "render/render.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -10,6 +12,7 @@
 #include "command/build_quality.hpp"
 #include "command/cells_report.hpp"
 #include "command/commands.hpp"
+#include "command/detail.hpp"
 #include "command/empty_object.hpp"
 #include "command/load.hpp"
 #include "command/max_memory.hpp"
@@ -36,8 +39,8 @@ struct Options {
     BuildQuality quality = BuildQuality::medium;
     std::size_t most_bytes = 0;
     std::optional<std::uint32_t> seed;
-    std::optional<float> exposure;
-    std::optional<std::string> display, view, stats, cells;
+    std::optional<float> exposure, detail;
+    std::optional<std::string> display, view, stats, cells, planes;
     bool quiet = false;
 };
 
@@ -95,7 +98,24 @@ void write_stats(const std::string& path, const Options& options, const World& w
     write_file(json.dump(2) + "\n", path);
 }
 
+Planes::Choice planes_of(const std::string& list) {
+    if (list == "all") return Planes::all();
+    Planes::Choice choice = Planes::by_default();
+    for (std::size_t from = 0; from <= list.size();) {
+        const std::size_t to = std::min(list.find(',', from), list.size());
+        const std::string_view name = std::string_view(list).substr(from, to - from);
+        const auto found = std::ranges::find(Planes::names, name);
+        if (found == Planes::names.end())
+            throw OutputError(fmt::format("--planes: there is no plane \"{}\"; the planes are {}, and \"all\"", name,
+                                          fmt::join(Planes::names, ", ")));
+        choice[static_cast<std::size_t>(found - Planes::names.begin())] = true;
+        from = to + 1;
+    }
+    return choice;
+}
+
 void apply(const Options& options, Scene& scene) {
+    if (options.planes) scene.film.planes = planes_of(*options.planes);
     if (options.samples) scene.settings.samples = *options.samples;
     if (options.seed) scene.settings.seed = *options.seed;
     if (options.size) {
@@ -117,6 +137,9 @@ std::vector<std::string> outputs_of(const Options& options) {
         outputs = {stem + ".exr", stem + ".png"};
     }
     for (const std::string& output : outputs) check_writable(output);
+    const auto is_exr = [](const std::string& output) { return format_of(output) == Format::exr; };
+    if (options.planes && std::ranges::none_of(outputs, is_exr))
+        throw OutputError("--planes needs an output that can hold them: name a .exr file with -o");
     if (options.stats) check_file_writable(*options.stats);
     return outputs;
 }
@@ -144,6 +167,15 @@ class Writing {
     bool all_is_well_ = true;
 };
 
+// What no sound scene leads to.
+void say_faults(const FilmFaults& faults) {
+    if (faults.not_finite > 0)
+        say("phasetree: {} values of samples were not finite numbers and count as black; please report this scene\n",
+            faults.not_finite);
+    if (faults.too_large > 0)
+        say("phasetree: {} values of samples were larger than 10^12 and are cut to that\n", faults.too_large);
+}
+
 bool write_all(const Options& options, const std::vector<std::string>& outputs, const DisplayTransform& display,
                const Scene& scene, const World& world, const Rendering& rendering) {
     Metadata metadata;
@@ -157,8 +189,7 @@ bool write_all(const Options& options, const std::vector<std::string>& outputs, 
             written += fmt::format("{} ({}x{}, {} samples a pixel, {:.1f} s)\n", output, rendering.image.width,
                                    rendering.image.height, rendering.samples, rendering.seconds);
     if (options.stats) writing([&] { write_stats(*options.stats, options, world, rendering); });
-    if (const std::size_t bad = count_non_finite(rendering.image))
-        say("phasetree: {} pixels are not finite numbers; please report this scene\n", bad);
+    say_faults(rendering.faults);
     if (!options.quiet) say(written);
     return writing.all_is_well();
 }
@@ -168,6 +199,7 @@ int render_scene(const Options& options) {
     const Document document = read_document(*options.scene);
     Scene scene = load_scene(document);
     apply(options, scene);
+    if (options.detail) made_of_tree(document, [&] { choose_levels_of_detail(scene, *options.detail); });
     const std::vector<std::string> outputs = outputs_of(options);
     const DisplayTransform display =
         display_of(document, scene.settings, options.display, options.view, options.exposure);
@@ -238,8 +270,17 @@ void add_render(CLI::App& app, Run& run) {
     command->add_option("--seed", o->seed, "Seed of the sampling");
     command->add_option("--exposure", o->exposure, "Stops by which display images are brighter; EXR stays as it is")
         ->check(CLI::Range(-50.0, 50.0));
+    command
+        ->add_option("--detail", o->detail,
+                     "Lets coarser levels of detail stand where their errors look no larger than so many pixels; "
+                     "without it the finest stand everywhere")
+        ->check(CLI::Range(1e-3, 1e3))
+        ->option_text("PIXELS");
     command->add_option("--display", o->display, "OpenColorIO display");
     command->add_option("--view", o->view, "OpenColorIO view");
+    command->add_option("--planes", o->planes,
+                        "Planes that .exr files hold beside the picture: names with commas between them, such as "
+                        "depth,normal,crypto_phase, or all");
     command->add_option("--stats", o->stats, "Write what rendering cost, as JSON");
     command->add_flag("--quiet", o->quiet, "No progress, errors only");
     command->callback([o, &run] { run = [o] { return render_scene(*o); }; });

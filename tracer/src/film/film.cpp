@@ -5,33 +5,64 @@
 
 namespace phasetree::tracer {
 
-void FilmTile::copy(const FilmTile& from, const PixelRange& part) {
-    for (int y = part.y0; y < part.y1; ++y) {
-        const auto row = from.pixels_.begin() + static_cast<std::ptrdiff_t>(from.area_.index(part.x0, y));
-        std::copy_n(row, part.width(), pixels_.begin() + static_cast<std::ptrdiff_t>(area_.index(part.x0, y)));
+void FilmTile::join(const FilmTile& other) {
+    const PixelRange& part = other.area_;
+    for (int y = part.y0; y < part.y1; ++y)
+        for (int x = part.x0; x < part.x1; ++x) {
+            const std::size_t pixel = area_.index(x, y), theirs = part.index(x, y);
+            if (other.samples_[theirs] == 0) continue;
+            sums_.join(pixel, other.sums_, theirs);
+            samples_[pixel] += other.samples_[theirs];
+        }
+    faults_ += other.faults_;
+}
+
+Image FilmTile::image(const FilmSettings& settings) const {
+    Image image = black_image(settings, area_, sums_.channels());
+    write_into(image, area_);
+    return image;
+}
+
+void FilmTile::write_into(Image& image, const PixelRange& area) const {
+    if (image.attributes.empty()) image.attributes = sums_.attributes();
+    for (int y = area_.y0; y < area_.y1; ++y)
+        for (int x = area_.x0; x < area_.x1; ++x) {
+            const std::size_t pixel = area_.index(x, y);
+            if (samples_[pixel] > 0) sums_.resolve(pixel, samples_[pixel], image, area.index(x, y));
+        }
+}
+
+void FilmTile::write_row(int y, ByteWriter& out) const {
+    for (int x = area_.x0; x < area_.x1; ++x) {
+        const std::size_t pixel = area_.index(x, y);
+        out.number(samples_[pixel]);
+        if (samples_[pixel] > 0) sums_.write(pixel, out);
     }
+}
+
+void FilmTile::read_row(int y, ByteReader& in) {
+    for (int x = area_.x0; x < area_.x1; ++x) {
+        const std::size_t pixel = area_.index(x, y);
+        samples_[pixel] = in.number<std::uint32_t>();
+        if (samples_[pixel] > 0) sums_.read(pixel, in);
+    }
+}
+
+Image black_image(const FilmSettings& settings, const PixelRange& area, const std::vector<std::string>& channels) {
+    Image image;
+    image.width = area.width();
+    image.height = area.height();
+    image.pixels.resize(area.size());
+    for (std::size_t i = 3; i < channels.size(); ++i)
+        image.further.push_back({channels[i], std::vector<float>(area.size())});
+    if (area.width() != settings.width || area.height() != settings.height)
+        image.crop = Crop{area.x0, area.y0, settings.width, settings.height};
+    return image;
 }
 
 glm::dvec2 Film::sample_position(int x, int y, const glm::vec2& u) const {
     const glm::vec2 offset = settings_.filter.sample(u);
     return {x + 0.5 + static_cast<double>(offset.x), y + 0.5 + static_cast<double>(offset.y)};
-}
-
-FilmTile Film::tile(const PixelRange& part) const {
-    FilmTile tile(part);
-    tile.copy(pixels_, part);
-    return tile;
-}
-
-Image Film::image() const {
-    Image image = Planes::image(area().width(), area().height());
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        const FilmTile::Pixel& pixel = pixels_.pixels_[i];
-        Planes::resolve(pixel.sums, std::max(pixel.samples, 1), image, i);
-    }
-    if (image.width != settings_.width || image.height != settings_.height)
-        image.crop = Crop{area().x0, area().y0, settings_.width, settings_.height};
-    return image;
 }
 
 }  // namespace phasetree::tracer

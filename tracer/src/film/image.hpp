@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace phasetree::tracer {
@@ -30,6 +31,8 @@ struct Image {
     std::vector<glm::vec3> pixels;  ///< linear Rec.709 radiance, row by row, the top row first
     std::optional<Crop> crop = std::nullopt;
     std::vector<Channel> further{};  ///< which only EXR files keep
+    /// What the header of an EXR file says beside all else: names and texts.
+    std::vector<std::pair<std::string, std::string>> attributes{};
 };
 
 /// The number of pixels with a NaN or an infinity in any channel.

@@ -1,8 +1,12 @@
-// Several planes as one: what they accumulate at a pixel, and how an image is written from that.
+// Several planes as one: what they keep of the pixels of a rectangle, and the image that is made of that.
 #pragma once
 
+#include <array>
+#include <bitset>
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -20,50 +24,147 @@ struct CheckedPlane {
     using Type = Kind;
 };
 
-/// The first plane is the picture, which has three channels and which all formats can hold; the others become further
-/// channels of the image.
+/// The first plane is the picture, which has three channels, which all formats can hold, and which every film keeps;
+/// the others become further channels of the image.
 template <class Picture, class... Others>
 struct PlaneList {
-    static_assert(CheckedPlane<Picture>::Type::channels.size() == 3);
+    static constexpr std::size_t size = 1 + sizeof...(Others);
+    static constexpr std::array<std::string_view, size> names{Picture::name, Others::name...};
 
-    /// What is accumulated at one pixel.
-    using Sums = std::tuple<typename Picture::Sum, typename CheckedPlane<Others>::Type::Sum...>;
+    /// Which planes a film keeps, in the order of the list.
+    using Choice = std::bitset<size>;
+    static Choice by_default() {
+        Choice choice;
+        std::size_t i = 0;
+        choice[i++] = true;
+        ((choice[i++] = Others::by_default), ...);
+        return choice;
+    }
+    static Choice all() { return Choice().set(); }
 
-    static void add(Sums& sums, const FilmSample& sample) {
-        [&]<std::size_t... I>(std::index_sequence<I...>) {
-            Picture::add(std::get<0>(sums), sample);
-            (Others::add(std::get<I + 1>(sums), sample), ...);
-        }
-        (std::index_sequence_for<Others...>());
+    class Sums;
+
+  private:
+    // What one plane keeps.
+    template <class Plane>
+    struct Kept {
+        using Sum = typename CheckedPlane<Plane>::Type::Sum;
+
+        Kept(const PlaneSubjects& subjects, std::size_t pixels)
+            : plane(subjects), channels(plane.channels().size()), width(plane.sums()), sums(width * pixels) {}
+        std::span<Sum> at(std::size_t pixel) { return std::span(sums).subspan(pixel * width, width); }
+        std::span<const Sum> at(std::size_t pixel) const { return std::span(sums).subspan(pixel * width, width); }
+
+        Plane plane;
+        std::size_t channels;
+        std::size_t width;      // of a pixel, in sums
+        std::vector<Sum> sums;  // pixel by pixel
+    };
+};
+
+/// What the chosen planes keep of so many pixels.
+template <class Picture, class... Others>
+class PlaneList<Picture, Others...>::Sums {
+  public:
+    Sums(const Choice& choice, const PlaneSubjects& subjects, std::size_t pixels) {
+        std::size_t i = 0;
+        each([&]<class Plane>(std::optional<Kept<Plane>>& kept) {
+            if (i == 0 || choice[i]) kept.emplace(subjects, pixels);
+            ++i;
+        });
     }
 
-    /// A black image of so many pixels, with all channels.
-    static Image image(int width, int height) {
-        Image image;
-        image.width = width;
-        image.height = height;
-        image.pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-        [[maybe_unused]] const auto add_channels = [&](const auto& names) {
-            for (const std::string_view name : names)
-                image.further.push_back({std::string(name), std::vector<float>(image.pixels.size())});
-        };
-        (add_channels(Others::channels), ...);
-        return image;
+    /// Adds a sample to a pixel.
+    void add(std::size_t pixel, const FilmSample& sample, FilmFaults& faults) {
+        each([&](auto& kept) {
+            if (kept) kept->plane.add(kept->at(pixel), sample, faults);
+        });
+    }
+    /// Joins what others have of a pixel of theirs; they keep the same planes.
+    void join(std::size_t pixel, const Sums& others, std::size_t theirs) {
+        each([&]<class Plane>(std::optional<Kept<Plane>>& kept) {
+            if (!kept) return;
+            const auto from = std::get<std::optional<Kept<Plane>>>(others.kept_)->at(theirs);
+            const auto to = kept->at(pixel);
+            for (std::size_t i = 0; i < to.size(); ++i) to[i] += from[i];
+        });
     }
 
-    /// Writes a pixel's values into an image that was made by image(); `samples` is at least 1.
-    static void resolve(const Sums& sums, int samples, Image& image, std::size_t pixel) {
-        const auto [r, g, b] = Picture::resolve(std::get<0>(sums), samples);
-        image.pixels[pixel] = {r, g, b};
-        [[maybe_unused]] std::size_t channel = 0;
-        [[maybe_unused]] const auto write = [&](const auto& values) {
-            for (const float value : values) image.further[channel++].values[pixel] = value;
-        };
-        [&]<std::size_t... I>(std::index_sequence<I...>) {
-            (write(Others::resolve(std::get<I + 1>(sums), samples)), ...);
-        }
-        (std::index_sequence_for<Others...>());
+    /// Of one pixel, plane after plane.
+    void write(std::size_t pixel, ByteWriter& out) const {
+        each([&](const auto& kept) {
+            if (!kept) return;
+            for (const auto& sum : kept->at(pixel)) sum.write(out);
+        });
     }
+    /// Throws BytesError.
+    void read(std::size_t pixel, ByteReader& in) {
+        each([&]<class Plane>(std::optional<Kept<Plane>>& kept) {
+            if (!kept) return;
+            for (auto& sum : kept->at(pixel)) sum = Plane::Sum::read(in);
+        });
+    }
+
+    /// The names of all channels, those of the picture first.
+    std::vector<std::string> channels() const {
+        std::vector<std::string> names;
+        each([&](const auto& kept) {
+            if (!kept) return;
+            const std::vector<std::string> more = kept->plane.channels();
+            names.insert(names.end(), more.begin(), more.end());
+        });
+        return names;
+    }
+    /// What the header of a file says of the planes.
+    std::vector<std::pair<std::string, std::string>> attributes() const {
+        std::vector<std::pair<std::string, std::string>> all;
+        each([&](const auto& kept) {
+            if constexpr (requires { kept->plane.attributes(); }) {
+                if (!kept) return;
+                for (auto& attribute : kept->plane.attributes()) all.push_back(std::move(attribute));
+            }
+        });
+        return all;
+    }
+    /// Writes the values of pixel `pixel` to place `place` of an image that has the further channels of channels().
+    /// `samples` is at least 1.
+    void resolve(std::size_t pixel, std::uint32_t samples, Image& image, std::size_t place) const {
+        std::size_t channel = 0;
+        std::vector<float> values;
+        each([&](const auto& kept) {
+            if (!kept) return;
+            values.assign(kept->channels, 0.0f);
+            kept->plane.resolve(kept->at(pixel), samples, values);
+            for (const float value : values) {
+                if (channel < 3)
+                    image.pixels[place][static_cast<int>(channel)] = value;
+                else
+                    image.further[channel - 3].values[place] = value;
+                ++channel;
+            }
+        });
+    }
+
+    /// Of one pixel at least, in memory: sums that grow (WeightsById) take more.
+    std::size_t bytes_of_pixel() const {
+        std::size_t bytes = 0;
+        each([&]<class Plane>(const std::optional<Kept<Plane>>& kept) {
+            if (kept) bytes += kept->width * sizeof(typename Plane::Sum);
+        });
+        return bytes;
+    }
+
+  private:
+    template <class F>
+    void each(F&& f) {
+        std::apply([&](auto&... kept) { (f(kept), ...); }, kept_);
+    }
+    template <class F>
+    void each(F&& f) const {
+        std::apply([&](const auto&... kept) { (f(kept), ...); }, kept_);
+    }
+
+    std::tuple<std::optional<Kept<Picture>>, std::optional<Kept<Others>>...> kept_;
 };
 
 }  // namespace phasetree::tracer

@@ -1,23 +1,26 @@
-// The picture: the mean radiance of a pixel's samples. It is summed in double precision, in which millions of samples
-// lose nothing that a float has.
+// The picture: the mean radiance of a pixel's samples.
 #pragma once
 
-#include <array>
-#include <glm/vec3.hpp>
-#include <string_view>
-
 #include "film/contract.hpp"
+#include "film/sums/fixed_sum.hpp"
 
 namespace phasetree::tracer {
 
 struct RadiancePlane {
-    using Sum = glm::dvec3;
-    static constexpr std::array<std::string_view, 3> channels{"R", "G", "B"};
+    using Sum = ValueSum;
+    static constexpr std::string_view name = "beauty";
+    static constexpr bool by_default = true;
 
-    static void add(Sum& sum, const FilmSample& sample) { sum += glm::dvec3(sample.radiance); }
-    static std::array<float, 3> resolve(const Sum& sum, int samples) {
-        const glm::vec3 mean(sum / static_cast<double>(samples));
-        return {mean.r, mean.g, mean.b};
+    explicit RadiancePlane(const PlaneSubjects&) {}
+
+    std::vector<std::string> channels() const { return {"R", "G", "B"}; }
+    std::size_t sums() const { return 3; }
+    void add(std::span<Sum> sums, const FilmSample& sample, FilmFaults& faults) const {
+        for (int c = 0; c < 3; ++c)
+            sums[static_cast<std::size_t>(c)].add(static_cast<double>(sample.radiance[c]), faults);
+    }
+    void resolve(std::span<const Sum> sums, std::uint32_t samples, std::span<float> values) const {
+        for (std::size_t c = 0; c < 3; ++c) values[c] = static_cast<float>(sums[c].value() / samples);
     }
 };
 

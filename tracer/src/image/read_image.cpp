@@ -3,7 +3,10 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <fstream>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
@@ -11,6 +14,18 @@
 namespace phasetree::tracer {
 
 namespace {
+
+// The kinds of files that OpenImageIO decodes as a whole when it opens them, whatever size they claim: known by their
+// first bytes, because it looks at these and not only at the name. Nothing of what is not such a file.
+std::optional<std::string_view> decoded_when_opened(const std::filesystem::path& path) {
+    std::array<char, 12> bytes{};
+    std::ifstream(path, std::ios::binary).read(bytes.data(), bytes.size());
+    const std::string_view first(bytes.data(), bytes.size());
+    if (first.starts_with("RIFF") && first.substr(8) == "WEBP") return "a WebP image";
+    if (first.substr(4, 4) == "ftyp") return "a HEIF image or a movie";
+    if (first.substr(4, 4) == "jP  " || first.starts_with("\xff\x4f\xff\x51")) return "a JPEG 2000 image";
+    return std::nullopt;
+}
 
 // Deflate, with which PNG compresses, makes 258 bytes of two bits at best: 1032 to 1.
 bool can_hold_what_it_claims(const OIIO::ImageInput& input, std::uintmax_t file_bytes) {
@@ -48,6 +63,9 @@ void read(const std::filesystem::path& path, const std::function<int(const Image
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) throw std::runtime_error("there is no such file");
     if (!std::filesystem::is_regular_file(path, ignored)) throw std::runtime_error("it is not a file");
+    if (const auto kind = decoded_when_opened(path))
+        throw std::runtime_error("it is " + std::string(*kind) +
+                                 ", whose size is not known before it is decoded; save it as OpenEXR, PNG or TIFF");
     const auto input = OIIO::ImageInput::open(path.string());
     if (!input) throw std::runtime_error(OIIO::geterror());
     const OIIO::ImageSpec& spec = input->spec();

@@ -1,8 +1,9 @@
-// Images that scenes name, read by OpenImageIO: any format it knows (OpenEXR, Radiance HDR, TIFF, PNG, …).
+// Images that scenes name, read by OpenImageIO: the formats that it decodes row by row (OpenEXR, Radiance HDR, TIFF,
+// PNG, JPEG, …).
 //
 // A file's header may claim any size. So memory is taken as rows are decoded, and a file that ends early costs no more
 // than what it holds; a PNG file that is too short for what it claims is refused at once, because the decoder takes all
-// of an interlaced one's memory beforehand.
+// of an interlaced one's memory beforehand, and WebP, HEIF and JPEG 2000 are not read, because opening decodes them.
 #pragma once
 
 #include <filesystem>

@@ -102,7 +102,7 @@ std::optional<LightSample> LightProposal::sample(const Lights& lights, glm::vec2
     if (!outside || !(lights.pdf(p_, outside->direction) > 0.5f * sample->pdf)) return std::nullopt;
     const auto seen = lights.seen(p_, *inside, infinity, false);
     if (!seen) return std::nullopt;
-    return LightSample{*inside, seen->distance, seen->radiance, pdf(lights, *inside)};
+    return LightSample{*inside, seen->distance, seen->radiance, pdf(lights, *inside), seen->source};
 }
 
 float LightProposal::pdf(const Lights& lights, const glm::vec3& direction) const {

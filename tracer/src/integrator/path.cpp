@@ -4,47 +4,45 @@
 #include <cmath>
 #include <limits>
 
+#include "caustics/photon_map.hpp"
+#include "caustics/trace_photon.hpp"
 #include "integrator/light_proposal.hpp"
-#include "shading/frame.hpp"
+#include "integrator/path_recorder.hpp"
+#include "sampling/heuristic.hpp"
+#include "world/chain.hpp"
 
 namespace phasetree::tracer {
 
 namespace {
 
-float power_heuristic(float a, float b) {
-    // The square of the quotient does not overflow where a² could.
-    const float q = b / a;
-    return 1.0f / (1.0f + q * q);
-}
-
-// Shadow rays follow no chain of more interfaces than this. Light at the end of a longer one is left to the directions
-// that BSDFs sample: it then has their weight alone (Chain::weight).
-constexpr int longest_chain = 128;
-
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// Rays travel in clear phases only.
-const Clear& clear_at(const Scene& scene, Phase phase) {
-    return std::get<Clear>(scene.materials[phase.index]);
-}
+// A path that can still bring this share of what it began with survives Russian roulette for certain: 1 / 4.
+constexpr float survival_per_worth = 4.0f;
 
-// Whether a surface is a link of a chain: smooth, and clear on both sides. A mirror is none: shadow rays end there.
-bool is_link(const Bsdf& bsdf, const Surface& surface) {
-    return bsdf.is_delta() && surface.far_side;
-}
+// Photons that come in flatter than this are left to the other techniques: what they bring is divided by the cosine.
+constexpr float least_photon_cosine = 1e-3f;
 
-// The ray on which a sampled direction goes on.
-Ray continued(const Surface& surface, const Frame& frame, const BsdfSample& sample) {
-    const glm::vec3 direction = glm::normalize(frame.to_world(sample.wi));
-    return sample.transmitted ? surface.transmitted(direction) : surface.reflected(direction);
+// What a shadow ray finds: the radiance that arrives, and of which emission, in which direction in the end, it is.
+struct Arrival {
+    glm::vec3 radiance;
+    Lights::Emission emission;
+    glm::vec3 direction;
+    float line_density;  // with which photons start on the chain's last line; 0 for a chain of no interface
+};
+
+// With which density photons start on the line on which a ray leads to a light.
+float line_density(const Photons& photons, const Ray& ray) {
+    return photons ? photons.emission->line_density(ray.origin, ray.direction, ray.phase) : 0.0f;
 }
 
 // One random sample of E (path.hpp) along a shadow ray: the emission at the end of a chain of smooth clear interfaces,
 // each of which reflects or refracts the ray at random, times the transmittance of the media and the weights of the
-// interfaces. Up to its first interface the ray goes straight to the light that was sampled, which is known; after that
-// it is asked what light it sees.
-glm::vec3 emission_through_chain(const World& world, const Scene& scene, Ray ray, const LightSample& sampled,
-                                 Sampler& sampler, PathCounters& counters) {
+// interfaces; none if there is no light. Up to its first interface the ray goes straight to the light that was sampled,
+// which is known; after that it is asked what light it sees.
+std::optional<Arrival> emission_through_chain(const World& world, const Scene& scene, Ray ray,
+                                              const LightSample& sampled, const Photons& photons, Sampler& sampler,
+                                              PathCounters& counters) {
     glm::vec3 throughput(1.0f);
     for (int length = 0, segment = 0;; ++segment) {
         const float far = segment == 0 ? sampled.distance : infinity;
@@ -55,20 +53,23 @@ glm::vec3 emission_through_chain(const World& world, const Scene& scene, Ray ray
         const float distance = surface ? surface->distance : blocked ? blocked->distance : infinity;
         const Medium& medium = clear_at(scene, ray.phase).interior;
         const auto light = segment > 0 ? scene.lights.seen(ray.origin, ray.direction, distance, false)
-                           : escaped   ? std::optional(Lights::Emission{sampled.distance, sampled.radiance})
-                                       : std::nullopt;
-        if (light) return throughput * transmittance(medium, light->distance) * light->radiance;
-        if (!surface) return glm::vec3(0.0f);
+                           : escaped
+                               ? std::optional(Lights::Emission{sampled.distance, sampled.radiance, sampled.source})
+                               : std::nullopt;
+        if (light)
+            return Arrival{throughput * transmittance(medium, light->distance) * light->radiance, *light, ray.direction,
+                           length > 0 ? line_density(photons, ray) : 0.0f};
+        if (!surface) return std::nullopt;
         throughput *= transmittance(medium, distance);
         const Bsdf bsdf = surface->bsdf();
         if (bsdf.passes_through()) {
             ray = surface->transmitted(ray.direction);
             continue;
         }
-        if (!is_link(bsdf, *surface) || ++length > longest_chain) return glm::vec3(0.0f);
+        if (!is_link(bsdf, *surface) || ++length > longest_chain) return std::nullopt;
         const Frame frame(surface->normal);
         const auto next = bsdf.sample(frame.to_local(-ray.direction), sampler.next(), glm::vec2(0.0f));
-        if (!next) return glm::vec3(0.0f);
+        if (!next) return std::nullopt;
         throughput *= next->weight;
         ray = continued(*surface, frame, *next);
     }
@@ -81,24 +82,31 @@ struct Chain {
     std::optional<float> pdf;
     LightProposal proposal{};
     glm::vec3 direction{0};
+    // Photons find the direction with this density, times the line density at the end of the chain.
+    float by_photons = 0;
     int length = 0;
 
-    float weight(const Lights& lights) const {
+    // Of light that is seen along the ray.
+    float weight(const Lights& lights, const Photons& photons, const Ray& ray) const {
         if (!pdf || length > longest_chain) return 1;
-        return power_heuristic(*pdf, proposal.pdf(lights, direction));
+        const float line = by_photons > 0.0f && length > 0 ? line_density(photons, ray) : 0.0f;
+        return power_heuristic(*pdf, proposal.pdf(lights, direction), by_photons * line);
     }
 };
 
 // One path, and what it needs at every step.
 class Path {
   public:
-    Path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters)
+    Path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters,
+         const Photons& photons, PathRecord* record)
         : world_(world),
           scene_(scene),
+          photons_(photons),
           sampler_(sampler),
           counters_(counters),
           ray_(ray),
-          camera_ior_(clear_at(scene, ray.phase).ior) {}
+          camera_ior_(clear_at(scene, ray.phase).ior),
+          recorder_(record, scene) {}
 
     glm::vec3 trace() {
         for (int depth = 0; depth < scene_.settings.max_depth;) {
@@ -107,6 +115,7 @@ class Path {
             const float distance = surface ? surface->distance : infinity;
             if (add_emission(distance) || !surface) break;
             throughput_ *= transmittance(clear_at(scene_, ray_.phase).interior, distance);
+            recorder_.travelled(ray_.phase, distance);
             ++depth;
             const Bsdf bsdf = surface->bsdf();
             if (bsdf.passes_through()) {  // equal indices scatter nothing, but do count for max_depth
@@ -115,6 +124,7 @@ class Path {
             }
             if (!scatter_and_continue(*surface, bsdf) || !roulette(depth)) break;
         }
+        recorder_.finish(radiance_);
         return radiance_;
     }
 
@@ -124,9 +134,28 @@ class Path {
         const auto light = scene_.lights.seen(ray_.origin, ray_.direction, distance, is_camera_ray_);
         if (!light) return false;
         const Medium& medium = clear_at(scene_, ray_.phase).interior;
-        radiance_ +=
-            throughput_ * chain_.weight(scene_.lights) * transmittance(medium, light->distance) * light->radiance;
+        add_light(throughput_ * chain_.weight(scene_.lights, photons_, ray_) * transmittance(medium, light->distance) *
+                      light->radiance,
+                  *light, ray_.direction, false);
         return true;
+    }
+
+    // Adds to the path's radiance, of an emission that was seen in the direction.
+    void add_light(const glm::vec3& radiance, const Lights::Emission& emission, const glm::vec3& direction,
+                   bool by_shadow_ray) {
+        radiance_ += radiance;
+        recorder_.add_light(radiance, emission, direction, by_shadow_ray);
+    }
+
+    // Tells the recorder of a surface before the path's ray leaves it.
+    void record(const Surface& surface, const Bsdf& bsdf, const std::optional<BsdfSample>& next) {
+        if (!recorder_.is_asked()) return;
+        const auto ior = [&](Phase phase) { return clear_at(scene_, phase).ior; };
+        const Phase after = next && next->transmitted ? surface.far_side->phase : ray_.phase;
+        const glm::vec3 weight = next ? next->weight : glm::vec3(0.0f);
+        const float bent = ior(after) / ior(ray_.phase), from_camera = ior(after) / camera_ior_;
+        recorder_.scattered(surface, bsdf.is_delta(), is_link(bsdf, surface), weight * (bent * bent),
+                            throughput_ * weight * (from_camera * from_camera));
     }
 
     // Adds direct light, and samples the path's next ray. Whether there is one.
@@ -139,14 +168,16 @@ class Path {
         if (!bsdf.is_delta()) {
             if (!surface.far_side) proposal = LightProposal::at(surface, world_, scene_, counters_);
             add_direct_light(surface, bsdf, frame, wo, proposal);
+            add_caustics(surface, bsdf, frame, wo, proposal);
         }
         const float lobe = sampler_.next();
         const auto next = bsdf.sample(wo, lobe, sampler_.next2());
+        record(surface, bsdf, next);
         if (!next) return false;
         throughput_ *= next->weight;
         ray_ = continued(surface, frame, *next);
         if (!next->delta)
-            chain_ = {next->pdf, proposal, ray_.direction, 0};
+            chain_ = {next->pdf, proposal, ray_.direction, density_by_photons(surface, bsdf, next->wi.z), 0};
         else if (is_link(bsdf, surface))
             ++chain_.length;
         else
@@ -163,18 +194,47 @@ class Path {
         const glm::vec3 f = bsdf.evaluate(wo, wi);
         if (f == glm::vec3(0.0f)) return;
         const Ray shadow = wi.z < 0 ? surface.transmitted(light->wi) : surface.reflected(light->wi);
-        const glm::vec3 arrives = emission_through_chain(world_, scene_, shadow, *light, sampler_, counters_);
-        radiance_ += throughput_ * f * arrives * (power_heuristic(light->pdf, bsdf.pdf(wo, wi)) / light->pdf);
+        const auto arrival = emission_through_chain(world_, scene_, shadow, *light, photons_, sampler_, counters_);
+        if (!arrival) return;
+        const float by_photons = density_by_photons(surface, bsdf, wi.z) * arrival->line_density;
+        const float weight = power_heuristic(light->pdf, bsdf.pdf(wo, wi), by_photons);
+        add_light(throughput_ * f * arrival->radiance * (weight / light->pdf), arrival->emission, arrival->direction,
+                  true);
+    }
+
+    // With which density photons find a direction of this cosine at a surface, per line density at the light.
+    float density_by_photons(const Surface& surface, const Bsdf& bsdf, float cosine) const {
+        if (!photons_ || !(cosine > least_photon_cosine) || !is_lit_by_photons(surface, bsdf)) return 0.0f;
+        const float ior = clear_at(scene_, surface.near_side.phase).ior;
+        return photons_.map->expected() * ior * ior * cosine;
+    }
+
+    // What photons bring that fell near the surface's point.
+    void add_caustics(const Surface& surface, const Bsdf& bsdf, const Frame& frame, const glm::vec3& wo,
+                      const LightProposal& proposal) {
+        if (!photons_ || !is_lit_by_photons(surface, bsdf)) return;
+        photons_.map->near(
+            surface.near_side.origin, surface.normal, surface.near_side.phase, [&](const Photon& photon) {
+                const glm::vec3 wi = frame.to_local(photon.direction);
+                const float by_photons = density_by_photons(surface, bsdf, wi.z) * photon.line_density;
+                if (!(by_photons > 0.0f)) return;
+                const float weight =
+                    power_heuristic(by_photons, bsdf.pdf(wo, wi), proposal.pdf(scene_.lights, photon.direction));
+                const glm::vec3 irradiance = photon.power / photons_.map->expected();
+                add_light(throughput_ * bsdf.evaluate(wo, wi) * irradiance * (weight / wi.z), photon.emission,
+                          photon.towards_light, true);
+            });
     }
 
     // Russian roulette on what the path can still bring to the camera: radiance over η² is what refraction preserves.
-    // Whether the path goes on.
+    // Whether the path goes on. Survival is several times the worth, because in long chains of clear interfaces what is
+    // rouletted often comes back as noise that costs more than the steps that are saved.
     bool roulette(int depth) {
         const float ior = clear_at(scene_, ray_.phase).ior / camera_ior_;
         const float worth = std::max({throughput_.x, throughput_.y, throughput_.z}) * ior * ior;
         if (!(worth > 0)) return false;
-        if (depth > 3 && worth < 0.95f) {
-            const float survival = std::max(worth, 0.05f);
+        const float survival = std::max(survival_per_worth * worth, 0.05f);
+        if (depth > 3 && survival < 0.95f) {
             if (sampler_.next() >= survival) return false;
             throughput_ /= survival;
         }
@@ -183,6 +243,7 @@ class Path {
 
     const World& world_;
     const Scene& scene_;
+    const Photons& photons_;
     Sampler& sampler_;
     PathCounters& counters_;
     Ray ray_;
@@ -190,14 +251,19 @@ class Path {
     glm::vec3 radiance_{0.0f}, throughput_{1.0f};
     Chain chain_;
     bool is_camera_ray_ = true;
+    PathRecorder recorder_;
 };
 
 }  // namespace
 
-glm::vec3 trace_path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters) {
+glm::vec3 trace_path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters,
+                     PathRecord* record, const Photons& photons) {
     ++counters.paths;
-    if (!is_clear(scene.materials[ray.phase.index])) return glm::vec3(0.0f);
-    return Path(world, scene, ray, sampler, counters).trace();
+    if (!is_clear(scene.materials[ray.phase.index])) {
+        PathRecorder(record, scene).finish(glm::vec3(0.0f));
+        return glm::vec3(0.0f);
+    }
+    return Path(world, scene, ray, sampler, counters, photons, record).trace();
 }
 
 }  // namespace phasetree::tracer

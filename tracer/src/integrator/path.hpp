@@ -2,10 +2,21 @@
 // estimation, multiple importance sampling by the power heuristic (Veach & Guibas, SIGGRAPH 1995) and Russian roulette.
 #pragma once
 
+#include "film/path_record.hpp"
 #include "sampling/sobol.hpp"
 #include "world/world.hpp"
 
 namespace phasetree::tracer {
+
+class PhotonEmission;
+class PhotonMap;
+
+/// The photons that light what a path meets, if there are any.
+struct Photons {
+    const PhotonEmission* emission = nullptr;
+    const PhotonMap* map = nullptr;
+    explicit operator bool() const { return map != nullptr; }
+};
 
 /// An estimate of the radiance that arrives along a ray, unbiased but for the light that is lost where paths end
 /// because they have met RenderSettings::max_depth surfaces. It is black for a ray that starts in an opaque phase.
@@ -18,6 +29,19 @@ namespace phasetree::tracer {
 /// and combine by the power heuristic of their densities *of ω*: of the light sampling, and of the BSDF. A path keeps
 /// these two through the chain. Nothing is counted twice and nothing is lost, whatever the light is seen through. In
 /// which directions shadow rays start is for light_proposal.hpp.
-glm::vec3 trace_path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters);
+///
+/// Photons are a third technique for the same integral, for chains of at least one interface: E as found from the
+/// light's end (caustics/caustics.hpp). Where N of them are traced and those within r of the surface count, directions
+/// ω are found with the expected density
+///     N π r² p(line) n² cos θ,
+/// of which p(line) is the density at the light (caustics/emission.hpp), and n² cos θ, with the index n at the surface,
+/// turns its measure into area times solid angle there: the étendue is the same all along a chain, however its
+/// interfaces are curved. Fresnel's odds are the same in both directions and cancel. Gathering is the one estimate here
+/// that is biased: it blurs within r (Georgiev et al.: Light Transport Simulation with Vertex Connection and Merging,
+/// SIGGRAPH Asia 2012, has the general case).
+///
+/// With a record it also fills that in. Neither the radiance nor the random numbers that are drawn depend on it.
+glm::vec3 trace_path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters,
+                     PathRecord* record = nullptr, const Photons& photons = {});
 
 }  // namespace phasetree::tracer

@@ -75,8 +75,9 @@ struct ImageEnvironmentParameters {
     template <class V>
     static void parameters(V&& v) {
         using P = ImageEnvironmentParameters;
-        v(&P::file,
-          Parameter{"file", "", "An image of any format that OpenImageIO reads, at most 16384 × 8192 pixels."});
+        v(&P::file, Parameter{"file", "",
+                              "An image that OpenImageIO reads row by row (OpenEXR, Radiance, TIFF, PNG, JPEG …), at "
+                              "most 16384 × 8192 pixels."});
         v(&P::rotation_degrees,
           Parameter{"rotation", "degrees", "Angle by which it is turned, clockwise as seen from above.", limits::any,
                     true});

@@ -1,18 +1,24 @@
 // The kinds of lights that a scene file names: one list, from which the reader, the reference and the schema follow.
-// A kind has made(), which returns a light, or several; made(EnvironmentImages&) if it needs images.
+// Each has its own parameters and those that all lights have (grouped.hpp). A kind has made(), which returns a light,
+// or several; made(EnvironmentImages&) if it needs images.
 #pragma once
 
 #include <variant>
 
 #include "lights/environment_images.hpp"
+#include "lights/grouped.hpp"
 #include "lights/lights.hpp"
 #include "lights/sky.hpp"
 #include "phasetree/model/concepts.hpp"
 
 namespace phasetree::tracer {
 
-using LightKinds = TypeList<ConstantEnvironmentParameters, GradientEnvironmentParameters, ImageEnvironmentParameters,
-                            SkyParameters, SunParameters, RectangleLightParameters, SphereLightParameters>;
+template <class... Kinds>
+using GroupedKinds = TypeList<Grouped<Kinds>...>;
+
+using LightKinds =
+    GroupedKinds<ConstantEnvironmentParameters, GradientEnvironmentParameters, ImageEnvironmentParameters,
+                 SkyParameters, SunParameters, RectangleLightParameters, SphereLightParameters>;
 
 template <class Kind>
 auto made_light(const Kind& kind, EnvironmentImages& images) {

@@ -14,6 +14,10 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
+LightSource area_source(std::size_t index) {
+    return {static_cast<std::int32_t>(index)};
+}
+
 // One number a light, without the heap for the usual handful of them.
 class Scratch {
   public:
@@ -28,6 +32,43 @@ class Scratch {
 };
 
 }  // namespace
+
+std::size_t Lights::group_of(std::string_view name) {
+    const auto found = std::ranges::find(groups_, name);
+    if (found == groups_.end()) groups_.emplace_back(name);
+    return static_cast<std::size_t>(std::ranges::find(groups_, name) - groups_.begin());
+}
+
+void Lights::add(InfiniteLight light, std::string_view group) {
+    infinite_.push_back(std::move(light));
+    infinite_group_.push_back(group_of(group));
+}
+
+void Lights::add(AreaLight light, std::string_view group) {
+    area_.push_back(std::move(light));
+    area_group_.push_back(group_of(group));
+}
+
+void Lights::add_to_groups(const glm::vec3& radiance, const Emission& emission, const glm::vec3& direction,
+                           std::span<glm::vec3> groups) const {
+    const std::int32_t source = emission.source.area_light;
+    const auto is_like_first = [&](std::size_t group) { return group == infinite_group_.front(); };
+    if (source >= 0) {
+        groups[area_group_[static_cast<std::size_t>(source)]] += radiance;
+    } else if (source == LightSource::background || infinite_.empty()) {
+        groups[0] += radiance;
+    } else if (std::ranges::all_of(infinite_group_, is_like_first)) {
+        groups[infinite_group_.front()] += radiance;
+    } else {
+        for (std::size_t i = 0; i < infinite_.size(); ++i) {
+            const glm::vec3 part =
+                std::visit([&](const auto& light) { return light.radiance(direction); }, infinite_[i]);
+            for (int c = 0; c < 3; ++c)
+                if (emission.radiance[c] > 0)
+                    groups[infinite_group_[i]][c] += radiance[c] * (part[c] / emission.radiance[c]);
+        }
+    }
+}
 
 void Lights::set_background(const std::optional<glm::vec3>& radiance) {
     if (radiance) check_colour(*radiance, "the background");
@@ -111,7 +152,7 @@ std::optional<LightSample> Lights::sample(const glm::vec3& p, glm::vec2 u) const
         if (i != chosen && fluence[i] > 0.0f)
             density += fluence[i] / total * std::visit([&](const auto& light) { return light.pdf(wi); }, any);
     }
-    std::optional<Emission> nearest;
+    std::optional<Emission> nearest;  // of the area lights, which are numbered after the infinite ones
     bool is_met = chosen < infinite_.size();
     for (const AreaLight& any : area_) {
         const std::size_t i = index++;
@@ -119,7 +160,8 @@ std::optional<LightSample> Lights::sample(const glm::vec3& p, glm::vec2 u) const
             [&](const auto& light) {
                 const auto distance = light.intersect(p, wi);
                 if (!distance) return;
-                if (!nearest || *distance < nearest->distance) nearest = Emission{*distance, light.radiance()};
+                if (!nearest || *distance < nearest->distance)
+                    nearest = Emission{*distance, light.radiance(), area_source(i - infinite_.size())};
                 if (i == chosen)
                     is_met = true;
                 else if (fluence[i] > 0.0f)
@@ -129,8 +171,8 @@ std::optional<LightSample> Lights::sample(const glm::vec3& p, glm::vec2 u) const
     }
     // At the very rim of a light rounding can put the direction just outside.
     if (!is_met || !(density > 0.0f)) return std::nullopt;
-    if (nearest) return LightSample{wi, nearest->distance, nearest->radiance, density};
-    return LightSample{wi, infinity, infinite_radiance(wi), density};
+    if (nearest) return LightSample{wi, nearest->distance, nearest->radiance, density, nearest->source};
+    return LightSample{wi, infinity, infinite_radiance(wi), density, {}};
 }
 
 std::optional<glm::vec3> Lights::towards_brightest(const glm::vec3& p, const glm::vec3& normal) const {
@@ -160,18 +202,21 @@ std::optional<glm::vec3> Lights::towards_brightest(const glm::vec3& p, const glm
 std::optional<Lights::Emission> Lights::seen(const glm::vec3& origin, const glm::vec3& direction, float geometry,
                                              bool camera_ray) const {
     std::optional<Emission> nearest;
+    std::size_t index = 0;
     for (const AreaLight& any : area_) {
+        const LightSource source = area_source(index++);
         std::visit(
             [&](const auto& light) {
                 if (camera_ray && !light.visible_to_camera()) return;
                 const auto distance = light.intersect(origin, direction);
                 if (distance && *distance < (nearest ? nearest->distance : geometry))
-                    nearest = Emission{*distance, light.radiance()};
+                    nearest = Emission{*distance, light.radiance(), source};
             },
             any);
     }
     if (nearest || geometry < infinity) return nearest;
-    return Emission{infinity, camera_ray && background_ ? *background_ : infinite_radiance(direction)};
+    if (camera_ray && background_) return Emission{infinity, *background_, {LightSource::background}};
+    return Emission{infinity, infinite_radiance(direction), {}};
 }
 
 glm::vec3 Lights::infinite_radiance(const glm::vec3& direction) const {

@@ -17,35 +17,60 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "lights/kinds.hpp"
 
 namespace phasetree::tracer {
 
+/// What shines in some direction: the area light of that number, all infinite lights together, or the background.
+struct LightSource {
+    static constexpr std::int32_t infinite = -1, background = -2;
+    std::int32_t area_light = infinite;  ///< or one of the constants
+};
+
 struct LightSample {
     glm::vec3 wi;        ///< unit, from the point towards the light
     float distance;      ///< to the light; infinity for infinite lights
     glm::vec3 radiance;  ///< that arrives from there if no geometry is in between
     float pdf;           ///< per steradian, of the whole mixture
+    LightSource source;  ///< what the radiance is of
 };
+
+inline constexpr std::string_view default_group = "default";
 
 class Lights {
   public:
     struct Emission {
         float distance;  ///< infinity for infinite lights
         glm::vec3 radiance;
+        LightSource source;
     };
 
-    void add(InfiniteLight light) { infinite_.push_back(std::move(light)); }
-    void add(AreaLight light) { area_.push_back(std::move(light)); }
+    /// Lights belong to groups, whose shares of a picture can be recorded separately (add_to_groups). The background
+    /// and lights that name no group are of the group `default_group`.
+    void add(InfiniteLight light, std::string_view group = default_group);
+    void add(AreaLight light, std::string_view group = default_group);
     /// What camera rays see instead of the infinite lights.
     void set_background(const std::optional<glm::vec3>& radiance);
 
+    /// The names of the groups, default_group first.
+    const std::vector<std::string>& groups() const { return groups_; }
+    /// Adds radiance, which came of an emission that was seen in the direction, to that emission's group. What came
+    /// of infinite lights in several groups is shared out as they shine in that direction; it then adds up to the
+    /// radiance but for rounding. `groups` is as long as groups().
+    void add_to_groups(const glm::vec3& radiance, const Emission& emission, const glm::vec3& direction,
+                       std::span<glm::vec3> groups) const;
+
     bool empty() const { return infinite_.empty() && area_.empty(); }
+    std::span<const InfiniteLight> infinite() const { return infinite_; }
+    std::span<const AreaLight> area() const { return area_; }
 
     /// `u` in [0, 1)². Its x chooses the light, and what is left of it, stretched to [0, 1) again, is the x that the
     /// light's own sampling gets: points that are stratified in the square are so for each light. Nothing when no light
@@ -68,9 +93,12 @@ class Lights {
     std::size_t size() const { return infinite_.size() + area_.size(); }
     float fluences(const glm::vec3& p, std::span<float> fluence) const;
     glm::vec3 infinite_radiance(const glm::vec3& direction) const;
+    std::size_t group_of(std::string_view name);
 
     std::vector<InfiniteLight> infinite_;
     std::vector<AreaLight> area_;
+    std::vector<std::string> groups_{std::string(default_group)};
+    std::vector<std::size_t> infinite_group_, area_group_;  ///< of each light
     std::optional<glm::vec3> background_;
 };
 

@@ -1,4 +1,4 @@
-// Reads an environment image: any format OpenImageIO knows (OpenEXR, Radiance HDR, TIFF, PNG, …).
+// Reads an environment image (image/read_image.hpp says of which formats).
 #pragma once
 
 #include <memory>

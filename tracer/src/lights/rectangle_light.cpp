@@ -187,4 +187,10 @@ std::optional<float> RectangleLight::intersect(const glm::vec3& origin, const gl
     return static_cast<float>(distance);
 }
 
+SurfacePoint RectangleLight::surface_point(const glm::vec2& u) const {
+    const double x = (2.0 * static_cast<double>(u.x) - 1.0) * half_u_,
+                 y = (2.0 * static_cast<double>(u.y) - 1.0) * half_v_;
+    return {glm::vec3(centre_ + x * axis_u_ + y * axis_v_), normal()};
+}
+
 }  // namespace phasetree::tracer

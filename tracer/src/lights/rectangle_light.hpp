@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "lights/direction_sample.hpp"
+#include "lights/surface_point.hpp"
 #include "parameters/world_limits.hpp"
 #include "phasetree/io/kind.hpp"
 
@@ -40,6 +41,12 @@ class RectangleLight {
     float pdf_at(const glm::vec3& p, const glm::vec3& direction, float distance) const;
     // The distance at which a ray meets the emitting side.
     std::optional<float> intersect(const glm::vec3& origin, const glm::vec3& direction) const;
+
+    // As AreaLightKind has them.
+    glm::vec3 centre() const { return centre_; }
+    SurfacePoint surface_point(const glm::vec2& u) const;
+    glm::vec3 normal_at(const glm::vec3& /*point*/) const { return normal(); }
+    float area() const { return static_cast<float>(area_); }
 
   private:
     struct View;

@@ -52,8 +52,24 @@ std::optional<float> SphereLight::intersect(const glm::vec3& origin, const glm::
     const double squared_half_chord = radius_ * radius_ - glm::dot(across, across);
     const bool inside = cap_height(to_centre) == 2.0;
     if (inside) return static_cast<float>(along + std::sqrt(std::max(0.0, squared_half_chord)));
-    if (!(squared_half_chord >= 0.0) || !(along > 0.0)) return std::nullopt;
-    return static_cast<float>(along - std::sqrt(squared_half_chord));
+    // Of a direction's three coordinates, after a rotation of some roundings.
+    constexpr double rounding = 2e-7;
+    const double reach = radius_ + rounding * along;
+    if (!(glm::dot(across, across) <= reach * reach) || !(along > 0.0)) return std::nullopt;
+    return static_cast<float>(along - std::sqrt(std::max(0.0, squared_half_chord)));
+}
+
+SurfacePoint SphereLight::surface_point(const glm::vec2& u) const {
+    const glm::vec3 normal = square_to_uniform_sphere(u);
+    return {glm::vec3(centre_ + radius_ * glm::dvec3(normal)), normal};
+}
+
+glm::vec3 SphereLight::normal_at(const glm::vec3& point) const {
+    return glm::vec3(glm::normalize(glm::dvec3(point) - centre_));
+}
+
+float SphereLight::area() const {
+    return static_cast<float>(4.0 * std::numbers::pi * radius_ * radius_);
 }
 
 }  // namespace phasetree::tracer

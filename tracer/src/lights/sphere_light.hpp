@@ -3,12 +3,19 @@
 // From outside, at distance d, it fills the cone of half-angle α = asin(r/d), which is sampled uniformly:
 // p = 1/(2π(1 − cos α)). From inside it fills the whole sphere of directions: p = 1/(4π). A surface element at distance
 // d that sees all of it receives E = πL (r/d)² cos θ.
+//
+// Directions are floats, so one that was sampled in the cone may pass the ball by a rounding error. The ball therefore
+// reaches that much farther, 2·10⁻⁷ d, where it is asked what a ray meets: otherwise the light of what was sampled
+// there would be lost, a hundredth of it from a ball that is seen 10⁻⁴ degrees large. What a surface receives from the
+// light by sampling it is right for the smallest of balls. In a mirror they look larger than they are: one of 10⁻³
+// degrees has five per cent more area there.
 #pragma once
 
 #include <glm/glm.hpp>
 #include <optional>
 
 #include "lights/direction_sample.hpp"
+#include "lights/surface_point.hpp"
 #include "parameters/world_limits.hpp"
 #include "phasetree/io/kind.hpp"
 
@@ -30,6 +37,12 @@ class SphereLight {
     float pdf_at(const glm::vec3& p, const glm::vec3& direction, float distance) const;
     // The distance at which a ray first meets the surface.
     std::optional<float> intersect(const glm::vec3& origin, const glm::vec3& direction) const;
+
+    // As AreaLightKind has them; of the outer side.
+    glm::vec3 centre() const { return centre_; }
+    SurfacePoint surface_point(const glm::vec2& u) const;
+    glm::vec3 normal_at(const glm::vec3& point) const;
+    float area() const;
 
   private:
     double cap_height(const glm::dvec3& to_centre) const;

@@ -71,6 +71,7 @@ OIIO::ImageSpec spec_for(const Image& image, Format format, const Metadata& meta
         }
         for (const Channel& channel : image.further) spec.channelnames.push_back(channel.name);
         spec.nchannels = static_cast<int>(spec.channelnames.size());
+        for (const auto& [name, text] : image.attributes) spec.attribute(name, text);
         spec.attribute("compression", "zip");
         spec.attribute("oiio:ColorSpace", "Linear");
         spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), rec709_chromaticities.data());

@@ -9,9 +9,11 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <mutex>
 #include <utility>
 
 #include "camera/camera.hpp"
+#include "caustics/caustics.hpp"
 #include "phasetree/math/float_mode.hpp"
 
 namespace phasetree::tracer {
@@ -46,6 +48,12 @@ struct Pass {
     }
 };
 
+PlaneSubjects subjects_of(const Scene& scene) {
+    PlaneSubjects subjects{.phases = scene.phases.names, .groups = scene.lights.groups(), .objects = {"object"}};
+    for (const Mesh& mesh : scene.meshes) subjects.objects.push_back(mesh.name);
+    return subjects;
+}
+
 class Renderer {
   public:
     Renderer(const World& world, const Scene& scene, const RenderJob& job)
@@ -54,23 +62,27 @@ class Renderer {
           job_(job),
           camera_(scene.camera, scene.film.resolution()),
           phases_(world.geometry(), camera_),
-          film_(scene.film, job.pixels) {}
+          // Of a picture alone no path need tell more.
+          recording_(scene.film.planes.count() > 1),
+          axis_(camera_.generate(glm::dvec2(scene.film.resolution()) * 0.5, glm::vec2(0.5f))),
+          film_(scene.film, job.pixels, subjects_of(scene)) {
+        if (scene.settings.caustics) caustics_.emplace(world, scene);
+    }
 
-    // Returns how many samples each pixel has in the end.
+    // Returns how many samples each pixel has in the end, at least. A pass that is cut off leaves some pixels with
+    // more; of the first pass it leaves what there is, because something beats nothing.
     int run() {
         int done = 0;
         while (done < scene_.settings.samples && !stopped_) {
-            const Pass pass = Pass::from(done, scene_.settings.samples);
-            std::optional<Film> before;
-            if (pass.first > 0) before = film_;
-            run(pass);
-            // A pass that was cut off is dropped, so that every pixel has as many samples. But of the first pass what
-            // there is is kept: something beats nothing.
-            if (stopped_ && before) {
-                film_ = *std::move(before);
-                break;
+            // Each sample of a pixel sees photons of its own, so with photons a pass is one sample.
+            const Pass pass = caustics_ ? Pass{done, done + 1} : Pass::from(done, scene_.settings.samples);
+            if (caustics_) {
+                photons_ = caustics_->photons(done, counters_.local(), job_.cancelled);
+                stopped_ = !photons_;
+                if (stopped_) break;
             }
-            done = pass.last;
+            run(pass);
+            if (!stopped_ || done == 0) done = pass.last;
         }
         return done;
     }
@@ -93,26 +105,39 @@ class Renderer {
                     return;
                 }
                 const PixelRange part{tile.cols().begin(), tile.rows().begin(), tile.cols().end(), tile.rows().end()};
-                run(part, pass);
-                job_.advance(part.size() * static_cast<std::size_t>(pass.last - pass.first));
+                job_.advance(run(part, pass));
             },
             tbb::simple_partitioner());
     }
-    void run(const PixelRange& part, const Pass& pass) {
+    // Adds to each pixel of a part what it lacks of the pass. Returns how many samples that were.
+    std::uint64_t run(const PixelRange& part, const Pass& pass) {
         const FlushSubnormals flush;
         PathCounters& counters = counters_.local();
         FilmTile tile = film_.tile(part);
+        std::uint64_t added = 0;
         for (int y = part.y0; y < part.y1; ++y)
             for (int x = part.x0; x < part.x1; ++x)
-                for (int s = pass.first; s < pass.last; ++s) tile.add(x, y, sample(x, y, s, counters));
-        film_.merge(tile);
+                // Tiles of one pass do not overlap: nobody else adds to this pixel now.
+                for (int s = static_cast<int>(film_.pixels().samples(x, y)); s < pass.last; ++s, ++added)
+                    tile.add(x, y, sample(x, y, s, counters));
+        const std::lock_guard lock(adding_);
+        film_.add(tile);
+        return added;
     }
-    FilmSample sample(int x, int y, int number, PathCounters& counters) const {
+    // What it refers to is good until the next sample of the same thread.
+    FilmSample sample(int x, int y, int number, PathCounters& counters) {
         Sampler sampler(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
                         static_cast<std::uint32_t>(number), scene_.settings.seed);
         const glm::dvec2 on_film = film_.sample_position(x, y, sampler.next2());
         const CameraRay ray = camera_.generate(on_film, sampler.next2());
-        return {trace_path(world_, scene_, {ray.origin, ray.direction, phases_.at(ray.origin), {}}, sampler, counters)};
+        const Ray first{ray.origin, ray.direction, phases_.at(ray.origin), {}};
+        FilmSample result{.number = static_cast<std::uint32_t>(number)};
+        PathRecord* record = recording_ ? &records_.local() : nullptr;
+        const Photons photons = photons_ ? Photons{&caustics_->emission(), &*photons_} : Photons{};
+        result.radiance = trace_path(world_, scene_, first, sampler, counters, record, photons);
+        result.record = record;
+        if (record && record->first) result.depth = glm::dot(record->first->position - axis_.origin, axis_.direction);
+        return result;
     }
 
     const World& world_;
@@ -120,8 +145,14 @@ class Renderer {
     const RenderJob& job_;
     Camera camera_;
     StartingPhases phases_;
+    bool recording_;
+    CameraRay axis_;  // through the middle of the picture
     Film film_;
+    std::optional<Caustics> caustics_;
+    std::optional<PhotonMap> photons_;  // of this pass
+    std::mutex adding_;                 // of tiles to the film
     tbb::enumerable_thread_specific<PathCounters> counters_;
+    tbb::enumerable_thread_specific<PathRecord> records_;
     std::atomic<bool> stopped_{false};
 };
 
@@ -140,6 +171,7 @@ Rendering render(const World& world, const Scene& scene, const RenderJob& job) {
     }
     result.cancelled = renderer.stopped();
     result.image = renderer.film().image();
+    result.faults = renderer.film().pixels().faults();
     result.counters = renderer.counters();
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;

@@ -19,15 +19,17 @@ struct RenderJob {
 
 struct Rendering {
     Image image;
-    int samples = 0;  ///< in each pixel of the image: fewer than asked if the rendering was cancelled
+    int samples = 0;  ///< in each pixel of the image at least: fewer than asked if the rendering was cancelled
+    FilmFaults faults;
     bool cancelled = false;
     double seconds = 0;
     int threads = 0;
     PathCounters counters;
 };
 
-/// Gives the same image bit for bit for any number of threads: a pixel's samples are numbered, seeded by pixel and
-/// number, and added in order. Works in passes over the whole image, so that a cancelled one is evenly done.
+/// Gives the same image bit for bit for any number of threads: a pixel's samples are numbered and seeded by pixel and
+/// number, and the film's sums do not depend on their order. Works in passes over the whole image, so that a cancelled
+/// one is evenly done: no pixel is further ahead than by one pass.
 Rendering render(const World& world, const Scene& scene, const RenderJob& job);
 
 }  // namespace phasetree::tracer

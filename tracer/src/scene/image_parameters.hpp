@@ -22,6 +22,16 @@ struct ImageParameters : RenderSettings {
         v(&P::max_depth,
           Parameter{"max_depth", "", "The most surfaces that a path meets. One between equal indices counts, too.",
                     Limits{.low = 1, .high = 1 << 20}, true});
+        v(&P::caustics, Parameter{"caustics", "",
+                                  "Whether photons look for the light that lamps throw through curved clear surfaces. "
+                                  "They blur it by a pixel or two, less with more samples.",
+                                  limits::any, true});
+        v(&P::photons, Parameter{"photons", "", "For caustics: photons for each pixel and sample.",
+                                 Limits{.low = 0, .high = 64}, true});
+        v(&P::photon_radius,
+          Parameter{"photon_radius", "pixels",
+                    "For caustics: how far around a point photons count as light on it, in the first pass.",
+                    Limits{.low = 0.01f, .high = 100}, true});
         v(&P::exposure_ev, Parameter{"exposure", "EV", "Brightness of pictures; one more is twice as bright.",
                                      Limits{.low = -50, .high = 50}, true});
         v(&P::view,

@@ -8,14 +8,14 @@ namespace phasetree::tracer {
 
 namespace {
 
-void add(Lights& lights, InfiniteLight light) {
-    lights.add(std::move(light));
+void add(Lights& lights, InfiniteLight light, const std::string& group) {
+    lights.add(std::move(light), group);
 }
-void add(Lights& lights, AreaLight light) {
-    lights.add(std::move(light));
+void add(Lights& lights, AreaLight light, const std::string& group) {
+    lights.add(std::move(light), group);
 }
-void add(Lights& lights, std::vector<InfiniteLight> several) {
-    for (InfiniteLight& light : several) lights.add(std::move(light));
+void add(Lights& lights, std::vector<InfiniteLight> several, const std::string& group) {
+    for (InfiniteLight& light : several) lights.add(std::move(light), group);
 }
 
 }  // namespace
@@ -28,8 +28,10 @@ Lights read_lights(const Document& document, Value root) {
         EnvironmentImages images;
         for (const Value light : *list) {
             with_kind(LightKinds(), document, light, "a light", [&]<class Kind>(Value member) {
-                add(lights, read_kind<Kind>(document, member, fmt::format("the {} light", Kind::info.name),
-                                            [&](const Kind& kind) { return made_light(kind, images); }));
+                read_kind<Kind>(document, member, fmt::format("the {} light", Kind::info.name), [&](const Kind& kind) {
+                    add(lights, made_light(kind, images), kind.checked_group());
+                    return true;
+                });
             });
         }
     }

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "phasetree/io/read_kind.hpp"
 #include "scene/mesh_kinds.hpp"
 #include "scene/read_parts.hpp"
@@ -10,12 +12,16 @@ std::vector<Mesh> read_meshes(const Document& document, Value list) {
     if (!list.is_array())
         throw document.error(list, fmt::format("\"meshes\" must be a list, but is {}", name_of(list.kind())));
     std::vector<Mesh> meshes;
+    std::vector<std::string_view> kinds;
     for (const Value value : list) {
         with_kind(MeshKinds(), document, value, "a mesh", [&]<class Kind>(Value member) {
             meshes.push_back(
-                read_kind<Kind>(document, member, fmt::format("the {}", Kind::info.name), [](const Kind& kind) {
+                read_kind<Kind>(document, member, fmt::format("the {}", Kind::info.name), [&](const Kind& kind) {
                     Mesh mesh = kind.made();
                     mesh.material = kind.material;
+                    const auto same = 1 + std::ranges::count(kinds, Kind::info.name);
+                    mesh.name = same == 1 ? std::string(Kind::info.name) : fmt::format("{} {}", Kind::info.name, same);
+                    kinds.push_back(Kind::info.name);
                     return mesh;
                 }));
         });

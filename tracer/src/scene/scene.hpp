@@ -21,6 +21,7 @@ struct Mesh {
     std::vector<glm::vec3> normals;
     std::vector<glm::uvec3> triangles;
     Material material;
+    std::string name{};  // its kind, with a number behind it from the second of a kind on: "floor", "obj 2"
 };
 
 struct RenderSettings {
@@ -30,6 +31,9 @@ struct RenderSettings {
     // Roulette ends paths long before where light is absorbed. In lossless glass a few in a million meet thousands of
     // surfaces, and to cut those off would lose light.
     int max_depth = 1 << 16;
+    bool caustics = false;    // whether photons look for caustics (caustics/caustics.hpp)
+    float photons = 1;        // of each pass, per pixel of the whole picture
+    float photon_radius = 2;  // in which they are gathered in the first pass, in pixels
     float exposure_ev = 0.0f;
     std::optional<std::string> view;  // of the display transform
 };

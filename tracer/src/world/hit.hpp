@@ -2,6 +2,7 @@
 // something else.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <variant>
@@ -29,6 +30,8 @@ struct Surface {
     std::optional<Side> far_side;  ///< the other; none where light does not travel there: opaque phases and meshes
     std::reference_wrapper<const Interface> optics;  ///< seen from the near side
     StartHint hint;                                  ///< for a ray from either side
+    std::uint32_t object;                            ///< 0 is the object of phases, i + 1 mesh i of the scene
+    std::optional<Phase> entered;                    ///< the phase behind, clear or opaque; none behind a mesh
 
     Bsdf bsdf() const { return optics.get().at(near_side.origin); }
     /// A ray that leaves the surface to the side from which it was met.

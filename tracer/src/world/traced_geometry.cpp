@@ -14,7 +14,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// The geometries of the Embree scene: the object, then the meshes in their order.
+// The geometries of the Embree scene: the object, then the meshes in their order, as Surface::object numbers them.
 constexpr unsigned object_id = 0;
 constexpr unsigned first_mesh_id = object_id + 1;
 
@@ -125,7 +125,9 @@ Surface TracedGeometry::surface_of_object(const Ray& ray, const embree::Query& q
                     .near_side = {c.p_in, c.from},
                     .far_side = std::nullopt,
                     .optics = interfaces_.between(c.from.index, c.to.index),
-                    .hint = {embree::ObjectInstance::of(hit.hit), hit.hit.primID, c.from, normal.gradient}};
+                    .hint = {embree::ObjectInstance::of(hit.hit), hit.hit.primID, c.from, normal.gradient},
+                    .object = object_id,
+                    .entered = c.to};
     if (is_clear(scene_.materials[c.to.index])) surface.far_side = {c.p_out, c.to};
     return surface;
 }
@@ -152,7 +154,9 @@ Surface TracedGeometry::surface_of_mesh(const Ray& ray, const RTCRayHit& hit) co
             .near_side = {p + flat * std::max(surface_epsilon_, relative_surface_epsilon * largest), ray.phase},
             .far_side = std::nullopt,
             .optics = mesh_interfaces_[index * scene_.materials.size() + ray.phase.index],
-            .hint = {}};
+            .hint = {},
+            .object = hit.hit.geomID,
+            .entered = std::nullopt};
 }
 
 Phase TracedGeometry::label(const glm::vec3& p) const {

@@ -32,7 +32,7 @@ struct KindPage {
     /// A picture of it is in this file with .jpg behind it, and what it shows in the one with .json; may be empty.
     std::string example;
     std::vector<ParameterPage> parameters;
-    bool list_alone = false;  ///< its one required parameter is a list, which may stand for the parameters
+    bool list_alone = false;  ///< its one required parameter is a list or a text, which may stand for the parameters
 };
 
 struct Chapter {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,9 +46,20 @@ SirenNetwork read_siren(const std::filesystem::path&);
 ///     "tree":   {"under": [{"set": {"phase": "glass", "of": "bulb"}}, …]}
 ///
 /// A node is an object of one member: the node's name, and its parameters; a node whose one required parameter is a
-/// list of children takes the list in place of the parameters. A string is a named shape. Names of phases are
-/// strings, sets of phases lists of them. Throws SceneError, at the place in the text.
-/// Files are sought from the scene file's folder.
+/// list of children takes the list in place of the parameters, as does one whose required parameter is a text. A string
+/// is a named shape. Names of phases are strings, sets of phases lists of them. Throws SceneError, at the place in the
+/// text. Files are sought from the scene file's folder.
 SceneTree read_tree(const Document&, const FileReaders& = {});
+
+/// What a node's text may name that stands nowhere in it: handles that a program has, by names that it gives them.
+struct KnownShapes {
+    std::map<std::string, Field, std::less<>> fields;
+    std::map<std::string, Phased, std::less<>> objects;
+};
+
+/// Reads one node, with what it is made of either in the text or known already. This is how a binding to another
+/// language makes nodes of any kind, with the reader's checks and sentences. Throws SceneError.
+Field read_field(const Document&, const PhaseNames&, KnownShapes, const FileReaders& = {});
+Phased read_object(const Document&, const PhaseNames&, KnownShapes, const FileReaders& = {});
 
 }  // namespace phasetree

@@ -23,6 +23,7 @@
 #include "phasetree/nodes/fields/displace.hpp"
 #include "phasetree/nodes/fields/dodecahedron.hpp"
 #include "phasetree/nodes/fields/ellipsoid.hpp"
+#include "phasetree/nodes/fields/formula.hpp"
 #include "phasetree/nodes/fields/gyroid.hpp"
 #include "phasetree/nodes/fields/height_map.hpp"
 #include "phasetree/nodes/fields/heightfield.hpp"
@@ -34,6 +35,7 @@
 #include "phasetree/nodes/fields/octahedron.hpp"
 #include "phasetree/nodes/fields/offset.hpp"
 #include "phasetree/nodes/fields/plane.hpp"
+#include "phasetree/nodes/fields/polyhedron.hpp"
 #include "phasetree/nodes/fields/polyline.hpp"
 #include "phasetree/nodes/fields/prism.hpp"
 #include "phasetree/nodes/fields/pyramid.hpp"
@@ -87,6 +89,9 @@
 #include "phasetree/nodes/profiles/rectangle.hpp"
 #include "phasetree/nodes/profiles/revolve.hpp"
 #include "phasetree/nodes/profiles/star.hpp"
+#include "phasetree/nodes/proxies/bounding_volume.hpp"
+#include "phasetree/nodes/proxies/level_of_detail.hpp"
+#include "phasetree/nodes/proxies/proxy.hpp"
 #include "phasetree/nodes/warps/affine.hpp"
 #include "phasetree/nodes/warps/bend.hpp"
 #include "phasetree/nodes/warps/distort.hpp"
@@ -109,13 +114,14 @@ using PlainFields =
              SchwarzP, SchwarzD, Displace, FieldInstances, FieldPolarArray, FieldGrid, Polyline, FieldEndlessGrid, Blob,
              VoronoiCells, Siren, HeightMap, FieldFibonacciDisk, FieldFibonacciSphere, FieldScatter, Extrude, Revolve,
              Circle, Rectangle, Star, Slab, BoxFrame, Bowl, Dodecahedron, Icosahedron, Helix, Heightfield, Polygon,
-             Bezier>;
+             Bezier, Formula, Polyhedron, FieldBoundingVolume, FieldProxy, FieldLevelOfDetail>;
 
-using Objects = TypeList<Set, ThinShell, Under, Over, Layered, IntersectShape, SubtractShape, Change, Remove, Contact,
-                         Contacts, LayeredSequence, SmoothLayered, UniteShapeBelow, SmoothUniteShape,
-                         SmoothUniteShapeBelow, SmoothIntersectShape, SmoothSubtractShape, Interface, Interfaces,
-                         Checker, Layers, Strata, PhasedInstances, PhasedPolarArray, PhasedGrid, PhasedEndlessGrid,
-                         Voronoi, PhasedFibonacciDisk, PhasedFibonacciSphere, PhasedScatter>;
+using Objects =
+    TypeList<Set, ThinShell, Under, Over, Layered, IntersectShape, SubtractShape, Change, Remove, Contact, Contacts,
+             LayeredSequence, SmoothLayered, UniteShapeBelow, SmoothUniteShape, SmoothUniteShapeBelow,
+             SmoothIntersectShape, SmoothSubtractShape, Interface, Interfaces, Checker, Layers, Strata, PhasedInstances,
+             PhasedPolarArray, PhasedGrid, PhasedEndlessGrid, Voronoi, PhasedFibonacciDisk, PhasedFibonacciSphere,
+             PhasedScatter, PhasedBoundingVolume, PhasedProxy, PhasedLevelOfDetail>;
 
 // What follows is derived.
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/math/convex_polyhedron.hpp"
 #include "phasetree/model/crossing.hpp"
 
 namespace phasetree {
@@ -36,6 +37,9 @@ class InterfaceTracer {
     ///
     /// Throws ModelError if the object is unbounded or empty, or too far from the origin for its size.
     explicit InterfaceTracer(const Phased& object, float resolution = 0);
+    /// The same with half-spaces that all contain all of the object that is not vacuum, as carve() gives them: what of
+    /// a ray is outside of them costs no evaluation. Crossings are the same, up to the resolution.
+    InterfaceTracer(const Phased& object, std::vector<HalfSpace> around, float resolution = 0);
 
     /// The first change of phase along a ray, at a distance from the origin within [t_min, t_max]; nothing if there is
     /// none. The direction must be of unit length. `carried` is the phase that the ray is in; without it, that is the
@@ -63,6 +67,7 @@ class InterfaceTracer {
     Bounds bounds_;
     float resolution_ = 0;
     std::string warning_;
+    std::vector<HalfSpace> around_;
 };
 
 }  // namespace phasetree

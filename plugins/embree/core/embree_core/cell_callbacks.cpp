@@ -1,5 +1,8 @@
 #include "embree_core/cell_callbacks.hpp"
 
+#include <memory>
+#include <type_traits>
+
 namespace phasetree::embree {
 
 namespace {
@@ -8,9 +11,10 @@ Query& query_of(Context* context) {
     return *reinterpret_cast<Query*>(context);
 }
 
-// Notes another ray. It is seldom called, so it stays out of the way of what is called for every cell.
-[[gnu::noinline]] void note_ray(Query& query, const RTCRay& ray) {
-    query.seen = SeenRay::of(ray);
+// Notes another ray, in its place: most rays meet a cell or two, so what this takes counts.
+void note_ray(Query& query, const RTCRay& ray) {
+    static_assert(std::is_trivially_destructible_v<SeenRay>);
+    std::construct_at(&query.seen, ray);
 }
 
 // The first crossing in the cell; nothing where there is no memory for it, which the query then knows.

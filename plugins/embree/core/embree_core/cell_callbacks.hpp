@@ -34,7 +34,7 @@ void each_crossing(const InterfaceCells& cells, const Arguments& arguments, RTCR
     for (unsigned i = 0; i < arguments.N; ++i) {
         if (arguments.valid[i] != -1) continue;
         const RTCRay ray = rtcGetRayFromRayN(rays, arguments.N, i);
-        const SeenRay seen = SeenRay::of(ray);
+        const SeenRay seen(ray);
         if (const auto crossing = search_cell(cells, arguments.primID, seen, ray, carried(i), std::nullopt, unused))
             hit(i, *crossing, seen);
     }

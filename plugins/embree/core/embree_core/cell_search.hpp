@@ -15,12 +15,12 @@ struct SeenRay {
     float length = 0;                   ///< of the direction; 0 if the ray cannot hit anything
     TracedRay traced;
 
-    static SeenRay of(const RTCRay& given) {
-        SeenRay seen{{given.org_x, given.org_y, given.org_z}, {given.dir_x, given.dir_y, given.dir_z}, 0, {}};
-        seen.length = usable_length(seen.origin, seen.direction);
-        if (seen.length > 0) seen.traced = TracedRay(seen.origin, unit_direction(seen.direction, seen.length));
-        return seen;
-    }
+    SeenRay() = default;
+    explicit SeenRay(const RTCRay& given)
+        : origin(given.org_x, given.org_y, given.org_z),
+          direction(given.dir_x, given.dir_y, given.dir_z),
+          length(usable_length(origin, direction)),
+          traced(length > 0 ? TracedRay(origin, unit_direction(direction, length)) : TracedRay()) {}
     /// Whether it is this ray to the last bit.
     bool is(const RTCRay& given) const {
         return std::memcmp(&origin, &given.org_x, sizeof origin) == 0 &&

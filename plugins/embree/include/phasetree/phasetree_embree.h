@@ -35,6 +35,7 @@
 #ifndef PHASETREE_EMBREE_H
 #define PHASETREE_EMBREE_H
 
+#include "phasetree/embree/bounds.h"
 #include "phasetree/embree/callbacks.h"
 #include "phasetree/embree/common.h"
 #include "phasetree/embree/geometry.h"

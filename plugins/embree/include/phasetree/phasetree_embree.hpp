@@ -54,6 +54,17 @@ class Reference {
     Handle handle_ = nullptr;
 };
 
+/// Convex bounds: all of some phases is behind all planes.
+struct CarvedBounds : PhasetreeCarvedBounds {
+    std::vector<PhasetreePlane> planes;
+};
+
+inline PhasetreeCarveOptions default_carve_options() {
+    PhasetreeCarveOptions options;
+    phasetreeInitCarveOptions(&options);
+    return options;
+}
+
 /// A tree: immutable, cheap to copy.
 class Tree {
   public:
@@ -107,6 +118,15 @@ class Tree {
         RTCBounds box{};
         check(phasetreeGetTreeBounds(get(), &box));
         return box;
+    }
+    CarvedBounds carved(PhasetreePhaseSet phases = PHASETREE_ALL_PHASES,
+                        const PhasetreeCarveOptions& options = default_carve_options()) const {
+        CarvedBounds carved{};
+        carved.planes.resize(options.mostPlanes);
+        unsigned count = 0;
+        check(phasetreeCarveTree(get(), phases, &options, carved.planes.data(), &count, &carved));
+        carved.planes.resize(count);
+        return carved;
     }
     PhasetreeTree get() const { return reference_.get(); }
 

@@ -1,6 +1,6 @@
 // The closest interface to a point: of one geometry, and for Embree's point queries of a whole scene.
 
-#include "object/closest.hpp"
+#include "embree_core/closest.hpp"
 
 #include "api/geometry_data.hpp"
 #include "phasetree/math/float_mode.hpp"

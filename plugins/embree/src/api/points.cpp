@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "embree_core/closest.hpp"
 #include "phasetree/math/float_mode.hpp"
 
 namespace phasetree::embree::api {

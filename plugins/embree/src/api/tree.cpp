@@ -26,7 +26,8 @@ PhasetreeTree make(Document document, std::optional<PhasetreeFileReader> reader)
     }
     SceneTree tree = read_tree(document, readers);
     std::vector<std::optional<std::string>> materials(1);  // the vacuum's
-    for (const Value phase : *document.root().find("phases")) {
+    const Value phases = *document.root().find("phases");
+    for (const Value phase : phases) {
         materials.emplace_back();
         if (phase.is_object()) materials.back() = json_of(document, phase);
     }

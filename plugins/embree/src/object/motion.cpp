@@ -5,17 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "phasetree/math/spectral.hpp"
-
 namespace phasetree::embree {
-
-double largest_stretch(const glm::dmat3& m) {
-    const glm::dmat3 gram = glm::transpose(m) * m;
-    std::vector<double> entries;
-    for (int i = 0; i < 3; ++i)
-        for (int k = 0; k < 3; ++k) entries.push_back(gram[i][k]);
-    return std::sqrt(largest_eigenvalue(std::move(entries), 3));
-}
 
 std::optional<Placement> Placement::of(const glm::dmat3& linear, const glm::dvec3& translation) {
     // Orthogonal columns of the same lengths would have the determinant `volume`. A share of it below 1e-6 counts as

@@ -9,9 +9,6 @@
 
 namespace phasetree::embree {
 
-/// By how much a linear map stretches at most: its spectral norm, rounded up.
-double largest_stretch(const glm::dmat3&);
-
 /// Where an object is at one time: an affine map from its own space to the geometry's, and back.
 struct Placement {
     glm::dmat3 linear{1}, inverse{1};

@@ -4,7 +4,6 @@
 // between them.
 #pragma once
 
-#include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/trigonometric.hpp>
 #include <optional>
@@ -58,17 +57,7 @@ struct Placement {
         return result;
     }
     /// A placement whose z axis is along a unit vector, turned about that by so many degrees.
-    static Placement standing(const glm::vec3& by, const glm::dvec3& normal, double turn, float scale) {
-        Placement result = at(by, 0, scale);
-        // Any axes across the normal will do, if they are the same for the same normal (Duff et al., "Building an
-        // Orthonormal Basis, Revisited", 2017).
-        const double sign = std::copysign(1.0, normal.z), a = -1 / (sign + normal.z), b = normal.x * normal.y * a;
-        const glm::dvec3 u(1 + sign * normal.x * normal.x * a, sign * b, -sign * normal.x);
-        const glm::dvec3 v(b, sign + normal.y * normal.y * a, -normal.y);
-        const double c = std::cos(glm::radians(turn)), s = std::sin(glm::radians(turn));
-        result.frame = glm::mat3(glm::dmat3(u * c + v * s, v * c - u * s, normal));
-        return result;
-    }
+    static Placement standing(const glm::vec3& by, const glm::dvec3& normal, double turn, float scale);
     StandingMap standing_map() const {
         const glm::mat3& r = *frame;
         return {map.by, {r[0] * map.inverse, r[1] * map.inverse, r[2] * map.inverse}};
@@ -151,13 +140,6 @@ namespace detail {
 inline constexpr Parameter copied{"of", "", "What is copied: a field or an object."};
 /// More copies than that would not pass the limit of instructions anyway.
 inline constexpr int most_copies = 500'000;
-/// The next number in [0, 1) of the generator SplitMix64 (Steele, Lea and Flood, OOPSLA 2014).
-inline double next_random(std::uint64_t& state) {
-    std::uint64_t z = (state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
 }  // namespace detail
 
 }  // namespace phasetree

@@ -14,6 +14,9 @@ struct SurfacePoint {
 /// equally often). The same seed gives the same points. Throws ModelError if the surface is unbounded or no line met
 /// it.
 std::vector<SurfacePoint> scattered(const Field& surface, int count, float spacing, int seed);
+/// Placements that stand on scattered() points, each turned at random about its normal, and of a random size between
+/// `smallest` and 1.
+std::vector<Placement> scattered_placements(const Field& surface, int count, float spacing, float smallest, int seed);
 }  // namespace detail
 
 template <class Child>
@@ -41,16 +44,7 @@ struct Scatter : Copies<Scatter<Child>, Child> {
                                         Limits{.low = 0.01f, .high = 1}, true});
         v(&Scatter::seed, Parameter{"seed", "", "Another number, other places.", {.low = 0, .high = 1'000'000}, true});
     }
-    void prepare() {
-        found.clear();
-        std::uint64_t state = static_cast<std::uint64_t>(seed);
-        for (const detail::SurfacePoint& at : detail::scattered(surface, count, spacing, seed)) {
-            const double turn = 360 * detail::next_random(state);
-            const double size =
-                static_cast<double>(smallest) + (1 - static_cast<double>(smallest)) * detail::next_random(state);
-            found.push_back(Placement::standing(at.position, at.normal, turn, static_cast<float>(size)));
-        }
-    }
+    void prepare() { found = detail::scattered_placements(surface, count, spacing, smallest, seed); }
     std::size_t many() const { return found.size(); }
     const Placement& placement(std::size_t i) const { return found[i]; }
 };

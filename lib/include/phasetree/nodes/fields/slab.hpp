@@ -21,7 +21,8 @@ struct Slab {
     void prepare() {
         const glm::dvec3 n(normal);
         if (!(glm::length(n) > 0)) throw ModelError("slab: the normal has no direction");
-        normal = glm::vec3(glm::normalize(n));
+        // One of unit length stays as it is, so that a slab that is written and read again is the same.
+        if (std::abs(glm::length(n) - 1) > 1e-6) normal = glm::vec3(glm::normalize(n));
     }
     template <class T>
     T distance(const Vec3<T>& p) const {

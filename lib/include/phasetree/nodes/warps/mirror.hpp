@@ -32,8 +32,10 @@ struct Mirror {
     }
     void prepare() {
         const glm::dvec3 n(normal);
-        if (!(glm::length(n) > 0)) throw ModelError("mirror: the normal has no direction");
-        normal = glm::vec3(glm::normalize(n));
+        const double length = glm::length(n);
+        if (!(length > 0)) throw ModelError("mirror: the normal has no direction");
+        // One of unit length stays to the last bit, so that a tree that is written and read again is the same.
+        if (std::abs(length - 1) > 1e-6) normal = glm::vec3(n / length);
     }
     Map map() const { return {normal}; }
     float value_scale() const { return 1; }

@@ -2,7 +2,7 @@
 // its centre; a ray from the point towards the nearest box that is left meets an interface that is certified on both
 // sides, and so bounds the distance from above.
 
-#include "object/closest.hpp"
+#include "embree_core/closest.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,17 @@
 #include <limits>
 #include <queue>
 
+#include "phasetree/math/spectral.hpp"
+
 namespace phasetree::embree {
+
+double largest_stretch(const glm::dmat3& m) {
+    const glm::dmat3 gram = glm::transpose(m) * m;
+    std::vector<double> entries;
+    for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k) entries.push_back(gram[i][k]);
+    return std::sqrt(largest_eigenvalue(std::move(entries), 3));
+}
 
 namespace {
 

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <glm/glm.hpp>
+
 #include "embree_core/cell_scene.hpp"
-#include "object/motion.hpp"
 
 namespace phasetree::embree {
+
+/// By how much a linear map stretches at most: its spectral norm, rounded up.
+double largest_stretch(const glm::dmat3&);
 
 struct Closest {
     bool found = false;

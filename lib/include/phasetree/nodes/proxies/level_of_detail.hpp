@@ -1,0 +1,116 @@
+#pragma once
+
+#include <vector>
+
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/warps/translate.hpp"
+
+namespace phasetree {
+
+namespace detail {
+/// a where n < 0, b where n > 0: (A ∩ N) ∪ (B \ N) with its consensus A ∩ B, without which a wall of zeroes would stand
+/// in what both have in common,
+///     s(a, b) = min(max(a, n), max(b, −n), max(a, b)).
+/// s rises with a and b, and −s(−a, −b) is s(a, b), as the minimum of these three maxima is the maximum of the three
+/// minima. So for objects aᵢ ≥ −aⱼ and bᵢ ≥ −bⱼ give s(aᵢ, bᵢ) ≥ −s(aⱼ, bⱼ): I2 holds if it held, with the vacuum as
+/// one more component.
+template <class T>
+T switched(const T& n, const T& a, const T& b) {
+    return min(min(max(a, n), max(b, -n)), max(a, b));
+}
+template <class T>
+Phases<T> switched(const T& n, const Phases<T>& a, const Phases<T>& b) {
+    Phases<T> result;
+    for_each_phase(a.present | b.present, [&](int i) {
+        if (a.has(i) && b.has(i))
+            result.set(i, switched(n, a[i], b[i]));
+        else
+            result.set(i, a.has(i) ? max(a[i], n) : max(b[i], -n));
+    });
+    return result;
+}
+}  // namespace detail
+
+/// Where one level gives way to the next there is a step as high as the two differ, along the sphere about the
+/// viewpoint; it is an honest surface, and from the viewpoint it is seen head-on. Every level by itself, and so the
+/// whole, is 1-Lipschitz with the sign of the level that stands there.
+template <class Child>
+struct LevelOfDetail {
+    static constexpr NodeInfo info{
+        "level_of_detail", "4.1, 7.3", "min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike",
+        "Levels of a field or an object, from fine to coarse: each stands between two distances from a viewpoint. "
+        "Without distances the finest stands everywhere, unless a picture is rendered with --detail."};
+    std::vector<Child> of{};
+    glm::vec3 viewpoint{0};
+    std::vector<float> distances{};
+    std::vector<float> errors{};
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&LevelOfDetail::of, Parameter{"of", "", "The levels, fields or objects, the finest first."});
+        v(&LevelOfDetail::viewpoint,
+          Parameter{"viewpoint", "m", "From where distances are measured.", limits::any, true});
+        v(&LevelOfDetail::distances,
+          Parameter{"distances", "m", "Where each level gives way to the next, rising; one less than there are levels.",
+                    limits::positive, true});
+        v(&LevelOfDetail::errors,
+          Parameter{"errors", "m",
+                    "How far the surface of each level but the finest is from that of the finest, rising: what "
+                    "--detail compares with the size of a pixel. A promise of the scene's.",
+                    limits::positive, true});
+    }
+    void prepare() const {
+        check(distances, "distances");
+        check(errors, "errors");
+    }
+    template <class D>
+    auto evaluate(D& d, const typename D::Point& p) const {
+        std::size_t i = distances.empty() ? 0 : of.size() - 1;
+        auto result = level(d, i, p);
+        if (i == 0) return result;
+        const typename D::Point from_viewpoint = d.map(Translate::Map{viewpoint}, p, 1.f);
+        while (i-- > 0) {
+            const typename D::Scalar n = d.primitive(Sphere{.radius = distances[i]}, from_viewpoint);
+            result = detail::switched(n, level(d, i, p), result);
+        }
+        return result;
+    }
+    PhaseSet phases() const requires(std::is_same_v<Child, Phased>) {
+        if (distances.empty()) return phasetree::phases(of.front());
+        PhaseSet all;
+        for (const Child& each : of) all = all | phasetree::phases(each);
+        return all;
+    }
+    /// s is nowhere less than the smaller of its operands.
+    Bounds bounds(BoundsQuery& q, float value) const {
+        if (distances.empty()) return q(of.front(), value);
+        Bounds all;
+        for (const Child& each : of) all = unite(all, q(each, value));
+        return all;
+    }
+
+  private:
+    template <class D>
+    auto level(D& d, std::size_t i, const typename D::Point& p) const {
+        if constexpr (std::is_same_v<Child, Field>)
+            return d.field(of[i], p);
+        else
+            return d.phases(of[i], p);
+    }
+    void check(const std::vector<float>& list, const char* name) const {
+        const std::string subject = std::string("level_of_detail: \"") + name + "\" ";
+        if (list.empty()) return;
+        if (list.size() + 1 != of.size()) throw ModelError(subject + "must be one less than the levels");
+        for (std::size_t i = 1; i < list.size(); ++i)
+            if (!(list[i] > list[i - 1])) throw ModelError(subject + "must rise");
+    }
+};
+
+struct FieldLevelOfDetail : LevelOfDetail<Field> {
+    static constexpr bool is_field_node = true;
+};
+struct PhasedLevelOfDetail : LevelOfDetail<Phased> {
+    static constexpr bool is_phased_node = true;
+};
+
+}  // namespace phasetree

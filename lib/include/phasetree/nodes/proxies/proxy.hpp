@@ -1,0 +1,82 @@
+#pragma once
+
+#include "phasetree/nodes/proxies/guard.hpp"
+
+namespace phasetree {
+
+/// A bounding volume from outside, b = g − e, and one of what is outside of the core from inside, −c with c = g + e
+/// (guard.hpp). If the surface lies between {g = −e} and {g = e}, the zero set is the child's; where it does not, the
+/// proxy's two surfaces cut it off or fill it up.
+template <class Child>
+struct Proxy {
+    static constexpr NodeInfo info{
+        "proxy", "4.1, 7.3", "min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e",
+        "A field or an object, and a simpler field g near it, which stands in for it away from the surface, outside "
+        "and "
+        "inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled."};
+    Child of{};
+    Field proxy{};
+    float error = 0.1f;
+    float margin = 0.1f;
+    PhaseSet inside{};
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&Proxy::of, Parameter{"of", "", "What is stood in for: a field or an object."});
+        v(&Proxy::proxy, Parameter{"proxy", "", "The simpler field, g."});
+        v(&Proxy::error,
+          Parameter{"error", "m", "How far apart the surfaces of both may be, e.", limits::non_negative});
+        v(&Proxy::margin, detail::guard_margin);
+        v(&Proxy::inside, Parameter{"inside", "",
+                                    "Of an object: the phase that fills it from e inside of the proxy on. Without it "
+                                    "the proxy stands in outside alone.",
+                                    limits::any, true});
+    }
+    void prepare() const {
+        if (inside.size() > 1) throw ModelError("proxy: \"inside\" must be one phase");
+        if (inside.contains(vacuum)) throw ModelError("proxy: \"inside\" must be a phase other than the vacuum");
+        if (std::is_same_v<Child, Field> && !inside.empty())
+            throw ModelError("proxy: \"inside\" is for objects, but this is a plain field");
+    }
+    template <class D>
+    auto evaluate(D& d, const typename D::Point& p) const {
+        using T = typename D::Scalar;
+        const T g = d.field(proxy, p);
+        const T outside = g - error, core = -(g + error);
+        if constexpr (std::is_same_v<Child, Field>) {
+            return -detail::guarded_by(core, margin, [&]() -> T {
+                return -detail::guarded_by(outside, margin, [&]() -> T { return d.field(of, p); });
+            });
+        } else {
+            const auto within = [&] {
+                return detail::object_guarded_by(outside, margin, phasetree::phases(of), vacuum.index,
+                                                 [&] { return d.phases(of, p); });
+            };
+            if (inside.empty()) return within();
+            return detail::object_guarded_by(core, margin, phasetree::phases(of) | PhaseSet::of(vacuum), filling(),
+                                             within);
+        }
+    }
+    PhaseSet phases() const requires(std::is_same_v<Child, Phased>) {
+        return phasetree::phases(of) | PhaseSet::of(vacuum) | inside;
+    }
+    /// Inside of the core everything is at most g + e; around it, as of a bounding volume.
+    Bounds bounds(BoundsQuery& q, float level) const {
+        const auto around = [&] { return q(proxy, level + error); };
+        const Bounds object = level >= margin ? around() : q.cut([&] { return intersect(q(of, level), around()); });
+        if (std::is_same_v<Child, Phased> && inside.empty()) return object;
+        return unite(object, q(proxy, level - error));
+    }
+
+  private:
+    int filling() const { return std::countr_zero(inside.bits); }
+};
+
+struct FieldProxy : Proxy<Field> {
+    static constexpr bool is_field_node = true;
+};
+struct PhasedProxy : Proxy<Phased> {
+    static constexpr bool is_phased_node = true;
+};
+
+}  // namespace phasetree

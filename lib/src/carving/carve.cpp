@@ -1,0 +1,275 @@
+// Which planes bound a solid well. What makes them certain is in support.cpp; here directions are chosen, and no choice
+// can be wrong, only poor.
+//
+// First come the six sides of a box. Then the solid's own flat sides: rays are traced by spheres onto it from all
+// around, and normals that several of them meet are directions. Then corners are cut off: of the polyhedron so far the
+// corner that is farthest from the solid is cut by a plane across the way from the solid to it.
+#include "phasetree/carving/carve.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "carving/support.hpp"
+#include "math/clip_line.hpp"
+#include "phasetree/nodes/fields/merge.hpp"
+#include "phasetree/nodes/fields/polyhedron.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/trace/tracer.hpp"
+
+namespace phasetree {
+
+using carving::Balls, carving::EmptyBalls, carving::Reach, carving::reach_along;
+
+namespace {
+
+// Directions nearer to each other than this (5°) count as one.
+constexpr double same_direction = 0.9962;
+constexpr std::size_t rays = 96, longest_walk = 96;
+
+class Carver {
+  public:
+    Carver(const Field& field, const Bounds& box, const CarveOptions& options)
+        : options_(options),
+          field_(field, box, options),
+          tolerance_(options.tolerance * static_cast<double>(box.diagonal())),
+          box_(box) {}
+
+    CarvedBounds run() {
+        carve_box();
+        if (options_.directions.empty()) {
+            add_flat_sides();
+            cut_corners();
+        } else {
+            for (const glm::dvec3& d : options_.directions) add(glm::normalize(d));
+        }
+        CarvedBounds result;
+        if (is_empty_) {
+            result.evaluations = field_.evaluations();
+            return result;
+        }
+        const ConvexPolyhedron solid(box_, planes_);
+        result.box = box_;
+        result.mesh = solid.mesh();
+        result.volume = solid.volume();
+        result.area = solid.area();
+        result.planes = planes_that_matter(solid);
+        result.evaluations = field_.evaluations();
+        result.is_within_tolerance = is_within_tolerance_;
+        return result;
+    }
+
+  private:
+    // How many evaluations are left; none if there is nothing to look for.
+    std::size_t left() const {
+        if (is_empty_) return 0;
+        return options_.most_evaluations - std::min(options_.most_evaluations, field_.evaluations());
+    }
+    // The height of a plane across d. Of what is left, no direction gets more than twice an even share of all.
+    double reach(const glm::dvec3& d) {
+        const auto planes = static_cast<std::size_t>(
+            options_.directions.empty() ? options_.most_planes : static_cast<int>(options_.directions.size()) + 6);
+        const Reach r =
+            reach_along(d, field_, box_, tolerance_, std::min(left(), 2 * options_.most_evaluations / planes));
+        is_within_tolerance_ = is_within_tolerance_ && r.is_within_tolerance;
+        is_empty_ = is_empty_ || r.height == -std::numeric_limits<double>::infinity();
+        return r.height;
+    }
+
+    // Sides are rounded outward to floats.
+    void carve_box() {
+        for (int side = 0; side < 6 && !is_empty_; ++side) {
+            glm::dvec3 d(0);
+            const int axis = side / 2;
+            const bool is_high = side % 2 == 1;
+            d[axis] = is_high ? 1 : -1;
+            const double height = reach(d);
+            if (is_empty_) return;
+            float& to = is_high ? box_.high[axis] : box_.low[axis];
+            const auto rounded = static_cast<float>(is_high ? height : -height);
+            const float outward = std::nextafter(rounded, is_high ? Bounds::infinity : -Bounds::infinity);
+            to = is_high ? std::min(to, outward) : std::max(to, outward);
+        }
+    }
+
+    bool is_known(const glm::dvec3& d) const {
+        for (int axis = 0; axis < 3; ++axis)
+            if (std::abs(d[axis]) > same_direction) return true;
+        return std::any_of(planes_.begin(), planes_.end(),
+                           [&](const HalfSpace& h) { return glm::dot(h.normal, d) > same_direction; });
+    }
+    int count() const { return 6 + static_cast<int>(planes_.size()); }
+
+    void add(const glm::dvec3& d) { planes_.push_back({d, reach(d)}); }
+
+    // The normals where rays from all around meet the solid.
+    std::vector<glm::dvec3> normals_around() {
+        const glm::dvec3 middle(box_.centre());
+        const double radius = 0.5 * static_cast<double>(box_.diagonal());
+        std::vector<glm::dvec3> normals;
+        for (std::size_t first = 0; first < rays; first += batch_size) {
+            std::array<glm::dvec3, batch_size> from, p;
+            std::array<double, batch_size> t{};
+            for (std::size_t i = 0; i < batch_size; ++i) {
+                // Points of a Fibonacci spiral.
+                const double k = static_cast<double>(first + i) + 0.5;
+                const double z = 1 - 2 * k / static_cast<double>(rays), a = 2.399963229728653 * k;
+                from[i] = glm::dvec3(std::sqrt(1 - z * z) * std::cos(a), std::sqrt(1 - z * z) * std::sin(a), z);
+            }
+            std::array<bool, batch_size> is_there{};
+            for (std::size_t step = 0; step < longest_walk && left() > 0; ++step) {
+                for (std::size_t i = 0; i < batch_size; ++i) p[i] = middle + from[i] * (radius - t[i]);
+                const Balls balls = field_.at(p);
+                bool goes_on = false;
+                for (std::size_t i = 0; i < batch_size; ++i) {
+                    is_there[i] = is_there[i] || balls[i].radius < 0.1 * tolerance_;
+                    if (is_there[i] || t[i] > 2 * radius) continue;
+                    t[i] += balls[i].radius;
+                    goes_on = true;
+                }
+                if (!goes_on) break;
+            }
+            for (std::size_t i = 0; i < batch_size; ++i)
+                if (is_there[i]) normals.push_back(field_.gradient(p[i]));
+        }
+        return normals;
+    }
+
+    void add_flat_sides() {
+        struct Side {
+            glm::dvec3 normal;
+            int votes;
+        };
+        std::vector<Side> sides;
+        for (const glm::dvec3& g : normals_around()) {
+            if (!(glm::length(g) > 1e-3)) continue;
+            const glm::dvec3 n = glm::normalize(g);
+            const auto same = std::find_if(sides.begin(), sides.end(),
+                                           [&](const Side& s) { return glm::dot(s.normal, n) > 1 - 1e-4; });
+            if (same == sides.end())
+                sides.push_back({n, 1});
+            else
+                ++same->votes;
+        }
+        std::stable_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.votes > b.votes; });
+        for (const Side& side : sides) {
+            if (side.votes < 3 || count() >= options_.most_planes / 2 || left() == 0) return;
+            if (!is_known(side.normal)) add(side.normal);
+        }
+    }
+
+    void cut_corners() {
+        std::vector<glm::dvec3> done;  // corners that nothing cuts
+        while (count() < options_.most_planes && left() > 0) {
+            const auto corners = ConvexPolyhedron(box_, planes_).mesh().corners;
+            std::vector<std::pair<double, glm::dvec3>> far;
+            for (std::size_t first = 0; first < corners.size(); first += batch_size) {
+                std::array<glm::dvec3, batch_size> p;
+                for (std::size_t i = 0; i < batch_size; ++i) p[i] = corners[std::min(first + i, corners.size() - 1)];
+                const Balls balls = field_.at(p);
+                for (std::size_t i = 0; i < batch_size && first + i < corners.size(); ++i)
+                    if (balls[i].radius > 2 * tolerance_) far.emplace_back(balls[i].radius, corners[first + i]);
+            }
+            std::stable_sort(far.begin(), far.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+            const auto is_done = [&](const glm::dvec3& c) {
+                return std::any_of(done.begin(), done.end(),
+                                   [&](const glm::dvec3& o) { return glm::distance(o, c) < 0.1 * tolerance_; });
+            };
+            const auto next =
+                std::find_if(far.begin(), far.end(), [&](const auto& corner) { return !is_done(corner.second); });
+            if (next == far.end()) return;
+            if (!cut(next->second)) done.push_back(next->second);
+        }
+    }
+    // By a plane across the way from the solid, or else across that from the middle. Whether one takes it off.
+    bool cut(const glm::dvec3& corner) {
+        for (const glm::dvec3& way : {field_.gradient(corner), corner - glm::dvec3(box_.centre())}) {
+            if (!(glm::length(way) > 1e-3 * tolerance_) || left() == 0) continue;
+            const glm::dvec3 d = glm::normalize(way);
+            const double height = reach(d);
+            if (!(height < glm::dot(d, corner) - tolerance_)) continue;
+            planes_.push_back({d, height});
+            return true;
+        }
+        return false;
+    }
+
+    HalfSpace side_of_box(std::size_t side) const {
+        const int axis = static_cast<int>(side % 3);
+        const double sign = side < 3 ? -1 : 1;
+        HalfSpace half{glm::dvec3(0), sign * static_cast<double>(side < 3 ? box_.low[axis] : box_.high[axis])};
+        half.normal[axis] = sign;
+        return half;
+    }
+    // Those that have a face; all of them around a solid so thin that there are no faces.
+    std::vector<HalfSpace> planes_that_matter(const ConvexPolyhedron& solid) const {
+        std::vector<HalfSpace> all;
+        for (const ConvexPolyhedron::Face& face : solid.faces())
+            all.push_back(face.plane < 6 ? side_of_box(face.plane) : planes_[face.plane - 6]);
+        if (!all.empty()) return all;
+        for (std::size_t side = 0; side < 6; ++side) all.push_back(side_of_box(side));
+        all.insert(all.end(), planes_.begin(), planes_.end());
+        return all;
+    }
+
+    const CarveOptions& options_;
+    EmptyBalls field_;
+    double tolerance_;
+    Bounds box_;
+    std::vector<HalfSpace> planes_;
+    bool is_within_tolerance_ = true;
+    bool is_empty_ = false;  // certainly
+};
+
+void check(const CarveOptions& options) {
+    for (const glm::dvec3& d : options.directions)
+        if (!(glm::length(d) > 0) || !std::isfinite(glm::length(d)))
+            throw ModelError("a direction to carve along must have a length");
+    if (options.directions.size() > Polyhedron::most_planes - 6) throw ModelError("too many directions to carve along");
+    if (options.directions.empty() &&
+        (options.most_planes < 6 || options.most_planes > static_cast<int>(Polyhedron::most_planes)))
+        throw ModelError("the planes to carve must be 6 to 256");
+    if (!(options.tolerance > 0)) throw ModelError("the tolerance of carving must be positive");
+}
+
+}  // namespace
+
+CarvedBounds carve(const Field& field, const CarveOptions& options) {
+    check(options);
+    if (bounds(field).empty()) return {};
+    const TraceableObject traceable = prepare_to_trace(Set{.phase = Phase{1}, .of = field});
+    return Carver(field, traceable.bounds, options).run();
+}
+
+CarvedBounds carve(const Phased& object, PhaseSet of, const CarveOptions& options) {
+    if (of.contains(vacuum)) throw ModelError("the vacuum has no bounds to carve");
+    return carve(Field(Merge{.of = object, .phases = of}), options);
+}
+
+bool CarvedBounds::contains(const glm::dvec3& p) const {
+    if (box.empty()) return false;
+    return std::all_of(planes.begin(), planes.end(), [&](const HalfSpace& h) { return h.distance(p) <= 0; });
+}
+
+void CarvedBounds::clip(const glm::dvec3& origin, const glm::dvec3& direction, double& near, double& far) const {
+    if (box.empty()) {
+        far = near - 1;
+        return;
+    }
+    clip_line(planes, origin, direction, near, far);
+}
+
+Field as_field(const CarvedBounds& carved) {
+    if (carved.box.empty()) throw ModelError("there is nothing within the carved bounds");
+    Polyhedron node;
+    for (const HalfSpace& h : carved.planes) {
+        // Rounded outward: a normal's rounding moves the plane by no more than this within the box.
+        double farthest = 0;
+        for (int i = 0; i < 8; ++i) farthest = std::max(farthest, glm::length(glm::dvec3(carved.box.corner(i))));
+        node.normals.emplace_back(h.normal);
+        node.offsets.push_back(static_cast<float>(h.offset + 4e-7 * (farthest + std::abs(h.offset))));
+    }
+    return node;
+}
+
+}  // namespace phasetree

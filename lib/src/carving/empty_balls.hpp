@@ -1,0 +1,71 @@
+// What is certain of a field from its values alone: around a point where a 1-Lipschitz field is r > 0 there is a ball
+// of radius r without anything of the solid {f ≤ 0}.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "phasetree/carving/carve.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+
+namespace phasetree::carving {
+
+/// A ball that is certainly empty, about a point of floats; or, if the radius is not positive, a point that may be
+/// anything. `is_solid` points are of the solid.
+struct Ball {
+    glm::dvec3 centre{0};
+    double radius = 0;
+    bool is_solid = false;
+};
+using Balls = std::array<Ball, batch_size>;
+
+/// Evaluates a field at eight points at a time, and counts.
+class EmptyBalls {
+  public:
+    EmptyBalls(const Field& field, const Bounds& box, const CarveOptions& options)
+        : evaluator_(record(field)), options_(options) {
+        for (int i = 0; i < 3; ++i)
+            farthest_ = std::max(
+                {farthest_, std::abs(static_cast<double>(box.low[i])), std::abs(static_cast<double>(box.high[i]))});
+    }
+
+    Balls at(const std::array<glm::dvec3, batch_size>& points) {
+        if (options_.cancelled && evaluations_ % 64 == 0 && options_.cancelled()) throw CarvingCancelled();
+        BatchOfFloats x, y, z;
+        for (std::size_t i = 0; i < batch_size; ++i) {
+            x[i] = static_cast<float>(points[i].x);
+            y[i] = static_cast<float>(points[i].y);
+            z[i] = static_cast<float>(points[i].z);
+        }
+        std::array<BatchOfFloats, 2> phi;
+        evaluator_.evaluate(x, y, z, phi, workspace_);
+        ++evaluations_;
+        Balls balls;
+        for (std::size_t i = 0; i < batch_size; ++i) {
+            const glm::dvec3 p(x[i], y[i], z[i]);
+            const double f = phi[1][i];
+            balls[i] = {p, f - rounding_at(p), f <= 0};
+            if (!std::isfinite(f)) balls[i] = {p, 0, false};
+        }
+        return balls;
+    }
+    /// The direction in which the field grows; no unit vector.
+    glm::dvec3 gradient(const glm::dvec3& p) const { return glm::dvec3(evaluator_.gradient(glm::vec3(p), Phase{1})); }
+
+    std::size_t evaluations() const { return evaluations_; }
+
+  private:
+    /// More than the error of a value at p: as of values that are traced (src/trace/prepare.cpp), 10⁻⁶ of the farthest
+    /// coordinate that it may depend on.
+    double rounding_at(const glm::dvec3& p) const {
+        return 1e-6 * std::max({farthest_, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    }
+
+    Evaluator evaluator_;
+    const CarveOptions& options_;
+    Evaluator::Workspace workspace_;
+    double farthest_ = 0;
+    std::size_t evaluations_ = 0;
+};
+
+}  // namespace phasetree::carving

@@ -1,0 +1,117 @@
+// How far a solid reaches along a direction d, from empty balls.
+//
+// Space is divided into beams along d, of rectangular section, each with a *top*: above it nothing of the solid is in
+// the beam. At first the top is that of the box. A ball of radius r about a point of the beam's axis covers the whole
+// section, whose corners are ρ from the axis, so far to either side of it:
+//
+//     heights c − √(r² − ρ²) to c + √(r² − ρ²),  if r > ρ.
+//
+// If that reaches up to the top, the top falls to its lower end. So a beam is walked downward as a ray is traced by
+// spheres. Near a face that lies across d large balls from far above are the best: a ball that touches the face comes
+// as near to it as ρ²/2r all over the section. Once no ball brings the top further down, the beam is parted along its
+// longer side. The beam with the highest top is always the next; its top bounds the solid, at any time.
+#include "carving/support.hpp"
+
+#include <glm/geometric.hpp>
+#include <limits>
+#include <queue>
+
+namespace phasetree::carving {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct Frame {
+    glm::dvec3 u, v, d;
+
+    explicit Frame(const glm::dvec3& along) : d(along) {
+        const glm::dvec3 axis = std::abs(d.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+        u = glm::normalize(glm::cross(d, axis));
+        v = glm::cross(d, u);
+    }
+    glm::dvec3 local(const glm::dvec3& p) const { return {glm::dot(p, u), glm::dot(p, v), glm::dot(p, d)}; }
+    glm::dvec3 world(double a, double b, double height) const { return a * u + b * v + height * d; }
+};
+
+struct Beam {
+    double u, v, half_u, half_v;
+    double top;
+
+    double half_diagonal() const { return std::hypot(half_u, half_v); }
+    bool operator<(const Beam& o) const { return top < o.top; }
+};
+
+// Where the balls are tried, above the top in parts of the half diagonal.
+constexpr std::array<double, batch_size - 1> above{0, 0.5, 1, 2, 6, 20, 60};
+
+// Lowers the beam's top as far as eight balls prove. The last of them is tried just below the top, where the solid may
+// be met; `seen` rises to the height of what is met.
+void walk(Beam& beam, const Frame& frame, EmptyBalls& field, double tolerance, double& seen) {
+    std::array<glm::dvec3, batch_size> points;
+    const double rho = beam.half_diagonal();
+    for (std::size_t i = 0; i < above.size(); ++i) points[i] = frame.world(beam.u, beam.v, beam.top + above[i] * rho);
+    points[above.size()] = frame.world(beam.u, beam.v, beam.top - 0.5 * tolerance);
+    const Balls balls = field.at(points);
+    for (bool is_lower = true; is_lower;) {
+        is_lower = false;
+        for (const Ball& ball : balls) {
+            // Rounded to floats the centre is a little off the axis.
+            const glm::dvec3 at = frame.local(ball.centre);
+            const double corner =
+                std::hypot(beam.half_u + std::abs(at.x - beam.u), beam.half_v + std::abs(at.y - beam.v));
+            if (!(ball.radius > corner)) continue;
+            const double half = std::sqrt((ball.radius - corner) * (ball.radius + corner));
+            if (at.z + half >= beam.top && at.z - half < beam.top) {
+                beam.top = at.z - half;
+                is_lower = true;
+            }
+        }
+    }
+    for (const Ball& ball : balls)
+        if (ball.is_solid) seen = std::max(seen, frame.local(ball.centre).z);
+}
+
+}  // namespace
+
+Reach reach_along(const glm::dvec3& d, EmptyBalls& field, const Bounds& box, double tolerance,
+                  std::size_t most_evaluations) {
+    const Frame frame(d);
+    glm::dvec3 low(infinity), high(-infinity);
+    for (int i = 0; i < 8; ++i) {
+        const glm::dvec3 p = frame.local(glm::dvec3(box.corner(i)));
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    std::priority_queue<Beam> beams;
+    beams.push(
+        {0.5 * (low.x + high.x), 0.5 * (low.y + high.y), 0.5 * (high.x - low.x), 0.5 * (high.y - low.y), high.z});
+    double seen = -infinity;
+    const std::size_t until = field.evaluations() + most_evaluations;
+    while (!beams.empty()) {
+        Beam beam = beams.top();
+        const double rho = beam.half_diagonal();
+        if (beam.top - seen <= tolerance || rho <= 0.25 * tolerance) return {beam.top, seen, true};
+        if (field.evaluations() >= until) return {beam.top, seen, false};
+        beams.pop();
+        const double before = beam.top;
+        walk(beam, frame, field, tolerance, seen);
+        if (beam.top < low.z) continue;  // nothing of the solid is in it
+        // As long as it pays it goes on; else its halves do.
+        if (before - beam.top > 0.5 * rho) {
+            beams.push(beam);
+            continue;
+        }
+        const bool along_u = beam.half_u > beam.half_v;
+        double& half = along_u ? beam.half_u : beam.half_v;
+        double& middle = along_u ? beam.u : beam.v;
+        half *= 0.5;
+        middle -= half;
+        beams.push(beam);
+        middle += 2 * half;
+        beams.push(beam);
+    }
+    return {-infinity, seen, true};
+}
+
+}  // namespace phasetree::carving

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "carving/empty_balls.hpp"
+
+namespace phasetree::carving {
+
+/// How far a solid reaches along a direction.
+struct Reach {
+    double height = 0;  ///< nothing of the solid has a larger d·p
+    double seen = 0;    ///< a point of it was found at this d·p; −∞ if none was
+    bool is_within_tolerance = true;
+};
+
+/// Bounds d·p over the solid within a box, for a unit vector d, by at most so many evaluations. The height is −∞ if the
+/// solid is certainly empty.
+Reach reach_along(const glm::dvec3& d, EmptyBalls& field, const Bounds& box, double tolerance,
+                  std::size_t most_evaluations);
+
+}  // namespace phasetree::carving

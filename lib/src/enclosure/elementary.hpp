@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "enclosure/length.hpp"
+#include "enclosure/number.hpp"
+#include "phasetree/math/elementary.hpp"
+
+namespace phasetree::enclosure {
+
+namespace detail {
+/// The enclosure of g(x) from the ranges of g, g′ and g″ over those of x, and g and g′ at the centre:
+/// (g∘x)″ = g′ x″ + g″ x′².
+inline Enclosure composed(const Enclosure& x, double g, double slope, const Range& values, const Range& slopes,
+                          const Range& bends) {
+    Enclosure r(g, values, each_axis([&](std::size_t i) { return x.gradient[i] * slopes; }),
+                each_number([&](std::size_t i) { return x.centre_gradient[i] * slope; }), {});
+    r.set_curvature(x.curvature * slopes + squares_of_slope(x) * bends);
+    return r;
+}
+/// The range of the sine: −1 or 1 where the range has the place of an extremum, else at the ends.
+inline Range range_of_sine(const Range& x) {
+    const double turn = 2 * std::numbers::pi, quarter = std::numbers::pi / 2;
+    if (x.high - x.low >= turn) return {-1, 1};
+    const double low = std::sin(x.low), high = std::sin(x.high);
+    const auto has = [&](double at) { return std::floor((x.high - at) / turn) > std::floor((x.low - at) / turn); };
+    return {has(-quarter) ? -1 : std::min(low, high), has(quarter) ? 1 : std::max(low, high)};
+}
+/// Beyond, sine_of() and cosine_of() promise nothing.
+inline bool is_in_reach_of_sine(const Enclosure& x) {
+    return x.value.magnitude() <= 1e4;
+}
+inline Enclosure unknown(double centre) {
+    Enclosure r(centre, Range::all(), {Range::all(), Range::all(), Range::all()}, no_gradient, Range::all());
+    return r;
+}
+}  // namespace detail
+
+inline Enclosure sine_of(const Enclosure& x) {
+    const double s = std::sin(x.centre), c = std::cos(x.centre);
+    if (!detail::is_in_reach_of_sine(x)) return detail::unknown(s);
+    const double quarter = std::numbers::pi / 2;
+    const Range sines = detail::range_of_sine(x.value);
+    return detail::composed(x, s, c, sines, detail::range_of_sine(x.value + Range{quarter, quarter}), -sines);
+}
+inline Enclosure cosine_of(const Enclosure& x) {
+    const double s = std::sin(x.centre), c = std::cos(x.centre);
+    if (!detail::is_in_reach_of_sine(x)) return detail::unknown(c);
+    const double quarter = std::numbers::pi / 2;
+    const Range cosines = detail::range_of_sine(x.value + Range{quarter, quarter});
+    return detail::composed(x, c, -s, cosines, -detail::range_of_sine(x.value), -cosines);
+}
+
+/// √(a² + b²) of a formula.
+inline Enclosure length_of(const Enclosure& a, const Enclosure& b) {
+    return length(a, b);
+}
+
+/// Constant beyond ±80, with a seam there.
+inline Enclosure exponential(const Enclosure& x) {
+    const Enclosure a = min(max(x, Enclosure(-80.f)), Enclosure(80.f));
+    const double e = std::exp(a.centre);
+    const Range values{std::exp(a.value.low), std::exp(a.value.high)};
+    return detail::composed(a, e, e, values, values, values);
+}
+
+}  // namespace phasetree::enclosure

@@ -1,0 +1,40 @@
+"""Multiphase signed distance fields: objects of several materials, traced from phase to phase.
+
+    import phasetree as pt
+
+    glass, water = pt.phase("glass", pt.clear(ior=1.5)), pt.phase("water", pt.clear(ior=1.33))
+    bottle = pt.sphere(1).smooth(0.4) | pt.capsule((0, 0, 0), (0, 0, 1.5), 0.3)
+    filled = bottle.thin_shell(glass, water, half_thickness=0.03)
+    filled = filled.intersect_shape(pt.plane(offset=0.2), phases=water)
+    print(filled.label([(0, 0, 0), (0, 0, 1)]))
+
+Fields (sphere, box, union …) are plain signed distances; objects of phases are made of them. A function for each kind
+of node is made from the library's own list; so are materials, and the modules textures, lights, meshes and cameras.
+A formula of x, y, z = pt.coordinates() is a field, too: glass(pt.sqrt(x**2 + y**2) - 1).
+"""
+
+from phasetree import _formula, _parts, _phasetree, _trees
+from phasetree._errors import Error, SceneError
+from phasetree._formula import Expression, coordinates
+from phasetree._parts import cameras, lights, materials, meshes, textures
+from phasetree._phases import Phase, phase, vacuum
+from phasetree._scene import Image, Scene, load
+from phasetree._trees import Closest, Crossings, Field, Hits, Object
+
+__version__ = _phasetree.version
+
+# The functions that are made from the lists: of nodes, of materials, of the image, and the usual camera.
+nodes = dict(_trees.functions)
+globals().update(nodes)
+globals().update(vars(materials))
+globals().update(_formula.functions)
+image = _parts.image
+camera = cameras.thin_lens
+
+__all__ = [
+    "Closest", "Crossings", "Error", "Expression", "Field", "Hits", "Image", "Object", "Phase", "Scene", "SceneError",
+    "camera", "cameras", "coordinates", "image", "lights", "load", "materials", "meshes", "phase", "textures", "vacuum",
+]  # fmt: skip
+# Not among them are those that Python has under the same name.
+__all__ += [name for name in _formula.functions if name not in ("abs", "max", "min")]
+__all__ += [name for name in (*nodes, *vars(materials)) if name not in ("set",) and not name.startswith("_")]

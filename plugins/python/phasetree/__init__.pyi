@@ -1,0 +1,2663 @@
+"""Written by python3 -m phasetree._stubs from the library's lists; see plugins/python/README.md."""
+
+from os import PathLike
+from typing import Any, Literal, NamedTuple, Sequence, overload
+
+import numpy as np
+
+__version__: str
+
+class Error(ValueError): ...
+
+class SceneError(Error):
+    file: str
+    line: int
+    column: int
+    message: str
+    suggestion: str | None
+
+class Material:
+    kind: str
+    def parameters(self) -> dict[str, Any]: ...
+
+class Texture:
+    kind: str
+    def parameters(self) -> dict[str, Any]: ...
+
+class Light:
+    kind: str
+    def parameters(self) -> dict[str, Any]: ...
+
+class Mesh:
+    kind: str
+    def parameters(self) -> dict[str, Any]: ...
+
+class Camera:
+    kind: str
+    def parameters(self) -> dict[str, Any]: ...
+
+class ImageSettings:
+    kind: str
+    def parameters(self) -> dict[str, Any]: ...
+
+class Phase:
+    name: str
+    material: Material | None
+    def __call__(self, *fields: Field | Expression) -> Object: ...
+
+vacuum: Phase
+
+def phase(name: str, material: Material | None = ...) -> Phase: ...
+
+class Crossings(NamedTuple):
+    r"""Every crossing along some rays. Those of ray i have the indices offsets[i] to offsets[i + 1]."""
+    @property
+    def ray(self):
+        r"""The number of each crossing's ray."""
+    def of_ray(self, i):
+        r"""The crossings along one ray."""
+    start: np.ndarray
+    offsets: np.ndarray
+    t: np.ndarray
+    before: np.ndarray
+    after: np.ndarray
+    normal: np.ndarray
+
+class Hits(NamedTuple):
+    r"""The first crossing along each ray; where there is none, t is infinite and `after` is the phase at the origin."""
+    t: np.ndarray
+    before: np.ndarray
+    after: np.ndarray
+    normal: np.ndarray
+
+class Closest(NamedTuple):
+    r"""The closest interface to each point; where there is none, the distance is infinite and the place NaN."""
+    distance: np.ndarray
+    point: np.ndarray
+    here: np.ndarray
+    there: np.ndarray
+
+class Field:
+    r"""A plain signed distance, negative inside. Immutable.
+
+    a | b is the union, a & b the intersection, a - b the difference; a.smooth(r) | b and so on round the seam with the
+    radius r. Nodes that are made of a field are its methods: a.translate((0, 0, 1))."""
+    def smooth(self, radius):
+        r"""The same field, whose next |, & or - rounds the seam with this radius."""
+    def distance(self, points):
+        r"""The signed distance at points of the shape (…, 3): float32, negative inside."""
+    def gradient(self, points):
+        r"""The gradient of the distance at points: float32 (…, 3)."""
+    @property
+    def bounds(self):
+        r"""A box around the points that are not outside: (low, high); infinite where there is none, None if empty."""
+    @property
+    def nodes(self):
+        r"""The number of nodes; those that are shared count once."""
+    def to_json(self):
+        r"""The field as a scene file says it, with the shapes that it shares."""
+    def __or__(self, other: Field | Expression) -> Field: ...
+    def __and__(self, other: Field | Expression) -> Field: ...
+    def __sub__(self, other: Field | Expression) -> Field: ...
+    def union(self, *of: Field) -> Field:
+        r"""All that is in any of the fields.
+
+            min fᵢ
+
+        of: The fields, at least one. (list of fields)
+        """
+    def intersection(self, *of: Field) -> Field:
+        r"""What is in all of the fields.
+
+            max fᵢ
+
+        of: The fields, at least one. (list of fields)
+        """
+    def difference(self, *subtract: Field | Expression | Sequence[Field | Expression]) -> Field:
+        r"""A field without others.
+
+            max(f, −min gᵢ)
+
+        from_: The field to cut. (field)
+        subtract: The fields to cut away, at least one. (list of fields)
+        """
+    def smooth_union(self, *of: Field, radius: float) -> Field:
+        r"""Union whose seams are filled; folded from the first field to the last.
+
+            smin(a, b) = min(a, b) − r/6 · max(1 − |b − a|/r, 0)³
+
+        Section 9.3 of the paper.
+
+        of: The fields, at least one. (list of fields)
+        radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+        """
+    def smooth_intersection(self, *of: Field, radius: float) -> Field:
+        r"""Intersection whose edges are worn; folded from the first field to the last.
+
+            −smin(−a, −b)
+
+        Section 9.3 of the paper.
+
+        of: The fields, at least one. (list of fields)
+        radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+        """
+    def smooth_difference(self, *subtract: Field | Expression | Sequence[Field | Expression], radius: float) -> Field:
+        r"""A field without others, its new edges worn.
+
+            −smin(−f, smin gᵢ)
+
+        Section 9.3 of the paper.
+
+        from_: The field to cut. (field)
+        subtract: The fields to cut away, at least one. (list of fields)
+        radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+        """
+    def offset(self, distance: float) -> Field:
+        r"""A field inflated by t (deflated for a negative t).
+
+            f − t
+
+        Section 4.1 of the paper.
+
+        of: The field. (field)
+        distance: How far the surface moves outwards. (number in m)
+        """
+    def shell(self, half_thickness: float) -> Field:
+        r"""A wall of thickness 2t about a field's surface.
+
+            |f| − t
+
+        Section 4.1 of the paper.
+
+        of: The field. (field)
+        half_thickness: Half of the wall, t. (number in m; positive)
+        """
+    def displace(self, amplitude: float, scale: float, octaves: float | None = ...) -> Field:
+        r"""A field whose surface is moved in and out by fractal noise.
+
+            min(max((f + a n)/λ, f − a), f + a),  λ = 1 + a L,  L = 15 octaves/(4 scale Σ 2⁻ⁱ)
+
+        of: The field. (field)
+        amplitude: Largest displacement, a. (number in m; zero or more)
+        scale: Size of the largest bumps. (number in m; positive)
+        octaves: Sizes of bumps, each half the one before; a whole number. (number; at least 1 and at most 6; default 1)
+        """
+    def instances(self, positions: Sequence[Sequence[float]] | np.ndarray, turns: float | Sequence[float] | None = ..., scales: float | Sequence[float] | None = ...) -> Field:
+        r"""Copies at listed positions, each turned about the z axis and scaled if that is listed too.
+
+            min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); of objects, the later over the earlier
+
+        of: What is copied: a field or an object. (object)
+        positions: Where the copies' origins go. (list of [x, y, z]s in m)
+        turns: Angle of each copy about its own z axis; one number stands for all. (number or list of numbers in degrees; default [])
+        scales: Factor of each copy's size; one number stands for all. (number or list of numbers; positive; default [])
+        """
+    def polar_array(self, count: int, angle: float | None = ...) -> Field:
+        r"""Copies turned about the z axis by equal angles.
+
+            min over i < n of φ(R(−i a/n) p); of objects, the later over the earlier
+
+        of: What is copied: a field or an object. (object)
+        count: How many. (whole number; at least 1 and at most 10000)
+        angle: What they share: copy i is turned by i/count of it. Default: all around. (number in degrees; default 360)
+        """
+    def grid(self, spacing: Sequence[float] | np.ndarray, count_x: int | None = ..., count_y: int | None = ..., count_z: int | None = ...) -> Field:
+        r"""Copies in rows along x, y and z; the first stays where it is. They may overlap. Their order: i counts fastest, then j, then k.
+
+            min over i, j, k of φ(p − (i dx, j dy, k dz)); of objects, the later over the earlier
+
+        of: What is copied: a field or an object. (object)
+        spacing: From one copy to the next along x, y and z. ([x, y, z] in m)
+        count_x: How many along x. (whole number; at least 1 and at most 10000; default 1)
+        count_y: How many along y. (whole number; at least 1 and at most 10000; default 1)
+        count_z: How many along z. (whole number; at least 1 and at most 10000; default 1)
+        """
+    def endless_grid(self, spacing: Sequence[float] | np.ndarray) -> Field:
+        r"""Copies without end along the axes; they must not touch.
+
+            max(b, min(φ(q), 2g − b)),  q = p − s ⌊(p − c)/s + ½⌋,  b = distance to the copies' boxes,  g = half the smallest gap between boxes
+
+        of: What is copied: a field or an object. (object)
+        spacing: From one copy to the next along x, y and z; 0 for no copies along that axis. ([x, y, z] in m; zero or more)
+        """
+    def fibonacci_disk(self, count: int, radius: float, turned: int | None = ...) -> Field:
+        r"""Copies spread evenly over a disk about the z axis, on a Fibonacci spiral.
+
+            copies at ρᵢ = R √((i + ½)/n), θᵢ = i π(3 − √5); of objects, the later over the earlier
+
+        Section 7.7 of the paper.
+
+        of: What is copied: a field or an object. (object)
+        count: How many. (whole number; at least 1 and at most 100000)
+        radius: Of the disk that the copies' origins share. (number in m; positive)
+        turned: 1: each copy's x axis points away from the middle. (whole number; at least 0 and at most 1; default 0)
+        """
+    def fibonacci_sphere(self, count: int, radius: float) -> Field:
+        r"""Copies spread evenly over a sphere, on a Fibonacci spiral, standing on it.
+
+            copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis along nᵢ; of objects, the later over the earlier
+
+        Section 7.7 of the paper.
+
+        of: What is copied: a field or an object. (object)
+        count: How many. (whole number; at least 1 and at most 100000)
+        radius: Of the sphere that the copies' origins are on. (number in m; positive)
+        """
+    def scatter(self, on: Field | Expression, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Field:
+        r"""Copies strewn over a field's surface, standing on it, each turned at random.
+
+            copies at random points of the surface f = 0, their z axis along ∇f; of objects, the later over the earlier
+
+        of: What is copied: a field or an object. (object)
+        on: The field on whose surface they stand; it must be bounded. (field)
+        count: How many; fewer if there is not space. (whole number; at least 1 and at most 100000)
+        spacing: The least distance between two copies' origins. (number in m; zero or more; default 0)
+        smallest: Sizes are random between this factor and 1. (number; at least 0.01 and at most 1; default 1)
+        seed: Another number, other places. (whole number; at least 0 and at most 1000000; default 1)
+        """
+    def extrude(self, height: float) -> Field:
+        r"""A field's cross-section at z = 0, moved along z; exact where the field is the exact distance to its cross-section.
+
+            a = f(x, y, 0),  b = |z| − h/2;  |(max(a, 0), max(b, 0))| + min(max(a, b), 0)
+
+        of: The field, for example a circle, a rectangle or a star. (field)
+        height: Whole height, centred at z = 0. (number in m; positive)
+        """
+    def revolve(self, offset: float | None = ...) -> Field:
+        r"""A field's cross-section at z = 0 turned about its y axis, which becomes the z axis; exact where the field is the exact distance to its cross-section and that does not cross the axis.
+
+            f(|pxy| − o, z, 0)
+
+        of: The field; what its section has beyond the axis is cut off. (field)
+        offset: How far the section is moved away from the axis first. (number in m; default 0)
+        """
+    def bounding_volume(self, margin: float, volume: Field | Expression | None = ...) -> Field:
+        r"""A field or an object, and a volume around it whose distance stands in far away. What sticks out of the volume is cut off.
+
+            max(b, min(f, 2m − b));  φᵢ likewise,  φ₀ = min(−b, max(a₀, b − 2m))
+
+        Section 4.1, 7.3 of the paper.
+
+        of: What is bounded: a field or an object. (object)
+        margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
+        volume: A field around it. Default: the box around it. (field; default none)
+        """
+    def proxy(self, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+        r"""A field or an object, and a simpler field g near it, which stands in for it away from the surface, outside and inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled.
+
+            min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e
+
+        Section 4.1, 7.3 of the paper.
+
+        of: What is stood in for: a field or an object. (object)
+        proxy: The simpler field, g. (field)
+        error: How far apart the surfaces of both may be, e. (number in m; zero or more)
+        margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
+        inside: Of an object: the phase that fills it from e inside of the proxy on. Without it the proxy stands in outside alone. (phase or list of phases; default all)
+        """
+    def level_of_detail(self, *of: Field, viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Field:
+        r"""Levels of a field or an object, from fine to coarse: each stands between two distances from a viewpoint. Without distances the finest stands everywhere, unless a picture is rendered with --detail.
+
+            min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike
+
+        Section 4.1, 7.3 of the paper.
+
+        of: The levels, fields or objects, the finest first. (list of objects)
+        viewpoint: From where distances are measured. ([x, y, z] in m; default [0, 0, 0])
+        distances: Where each level gives way to the next, rising; one less than there are levels. (list of numbers in m; positive; default [])
+        errors: How far the surface of each level but the finest is from that of the finest, rising: what --detail compares with the size of a pixel. A promise of the scene's. (list of numbers in m; positive; default [])
+        """
+    def set(self, phase: Phase | str) -> Object:
+        r"""A field filled with one phase.
+
+            φₖ = f,  φ₀ = −f
+
+        Section 4.1 of the paper.
+
+        of: The field. (field)
+        phase: The phase inside. (phase)
+        """
+    def thin_shell(self, shell: Phase | str, inside: Phase | str, half_thickness: float) -> Object:
+        r"""A wall of thickness 2t about a field's surface, and what it encloses.
+
+            φᵢ = |f| − t,  φⱼ = f + t,  φ₀ = t − f
+
+        Section 4.1 of the paper.
+
+        of: The field, whose surface is the middle of the wall. (field)
+        shell: The phase of the wall. (phase)
+        inside: The phase within. (phase)
+        half_thickness: Half of the wall, t. (number in m; positive)
+        """
+    def translate(self, by: Sequence[float] | np.ndarray, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+        r"""Moves without turning.
+
+            φ(p − v)
+
+        Section 6 of the paper.
+
+        of: What is warped: a field or an object. (object)
+        by: Where the origin goes. ([x, y, z] in m)
+        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        """
+    def rotate(self, angle: float, axis: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+        r"""Turns about an axis through the origin, right-handed.
+
+            φ(Rᵀ p)
+
+        Section 6 of the paper.
+
+        of: What is warped: a field or an object. (object)
+        angle: Angle. (number in degrees)
+        axis: Direction of the axis; any length but zero. ([x, y, z]; default [0, 0, 1])
+        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        """
+    def scale(self, factor: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+        r"""Makes larger or smaller by the same factor everywhere.
+
+            s · φ(p / s)
+
+        Section 6 of the paper.
+
+        of: What is warped: a field or an object. (object)
+        factor: The factor. (number; positive)
+        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        """
+    def twist(self, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+        r"""Twists about the z axis.
+
+            φ(R(−k z) p) / λ,  λ = (kρ + √(k²ρ² + 4))/2,  ρ the largest within the bounds
+
+        Section 6 of the paper.
+
+        of: What is warped: a field or an object. (object)
+        rate: Angle for each unit of height. (number in degrees/m)
+        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        """
+    def stretch(self, factors: Sequence[float] | np.ndarray, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+        r"""Makes larger or smaller by a factor of its own along each axis.
+
+            φ(x/sx, y/sy, z/sz) · min(sx, sy, sz)
+
+        Section 6 of the paper.
+
+        of: What is warped: a field or an object. (object)
+        factors: The factors along x, y and z. ([x, y, z]; positive)
+        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        """
+    def mirror(self, normal: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+        r"""Makes symmetric to a plane through the origin: the half that the normal points to is kept and reflected.
+
+            φ(p − 2 min(p·n, 0) n)
+
+        Section 6 of the paper.
+
+        of: What is warped: a field or an object. (object)
+        normal: Direction that points into the half that is kept; any length but zero. ([x, y, z]; default [1, 0, 0])
+        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        """
+    def taper(self, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+        r"""Narrows or widens along the z axis.
+
+            φ(x/s, y/s, z) / λ,  s = 1 + c z
+
+        Section 6 of the paper.
+
+        of: What is warped: a field or an object. (object)
+        rate: Change of size for each unit of height; at z = 0 the size stays. (number in 1/m)
+        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        """
+    def bend(self, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+        r"""Bends the x axis into an arc towards +z.
+
+            φ(θ/k, y, (1 − r)/k) / λ,  (r, θ) polar: r sin θ = k x, r cos θ = 1 − k z
+
+        Section 6 of the paper.
+
+        of: What is warped: a field or an object. (object)
+        rate: Angle for each unit along x; negative to bend towards −z. (number in degrees/m)
+        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        """
+    def affine(self, x: Sequence[float] | np.ndarray | None = ..., y: Sequence[float] | np.ndarray | None = ..., z: Sequence[float] | np.ndarray | None = ..., by: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+        r"""Takes the unit vectors to any three that span space, and the origin to a point: shears, stretches, turns and mirrors.
+
+            φ(M⁻¹(p − v))/λ,  M = (x y z),  λ = ‖M⁻¹‖₂
+
+        Section 6 of the paper.
+
+        of: What is warped: a field or an object. (object)
+        x: Where [1, 0, 0] goes, from the image of the origin. ([x, y, z]; default [1, 0, 0])
+        y: Where [0, 1, 0] goes. ([x, y, z]; default [0, 1, 0])
+        z: Where [0, 0, 1] goes. ([x, y, z]; default [0, 0, 1])
+        by: Where the origin goes. ([x, y, z] in m; default [0, 0, 0])
+        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        """
+    def distort(self, amplitude: float, scale: float, octaves: float | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+        r"""Moves space by fractal noise: bends what is straight, as rock or smoke is bent.
+
+            φ(p + a (n(p), n(p + u), n(p + v)))/λ,  λ = 1 + √3 a L,  L = 15 octaves/(4 scale Σ 2⁻ⁱ)
+
+        Section 6 of the paper.
+
+        of: What is warped: a field or an object. (object)
+        amplitude: Largest displacement along each axis, a. (number in m; zero or more)
+        scale: Size of the largest swirls. (number in m; positive)
+        octaves: Sizes of swirls, each half the one before; a whole number. (number; at least 1 and at most 6; default 1)
+        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        """
+
+class Object:
+    phases: tuple[Phase, ...]
+    r"""An object of phases, of which exactly one is at any point. Immutable.
+
+    Objects are joined by methods, because order matters: a.over(b), a.under(b), a.contact(b, …). Numbers of phases in
+    arrays are indices into `phases`."""
+    @property
+    def names(self):
+        r"""The names of the phases, the vacuum first."""
+    def with_phases(self, *phases):
+        r"""The same object with its phases in this order, which decides between phases at equal distances.
+
+All that the object has must be there; further ones may be. A phase given here with a material has that one."""
+    def label(self, points):
+        r"""The phase at points of the shape (…, 3): uint8, an index into `phases`.
+
+The array of points is used in place if it is contiguous float32. Where a coordinate is not finite, the vacuum."""
+    def phi(self, points):
+        r"""Φ at points: float32 (…, phases), the signed distance to each phase, negative in it.
+
+Column i is that of phases[i]; infinite if the object never has it."""
+    def gradient(self, points, phase=...):
+        r"""The gradient at points of the distance to a phase; without one, to the phase that is at the point."""
+    def index(self, phase):
+        r"""The number that a phase, or one of this name, has in arrays."""
+    def prepare(self, quality=..., resolution=..., progress=...):
+        r"""Builds the cells in which rays are traced, which happens by itself at the first ray.
+
+quality: "low" builds faster and traces more slowly. resolution: the thickness of a phase along a ray that is
+certain to be found; 0 takes 2·10⁻⁶ of the object's size. progress: called with "preparing" and a share of 1."""
+    @property
+    def resolution(self):
+        r"""The thickness of a phase along a ray that is certain to be found."""
+    def trace(self, origins, directions):
+        r"""Every crossing along rays, given as arrays of the shape (…, 3): see Crossings."""
+    def intersect(self, origins, directions):
+        r"""The first crossing along each ray, given as arrays of the shape (…, 3): see Hits."""
+    def closest(self, points, radius=..., tolerance=...):
+        r"""The closest interface to each point, within a radius: see Closest.
+
+tolerance: by which share the distance may be more than the least."""
+    @property
+    def bounds(self):
+        r"""A box around all that is not vacuum: (low, high); infinite where there is none, None if empty."""
+    @property
+    def nodes(self):
+        r"""The number of nodes; those that are shared count once."""
+    def to_json(self):
+        r"""The object as a scene file without camera says it."""
+    def merge(self, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+        r"""Phases of an object as a plain field; it is zero on the interfaces between them.
+
+            min over k of φₖ
+
+        Section 4.2 of the paper.
+
+        of: The object. (object)
+        phases: The phases to merge; all if left out. (phase or list of phases; default all)
+        """
+    def instances(self, positions: Sequence[Sequence[float]] | np.ndarray, turns: float | Sequence[float] | None = ..., scales: float | Sequence[float] | None = ...) -> Object:
+        r"""Copies at listed positions, each turned about the z axis and scaled if that is listed too.
+
+            min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); of objects, the later over the earlier
+
+        of: What is copied: a field or an object. (object)
+        positions: Where the copies' origins go. (list of [x, y, z]s in m)
+        turns: Angle of each copy about its own z axis; one number stands for all. (number or list of numbers in degrees; default [])
+        scales: Factor of each copy's size; one number stands for all. (number or list of numbers; positive; default [])
+        """
+    def polar_array(self, count: int, angle: float | None = ...) -> Object:
+        r"""Copies turned about the z axis by equal angles.
+
+            min over i < n of φ(R(−i a/n) p); of objects, the later over the earlier
+
+        of: What is copied: a field or an object. (object)
+        count: How many. (whole number; at least 1 and at most 10000)
+        angle: What they share: copy i is turned by i/count of it. Default: all around. (number in degrees; default 360)
+        """
+    def grid(self, spacing: Sequence[float] | np.ndarray, count_x: int | None = ..., count_y: int | None = ..., count_z: int | None = ...) -> Object:
+        r"""Copies in rows along x, y and z; the first stays where it is. They may overlap. Their order: i counts fastest, then j, then k.
+
+            min over i, j, k of φ(p − (i dx, j dy, k dz)); of objects, the later over the earlier
+
+        of: What is copied: a field or an object. (object)
+        spacing: From one copy to the next along x, y and z. ([x, y, z] in m)
+        count_x: How many along x. (whole number; at least 1 and at most 10000; default 1)
+        count_y: How many along y. (whole number; at least 1 and at most 10000; default 1)
+        count_z: How many along z. (whole number; at least 1 and at most 10000; default 1)
+        """
+    def endless_grid(self, spacing: Sequence[float] | np.ndarray) -> Object:
+        r"""Copies without end along the axes; they must not touch.
+
+            max(b, min(φ(q), 2g − b)),  q = p − s ⌊(p − c)/s + ½⌋,  b = distance to the copies' boxes,  g = half the smallest gap between boxes
+
+        of: What is copied: a field or an object. (object)
+        spacing: From one copy to the next along x, y and z; 0 for no copies along that axis. ([x, y, z] in m; zero or more)
+        """
+    def fibonacci_disk(self, count: int, radius: float, turned: int | None = ...) -> Object:
+        r"""Copies spread evenly over a disk about the z axis, on a Fibonacci spiral.
+
+            copies at ρᵢ = R √((i + ½)/n), θᵢ = i π(3 − √5); of objects, the later over the earlier
+
+        Section 7.7 of the paper.
+
+        of: What is copied: a field or an object. (object)
+        count: How many. (whole number; at least 1 and at most 100000)
+        radius: Of the disk that the copies' origins share. (number in m; positive)
+        turned: 1: each copy's x axis points away from the middle. (whole number; at least 0 and at most 1; default 0)
+        """
+    def fibonacci_sphere(self, count: int, radius: float) -> Object:
+        r"""Copies spread evenly over a sphere, on a Fibonacci spiral, standing on it.
+
+            copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis along nᵢ; of objects, the later over the earlier
+
+        Section 7.7 of the paper.
+
+        of: What is copied: a field or an object. (object)
+        count: How many. (whole number; at least 1 and at most 100000)
+        radius: Of the sphere that the copies' origins are on. (number in m; positive)
+        """
+    def scatter(self, on: Field | Expression, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Object:
+        r"""Copies strewn over a field's surface, standing on it, each turned at random.
+
+            copies at random points of the surface f = 0, their z axis along ∇f; of objects, the later over the earlier
+
+        of: What is copied: a field or an object. (object)
+        on: The field on whose surface they stand; it must be bounded. (field)
+        count: How many; fewer if there is not space. (whole number; at least 1 and at most 100000)
+        spacing: The least distance between two copies' origins. (number in m; zero or more; default 0)
+        smallest: Sizes are random between this factor and 1. (number; at least 0.01 and at most 1; default 1)
+        seed: Another number, other places. (whole number; at least 0 and at most 1000000; default 1)
+        """
+    def bounding_volume(self, margin: float, volume: Field | Expression | None = ...) -> Object:
+        r"""A field or an object, and a volume around it whose distance stands in far away. What sticks out of the volume is cut off.
+
+            max(b, min(f, 2m − b));  φᵢ likewise,  φ₀ = min(−b, max(a₀, b − 2m))
+
+        Section 4.1, 7.3 of the paper.
+
+        of: What is bounded: a field or an object. (object)
+        margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
+        volume: A field around it. Default: the box around it. (field; default none)
+        """
+    def proxy(self, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+        r"""A field or an object, and a simpler field g near it, which stands in for it away from the surface, outside and inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled.
+
+            min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e
+
+        Section 4.1, 7.3 of the paper.
+
+        of: What is stood in for: a field or an object. (object)
+        proxy: The simpler field, g. (field)
+        error: How far apart the surfaces of both may be, e. (number in m; zero or more)
+        margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
+        inside: Of an object: the phase that fills it from e inside of the proxy on. Without it the proxy stands in outside alone. (phase or list of phases; default all)
+        """
+    def level_of_detail(self, *of: Object, viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Object:
+        r"""Levels of a field or an object, from fine to coarse: each stands between two distances from a viewpoint. Without distances the finest stands everywhere, unless a picture is rendered with --detail.
+
+            min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike
+
+        Section 4.1, 7.3 of the paper.
+
+        of: The levels, fields or objects, the finest first. (list of objects)
+        viewpoint: From where distances are measured. ([x, y, z] in m; default [0, 0, 0])
+        distances: Where each level gives way to the next, rising; one less than there are levels. (list of numbers in m; positive; default [])
+        errors: How far the surface of each level but the finest is from that of the finest, rising: what --detail compares with the size of a pixel. A promise of the scene's. (list of numbers in m; positive; default [])
+        """
+    def under(self, *of: Object) -> Object:
+        r"""Objects together; where several are, a later one replaces the earlier. Folded from the first object to the last.
+
+            φᵢ = max(min(aᵢ, bᵢ), −min over j ≠ i of bⱼ),  φ₀ = max(a₀, b₀)
+
+        Section 4.3 of the paper.
+
+        of: The objects, at least one. (list of objects)
+        """
+    def over(self, *of: Object) -> Object:
+        r"""Objects together; where several are, an earlier one replaces the later. Folded from the last object to the first.
+
+            A ∪₊ B = B ∪₋ A;  A ∪₊ (B ∪₊ (C ∪₊ …))
+
+        Section 4.3 of the paper.
+
+        of: The objects, at least one. (list of objects)
+        """
+    def layered(self, phase: Phase | str, thickness: float) -> Object:
+        r"""Embeds an object in a layer of one more phase.
+
+            φₖ = max(−a₀ − t, a₀),  φ₀ = a₀ + t
+
+        Section 4.5 of the paper.
+
+        of: The object. (object)
+        phase: The phase of the layer. (phase)
+        thickness: Thickness of the layer. (number in m; positive)
+        """
+    def intersect_shape(self, shape: Field | Expression, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+        r"""Keeps what lies within a shape: of all phases, or of some and the rest unchanged.
+
+            φₖ = max(aₖ, f),  φ₀ = min(a₀, −f) if all phases are cut, else min(a₀, min over the cut k of max(aₖ, −f))
+
+        Section 5.1 of the paper.
+
+        of: The object. (object)
+        shape: The field to keep within. (field)
+        phases: The phases that are cut; all if left out. (phase or list of phases; default all)
+        """
+    def subtract_shape(self, shape: Field | Expression, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+        r"""Cuts a shape away: from all phases, or from some and the rest unchanged.
+
+            φₖ = max(aₖ, −f),  φ₀ = min(a₀, f) if all phases are cut, else min(a₀, min over the cut k of max(aₖ, f))
+
+        Section 5.1 of the paper.
+
+        of: The object. (object)
+        shape: The field to cut away. (field)
+        phases: The phases that are cut; all if left out. (phase or list of phases; default all)
+        """
+    def change(self, from_: Phase | str, to: Phase | str, shape: Field | Expression | None = ...) -> Object:
+        r"""Turns one phase into another within a shape (everywhere without one).
+
+            φᵢ = max(aᵢ, −f),  φₖ = min(aₖ, max(aᵢ, f)),  φ₀ = a₀
+
+        Section 5.2 of the paper.
+
+        of: The object. (object)
+        from_: The phase to turn. (phase)
+        to: What it becomes. (phase)
+        shape: Where; everywhere if left out. (field; default none)
+        """
+    def remove(self, phases: Phase | str | Sequence[Phase | str]) -> Object:
+        r"""Empties phases: vacuum takes their place.
+
+            φₖ absent,  φ₀ = min(a₀, aₖ)
+
+        Section 5.2 of the paper.
+
+        of: The object. (object)
+        phases: The phases to remove. (phase or list of phases)
+        """
+    def contact(self, b: Object, phase_a: Phase | str, phase_b: Phase | str, alpha: float) -> Object:
+        r"""Two phases pressed against each other: they share the space that both claim.
+
+            f = α aᵢ − (1 − α) bⱼ,  φᵢ = max(aᵢ, f),  φⱼ = max(bⱼ, −f),  φ₀ = max(a₀, b₀)
+
+        Section 4.4 of the paper.
+
+        a: The object A. (object)
+        b: The object B, which replaces A where they are not in contact. (object)
+        phase_a: The phase of A that is in contact. (phase)
+        phase_b: The phase of B that is in contact. (phase)
+        alpha: Where in the overlap they meet: at 0 B has all of it, at 1 A, at 1/2 both are as deep in it. (number; at least 0 and at most 1)
+        """
+    def contacts(self, b: Object, alpha: float, phases_a: Phase | str | Sequence[Phase | str] | None = ..., phases_b: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+        r"""Contact between sets of phases: objects that press against each other and keep their phases.
+
+            f = α a_K − (1 − α) b_L,  a_K = −min over k ∉ K of aₖ,  b_L likewise,  bⱼ ← max(bⱼ, −f) for j ∈ L,  then A ∪₋ B
+
+        Section 4.4 of the paper.
+
+        a: The object A. (object)
+        b: The object B, which replaces A where they are not in contact. (object)
+        alpha: Where in the overlap they meet: at 0 B has all of it, at 1 A, at 1/2 both are as deep in it. (number; at least 0 and at most 1)
+        phases_a: The phases of A in contact; all if left out. (phase or list of phases; default all)
+        phases_b: The phases of B in contact; all if left out. (phase or list of phases; default all)
+        """
+    def layered_sequence(self, phases: Sequence[Phase | str], thicknesses: Sequence[float] | np.ndarray) -> Object:
+        r"""Embeds an object in layers, the innermost first.
+
+            φₖ = max(−a₀ − Tₖ, a₀ + Tₖ₋₁),  Tₖ = t₁ + … + tₖ,  φ₀ = a₀ + Tₙ
+
+        Section 4.5 of the paper.
+
+        of: The object. (object)
+        phases: The phase of each layer, from the inside out. (list of phases)
+        thicknesses: The thickness of each layer, from the inside out. (list of numbers in m; positive)
+        """
+    def smooth_layered(self, phase: Phase | str, thickness: float, radius: float) -> Object:
+        r"""Embeds an object in a layer that fills the grooves between its phases, which are blended in the order of their indices.
+
+            m = smin over i of aᵢ, less t;  φₖ = max(m, a₀),  φ₀ = max(a₀, −m)
+
+        Section 4.5 of the paper.
+
+        of: The object. (object)
+        phase: The phase of the layer. (phase)
+        thickness: Thickness of the layer away from the grooves. (number in m; positive)
+        radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+        """
+    def unite_shape_below(self, shape: Field | Expression, phase: Phase | str) -> Object:
+        r"""Adds a shape to one phase, below the other phases.
+
+            φₖ = max(min(aₖ, f), −min over j ≠ k of aⱼ),  φ₀ = max(a₀, −f)
+
+        Section 5.1 of the paper.
+
+        of: The object. (object)
+        shape: The field to add. (field)
+        phase: The phase that grows. (phase)
+        """
+    def smooth_unite_shape(self, shape: Field | Expression, phase: Phase | str, radius: float) -> Object:
+        r"""Melts a shape into one phase, over the other phases.
+
+            s = smin(aₖ, f),  φₖ = s,  φᵢ = max(aᵢ, −s),  φ₀ = max(a₀, −s)
+
+        Section 5.3 of the paper.
+
+        of: The object. (object)
+        shape: The field to add. (field)
+        phase: The phase that grows. (phase)
+        radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+        """
+    def smooth_unite_shape_below(self, shape: Field | Expression, phase: Phase | str, radius: float) -> Object:
+        r"""Melts a shape into one phase, below the other phases.
+
+            s = smin(aₖ, f),  φₖ = max(s, −min over j ≠ k of aⱼ),  φ₀ = max(a₀, −s)
+
+        Section 5.3 of the paper.
+
+        of: The object. (object)
+        shape: The field to add. (field)
+        phase: The phase that grows. (phase)
+        radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+        """
+    def smooth_intersect_shape(self, shape: Field | Expression, phase: Phase | str, radius: float) -> Object:
+        r"""Keeps of one phase what lies within a shape, its new edges worn.
+
+            s = −smin(−aₖ, −f),  φₖ = s,  φ₀ = min(a₀, max(aₖ, −s, −f − r))
+
+        Section 5.3 of the paper.
+
+        of: The object. (object)
+        shape: The field to keep within. (field)
+        phase: The phase that is cut. (phase)
+        radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+        """
+    def smooth_subtract_shape(self, shape: Field | Expression, phase: Phase | str, radius: float) -> Object:
+        r"""Cuts a shape away from one phase, its new edges worn.
+
+            s = −smin(−aₖ, f),  φₖ = s,  φ₀ = min(a₀, max(aₖ, −s, f − r))
+
+        Section 5.3 of the paper.
+
+        of: The object. (object)
+        shape: The field to cut away. (field)
+        phase: The phase that is cut. (phase)
+        radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+        """
+    def interface(self, phase_a: Phase | str, phase_b: Phase | str, half_thickness: float) -> Object:
+        r"""The thin volume about the interface between two phases, as deep in either.
+
+            S = max(aᵢ, aⱼ) − ε,  φᵢ = max(aᵢ, S),  φⱼ = max(aⱼ, S),  φ₀ = min(a₀, −S, min over k ≠ i, j of aₖ)
+
+        Section 7.4 of the paper.
+
+        of: The object. (object)
+        phase_a: The phase on one side. (phase)
+        phase_b: The phase on the other side. (phase)
+        half_thickness: How deep in either phase, ε. (number in m; positive)
+        """
+    def interfaces(self, half_thickness: float) -> Object:
+        r"""The thin volumes about all interfaces between phases.
+
+            S = (second smallest of a₁ … aₙ) − ε,  φᵢ = max(aᵢ, S),  φ₀ = min(a₀, −S)
+
+        Section 7.4 of the paper.
+
+        of: The object, of two phases at least. (object)
+        half_thickness: How deep in either phase, ε. (number in m; positive)
+        """
+    def translate(self, by: Sequence[float] | np.ndarray, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+        r"""Moves without turning.
+
+            φ(p − v)
+
+        Section 6 of the paper.
+
+        of: What is warped: a field or an object. (object)
+        by: Where the origin goes. ([x, y, z] in m)
+        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        """
+    def rotate(self, angle: float, axis: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+        r"""Turns about an axis through the origin, right-handed.
+
+            φ(Rᵀ p)
+
+        Section 6 of the paper.
+
+        of: What is warped: a field or an object. (object)
+        angle: Angle. (number in degrees)
+        axis: Direction of the axis; any length but zero. ([x, y, z]; default [0, 0, 1])
+        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        """
+    def scale(self, factor: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+        r"""Makes larger or smaller by the same factor everywhere.
+
+            s · φ(p / s)
+
+        Section 6 of the paper.
+
+        of: What is warped: a field or an object. (object)
+        factor: The factor. (number; positive)
+        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        """
+    def twist(self, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+        r"""Twists about the z axis.
+
+            φ(R(−k z) p) / λ,  λ = (kρ + √(k²ρ² + 4))/2,  ρ the largest within the bounds
+
+        Section 6 of the paper.
+
+        of: What is warped: a field or an object. (object)
+        rate: Angle for each unit of height. (number in degrees/m)
+        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        """
+    def stretch(self, factors: Sequence[float] | np.ndarray, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+        r"""Makes larger or smaller by a factor of its own along each axis.
+
+            φ(x/sx, y/sy, z/sz) · min(sx, sy, sz)
+
+        Section 6 of the paper.
+
+        of: What is warped: a field or an object. (object)
+        factors: The factors along x, y and z. ([x, y, z]; positive)
+        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        """
+    def mirror(self, normal: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+        r"""Makes symmetric to a plane through the origin: the half that the normal points to is kept and reflected.
+
+            φ(p − 2 min(p·n, 0) n)
+
+        Section 6 of the paper.
+
+        of: What is warped: a field or an object. (object)
+        normal: Direction that points into the half that is kept; any length but zero. ([x, y, z]; default [1, 0, 0])
+        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        """
+    def taper(self, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+        r"""Narrows or widens along the z axis.
+
+            φ(x/s, y/s, z) / λ,  s = 1 + c z
+
+        Section 6 of the paper.
+
+        of: What is warped: a field or an object. (object)
+        rate: Change of size for each unit of height; at z = 0 the size stays. (number in 1/m)
+        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        """
+    def bend(self, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+        r"""Bends the x axis into an arc towards +z.
+
+            φ(θ/k, y, (1 − r)/k) / λ,  (r, θ) polar: r sin θ = k x, r cos θ = 1 − k z
+
+        Section 6 of the paper.
+
+        of: What is warped: a field or an object. (object)
+        rate: Angle for each unit along x; negative to bend towards −z. (number in degrees/m)
+        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        """
+    def affine(self, x: Sequence[float] | np.ndarray | None = ..., y: Sequence[float] | np.ndarray | None = ..., z: Sequence[float] | np.ndarray | None = ..., by: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+        r"""Takes the unit vectors to any three that span space, and the origin to a point: shears, stretches, turns and mirrors.
+
+            φ(M⁻¹(p − v))/λ,  M = (x y z),  λ = ‖M⁻¹‖₂
+
+        Section 6 of the paper.
+
+        of: What is warped: a field or an object. (object)
+        x: Where [1, 0, 0] goes, from the image of the origin. ([x, y, z]; default [1, 0, 0])
+        y: Where [0, 1, 0] goes. ([x, y, z]; default [0, 1, 0])
+        z: Where [0, 0, 1] goes. ([x, y, z]; default [0, 0, 1])
+        by: Where the origin goes. ([x, y, z] in m; default [0, 0, 0])
+        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        """
+    def distort(self, amplitude: float, scale: float, octaves: float | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+        r"""Moves space by fractal noise: bends what is straight, as rock or smoke is bent.
+
+            φ(p + a (n(p), n(p + u), n(p + v)))/λ,  λ = 1 + √3 a L,  L = 15 octaves/(4 scale Σ 2⁻ⁱ)
+
+        Section 6 of the paper.
+
+        of: What is warped: a field or an object. (object)
+        amplitude: Largest displacement along each axis, a. (number in m; zero or more)
+        scale: Size of the largest swirls. (number in m; positive)
+        octaves: Sizes of swirls, each half the one before; a whole number. (number; at least 1 and at most 6; default 1)
+        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        """
+
+class Image:
+    r"""A picture: linear Rec.709 radiance, and further planes beside it.
+
+    pixels: float32 (height, width, 3), the top row first. planes: float32 (height, width) by their names in EXR files."""
+    def __init__(self, pixels, planes=..., exposure=..., view=..., samples=..., seconds=..., scene=..., seed=...):
+        r"""Initialize self.  See help(type(self)) for accurate signature."""
+    def png(self, exposure=..., view=...):
+        r"""The picture as a PNG file's bytes, through the display transform; exposure in stops."""
+    def save(self, path, exposure=..., view=...):
+        r"""Writes .exr (linear, with all planes), .png, .jpg or .tif."""
+
+class Scene:
+    r"""An object, and what a picture of it needs. Immutable; `with_` makes another one with some parts replaced.
+
+    object: its phases need materials to be rendered. camera: pt.camera(…) or one of pt.cameras. lights, meshes: one or
+    several. background: the colour that the camera sees in place of the lights at infinity. image: pt.image(…)."""
+    def __init__(self, object, camera=..., lights=..., meshes=..., background=..., image=..., name=...):
+        r"""Initialize self.  See help(type(self)) for accurate signature."""
+    def with_(self, **parts):
+        r"""The same scene with some parts replaced: scene.with_(camera=…)."""
+    def to_json(self, **image):
+        r"""The scene as a file says it; image: settings that are replaced."""
+    def save(self, path):
+        r"""Writes a scene file, from which load() makes an equal scene. Files beside it are named relative to it."""
+    def render(self, *, progress=..., threads=..., crop=..., quality=..., most_bytes=..., **image):
+        r"""Path-traces the scene: an Image. The same scene gives the same image, whatever the number of threads.
+
+image: settings in place of the scene's own, such as samples=16, width=400. crop: (x0, y0, x1, y1) in pixels.
+progress: True for a line on standard error, or a function of a stage and a share in [0, 1]. Ctrl-C ends it."""
+
+class Expression:
+    r"""A number for each point: x, y, z and what is computed of them. Immutable.
+
+    It stands for a field wherever one is needed, glass(x**2 + y**2 - 1), and is the solid where it is negative.
+    within(low, high) cuts that to a box, which formulas need whose slope grows without bound. Floats of the formula are
+    those of single precision; it is divided by a bound of its slope, which is found when the field is made."""
+    @property
+    def text(self):
+        r"""The formula as a scene file has it."""
+    def within(self, low, high):
+        r"""The same, cut to the box with these corners; a number stands for the same along each axis."""
+    def field(self):
+        r"""The field: Error if the slope has no bound, with the place in the formula."""
+    def __add__(self, other: Expression | float) -> Expression: ...
+    def __radd__(self, other: Expression | float) -> Expression: ...
+    def __sub__(self, other: Expression | float) -> Expression: ...
+    def __rsub__(self, other: Expression | float) -> Expression: ...
+    def __mul__(self, other: Expression | float) -> Expression: ...
+    def __rmul__(self, other: Expression | float) -> Expression: ...
+    def __truediv__(self, other: Expression | float) -> Expression: ...
+    def __rtruediv__(self, other: Expression | float) -> Expression: ...
+    def __pow__(self, other: float) -> Expression: ...
+    def __neg__(self) -> Expression: ...
+    def __abs__(self) -> Expression: ...
+    def __or__(self, other: Field | Expression) -> Field: ...
+    def __and__(self, other: Field | Expression) -> Field: ...
+
+def coordinates() -> tuple[Expression, Expression, Expression]: ...
+
+def sqrt(*values: Expression | float) -> Expression: ...
+def abs(*values: Expression | float) -> Expression: ...
+def min(*values: Expression | float) -> Expression: ...
+def max(*values: Expression | float) -> Expression: ...
+def sin(*values: Expression | float) -> Expression: ...
+def cos(*values: Expression | float) -> Expression: ...
+def tan(*values: Expression | float) -> Expression: ...
+def exp(*values: Expression | float) -> Expression: ...
+def tanh(*values: Expression | float) -> Expression: ...
+def length(*values: Expression | float) -> Expression: ...
+def clamp(*values: Expression | float) -> Expression: ...
+def smooth_min(*values: Expression | float) -> Expression: ...
+def smooth_max(*values: Expression | float) -> Expression: ...
+def square(*values: Expression | float) -> Expression: ...
+
+def load(path: str | PathLike[str]) -> Scene: ...
+
+def sphere(radius: float) -> Field:
+    r"""A ball about the origin; exact.
+
+        |p| − r
+
+    radius: Radius. (number in m; positive)
+    """
+
+def box(size: Sequence[float] | np.ndarray) -> Field:
+    r"""A box about the origin; exact.
+
+        q = |p| − s/2;  |max(q, 0)| + min(max(qx, qy, qz), 0)
+
+    size: Edge lengths along x, y and z. ([x, y, z] in m; positive)
+    """
+
+def rounded_box(size: Sequence[float] | np.ndarray, radius: float) -> Field:
+    r"""A box whose edges and corners are rounded, within the same size; exact.
+
+        box(s − 2r) − r
+
+    size: Edge lengths along x, y and z, rounding included. ([x, y, z] in m; positive)
+    radius: Radius of the edges, at most half the shortest edge. (number in m; zero or more)
+    """
+
+def cylinder(radius: float, height: float) -> Field:
+    r"""A cylinder about the z axis, centred at the origin; exact.
+
+        q = (|pxy| − r, |pz| − h/2);  |max(q, 0)| + min(max(qx, qy), 0)
+
+    radius: Radius. (number in m; positive)
+    height: Whole height. (number in m; positive)
+    """
+
+def capped_cone(radius_bottom: float, radius_top: float, height: float) -> Field:
+    r"""A truncated cone about the z axis, centred at the origin; exact.
+
+        ± min(distance to the caps, distance to the slanted side)
+
+    radius_bottom: Radius at z = −height/2. (number in m; zero or more)
+    radius_top: Radius at z = height/2. (number in m; zero or more)
+    height: Whole height. (number in m; positive)
+    """
+
+def capsule(from_: Sequence[float] | np.ndarray, to: Sequence[float] | np.ndarray, radius: float) -> Field:
+    r"""All points within r of a segment; exact.
+
+        |p − nearest point of the segment| − r
+
+    from_: One end of the segment. ([x, y, z] in m)
+    to: The other end. ([x, y, z] in m)
+    radius: Radius. (number in m; positive)
+    """
+
+def torus(major: float, minor: float) -> Field:
+    r"""A ring about the z axis; exact.
+
+        |(|pxy| − R, pz)| − r
+
+    major: Radius of the ring's centre line. (number in m; positive)
+    minor: Radius of the tube. (number in m; positive)
+    """
+
+def plane(normal: Sequence[float] | np.ndarray | None = ..., offset: float | None = ...) -> Field:
+    r"""The half-space below a plane: the solid is where p·n < d; exact.
+
+        p·n − d
+
+    normal: Direction that points out of the solid; any length but zero. ([x, y, z]; default [0, 0, 1])
+    offset: Distance of the plane from the origin along the normal. (number in m; default 0)
+    """
+
+def union(*of: Field | Expression | Sequence[Field | Expression]) -> Field:
+    r"""All that is in any of the fields.
+
+        min fᵢ
+
+    of: The fields, at least one. (list of fields)
+    """
+
+def intersection(*of: Field | Expression | Sequence[Field | Expression]) -> Field:
+    r"""What is in all of the fields.
+
+        max fᵢ
+
+    of: The fields, at least one. (list of fields)
+    """
+
+def difference(from_: Field | Expression, *subtract: Field | Expression | Sequence[Field | Expression]) -> Field:
+    r"""A field without others.
+
+        max(f, −min gᵢ)
+
+    from_: The field to cut. (field)
+    subtract: The fields to cut away, at least one. (list of fields)
+    """
+
+def smooth_union(*of: Field | Expression | Sequence[Field | Expression], radius: float) -> Field:
+    r"""Union whose seams are filled; folded from the first field to the last.
+
+        smin(a, b) = min(a, b) − r/6 · max(1 − |b − a|/r, 0)³
+
+    Section 9.3 of the paper.
+
+    of: The fields, at least one. (list of fields)
+    radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+    """
+
+def smooth_intersection(*of: Field | Expression | Sequence[Field | Expression], radius: float) -> Field:
+    r"""Intersection whose edges are worn; folded from the first field to the last.
+
+        −smin(−a, −b)
+
+    Section 9.3 of the paper.
+
+    of: The fields, at least one. (list of fields)
+    radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+    """
+
+def smooth_difference(from_: Field | Expression, *subtract: Field | Expression | Sequence[Field | Expression], radius: float) -> Field:
+    r"""A field without others, its new edges worn.
+
+        −smin(−f, smin gᵢ)
+
+    Section 9.3 of the paper.
+
+    from_: The field to cut. (field)
+    subtract: The fields to cut away, at least one. (list of fields)
+    radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+    """
+
+def offset(of: Field | Expression, distance: float) -> Field:
+    r"""A field inflated by t (deflated for a negative t).
+
+        f − t
+
+    Section 4.1 of the paper.
+
+    of: The field. (field)
+    distance: How far the surface moves outwards. (number in m)
+    """
+
+def shell(of: Field | Expression, half_thickness: float) -> Field:
+    r"""A wall of thickness 2t about a field's surface.
+
+        |f| − t
+
+    Section 4.1 of the paper.
+
+    of: The field. (field)
+    half_thickness: Half of the wall, t. (number in m; positive)
+    """
+
+def merge(of: Object, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+    r"""Phases of an object as a plain field; it is zero on the interfaces between them.
+
+        min over k of φₖ
+
+    Section 4.2 of the paper.
+
+    of: The object. (object)
+    phases: The phases to merge; all if left out. (phase or list of phases; default all)
+    """
+
+def ellipsoid(radii: Sequence[float] | np.ndarray) -> Field:
+    r"""An ellipsoid about the origin; a lower bound, exact at the ends of the axes.
+
+        max(min r · (|p/r| − 1), box(p, 2r), |p| − max r)
+
+    radii: Half axes along x, y and z. ([x, y, z] in m; positive)
+    """
+
+def capped_torus(major: float, minor: float, angle: float) -> Field:
+    r"""Part of a ring about the z axis, with round ends, centred on the x axis; exact where the tube is not wider than the ring.
+
+        |p − nearest point of the arc| − r
+
+    major: Radius of the arc. (number in m; positive)
+    minor: Radius of the tube. (number in m; positive)
+    angle: Angle of the whole arc. (number in degrees; more than 0 and at most 360)
+    """
+
+def link(length: float, major: float, minor: float) -> Field:
+    r"""A link of a chain in the xy plane, long along y; exact where the rod is not wider than the ring.
+
+        y = max(|py| − l/2, 0);  |(|(px, y)| − R, pz)| − r
+
+    length: Length of the straight part. (number in m; zero or more)
+    major: Radius of the half rings' centre line. (number in m; positive)
+    minor: Radius of the rod. (number in m; positive)
+    """
+
+def tube(radius: float, inner_radius: float, height: float) -> Field:
+    r"""A hollow cylinder about the z axis, open at both ends; exact.
+
+        q = (||pxy| − (R + r)/2| − (R − r)/2, |pz| − h/2);  |max(q, 0)| + min(max(qx, qy), 0)
+
+    radius: Outer radius. (number in m; positive)
+    inner_radius: Radius of the hole, less than the outer one. (number in m; positive)
+    height: Whole height. (number in m; positive)
+    """
+
+def rounded_cylinder(radius: float, height: float, edge: float) -> Field:
+    r"""A cylinder whose rims are rounded, within the same size; exact.
+
+        cylinder(r − e, h − 2e) − e
+
+    radius: Radius, rounding included. (number in m; positive)
+    height: Whole height, rounding included. (number in m; positive)
+    edge: Radius of the rims, at most the radius and half the height. (number in m; zero or more)
+    """
+
+def round_cone(from_: Sequence[float] | np.ndarray, radius_from: float, to: Sequence[float] | np.ndarray, radius_to: float) -> Field:
+    r"""The hull of two balls; exact.
+
+        k = c x − s y;  k < 0: |p − from| − a;  k > c l: |p − to| − b;  else s x + c y − a
+
+    from_: Centre of one ball. ([x, y, z] in m)
+    radius_from: Its radius. (number in m; positive)
+    to: Centre of the other ball. ([x, y, z] in m)
+    radius_to: Its radius. (number in m; positive)
+    """
+
+def spherical_cap(radius: float, cut: float | None = ...) -> Field:
+    r"""What a plane leaves of a ball about the origin: the part above z = c; exact.
+
+        ± min(distance to the disk, ||p| − r| where r pz ≥ c |p|)
+
+    radius: Radius of the ball. (number in m; positive)
+    cut: Height z of the plane; 0 leaves a hemisphere. (number in m; default 0)
+    """
+
+def prism(sides: float, radius: float, height: float) -> Field:
+    r"""A prism about the z axis on a regular polygon with an edge across the x axis; exact.
+
+        fold to one sector;  q = (polygon, |pz| − h/2);  |max(q, 0)| + min(max(qx, qy), 0)
+
+    sides: Sides of the polygon, a whole number. (number; at least 3 and at most 64)
+    radius: Radius of the circle through the corners. (number in m; positive)
+    height: Whole height. (number in m; positive)
+    """
+
+def wedge(size: Sequence[float] | np.ndarray) -> Field:
+    r"""Half of a box about the origin, below the plane x/sx + z/sz = 0; exact.
+
+        q = (± distance to the triangle's sides, |py| − sy/2);  |max(q, 0)| + min(max(qx, qy), 0)
+
+    size: Edge lengths along x, y and z. ([x, y, z] in m; positive)
+    """
+
+def pyramid(base: float, height: float) -> Field:
+    r"""A pyramid on a square, centred at half its height on the z axis; exact.
+
+        ± min(distance to the base, distance to the nearest slanted face)
+
+    base: Edge of the square at z = −height/2. (number in m; positive)
+    height: Height of the apex above the base. (number in m; positive)
+    """
+
+def octahedron(radius: float) -> Field:
+    r"""A regular octahedron about the origin; exact.
+
+        distance to the projection of |p| onto x + y + z = r
+
+    radius: Distance of the corners, which are on the axes. (number in m; positive)
+    """
+
+def tetrahedron(radius: float) -> Field:
+    r"""A regular tetrahedron about the origin, corners on the diagonals of the axes; exact.
+
+        fold to x ≥ y ≥ |z|;  m, or |(m, e, max(t − √2 k, 0))| beyond the edge
+
+    radius: Distance of the corners. (number in m; positive)
+    """
+
+def gyroid(period: float, thickness: float) -> Field:
+    r"""A wall along Schoen's gyroid, which fills space; a lower bound.
+
+        |sin x cos y + sin y cos z + sin z cos x|/(√3 k) − t/2,  (x, y, z) = k p,  k = 2π/period
+
+    period: Edge of the cube that repeats. (number in m; positive)
+    thickness: Least thickness of the wall. (number in m; positive)
+    """
+
+def schwarz_p(period: float, thickness: float) -> Field:
+    r"""A wall along Schwarz' primitive surface, which fills space; a lower bound.
+
+        |cos x + cos y + cos z|/(√3 k) − t/2,  (x, y, z) = k p,  k = 2π/period
+
+    period: Edge of the cube that repeats. (number in m; positive)
+    thickness: Least thickness of the wall. (number in m; positive)
+    """
+
+def schwarz_d(period: float, thickness: float) -> Field:
+    r"""A wall along Schwarz' diamond surface, which fills space; a lower bound.
+
+        |sin x cos(y − z) + cos x sin(y + z)|/(√3 k) − t/2,  (x, y, z) = k p,  k = 2π/period
+
+    period: Edge of the cube that repeats. (number in m; positive)
+    thickness: Least thickness of the wall. (number in m; positive)
+    """
+
+def displace(of: Field | Expression, amplitude: float, scale: float, octaves: float | None = ...) -> Field:
+    r"""A field whose surface is moved in and out by fractal noise.
+
+        min(max((f + a n)/λ, f − a), f + a),  λ = 1 + a L,  L = 15 octaves/(4 scale Σ 2⁻ⁱ)
+
+    of: The field. (field)
+    amplitude: Largest displacement, a. (number in m; zero or more)
+    scale: Size of the largest bumps. (number in m; positive)
+    octaves: Sizes of bumps, each half the one before; a whole number. (number; at least 1 and at most 6; default 1)
+    """
+
+@overload
+def instances(of: Field, positions: Sequence[Sequence[float]] | np.ndarray, turns: float | Sequence[float] | None = ..., scales: float | Sequence[float] | None = ...) -> Field:
+    r"""Copies at listed positions, each turned about the z axis and scaled if that is listed too.
+
+        min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); of objects, the later over the earlier
+
+    of: What is copied: a field or an object. (object)
+    positions: Where the copies' origins go. (list of [x, y, z]s in m)
+    turns: Angle of each copy about its own z axis; one number stands for all. (number or list of numbers in degrees; default [])
+    scales: Factor of each copy's size; one number stands for all. (number or list of numbers; positive; default [])
+    """
+@overload
+def instances(of: Object, positions: Sequence[Sequence[float]] | np.ndarray, turns: float | Sequence[float] | None = ..., scales: float | Sequence[float] | None = ...) -> Object:
+    r"""Copies at listed positions, each turned about the z axis and scaled if that is listed too.
+
+        min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); of objects, the later over the earlier
+
+    of: What is copied: a field or an object. (object)
+    positions: Where the copies' origins go. (list of [x, y, z]s in m)
+    turns: Angle of each copy about its own z axis; one number stands for all. (number or list of numbers in degrees; default [])
+    scales: Factor of each copy's size; one number stands for all. (number or list of numbers; positive; default [])
+    """
+
+@overload
+def polar_array(of: Field, count: int, angle: float | None = ...) -> Field:
+    r"""Copies turned about the z axis by equal angles.
+
+        min over i < n of φ(R(−i a/n) p); of objects, the later over the earlier
+
+    of: What is copied: a field or an object. (object)
+    count: How many. (whole number; at least 1 and at most 10000)
+    angle: What they share: copy i is turned by i/count of it. Default: all around. (number in degrees; default 360)
+    """
+@overload
+def polar_array(of: Object, count: int, angle: float | None = ...) -> Object:
+    r"""Copies turned about the z axis by equal angles.
+
+        min over i < n of φ(R(−i a/n) p); of objects, the later over the earlier
+
+    of: What is copied: a field or an object. (object)
+    count: How many. (whole number; at least 1 and at most 10000)
+    angle: What they share: copy i is turned by i/count of it. Default: all around. (number in degrees; default 360)
+    """
+
+@overload
+def grid(of: Field, spacing: Sequence[float] | np.ndarray, count_x: int | None = ..., count_y: int | None = ..., count_z: int | None = ...) -> Field:
+    r"""Copies in rows along x, y and z; the first stays where it is. They may overlap. Their order: i counts fastest, then j, then k.
+
+        min over i, j, k of φ(p − (i dx, j dy, k dz)); of objects, the later over the earlier
+
+    of: What is copied: a field or an object. (object)
+    spacing: From one copy to the next along x, y and z. ([x, y, z] in m)
+    count_x: How many along x. (whole number; at least 1 and at most 10000; default 1)
+    count_y: How many along y. (whole number; at least 1 and at most 10000; default 1)
+    count_z: How many along z. (whole number; at least 1 and at most 10000; default 1)
+    """
+@overload
+def grid(of: Object, spacing: Sequence[float] | np.ndarray, count_x: int | None = ..., count_y: int | None = ..., count_z: int | None = ...) -> Object:
+    r"""Copies in rows along x, y and z; the first stays where it is. They may overlap. Their order: i counts fastest, then j, then k.
+
+        min over i, j, k of φ(p − (i dx, j dy, k dz)); of objects, the later over the earlier
+
+    of: What is copied: a field or an object. (object)
+    spacing: From one copy to the next along x, y and z. ([x, y, z] in m)
+    count_x: How many along x. (whole number; at least 1 and at most 10000; default 1)
+    count_y: How many along y. (whole number; at least 1 and at most 10000; default 1)
+    count_z: How many along z. (whole number; at least 1 and at most 10000; default 1)
+    """
+
+def polyline(points: Sequence[Sequence[float]] | np.ndarray, radius: float) -> Field:
+    r"""A round wire along a chain of straight segments.
+
+        min over segments ab of |p − a − t (b − a)| − r, t in [0, 1]
+
+    points: The chain's points, at least two. (list of [x, y, z]s in m)
+    radius: Of the wire. (number in m; positive)
+    """
+
+@overload
+def endless_grid(of: Field, spacing: Sequence[float] | np.ndarray) -> Field:
+    r"""Copies without end along the axes; they must not touch.
+
+        max(b, min(φ(q), 2g − b)),  q = p − s ⌊(p − c)/s + ½⌋,  b = distance to the copies' boxes,  g = half the smallest gap between boxes
+
+    of: What is copied: a field or an object. (object)
+    spacing: From one copy to the next along x, y and z; 0 for no copies along that axis. ([x, y, z] in m; zero or more)
+    """
+@overload
+def endless_grid(of: Object, spacing: Sequence[float] | np.ndarray) -> Object:
+    r"""Copies without end along the axes; they must not touch.
+
+        max(b, min(φ(q), 2g − b)),  q = p − s ⌊(p − c)/s + ½⌋,  b = distance to the copies' boxes,  g = half the smallest gap between boxes
+
+    of: What is copied: a field or an object. (object)
+    spacing: From one copy to the next along x, y and z; 0 for no copies along that axis. ([x, y, z] in m; zero or more)
+    """
+
+def blob(radii: float | Sequence[float], points: Sequence[Sequence[float]] | np.ndarray | None = ..., polyline: Sequence[Sequence[float]] | np.ndarray | None = ..., of: Field | Expression | Sequence[Field | Expression] | None = ..., weights: float | Sequence[float] | None = ..., threshold: float | None = ...) -> Field:
+    r"""A BlobTree: points, a chain of segments and other fields as skeletons, whose compactly supported contributions add up and melt into each other.
+
+        max((T − Σ wᵢ (1 − (dᵢ/Rᵢ)²)³)/λ, min dᵢ − rᵢ),  rᵢ = Rᵢ √(1 − ∛(T/Σw)),  λ ≥ sup ‖∇Σ‖
+
+    Section 7.5, 9.2 of the paper.
+
+    radii: How far each skeleton reaches: one number for all, or one for each of the points, then the polyline, then the fields. (number or list of numbers in m; positive)
+    points: Point skeletons. (list of [x, y, z]s in m; default [])
+    polyline: A chain of points, one skeleton as a whole. (list of [x, y, z]s in m; default [])
+    of: Fields as skeletons: their distance, zero inside. (list of fields; default [])
+    weights: The skeletons' weights, in the same way; 1 if absent. (number or list of numbers; positive; default [])
+    threshold: T; the larger, the smaller the solid. (number; positive; default 0.5)
+    """
+
+def voronoi_cells(size: float, gap: float, rounding: float | None = ..., jitter: float | None = ..., seed: float | None = ...) -> Field:
+    r"""Blocks with gaps between them, filling space: the cells of an irregular lattice of sites.
+
+        g/2 − max(v, 0),  v = (Σ over t ≠ s of (bₜ + c)⁻⁸)^(−1/8) − c,  bₜ = (|p − t|² − |p − s|²)/(2|t − s|),  s the nearest site
+
+    Section 4.3, 9.1 of the paper.
+
+    size: Of the cubes that have a site each. (number in m; positive)
+    gap: Between blocks. (number in m; positive)
+    rounding: Of the edges, c; 0 for sharp ones. (number in m; zero or more; default 0)
+    jitter: How irregular: 0 for sites on a cubic lattice, 1 for any place in their cubes. (number; at least 0 and at most 1; default 0.9)
+    seed: Another number, another pattern. (number; at least 0 and at most 288; default 0)
+    """
+
+def siren(file: str | PathLike[str], samples: int | None = ...) -> Field:
+    r"""A neural field with sinusoidal layers, from a file of weights.
+
+        max(|p| − R, f(p)/λ),  λ = Π ‖Wᵢ‖₂
+
+    Section 7.5, 9.4 of the paper.
+
+    file: The weights: JSON, {"radius": R, "layers": [{"weights": [[…], …], "bias": […]}, …]} with the frequencies multiplied in. (name of a file)
+    samples: 0: λ is the product of the layers' spectral norms, which is proven. More: λ is the steepest slope at so many points and a tenth, tighter and faster, but without proof. (whole number; at least 0 and at most 10000000; default 0)
+    """
+
+def height_map(file: str | PathLike[str], size_x: float, size_y: float, height: float) -> Field:
+    r"""What lies below a terrain that an image gives, black low and white high, about the z axis.
+
+        min(max((z − h(x, y))/√(1 + Lx² + Ly²), z − max h), z − min h),  h the quadratic B-spline of the pixels
+
+    Section 7.1 of the paper.
+
+    file: The image; its first channel counts. (name of a file)
+    size_x: Its width, along x. (number in m; positive)
+    size_y: Its height, along y. (number in m; positive)
+    height: The height of white; black is at z = 0. (number in m; positive)
+    """
+
+@overload
+def fibonacci_disk(of: Field, count: int, radius: float, turned: int | None = ...) -> Field:
+    r"""Copies spread evenly over a disk about the z axis, on a Fibonacci spiral.
+
+        copies at ρᵢ = R √((i + ½)/n), θᵢ = i π(3 − √5); of objects, the later over the earlier
+
+    Section 7.7 of the paper.
+
+    of: What is copied: a field or an object. (object)
+    count: How many. (whole number; at least 1 and at most 100000)
+    radius: Of the disk that the copies' origins share. (number in m; positive)
+    turned: 1: each copy's x axis points away from the middle. (whole number; at least 0 and at most 1; default 0)
+    """
+@overload
+def fibonacci_disk(of: Object, count: int, radius: float, turned: int | None = ...) -> Object:
+    r"""Copies spread evenly over a disk about the z axis, on a Fibonacci spiral.
+
+        copies at ρᵢ = R √((i + ½)/n), θᵢ = i π(3 − √5); of objects, the later over the earlier
+
+    Section 7.7 of the paper.
+
+    of: What is copied: a field or an object. (object)
+    count: How many. (whole number; at least 1 and at most 100000)
+    radius: Of the disk that the copies' origins share. (number in m; positive)
+    turned: 1: each copy's x axis points away from the middle. (whole number; at least 0 and at most 1; default 0)
+    """
+
+@overload
+def fibonacci_sphere(of: Field, count: int, radius: float) -> Field:
+    r"""Copies spread evenly over a sphere, on a Fibonacci spiral, standing on it.
+
+        copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis along nᵢ; of objects, the later over the earlier
+
+    Section 7.7 of the paper.
+
+    of: What is copied: a field or an object. (object)
+    count: How many. (whole number; at least 1 and at most 100000)
+    radius: Of the sphere that the copies' origins are on. (number in m; positive)
+    """
+@overload
+def fibonacci_sphere(of: Object, count: int, radius: float) -> Object:
+    r"""Copies spread evenly over a sphere, on a Fibonacci spiral, standing on it.
+
+        copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis along nᵢ; of objects, the later over the earlier
+
+    Section 7.7 of the paper.
+
+    of: What is copied: a field or an object. (object)
+    count: How many. (whole number; at least 1 and at most 100000)
+    radius: Of the sphere that the copies' origins are on. (number in m; positive)
+    """
+
+@overload
+def scatter(of: Field, on: Field | Expression, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Field:
+    r"""Copies strewn over a field's surface, standing on it, each turned at random.
+
+        copies at random points of the surface f = 0, their z axis along ∇f; of objects, the later over the earlier
+
+    of: What is copied: a field or an object. (object)
+    on: The field on whose surface they stand; it must be bounded. (field)
+    count: How many; fewer if there is not space. (whole number; at least 1 and at most 100000)
+    spacing: The least distance between two copies' origins. (number in m; zero or more; default 0)
+    smallest: Sizes are random between this factor and 1. (number; at least 0.01 and at most 1; default 1)
+    seed: Another number, other places. (whole number; at least 0 and at most 1000000; default 1)
+    """
+@overload
+def scatter(of: Object, on: Field | Expression, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Object:
+    r"""Copies strewn over a field's surface, standing on it, each turned at random.
+
+        copies at random points of the surface f = 0, their z axis along ∇f; of objects, the later over the earlier
+
+    of: What is copied: a field or an object. (object)
+    on: The field on whose surface they stand; it must be bounded. (field)
+    count: How many; fewer if there is not space. (whole number; at least 1 and at most 100000)
+    spacing: The least distance between two copies' origins. (number in m; zero or more; default 0)
+    smallest: Sizes are random between this factor and 1. (number; at least 0.01 and at most 1; default 1)
+    seed: Another number, other places. (whole number; at least 0 and at most 1000000; default 1)
+    """
+
+def extrude(of: Field | Expression, height: float) -> Field:
+    r"""A field's cross-section at z = 0, moved along z; exact where the field is the exact distance to its cross-section.
+
+        a = f(x, y, 0),  b = |z| − h/2;  |(max(a, 0), max(b, 0))| + min(max(a, b), 0)
+
+    of: The field, for example a circle, a rectangle or a star. (field)
+    height: Whole height, centred at z = 0. (number in m; positive)
+    """
+
+def revolve(of: Field | Expression, offset: float | None = ...) -> Field:
+    r"""A field's cross-section at z = 0 turned about its y axis, which becomes the z axis; exact where the field is the exact distance to its cross-section and that does not cross the axis.
+
+        f(|pxy| − o, z, 0)
+
+    of: The field; what its section has beyond the axis is cut off. (field)
+    offset: How far the section is moved away from the axis first. (number in m; default 0)
+    """
+
+def circle(radius: float) -> Field:
+    r"""A disk about the origin, for extruding and revolving; the same at every z, exact.
+
+        |pxy| − r
+
+    radius: Radius. (number in m; positive)
+    """
+
+def rectangle(width: float, height: float, radius: float | None = ...) -> Field:
+    r"""A rectangle about the origin, for extruding and revolving; the same at every z, exact.
+
+        q = |pxy| − s/2 + r;  |max(q, 0)| + min(max(qx, qy), 0) − r
+
+    width: Whole length along x. (number in m; positive)
+    height: Whole length along y. (number in m; positive)
+    radius: Radius of the corners; half of the shorter side at most. (number in m; zero or more; default 0)
+    """
+
+def star(points: float, radius: float, inner_radius: float) -> Field:
+    r"""A star about the origin with a tip on the x axis, for extruding; the same at every z, exact.
+
+        fold to one sector;  ± distance to its edge
+
+    points: How many tips, a whole number. (number; at least 3 and at most 64)
+    radius: Distance of the tips from the centre. (number in m; positive)
+    inner_radius: Distance of the notches, less than that of the tips. (number in m; positive)
+    """
+
+def slab(thickness: float, normal: Sequence[float] | np.ndarray | None = ..., offset: float | None = ...) -> Field:
+    r"""What is between two parallel planes; exact.
+
+        |p·n − d| − t/2
+
+    thickness: Distance of the two planes. (number in m; positive)
+    normal: Direction across the slab; any length but zero. ([x, y, z]; default [0, 0, 1])
+    offset: Distance of its middle from the origin along the normal. (number in m; default 0)
+    """
+
+def box_frame(size: Sequence[float] | np.ndarray, thickness: float) -> Field:
+    r"""The twelve edges of a box as bars of square cross-section; exact.
+
+        min over the bars of |max(|bar| − size/2, 0)| − depth within the union
+
+    size: Edge lengths along x, y and z. ([x, y, z] in m; positive)
+    thickness: Width of a bar, less than half of the shortest edge. (number in m; positive)
+    """
+
+def bowl(radius: float, thickness: float, cut: float | None = ...) -> Field:
+    r"""A hollow ball about the origin, cut open at a height, with a round rim; exact where the rim does not close the opening.
+
+        (R pz ≤ c |p| ? ||p| − R| : |(|pxy| − w, pz − c)|) − t/2
+
+    radius: Radius of the wall's middle. (number in m; positive)
+    thickness: Thickness of the wall, less than twice the radius. (number in m; positive)
+    cut: Height z of the rim; at 0 a half of the ball is left. (number in m; default 0)
+    """
+
+def dodecahedron(radius: float) -> Field:
+    r"""A regular dodecahedron about the origin, an edge's middle on each half axis: on x the edge runs along z, on y along x, on z along y; exact.
+
+        fold to one chamber;  |max((a, b, c), 0)| + min(a, 0)
+
+    radius: Radius of the sphere through the corners. (number in m; positive)
+    """
+
+def icosahedron(radius: float) -> Field:
+    r"""A regular icosahedron about the origin, an edge's middle on each half axis: on x the edge runs along y, on y along z, on z along x; exact.
+
+        fold to one chamber;  |max((a, b, c), 0)| + min(a, 0)
+
+    radius: Radius of the sphere through the corners. (number in m; positive)
+    """
+
+def helix(radius: float, pitch: float, turns: float, wire_radius: float) -> Field:
+    r"""A coil of round wire about the z axis with round ends, centred at half its height. It rises from its lower end, at y = 0 and x > 0, counter-clockwise as seen from above, which is right-handed; a left-handed coil is the mirror image across y = 0 and starts there, too. Exact where turns do not touch.
+
+        √((ρ − R)² + 4ρR sin²(x/2) + k²(x − M)²) − r,  x + (ρR/k²) sin x = M,  or from an end
+
+    radius: Distance of the wire's middle from the axis. (number in m; positive)
+    pitch: Height of a turn; negative for a left-handed coil, not zero. (number in m)
+    turns: Number of turns, 1 at least. (number; at least 1 and at most 10000)
+    wire_radius: Radius of the wire. (number in m; positive)
+    """
+
+def heightfield(size: float, amplitude: float, octaves: float | None = ..., ridged: float | None = ..., seed: float | None = ...) -> Field:
+    r"""Terrain: the ground below a height made of fractal noise, without end in x and y.
+
+        min(max((z − h)/√(1 + L²), z − a), z + a),  L = 15 a (1 + r) octaves/(4 size Σ 2⁻ⁱ)
+
+    size: Size of the largest hills. (number in m; positive)
+    amplitude: Largest height above and depth below z = 0, a. (number in m; zero or more)
+    octaves: Sizes of hills, each half the one before; a whole number. (number; at least 1 and at most 6; default 4)
+    ridged: From rolling hills, 0, to mountains with sharp ridges, 1. (number; at least 0 and at most 1; default 0)
+    seed: Another whole number is another landscape. (number; at least -100000 and at most 100000; default 0)
+    """
+
+def polygon(points: Sequence[Sequence[float]] | np.ndarray) -> Field:
+    r"""A polygon with straight edges, for extruding and revolving; the same at every z, exact.
+
+        ± min over the edges of |p − a − clamp((p − a)·e/e², 0, 1) e|
+
+    points: Its corners [x, y] in order, either way around; the last is joined to the first, and edges must not cross. (list of [x, y]s in m)
+    """
+
+def bezier(points: Sequence[Sequence[float]] | np.ndarray, thickness: float | None = ...) -> Field:
+    r"""A shape with an outline of quadratic Bézier curves, or a line along them, for extruding and revolving; the same at every z, exact.
+
+        ± min over the curves of |p − B(t)|, t from the cubic (p − B)·B′ = 0;  for a line, less half of its thickness
+
+    points: [x, y] of a point on the curve, then of a control point, and so on. An even number is a closed curve, an odd one ends on its last point. (list of [x, y]s in m)
+    thickness: Width of a line along the curve; 0 fills a closed curve, even-odd where it crosses itself. (number in m; zero or more; default 0)
+    """
+
+def formula(text: str | Expression, bounds: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Field:
+    r"""The solid where a formula of x, y and z is negative. It knows + − * / ^ with whole exponents, sqrt, abs, min, max, sin, cos, tan, exp, tanh, length, clamp, smooth_min, smooth_max, pi, and names: "r = sqrt(x^2 + y^2); r - 1".
+
+        f(x, y, z)/λ;  with bounds B: max(b(p), f(nearest point of B)/λ),  λ ≥ sup |∇f|
+
+    text: The formula. (text)
+    bounds: The lowest and the highest corner of a box to which the solid is cut. Without it the formula's slope must be bounded everywhere. (list of [x, y, z]s in m; default [])
+    """
+
+def polyhedron(normals: Sequence[Sequence[float]] | np.ndarray, offsets: float | Sequence[float]) -> Field:
+    r"""A convex polyhedron with any faces: what is behind all of some planes.
+
+        max over i of nᵢ·p − hᵢ
+
+    normals: The planes' normals, outward, of any length but 0. (list of [x, y, z]s)
+    offsets: How far each plane is from the origin along its normal, h; one number for all, or as many as there are planes. (number or list of numbers in m)
+    """
+
+@overload
+def bounding_volume(of: Field, margin: float, volume: Field | Expression | None = ...) -> Field:
+    r"""A field or an object, and a volume around it whose distance stands in far away. What sticks out of the volume is cut off.
+
+        max(b, min(f, 2m − b));  φᵢ likewise,  φ₀ = min(−b, max(a₀, b − 2m))
+
+    Section 4.1, 7.3 of the paper.
+
+    of: What is bounded: a field or an object. (object)
+    margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
+    volume: A field around it. Default: the box around it. (field; default none)
+    """
+@overload
+def bounding_volume(of: Object, margin: float, volume: Field | Expression | None = ...) -> Object:
+    r"""A field or an object, and a volume around it whose distance stands in far away. What sticks out of the volume is cut off.
+
+        max(b, min(f, 2m − b));  φᵢ likewise,  φ₀ = min(−b, max(a₀, b − 2m))
+
+    Section 4.1, 7.3 of the paper.
+
+    of: What is bounded: a field or an object. (object)
+    margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
+    volume: A field around it. Default: the box around it. (field; default none)
+    """
+
+@overload
+def proxy(of: Field, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+    r"""A field or an object, and a simpler field g near it, which stands in for it away from the surface, outside and inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled.
+
+        min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e
+
+    Section 4.1, 7.3 of the paper.
+
+    of: What is stood in for: a field or an object. (object)
+    proxy: The simpler field, g. (field)
+    error: How far apart the surfaces of both may be, e. (number in m; zero or more)
+    margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
+    inside: Of an object: the phase that fills it from e inside of the proxy on. Without it the proxy stands in outside alone. (phase or list of phases; default all)
+    """
+@overload
+def proxy(of: Object, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+    r"""A field or an object, and a simpler field g near it, which stands in for it away from the surface, outside and inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled.
+
+        min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e
+
+    Section 4.1, 7.3 of the paper.
+
+    of: What is stood in for: a field or an object. (object)
+    proxy: The simpler field, g. (field)
+    error: How far apart the surfaces of both may be, e. (number in m; zero or more)
+    margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
+    inside: Of an object: the phase that fills it from e inside of the proxy on. Without it the proxy stands in outside alone. (phase or list of phases; default all)
+    """
+
+@overload
+def level_of_detail(*of: Field | Sequence[Object], viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Field:
+    r"""Levels of a field or an object, from fine to coarse: each stands between two distances from a viewpoint. Without distances the finest stands everywhere, unless a picture is rendered with --detail.
+
+        min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike
+
+    Section 4.1, 7.3 of the paper.
+
+    of: The levels, fields or objects, the finest first. (list of objects)
+    viewpoint: From where distances are measured. ([x, y, z] in m; default [0, 0, 0])
+    distances: Where each level gives way to the next, rising; one less than there are levels. (list of numbers in m; positive; default [])
+    errors: How far the surface of each level but the finest is from that of the finest, rising: what --detail compares with the size of a pixel. A promise of the scene's. (list of numbers in m; positive; default [])
+    """
+@overload
+def level_of_detail(*of: Object | Sequence[Object], viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Object:
+    r"""Levels of a field or an object, from fine to coarse: each stands between two distances from a viewpoint. Without distances the finest stands everywhere, unless a picture is rendered with --detail.
+
+        min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike
+
+    Section 4.1, 7.3 of the paper.
+
+    of: The levels, fields or objects, the finest first. (list of objects)
+    viewpoint: From where distances are measured. ([x, y, z] in m; default [0, 0, 0])
+    distances: Where each level gives way to the next, rising; one less than there are levels. (list of numbers in m; positive; default [])
+    errors: How far the surface of each level but the finest is from that of the finest, rising: what --detail compares with the size of a pixel. A promise of the scene's. (list of numbers in m; positive; default [])
+    """
+
+def set(of: Field | Expression, phase: Phase | str) -> Object:
+    r"""A field filled with one phase.
+
+        φₖ = f,  φ₀ = −f
+
+    Section 4.1 of the paper.
+
+    of: The field. (field)
+    phase: The phase inside. (phase)
+    """
+
+def thin_shell(of: Field | Expression, shell: Phase | str, inside: Phase | str, half_thickness: float) -> Object:
+    r"""A wall of thickness 2t about a field's surface, and what it encloses.
+
+        φᵢ = |f| − t,  φⱼ = f + t,  φ₀ = t − f
+
+    Section 4.1 of the paper.
+
+    of: The field, whose surface is the middle of the wall. (field)
+    shell: The phase of the wall. (phase)
+    inside: The phase within. (phase)
+    half_thickness: Half of the wall, t. (number in m; positive)
+    """
+
+def under(*of: Object | Sequence[Object]) -> Object:
+    r"""Objects together; where several are, a later one replaces the earlier. Folded from the first object to the last.
+
+        φᵢ = max(min(aᵢ, bᵢ), −min over j ≠ i of bⱼ),  φ₀ = max(a₀, b₀)
+
+    Section 4.3 of the paper.
+
+    of: The objects, at least one. (list of objects)
+    """
+
+def over(*of: Object | Sequence[Object]) -> Object:
+    r"""Objects together; where several are, an earlier one replaces the later. Folded from the last object to the first.
+
+        A ∪₊ B = B ∪₋ A;  A ∪₊ (B ∪₊ (C ∪₊ …))
+
+    Section 4.3 of the paper.
+
+    of: The objects, at least one. (list of objects)
+    """
+
+def layered(of: Object, phase: Phase | str, thickness: float) -> Object:
+    r"""Embeds an object in a layer of one more phase.
+
+        φₖ = max(−a₀ − t, a₀),  φ₀ = a₀ + t
+
+    Section 4.5 of the paper.
+
+    of: The object. (object)
+    phase: The phase of the layer. (phase)
+    thickness: Thickness of the layer. (number in m; positive)
+    """
+
+def intersect_shape(of: Object, shape: Field | Expression, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+    r"""Keeps what lies within a shape: of all phases, or of some and the rest unchanged.
+
+        φₖ = max(aₖ, f),  φ₀ = min(a₀, −f) if all phases are cut, else min(a₀, min over the cut k of max(aₖ, −f))
+
+    Section 5.1 of the paper.
+
+    of: The object. (object)
+    shape: The field to keep within. (field)
+    phases: The phases that are cut; all if left out. (phase or list of phases; default all)
+    """
+
+def subtract_shape(of: Object, shape: Field | Expression, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+    r"""Cuts a shape away: from all phases, or from some and the rest unchanged.
+
+        φₖ = max(aₖ, −f),  φ₀ = min(a₀, f) if all phases are cut, else min(a₀, min over the cut k of max(aₖ, f))
+
+    Section 5.1 of the paper.
+
+    of: The object. (object)
+    shape: The field to cut away. (field)
+    phases: The phases that are cut; all if left out. (phase or list of phases; default all)
+    """
+
+def change(of: Object, from_: Phase | str, to: Phase | str, shape: Field | Expression | None = ...) -> Object:
+    r"""Turns one phase into another within a shape (everywhere without one).
+
+        φᵢ = max(aᵢ, −f),  φₖ = min(aₖ, max(aᵢ, f)),  φ₀ = a₀
+
+    Section 5.2 of the paper.
+
+    of: The object. (object)
+    from_: The phase to turn. (phase)
+    to: What it becomes. (phase)
+    shape: Where; everywhere if left out. (field; default none)
+    """
+
+def remove(of: Object, phases: Phase | str | Sequence[Phase | str]) -> Object:
+    r"""Empties phases: vacuum takes their place.
+
+        φₖ absent,  φ₀ = min(a₀, aₖ)
+
+    Section 5.2 of the paper.
+
+    of: The object. (object)
+    phases: The phases to remove. (phase or list of phases)
+    """
+
+def contact(a: Object, b: Object, phase_a: Phase | str, phase_b: Phase | str, alpha: float) -> Object:
+    r"""Two phases pressed against each other: they share the space that both claim.
+
+        f = α aᵢ − (1 − α) bⱼ,  φᵢ = max(aᵢ, f),  φⱼ = max(bⱼ, −f),  φ₀ = max(a₀, b₀)
+
+    Section 4.4 of the paper.
+
+    a: The object A. (object)
+    b: The object B, which replaces A where they are not in contact. (object)
+    phase_a: The phase of A that is in contact. (phase)
+    phase_b: The phase of B that is in contact. (phase)
+    alpha: Where in the overlap they meet: at 0 B has all of it, at 1 A, at 1/2 both are as deep in it. (number; at least 0 and at most 1)
+    """
+
+def contacts(a: Object, b: Object, alpha: float, phases_a: Phase | str | Sequence[Phase | str] | None = ..., phases_b: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+    r"""Contact between sets of phases: objects that press against each other and keep their phases.
+
+        f = α a_K − (1 − α) b_L,  a_K = −min over k ∉ K of aₖ,  b_L likewise,  bⱼ ← max(bⱼ, −f) for j ∈ L,  then A ∪₋ B
+
+    Section 4.4 of the paper.
+
+    a: The object A. (object)
+    b: The object B, which replaces A where they are not in contact. (object)
+    alpha: Where in the overlap they meet: at 0 B has all of it, at 1 A, at 1/2 both are as deep in it. (number; at least 0 and at most 1)
+    phases_a: The phases of A in contact; all if left out. (phase or list of phases; default all)
+    phases_b: The phases of B in contact; all if left out. (phase or list of phases; default all)
+    """
+
+def layered_sequence(of: Object, phases: Sequence[Phase | str], thicknesses: Sequence[float] | np.ndarray) -> Object:
+    r"""Embeds an object in layers, the innermost first.
+
+        φₖ = max(−a₀ − Tₖ, a₀ + Tₖ₋₁),  Tₖ = t₁ + … + tₖ,  φ₀ = a₀ + Tₙ
+
+    Section 4.5 of the paper.
+
+    of: The object. (object)
+    phases: The phase of each layer, from the inside out. (list of phases)
+    thicknesses: The thickness of each layer, from the inside out. (list of numbers in m; positive)
+    """
+
+def smooth_layered(of: Object, phase: Phase | str, thickness: float, radius: float) -> Object:
+    r"""Embeds an object in a layer that fills the grooves between its phases, which are blended in the order of their indices.
+
+        m = smin over i of aᵢ, less t;  φₖ = max(m, a₀),  φ₀ = max(a₀, −m)
+
+    Section 4.5 of the paper.
+
+    of: The object. (object)
+    phase: The phase of the layer. (phase)
+    thickness: Thickness of the layer away from the grooves. (number in m; positive)
+    radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+    """
+
+def unite_shape_below(of: Object, shape: Field | Expression, phase: Phase | str) -> Object:
+    r"""Adds a shape to one phase, below the other phases.
+
+        φₖ = max(min(aₖ, f), −min over j ≠ k of aⱼ),  φ₀ = max(a₀, −f)
+
+    Section 5.1 of the paper.
+
+    of: The object. (object)
+    shape: The field to add. (field)
+    phase: The phase that grows. (phase)
+    """
+
+def smooth_unite_shape(of: Object, shape: Field | Expression, phase: Phase | str, radius: float) -> Object:
+    r"""Melts a shape into one phase, over the other phases.
+
+        s = smin(aₖ, f),  φₖ = s,  φᵢ = max(aᵢ, −s),  φ₀ = max(a₀, −s)
+
+    Section 5.3 of the paper.
+
+    of: The object. (object)
+    shape: The field to add. (field)
+    phase: The phase that grows. (phase)
+    radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+    """
+
+def smooth_unite_shape_below(of: Object, shape: Field | Expression, phase: Phase | str, radius: float) -> Object:
+    r"""Melts a shape into one phase, below the other phases.
+
+        s = smin(aₖ, f),  φₖ = max(s, −min over j ≠ k of aⱼ),  φ₀ = max(a₀, −s)
+
+    Section 5.3 of the paper.
+
+    of: The object. (object)
+    shape: The field to add. (field)
+    phase: The phase that grows. (phase)
+    radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+    """
+
+def smooth_intersect_shape(of: Object, shape: Field | Expression, phase: Phase | str, radius: float) -> Object:
+    r"""Keeps of one phase what lies within a shape, its new edges worn.
+
+        s = −smin(−aₖ, −f),  φₖ = s,  φ₀ = min(a₀, max(aₖ, −s, −f − r))
+
+    Section 5.3 of the paper.
+
+    of: The object. (object)
+    shape: The field to keep within. (field)
+    phase: The phase that is cut. (phase)
+    radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+    """
+
+def smooth_subtract_shape(of: Object, shape: Field | Expression, phase: Phase | str, radius: float) -> Object:
+    r"""Cuts a shape away from one phase, its new edges worn.
+
+        s = −smin(−aₖ, f),  φₖ = s,  φ₀ = min(a₀, max(aₖ, −s, f − r))
+
+    Section 5.3 of the paper.
+
+    of: The object. (object)
+    shape: The field to cut away. (field)
+    phase: The phase that is cut. (phase)
+    radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+    """
+
+def interface(of: Object, phase_a: Phase | str, phase_b: Phase | str, half_thickness: float) -> Object:
+    r"""The thin volume about the interface between two phases, as deep in either.
+
+        S = max(aᵢ, aⱼ) − ε,  φᵢ = max(aᵢ, S),  φⱼ = max(aⱼ, S),  φ₀ = min(a₀, −S, min over k ≠ i, j of aₖ)
+
+    Section 7.4 of the paper.
+
+    of: The object. (object)
+    phase_a: The phase on one side. (phase)
+    phase_b: The phase on the other side. (phase)
+    half_thickness: How deep in either phase, ε. (number in m; positive)
+    """
+
+def interfaces(of: Object, half_thickness: float) -> Object:
+    r"""The thin volumes about all interfaces between phases.
+
+        S = (second smallest of a₁ … aₙ) − ε,  φᵢ = max(aᵢ, S),  φ₀ = min(a₀, −S)
+
+    Section 7.4 of the paper.
+
+    of: The object, of two phases at least. (object)
+    half_thickness: How deep in either phase, ε. (number in m; positive)
+    """
+
+def checker(even: Phase | str, odd: Phase | str, size: float, origin: Sequence[float] | np.ndarray | None = ...) -> Object:
+    r"""Cubes of two phases by turns, filling space.
+
+        φⱼ = s · a · min(q, 1 − q),  φᵢ = −φⱼ,  u = (p − o)/a,  q = u − ⌊u⌋,  s = +1 if ⌊ux⌋ + ⌊uy⌋ + ⌊uz⌋ is even, else −1
+
+    Section 9.1 of the paper.
+
+    even: The phase of the cube at the origin, towards +x, +y, +z. (phase)
+    odd: The phase of its neighbours. (phase)
+    size: Edge length of a cube. (number in m; positive)
+    origin: A corner where cubes meet. ([x, y, z] in m; default [0, 0, 0])
+    """
+
+def layers(phases: Sequence[Phase | str], thicknesses: float | Sequence[float], direction: Sequence[float] | np.ndarray | None = ..., offset: float | None = ...) -> Object:
+    r"""Parallel layers of several phases, repeated without end, filling space.
+
+        φₖ = |m| − tₖ/2,  m = u − P⌊u/P + 1/2⌋,  u = p·n − cₖ,  P = Σ t,  cₖ the middle of layer k
+
+    Section 9.1 of the paper.
+
+    phases: The phases of a period in their order, two or more. (list of phases)
+    thicknesses: The layers' thicknesses; one number stands for all. (number or list of numbers in m; positive)
+    direction: Where the layers follow each other; any length but zero. ([x, y, z]; default [0, 0, 1])
+    offset: Where along it the first layer begins, from the origin. (number in m; default 0)
+    """
+
+def strata(phases: Sequence[Phase | str], thicknesses: float | Sequence[float], direction: Sequence[float] | np.ndarray | None = ..., offset: float | None = ...) -> Object:
+    r"""Parallel layers of several phases, filling space: the first and the last have no end.
+
+        φₖ = max(hₖ₋₁ − u, u − hₖ),  u = p·n − o,  hₖ = t₁ + … + tₖ
+
+    Section 9.1 of the paper.
+
+    phases: The phases in their order, two or more. (list of phases)
+    thicknesses: The layers' thicknesses, the last layer's left out; one number stands for all. (number or list of numbers in m; positive)
+    direction: Where the layers follow each other; any length but zero. ([x, y, z]; default [0, 0, 1])
+    offset: From where along it the first layer is measured, from the origin. (number in m; default 0)
+    """
+
+def voronoi(phases: Sequence[Phase | str], size: float, jitter: float | None = ..., seed: float | None = ...) -> Object:
+    r"""Blocks of several phases, filling space: the cells of an irregular lattice of sites, each with one of the phases. With the same size, jitter and seed they are those of voronoi_cells.
+
+        φₖ = (Dₖ − min over m ≠ k of Dₘ)/2,  Dₖ = distance to the nearest site of phase k
+
+    Section 4.3, 9.1 of the paper.
+
+    phases: Two at least; a cell has each of them as likely, or more so if it is listed twice. (list of phases)
+    size: Of the cubes that have a site each. (number in m; positive)
+    jitter: How irregular: 0 for sites on a cubic lattice, 1 for any place in their cubes. (number; at least 0 and at most 1; default 0.9)
+    seed: Another number, another pattern. (number; at least 0 and at most 288; default 0)
+    """
+
+@overload
+def translate(of: Field, by: Sequence[float] | np.ndarray, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+    r"""Moves without turning.
+
+        φ(p − v)
+
+    Section 6 of the paper.
+
+    of: What is warped: a field or an object. (object)
+    by: Where the origin goes. ([x, y, z] in m)
+    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    """
+@overload
+def translate(of: Object, by: Sequence[float] | np.ndarray, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+    r"""Moves without turning.
+
+        φ(p − v)
+
+    Section 6 of the paper.
+
+    of: What is warped: a field or an object. (object)
+    by: Where the origin goes. ([x, y, z] in m)
+    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    """
+
+@overload
+def rotate(of: Field, angle: float, axis: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+    r"""Turns about an axis through the origin, right-handed.
+
+        φ(Rᵀ p)
+
+    Section 6 of the paper.
+
+    of: What is warped: a field or an object. (object)
+    angle: Angle. (number in degrees)
+    axis: Direction of the axis; any length but zero. ([x, y, z]; default [0, 0, 1])
+    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    """
+@overload
+def rotate(of: Object, angle: float, axis: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+    r"""Turns about an axis through the origin, right-handed.
+
+        φ(Rᵀ p)
+
+    Section 6 of the paper.
+
+    of: What is warped: a field or an object. (object)
+    angle: Angle. (number in degrees)
+    axis: Direction of the axis; any length but zero. ([x, y, z]; default [0, 0, 1])
+    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    """
+
+@overload
+def scale(of: Field, factor: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+    r"""Makes larger or smaller by the same factor everywhere.
+
+        s · φ(p / s)
+
+    Section 6 of the paper.
+
+    of: What is warped: a field or an object. (object)
+    factor: The factor. (number; positive)
+    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    """
+@overload
+def scale(of: Object, factor: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+    r"""Makes larger or smaller by the same factor everywhere.
+
+        s · φ(p / s)
+
+    Section 6 of the paper.
+
+    of: What is warped: a field or an object. (object)
+    factor: The factor. (number; positive)
+    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    """
+
+@overload
+def twist(of: Field, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+    r"""Twists about the z axis.
+
+        φ(R(−k z) p) / λ,  λ = (kρ + √(k²ρ² + 4))/2,  ρ the largest within the bounds
+
+    Section 6 of the paper.
+
+    of: What is warped: a field or an object. (object)
+    rate: Angle for each unit of height. (number in degrees/m)
+    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    """
+@overload
+def twist(of: Object, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+    r"""Twists about the z axis.
+
+        φ(R(−k z) p) / λ,  λ = (kρ + √(k²ρ² + 4))/2,  ρ the largest within the bounds
+
+    Section 6 of the paper.
+
+    of: What is warped: a field or an object. (object)
+    rate: Angle for each unit of height. (number in degrees/m)
+    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    """
+
+@overload
+def stretch(of: Field, factors: Sequence[float] | np.ndarray, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+    r"""Makes larger or smaller by a factor of its own along each axis.
+
+        φ(x/sx, y/sy, z/sz) · min(sx, sy, sz)
+
+    Section 6 of the paper.
+
+    of: What is warped: a field or an object. (object)
+    factors: The factors along x, y and z. ([x, y, z]; positive)
+    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    """
+@overload
+def stretch(of: Object, factors: Sequence[float] | np.ndarray, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+    r"""Makes larger or smaller by a factor of its own along each axis.
+
+        φ(x/sx, y/sy, z/sz) · min(sx, sy, sz)
+
+    Section 6 of the paper.
+
+    of: What is warped: a field or an object. (object)
+    factors: The factors along x, y and z. ([x, y, z]; positive)
+    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    """
+
+@overload
+def mirror(of: Field, normal: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+    r"""Makes symmetric to a plane through the origin: the half that the normal points to is kept and reflected.
+
+        φ(p − 2 min(p·n, 0) n)
+
+    Section 6 of the paper.
+
+    of: What is warped: a field or an object. (object)
+    normal: Direction that points into the half that is kept; any length but zero. ([x, y, z]; default [1, 0, 0])
+    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    """
+@overload
+def mirror(of: Object, normal: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+    r"""Makes symmetric to a plane through the origin: the half that the normal points to is kept and reflected.
+
+        φ(p − 2 min(p·n, 0) n)
+
+    Section 6 of the paper.
+
+    of: What is warped: a field or an object. (object)
+    normal: Direction that points into the half that is kept; any length but zero. ([x, y, z]; default [1, 0, 0])
+    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    """
+
+@overload
+def taper(of: Field, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+    r"""Narrows or widens along the z axis.
+
+        φ(x/s, y/s, z) / λ,  s = 1 + c z
+
+    Section 6 of the paper.
+
+    of: What is warped: a field or an object. (object)
+    rate: Change of size for each unit of height; at z = 0 the size stays. (number in 1/m)
+    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    """
+@overload
+def taper(of: Object, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+    r"""Narrows or widens along the z axis.
+
+        φ(x/s, y/s, z) / λ,  s = 1 + c z
+
+    Section 6 of the paper.
+
+    of: What is warped: a field or an object. (object)
+    rate: Change of size for each unit of height; at z = 0 the size stays. (number in 1/m)
+    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    """
+
+@overload
+def bend(of: Field, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+    r"""Bends the x axis into an arc towards +z.
+
+        φ(θ/k, y, (1 − r)/k) / λ,  (r, θ) polar: r sin θ = k x, r cos θ = 1 − k z
+
+    Section 6 of the paper.
+
+    of: What is warped: a field or an object. (object)
+    rate: Angle for each unit along x; negative to bend towards −z. (number in degrees/m)
+    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    """
+@overload
+def bend(of: Object, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+    r"""Bends the x axis into an arc towards +z.
+
+        φ(θ/k, y, (1 − r)/k) / λ,  (r, θ) polar: r sin θ = k x, r cos θ = 1 − k z
+
+    Section 6 of the paper.
+
+    of: What is warped: a field or an object. (object)
+    rate: Angle for each unit along x; negative to bend towards −z. (number in degrees/m)
+    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    """
+
+@overload
+def affine(of: Field, x: Sequence[float] | np.ndarray | None = ..., y: Sequence[float] | np.ndarray | None = ..., z: Sequence[float] | np.ndarray | None = ..., by: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+    r"""Takes the unit vectors to any three that span space, and the origin to a point: shears, stretches, turns and mirrors.
+
+        φ(M⁻¹(p − v))/λ,  M = (x y z),  λ = ‖M⁻¹‖₂
+
+    Section 6 of the paper.
+
+    of: What is warped: a field or an object. (object)
+    x: Where [1, 0, 0] goes, from the image of the origin. ([x, y, z]; default [1, 0, 0])
+    y: Where [0, 1, 0] goes. ([x, y, z]; default [0, 1, 0])
+    z: Where [0, 0, 1] goes. ([x, y, z]; default [0, 0, 1])
+    by: Where the origin goes. ([x, y, z] in m; default [0, 0, 0])
+    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    """
+@overload
+def affine(of: Object, x: Sequence[float] | np.ndarray | None = ..., y: Sequence[float] | np.ndarray | None = ..., z: Sequence[float] | np.ndarray | None = ..., by: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+    r"""Takes the unit vectors to any three that span space, and the origin to a point: shears, stretches, turns and mirrors.
+
+        φ(M⁻¹(p − v))/λ,  M = (x y z),  λ = ‖M⁻¹‖₂
+
+    Section 6 of the paper.
+
+    of: What is warped: a field or an object. (object)
+    x: Where [1, 0, 0] goes, from the image of the origin. ([x, y, z]; default [1, 0, 0])
+    y: Where [0, 1, 0] goes. ([x, y, z]; default [0, 1, 0])
+    z: Where [0, 0, 1] goes. ([x, y, z]; default [0, 0, 1])
+    by: Where the origin goes. ([x, y, z] in m; default [0, 0, 0])
+    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    """
+
+@overload
+def distort(of: Field, amplitude: float, scale: float, octaves: float | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+    r"""Moves space by fractal noise: bends what is straight, as rock or smoke is bent.
+
+        φ(p + a (n(p), n(p + u), n(p + v)))/λ,  λ = 1 + √3 a L,  L = 15 octaves/(4 scale Σ 2⁻ⁱ)
+
+    Section 6 of the paper.
+
+    of: What is warped: a field or an object. (object)
+    amplitude: Largest displacement along each axis, a. (number in m; zero or more)
+    scale: Size of the largest swirls. (number in m; positive)
+    octaves: Sizes of swirls, each half the one before; a whole number. (number; at least 1 and at most 6; default 1)
+    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    """
+@overload
+def distort(of: Object, amplitude: float, scale: float, octaves: float | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
+    r"""Moves space by fractal noise: bends what is straight, as rock or smoke is bent.
+
+        φ(p + a (n(p), n(p + u), n(p + v)))/λ,  λ = 1 + √3 a L,  L = 15 octaves/(4 scale Σ 2⁻ⁱ)
+
+    Section 6 of the paper.
+
+    of: What is warped: a field or an object. (object)
+    amplitude: Largest displacement along each axis, a. (number in m; zero or more)
+    scale: Size of the largest swirls. (number in m; positive)
+    octaves: Sizes of swirls, each half the one before; a whole number. (number; at least 1 and at most 6; default 1)
+    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
+    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    """
+
+class materials:
+    @staticmethod
+    def clear(ior: float, absorption: Sequence[float] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | None = ...) -> Material:
+        r"""Vacuum, air, water, glass: light travels inside.
+
+            exp(−a d)
+
+        ior: Refractive index against vacuum. (number; at least 0.1 and at most 10)
+        absorption: Absorption of red, green and blue, a; nothing is absorbed without it. ([r, g, b] in 1/m; zero or more; default none)
+        color: In place of the absorption: what is left of white light after a distance. (colour; more than 0 and at most 1; default none)
+        color_distance: The distance after which the colour is left. (number in m; positive; default 1)
+        roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number; at least 0 and at most 1; default 0)
+        """
+    @staticmethod
+    def diffuse(color: Sequence[float] | str | Texture) -> Material:
+        r"""Paper, plaster, clay: reflects alike in all directions.
+
+        color: Reflectance. (colour or texture)
+        """
+    @staticmethod
+    def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold", "iron", "nickel", "silver", "titanium", "tungsten", "aluminum"] | None = ..., eta: Sequence[float] | np.ndarray | None = ..., k: Sequence[float] | np.ndarray | None = ..., roughness: float | None = ...) -> Material:
+        r"""Metal: one of the measured ones, or with a complex index η + ik of one's own.
+
+        metal: A measured metal. (`"aluminium"`, `"brass"`, `"chromium"`, `"copper"`, `"gold"`, `"iron"`, `"nickel"`, `"silver"`, `"titanium"`, `"tungsten"`, `"aluminum"`; default none)
+        eta: η for red, green and blue; needed unless a metal is named. ([r, g, b]; positive; default none)
+        k: k for red, green and blue; needed unless a metal is named. ([r, g, b]; zero or more; default none)
+        roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number; at least 0 and at most 1; default 0)
+        """
+    @staticmethod
+    def coated(color: Sequence[float] | str | Texture, ior: float | None = ..., roughness: float | None = ...) -> Material:
+        r"""Varnished or glazed: a clear coat over a diffuse base.
+
+        color: Reflectance of the base. (colour or texture)
+        ior: Refractive index of the coat. (number; at least 1 and at most 4; default 1.5)
+        roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number; at least 0 and at most 1; default 0)
+        """
+
+def clear(ior: float, absorption: Sequence[float] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | None = ...) -> Material:
+    r"""Vacuum, air, water, glass: light travels inside.
+
+        exp(−a d)
+
+    ior: Refractive index against vacuum. (number; at least 0.1 and at most 10)
+    absorption: Absorption of red, green and blue, a; nothing is absorbed without it. ([r, g, b] in 1/m; zero or more; default none)
+    color: In place of the absorption: what is left of white light after a distance. (colour; more than 0 and at most 1; default none)
+    color_distance: The distance after which the colour is left. (number in m; positive; default 1)
+    roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number; at least 0 and at most 1; default 0)
+    """
+
+def diffuse(color: Sequence[float] | str | Texture) -> Material:
+    r"""Paper, plaster, clay: reflects alike in all directions.
+
+    color: Reflectance. (colour or texture)
+    """
+
+def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold", "iron", "nickel", "silver", "titanium", "tungsten", "aluminum"] | None = ..., eta: Sequence[float] | np.ndarray | None = ..., k: Sequence[float] | np.ndarray | None = ..., roughness: float | None = ...) -> Material:
+    r"""Metal: one of the measured ones, or with a complex index η + ik of one's own.
+
+    metal: A measured metal. (`"aluminium"`, `"brass"`, `"chromium"`, `"copper"`, `"gold"`, `"iron"`, `"nickel"`, `"silver"`, `"titanium"`, `"tungsten"`, `"aluminum"`; default none)
+    eta: η for red, green and blue; needed unless a metal is named. ([r, g, b]; positive; default none)
+    k: k for red, green and blue; needed unless a metal is named. ([r, g, b]; zero or more; default none)
+    roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number; at least 0 and at most 1; default 0)
+    """
+
+def coated(color: Sequence[float] | str | Texture, ior: float | None = ..., roughness: float | None = ...) -> Material:
+    r"""Varnished or glazed: a clear coat over a diffuse base.
+
+    color: Reflectance of the base. (colour or texture)
+    ior: Refractive index of the coat. (number; at least 1 and at most 4; default 1.5)
+    roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number; at least 0 and at most 1; default 0)
+    """
+
+class textures:
+    @staticmethod
+    def wood(light: Sequence[float] | str | None = ..., dark: Sequence[float] | str | None = ..., ring_spacing: float | None = ..., axis: Sequence[float] | np.ndarray | None = ..., pith: Sequence[float] | np.ndarray | None = ..., seed: int | None = ...) -> Texture:
+        r"""Wood, as a solid: annual rings around an axis, with fibres and pores along it.
+
+        light: Colour of the early wood. (colour; at least 0 and at most 1; default [0.42, 0.24, 0.115])
+        dark: Colour of the late wood. (colour; at least 0 and at most 1; default [0.15, 0.068, 0.03])
+        ring_spacing: Mean width of a ring. (number in m; positive; default 0.1)
+        axis: Direction of the trunk, of any length. ([x, y, z], not all zero; default [0, 0, 1])
+        pith: A point on the middle line of the trunk. ([x, y, z] in m; default [0, 0, 0])
+        seed: Another whole number gives another piece. (whole number; zero or more; default 0)
+        """
+    @staticmethod
+    def speckle(color: Sequence[float] | str | None = ..., other: Sequence[float] | str | None = ..., grain: float | None = ..., contrast: float | None = ..., seed: int | None = ...) -> Texture:
+        r"""Grains, as of sand: each has a colour and a brightness of its own.
+
+        color: One colour of the grains. (colour; at least 0 and at most 1; default [0.58, 0.42, 0.24])
+        other: The other colour; a grain is a mixture of both. (colour; at least 0 and at most 1; default [0.7, 0.57, 0.39])
+        grain: Mean distance of the grains. (number in m; positive; default 0.01)
+        contrast: From grains that are all alike, 0, to very different ones, 1. (number; at least 0 and at most 1; default 0.5)
+        seed: Another whole number gives another piece. (whole number; zero or more; default 0)
+        """
+    @staticmethod
+    def marble(color: Sequence[float] | str | None = ..., vein: Sequence[float] | str | None = ..., scale: float | None = ..., seed: int | None = ...) -> Texture:
+        r"""A ground colour that is crossed by veins.
+
+        color: Colour of the ground. (colour; at least 0 and at most 1; default [0.82, 0.8, 0.77])
+        vein: Colour of the veins. (colour; at least 0 and at most 1; default [0.2, 0.21, 0.24])
+        scale: Mean distance of the veins. (number in m; positive; default 1)
+        seed: Another whole number gives another piece. (whole number; zero or more; default 0)
+        """
+    @staticmethod
+    def checker(even: Sequence[float] | str | None = ..., odd: Sequence[float] | str | None = ..., size: float | None = ..., origin: Sequence[float] | np.ndarray | None = ...) -> Texture:
+        r"""Two colours in alternate cubes, which are squares on any plane along two axes.
+
+        even: Colour of the even cubes. (colour; at least 0 and at most 1; default [0.8, 0.8, 0.8])
+        odd: Colour of the odd cubes. (colour; at least 0 and at most 1; default [0.2, 0.2, 0.2])
+        size: Length of the edge of a cube. (number in m; positive; default 1)
+        origin: A corner of an even cube. A plane should pass between corners. ([x, y, z] in m; default [0, 0, 0])
+        """
+
+class lights:
+    @staticmethod
+    def constant(radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | Expression | None = ...) -> Light:
+        r"""The same radiance from everywhere.
+
+        radiance: Radiance from every direction. (colour; zero or more; default [1, 1, 1])
+        intensity: A factor of the radiance. (number; zero or more; default 1)
+        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
+        """
+    @staticmethod
+    def gradient(zenith: Sequence[float] | str, horizon: Sequence[float] | str, ground: Sequence[float] | str, intensity: float | None = ..., softness: float | None = ..., group: str | Expression | None = ...) -> Light:
+        r"""Three colours that run smoothly into each other with the height.
+
+            mix(horizon, zenith or ground, S(min(|z|/softness, 1))),  S(t) = t² (3 − 2t)
+
+        zenith: Radiance from straight above. (colour; zero or more)
+        horizon: Radiance from the horizon. (colour; zero or more)
+        ground: Radiance from straight below. (colour; zero or more)
+        intensity: A factor of the three radiances. (number; zero or more; default 1)
+        softness: Sine of the elevation at which the zenith's or the ground's colour is reached. (number; more than 0 and at most 1; default 1)
+        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
+        """
+    @staticmethod
+    def image(file: str | PathLike[str], rotation: float | None = ..., intensity: float | None = ..., group: str | Expression | None = ...) -> Light:
+        r"""An environment from a lat-long image, which is twice as wide as high.
+
+        file: An image that OpenImageIO reads row by row (OpenEXR, Radiance, TIFF, PNG, JPEG …), at most 16384 × 8192 pixels. (name of a file)
+        rotation: Angle by which it is turned, clockwise as seen from above. (number in degrees; default 0)
+        intensity: A factor of the image. (number; zero or more; default 1)
+        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
+        """
+    @staticmethod
+    def sky(sun_elevation: float | None = ..., sun_azimuth: float | None = ..., sun_diameter: float | None = ..., turbidity: float | None = ..., ground: Sequence[float] | str | None = ..., intensity: float | None = ..., sun: bool | None = ..., group: str | Expression | None = ...) -> Light:
+        r"""A clear sky, its sun, and the ground below, by a model of the atmosphere. White level ground has the luminance 1 under a sun 45° high at turbidity 3.
+
+        sun_elevation: Height of the sun above the horizon; down to −8 there is twilight. (number in degrees; at least -90 and at most 90; default 45)
+        sun_azimuth: Direction of the sun, clockwise from +y. (number in degrees; at least -1000000 and at most 1000000; default 0)
+        sun_diameter: Angular diameter of the sun. (number in degrees; more than 0 and at most 90; default 0.53)
+        turbidity: Haze: 2 is very clear, 3 clear, 6 hazy. (number; at least 1 and at most 10; default 3)
+        ground: Reflectance of the ground, which is diffuse. (colour; at least 0 and at most 1; default [0.3, 0.3, 0.3])
+        intensity: A factor of all of it. (number; at least 0 and at most 1e30; default 1)
+        sun: Whether the sun itself shines, too. (true or false; default true)
+        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
+        """
+    @staticmethod
+    def sun(direction: Sequence[float] | np.ndarray, irradiance: Sequence[float] | str | None = ..., diameter: float | None = ..., group: str | Expression | None = ...) -> Light:
+        r"""A disk of constant radiance infinitely far away.
+
+            L = E/(π sin²(δ/2))
+
+        direction: Direction towards the sun, of any length. ([x, y, z], not all zero)
+        irradiance: What a surface receives that faces the sun, E. (colour; zero or more; default [1, 1, 1])
+        diameter: Angular diameter, δ. A larger sun makes softer shadows of the same brightness. (number in degrees; more than 0 and at most 90; default 0.53)
+        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
+        """
+    @staticmethod
+    def rectangle(centre: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, width: float, height: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | Expression | None = ...) -> Light:
+        r"""A rectangle that shines to one side and is not there from behind.
+
+        centre: Its centre. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        target: A point that it shines towards. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        width: Length of its horizontal edge; along x if it faces up or down. (number in m; more than 0 and at most 1e15)
+        height: Length of its other edge. (number in m; more than 0 and at most 1e15)
+        radiance: Radiance of its side that shines. (colour; zero or more; default [1, 1, 1])
+        intensity: A factor of the radiance. (number; zero or more; default 1)
+        visible_to_camera: Whether the camera sees it by itself. (true or false; default true)
+        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
+        """
+    @staticmethod
+    def sphere(centre: Sequence[float] | np.ndarray, radius: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | Expression | None = ...) -> Light:
+        r"""A ball that shines.
+
+        centre: Its centre. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        radius: Its radius. (number in m; more than 0 and at most 1e15)
+        radiance: Radiance of its surface. (colour; zero or more; default [1, 1, 1])
+        intensity: A factor of the radiance. (number; zero or more; default 1)
+        visible_to_camera: Whether the camera sees it by itself. (true or false; default true)
+        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
+        """
+
+class meshes:
+    @staticmethod
+    def obj(material: Material, file: str | PathLike[str], scale: float | None = ..., rotate_z: float | None = ..., y_up: bool | None = ..., translate: Sequence[float] | np.ndarray | None = ..., smooth: bool | None = ...) -> Mesh:
+        r"""The faces of a Wavefront OBJ file, of at most 1 GiB. Faces are made larger or smaller first, then turned, then moved.
+
+        material: What it is made of. (opaque material)
+        file: The file. (name of a file)
+        scale: A factor of its size. (number; positive; default 1)
+        rotate_z: Angle by which it is turned about the z axis, anticlockwise from above. (number in degrees; default 0)
+        y_up: Whether y is up in the file, and not z. (true or false; default false)
+        translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])
+        smooth: Whether it is shaded as if it were smooth. (true or false; default true)
+        """
+    @staticmethod
+    def floor(material: Material, height: float | None = ..., size: float | None = ...) -> Mesh:
+        r"""A horizontal square about the z axis.
+
+        material: What it is made of. (opaque material)
+        height: Its z. (number in m; at least -1e15 and at most 1e15; default 0)
+        size: Length of its edges. (number in m; more than 0 and at most 1e15; default 1000)
+        """
+    @staticmethod
+    def backdrop(material: Material, height: float | None = ..., distance: float | None = ..., radius: float | None = ..., width: float | None = ..., front: float | None = ..., wall: float | None = ...) -> Mesh:
+        r"""A photographer's sweep: a floor that curves up into a wall behind, without an edge.
+
+        material: What it is made of. (opaque material)
+        height: z of the floor. (number in m; at least -1e15 and at most 1e15; default 0)
+        distance: y of the wall. (number in m; more than 0 and at most 1e15; default 5)
+        radius: Radius of the curve between floor and wall. (number in m; more than 0 and at most 1e15; default 2)
+        width: Length along x. (number in m; more than 0 and at most 1e15; default 100)
+        front: The floor begins at y = −front. (number in m; more than 0 and at most 1e15; default 50)
+        wall: Height of the wall above the curve. (number in m; more than 0 and at most 1e15; default 50)
+        """
+
+class cameras:
+    @staticmethod
+    def thin_lens(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, up: Sequence[float] | np.ndarray | None = ..., filter: Literal["blackman_harris", "box"] | None = ..., fov: float | None = ..., lens_radius: float | None = ..., focus_distance: float | None = ..., focus_at: Sequence[float] | np.ndarray | None = ...) -> Camera:
+        r"""A lens with a plane of focus; a pinhole, if its radius is 0. The kind need not be named.
+
+        position: Where it is. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        look_at: A point in the middle of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        up: A direction that is up in the image; +y, or +x, if it looks along that. ([x, y, z]; default [0, 0, 1])
+        filter: How samples are spread about the middle of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
+        fov: Angle between the upper and the lower edge of the image. (number in degrees; more than 0 and less than 180; default 40)
+        lens_radius: Radius of the lens; what is out of focus blurs by it. (number in m; at least 0 and at most 1e15; default 0)
+        focus_distance: Distance of the plane of focus; without it, the plane is at look_at. (number in m; positive; default none)
+        focus_at: In place of the distance: a point of the plane of focus. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
+        """
+    @staticmethod
+    def orthographic(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, height: float, up: Sequence[float] | np.ndarray | None = ..., filter: Literal["blackman_harris", "box"] | None = ...) -> Camera:
+        r"""All rays are parallel, so that lengths across them are the same at any distance.
+
+        position: Where it is. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        look_at: A point in the middle of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        height: What the height of the whole image shows. (number in m; more than 0 and at most 1e10)
+        up: A direction that is up in the image; +y, or +x, if it looks along that. ([x, y, z]; default [0, 0, 1])
+        filter: How samples are spread about the middle of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
+        """
+
+def camera(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, up: Sequence[float] | np.ndarray | None = ..., filter: Literal["blackman_harris", "box"] | None = ..., fov: float | None = ..., lens_radius: float | None = ..., focus_distance: float | None = ..., focus_at: Sequence[float] | np.ndarray | None = ...) -> Camera:
+    r"""A lens with a plane of focus; a pinhole, if its radius is 0. The kind need not be named.
+
+    position: Where it is. ([x, y, z] in m; at least -1e15 and at most 1e15)
+    look_at: A point in the middle of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
+    up: A direction that is up in the image; +y, or +x, if it looks along that. ([x, y, z]; default [0, 0, 1])
+    filter: How samples are spread about the middle of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
+    fov: Angle between the upper and the lower edge of the image. (number in degrees; more than 0 and less than 180; default 40)
+    lens_radius: Radius of the lens; what is out of focus blurs by it. (number in m; at least 0 and at most 1e15; default 0)
+    focus_distance: Distance of the plane of focus; without it, the plane is at look_at. (number in m; positive; default none)
+    focus_at: In place of the distance: a point of the plane of focus. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
+    """
+
+def image(width: int | None = ..., height: int | None = ..., samples: int | None = ..., seed: int | None = ..., max_depth: int | None = ..., caustics: bool | None = ..., photons: float | None = ..., photon_radius: float | None = ..., exposure: float | None = ..., view: str | Expression | None = ...) -> ImageSettings:
+    r"""How large the image is, and how it is made.
+
+    width: Width of the image. (whole number in pixels; at least 1 and at most 32768; default 1024)
+    height: Height of the image. (whole number in pixels; at least 1 and at most 32768; default 768)
+    samples: Paths of each pixel. (whole number; at least 1 and at most 16777216; default 64)
+    seed: Another whole number gives other noise. (whole number; zero or more; default 0)
+    max_depth: The most surfaces that a path meets. One between equal indices counts, too. (whole number; at least 1 and at most 1048576; default 65536)
+    caustics: Whether photons look for the light that lamps throw through curved clear surfaces. They blur it by a pixel or two, less with more samples. (true or false; default false)
+    photons: For caustics: photons for each pixel and sample. (number; at least 0 and at most 64; default 1)
+    photon_radius: For caustics: how far around a point photons count as light on it, in the first pass. (number in pixels; at least 0.01 and at most 100; default 2)
+    exposure: Brightness of pictures; one more is twice as bright. (number in EV; at least -50 and at most 50; default 0)
+    view: View of the display transform; the default one without it. (text; default none)
+    """
+

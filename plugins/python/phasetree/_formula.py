@@ -1,0 +1,244 @@
+"""Formulas of x, y and z: arithmetic that makes a field."""
+
+from __future__ import annotations
+
+import numbers
+
+from phasetree._errors import Error
+
+#: The functions of formulas, and how many arguments each takes.
+FUNCTIONS = {
+    "sqrt": (1, 1),
+    "abs": (1, 1),
+    "min": (2, None),
+    "max": (2, None),
+    "sin": (1, 1),
+    "cos": (1, 1),
+    "tan": (1, 1),
+    "exp": (1, 1),
+    "tanh": (1, 1),
+    "length": (2, 3),
+    "clamp": (3, 3),
+    "smooth_min": (3, 3),
+    "smooth_max": (3, 3),
+    "square": (1, 1),
+}
+
+# NumPy's functions of the same meaning: np.sqrt(x) of an expression is one.
+_UFUNCS = {
+    "add": "+",
+    "subtract": "-",
+    "multiply": "*",
+    "divide": "/",
+    "true_divide": "/",
+    "power": "^",
+    "negative": "negate",
+    "absolute": "abs",
+    "fabs": "abs",
+    "minimum": "min",
+    "maximum": "max",
+    "hypot": "length",
+    **{name: name for name in ("sqrt", "sin", "cos", "tan", "exp", "tanh", "square")},
+}
+
+
+class Expression:
+    """A number for each point: x, y, z and what is computed of them. Immutable.
+
+    It stands for a field wherever one is needed, glass(x**2 + y**2 - 1), and is the solid where it is negative.
+    within(low, high) cuts that to a box, which formulas need whose slope grows without bound. Floats of the formula are
+    those of single precision; it is divided by a bound of its slope, which is found when the field is made.
+    """
+
+    __slots__ = ("_bounds", "_field", "_height", "_of", "_what")
+
+    def __init__(self, what, of=(), bounds=None):
+        self._what = what  # the text of a leaf, an operator, or a function's name
+        self._of = of
+        self._bounds = bounds
+        self._field = None
+        self._height = 1 + max((e._height for e in of), default=0)
+
+    @property
+    def text(self):
+        """The formula as a scene file has it."""
+        return _Writer(self).text()
+
+    def within(self, low, high):
+        """The same, cut to the box with these corners; a number stands for the same along each axis."""
+        corners = tuple(tuple(c) if hasattr(c, "__iter__") else (c, c, c) for c in (low, high))
+        return Expression(self._what, self._of, corners)
+
+    def field(self):
+        """The field: Error if the slope has no bound, with the place in the formula."""
+        if self._field is None:
+            from phasetree import _trees
+
+            self._field = _trees.functions["formula"](self.text, self._bounds)
+        return self._field
+
+    def _with(self, sign, other, swapped=False):
+        from phasetree import _trees
+
+        if isinstance(other, (_trees.Field, _trees.Object)):
+            if sign != "-" or isinstance(other, _trees.Object):
+                return NotImplemented
+            raise TypeError(
+                "a formula less a field may mean a number or a difference of solids: "
+                "formula.field() - field is the latter"
+            )
+        other = expression(other)
+        return NotImplemented if other is None else Expression(sign, (other, self) if swapped else (self, other))
+
+    def __add__(self, other):
+        return self._with("+", other)
+
+    def __radd__(self, other):
+        return self._with("+", other, True)
+
+    def __sub__(self, other):
+        return self._with("-", other)
+
+    def __rsub__(self, other):
+        return self._with("-", other, True)
+
+    def __mul__(self, other):
+        return self._with("*", other)
+
+    def __rmul__(self, other):
+        return self._with("*", other, True)
+
+    def __truediv__(self, other):
+        return self._with("/", other)
+
+    def __rtruediv__(self, other):
+        return self._with("/", other, True)
+
+    def __pow__(self, other):
+        if not isinstance(other, numbers.Real):
+            raise Error(f"an exponent must be a number, but is {other!r}")
+        return self._with("^", other)
+
+    def __neg__(self):
+        return Expression("negate", (self,))
+
+    def __pos__(self):
+        return self
+
+    def __abs__(self):
+        return Expression("abs", (self,))
+
+    def __or__(self, other):
+        return self.field() | other
+
+    def __and__(self, other):
+        return self.field() & other
+
+    def __bool__(self):
+        raise TypeError("a formula is no truth value: pt.min and pt.max choose between numbers")
+
+    def __array_ufunc__(self, ufunc, method, *inputs, **options):
+        name = _UFUNCS.get(ufunc.__name__)
+        if method != "__call__" or options or name is None:
+            return NotImplemented
+        of = tuple(expression(i) for i in inputs)
+        return NotImplemented if None in of else Expression(name, of)
+
+    def __getattr__(self, name):
+        # What can be done with a field can be done with what stands for one.
+        if name.startswith("_"):
+            raise AttributeError(name)
+        from phasetree import _trees
+
+        if not hasattr(_trees.Field, name):
+            raise AttributeError(f"a formula has no {name!r}")
+        return getattr(self.field(), name)
+
+    def __repr__(self):
+        text = self.text
+        return f"<Expression {text if len(text) <= 100 else text[:97] + '…'}>"
+
+
+def expression(value):
+    """A number or an expression as an expression; None for what is neither."""
+    if isinstance(value, Expression):
+        return value
+    if isinstance(value, numbers.Real) and not isinstance(value, bool):
+        number = float(value)
+        if number != number or number in (float("inf"), float("-inf")):
+            raise Error(f"a formula's numbers must be finite, but here is {number}")
+        text = repr(int(number)) if number == int(number) and abs(number) < 1e15 else repr(number)
+        return Expression(text if number >= 0 else f"({text})")
+    return None
+
+
+class _Writer:
+    """Text of an expression. What is used more than once, or far down, gets a name."""
+
+    deepest = 20  # levels of brackets before a name
+
+    def __init__(self, root):
+        self.order, self.uses, self.names, self.levels = [], {}, {}, {}
+        open_, seen = [(root, False)], set()
+        while open_:
+            one, is_done = open_.pop()
+            if is_done:
+                self.order.append(one)
+                continue
+            self.uses[id(one)] = self.uses.get(id(one), 0) + 1
+            if id(one) in seen:
+                continue
+            seen.add(id(one))
+            open_.append((one, True))
+            open_ += [(e, False) for e in reversed(one._of)]
+        self.root = root
+
+    def text(self):
+        texts, lines = {}, []
+        for one in self.order:
+            text = self.joined(one, [texts[id(e)] for e in one._of])
+            level = 1 + max((self.levels[id(e)] for e in one._of), default=0)
+            if one is not self.root and one._of and (self.uses[id(one)] > 1 or level >= self.deepest):
+                name = f"v{len(lines) + 1}"
+                lines.append(f"{name} = {text}; ")
+                text, level = name, 0
+            texts[id(one)], self.levels[id(one)] = text, level
+        text = texts[id(self.root)]
+        if self.root._what in ("+", "-", "*", "/", "negate") and self.root._of:
+            text = text[1:-1]
+        return "".join(lines) + text
+
+    @staticmethod
+    def joined(one, of):
+        if not of:
+            return one._what
+        if one._what == "negate":
+            return f"(-{of[0]})"
+        if one._what == "^":
+            return f"{of[0]}^{of[1].strip('()')}"
+        if one._what in "+-*/":
+            return f"({of[0]} {one._what} {of[1]})"
+        return f"{one._what}({', '.join(of)})"
+
+
+def coordinates():
+    """x, y and z, of which formulas are made: x, y, z = pt.coordinates()."""
+    return Expression("x"), Expression("y"), Expression("z")
+
+
+def _function(name, least, most):
+    def apply(*values):
+        if len(values) < least or (most is not None and len(values) > most):
+            raise TypeError(f"{name} takes {least if least == most else f'{least} or more'} numbers")
+        of = tuple(expression(v) for v in values)
+        if None in of:
+            raise Error(f"{name} is of numbers and of what pt.coordinates() gives, but here is {values[of.index(None)]!r}")
+        return Expression(name, of)
+
+    apply.__name__ = apply.__qualname__ = name
+    apply.__doc__ = f"The function {name} of formulas: see pt.formula."
+    apply.__module__ = "phasetree"
+    return apply
+
+
+functions = {name: _function(name, *count) for name, count in FUNCTIONS.items()}

@@ -1,0 +1,99 @@
+"""What a scene has beside its object: materials, textures, lights, meshes, cameras and the image's settings."""
+
+from __future__ import annotations
+
+import json
+import types
+
+from phasetree import _phasetree, _reference
+
+_CHECKED_AS = {
+    "Materials": ("material", lambda text: text),
+    "Textures": ("material", lambda text: {"diffuse": {"color": text}}),
+    "Lights": ("lights", lambda text: {"lights": [text]}),
+    "Meshes": ("meshes", lambda text: [text]),
+    "Cameras": ("camera", lambda text: text),
+    "Image": ("render", lambda text: text["render"]),
+}
+
+
+class Part:
+    """A material, texture, light, mesh, camera, or the image's settings: a kind and its parameters, checked."""
+
+    __slots__ = ("_text", "chapter", "kind")
+
+    def __init__(self, chapter, kind, value):
+        object.__setattr__(self, "chapter", chapter)
+        object.__setattr__(self, "kind", kind)
+        object.__setattr__(self, "_text", json.dumps(value, ensure_ascii=False))
+
+    def __setattr__(self, name, value):
+        raise AttributeError(f"a {self.kind} cannot be changed; make another one")
+
+    def written(self):
+        """As JSON has it."""
+        return json.loads(self._text)
+
+    def parameters(self):
+        """What was said of it."""
+        return self.written()[self.kind]
+
+    def __eq__(self, other):
+        return isinstance(other, Part) and (self.chapter, self._text) == (other.chapter, other._text)
+
+    def __hash__(self):
+        return hash(self._text)
+
+    def __repr__(self):
+        said = ", ".join(f"{_reference.python_name(k)}={v!r}" for k, v in self.parameters().items())
+        return f"{self.kind}({said})"
+
+
+def _function(kind):
+    signature = kind.signature()
+
+    def make(*arguments, **named):
+        values = {}
+        for p, value in kind.bound(signature, arguments, named).items():
+            is_file = p.type == "name of a file"
+            what = f'{kind.name}: "{p.name}"'
+            values[p.name] = _reference.file_name(value) if is_file else _reference.written(value, what)
+        part = Part(kind.chapter, kind.name, {kind.name: values})
+        checked_as, around = _CHECKED_AS[kind.chapter]
+        _phasetree.check_part(checked_as, json.dumps(around(part.written()), ensure_ascii=False))
+        return part
+
+    make.__name__ = make.__qualname__ = kind.name
+    make.__doc__ = kind.doc
+    make.__signature__ = signature
+    make.__module__ = "phasetree"
+    return make
+
+
+def _module(title, kinds):
+    module = types.SimpleNamespace()
+    for kind in kinds:
+        setattr(module, kind.name, _function(kind))
+    module.__doc__ = title
+    return module
+
+
+_chapters = {title: kinds for title, kinds in _reference.chapters() if title in _CHECKED_AS}
+kinds = _chapters
+materials = _module("Materials: what phases and meshes are made of.", _chapters["Materials"])
+textures = _module("Textures: colours that differ from place to place.", _chapters["Textures"])
+lights = _module("Lights.", _chapters["Lights"])
+meshes = _module("Meshes: what stands beside the object.", _chapters["Meshes"])
+cameras = _module("Cameras.", _chapters["Cameras"])
+image = _function(_chapters["Image"][0])
+image.__name__ = image.__qualname__ = "image"
+
+
+def part_of(chapter, value):
+    """A part as a scene file says it, which was checked there. A camera of no kind is a thin lens."""
+    names = [kind.name for kind in _chapters[chapter]]
+    if chapter == "Image":
+        value = {"render": value}
+    if chapter == "Cameras" and not (len(value) == 1 and next(iter(value)) in names):
+        value = {names[0]: value}
+    return Part(chapter, next(iter(value)), value)

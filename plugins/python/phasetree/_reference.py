@@ -1,0 +1,152 @@
+"""Kinds of things as the library lists them: how they are called, documented and written as text."""
+
+from __future__ import annotations
+
+import difflib
+import inspect
+import json
+import keyword
+import math
+import os
+
+from phasetree import _phasetree
+from phasetree._errors import Error
+
+_HANDLES = ("field", "object", "list of fields", "list of objects")
+
+
+def python_name(name):
+    """A parameter's name as Python can have it."""
+    return name + "_" if keyword.iskeyword(name) else name
+
+
+class Parameter:
+    """A parameter of a kind: its description from the list, and how it is passed."""
+
+    def __init__(self, page):
+        self.name = page["name"]
+        self.python_name = python_name(self.name)
+        self.type = page["type"]
+        self.unit = page["unit"]
+        self.description = page["description"]
+        self.limits = page["limits"]
+        self.optional = page["optional"]
+        self.written_default = page["default"]
+        self.is_handle = self.type in _HANDLES
+        self.is_list = self.type.startswith("list of ")
+
+    @property
+    def default(self):
+        """As a value of Python; None for what a word says, such as "all"."""
+        try:
+            value = json.loads(self.written_default)
+        except ValueError:
+            return None
+        return tuple(value) if isinstance(value, list) else value
+
+    @property
+    def text(self):
+        parts = [self.type + (f" in {self.unit}" if self.unit else ""), self.limits]
+        if self.optional:
+            parts.append(f"default {self.written_default}")
+        return f"{self.python_name}: {self.description} ({'; '.join(p for p in parts if p)})"
+
+
+class Kind:
+    """A kind of thing, and the order in which Python takes its parameters: what it is made of comes first."""
+
+    def __init__(self, chapter, page):
+        self.chapter = chapter
+        self.name = page["name"]
+        self.section = page["section"]
+        self.equation = page["equation"]
+        self.summary = page["summary"]
+        listed = [Parameter(p) for p in page["parameters"]]
+        required = [p for p in listed if not p.optional]
+        self.parameters = [p for p in required if p.is_handle] + [p for p in required if not p.is_handle]
+        self.parameters += [p for p in listed if p.optional]
+        # Of what it is made of in any number the arguments are as many: union(a, b, c).
+        self.many = next((p for p in self.parameters if p.is_handle and p.is_list and not p.optional), None)
+
+    @property
+    def doc(self):
+        text = self.summary
+        if self.equation:
+            text += f"\n\n    {self.equation}"
+        if self.section:
+            text += f"\n\nSection {self.section} of the paper."
+        return text + "\n\n" + "\n".join(p.text for p in self.parameters)
+
+    def signature(self):
+        seen_many = False
+        arguments = []
+        for p in self.parameters:
+            how = inspect.Parameter.KEYWORD_ONLY if seen_many else inspect.Parameter.POSITIONAL_OR_KEYWORD
+            if p is self.many:
+                how, seen_many = inspect.Parameter.VAR_POSITIONAL, True
+            default = p.default if p.optional else inspect.Parameter.empty
+            arguments.append(inspect.Parameter(p.python_name, how, default=default))
+        return inspect.Signature(arguments)
+
+    def bound(self, signature, arguments, named):
+        """What was passed, by the names of the list."""
+        if self.many and self.many.python_name in named:
+            raise Error(f'{self.name}: what it is made of comes first and unnamed: {self.name}(a, b, …)')
+        known = [p.python_name for p in self.parameters]
+        for name in named:
+            if name not in known:
+                close = difflib.get_close_matches(name, known, 1)
+                meant = f' (did you mean "{close[0]}"?)' if close else ""
+                raise TypeError(f'{self.name}: there is no parameter "{name}"{meant}; it has {", ".join(known)}')
+        try:
+            given = signature.bind(*arguments, **named).arguments
+        except TypeError as error:
+            raise TypeError(f"{self.name}: {error}") from None
+        values = {}
+        for p in self.parameters:
+            if p.python_name not in given:
+                continue
+            value = given[p.python_name]
+            if p is self.many and len(value) == 1 and isinstance(value[0], (list, tuple)):
+                value = value[0]
+            if value is None and p.optional:
+                continue
+            values[p] = value
+        return values
+
+
+def chapters():
+    """The chapters of the reference: (title, list of kinds)."""
+    return [(c["title"], [Kind(c["title"], page) for page in c["kinds"]]) for c in _phasetree.chapters()]
+
+
+def written(value, what):
+    """A value as JSON has it. Arrays of NumPy become lists."""
+    if isinstance(value, (str, bool)) or value is None:
+        return value
+    if hasattr(value, "written"):
+        return value.written()
+    if hasattr(value, "text") and hasattr(value, "within"):
+        return value.text  # a formula
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, int):
+        return value
+    if isinstance(value, float):
+        if not math.isfinite(value):
+            raise Error(f"{what} must be a finite number, but is {value}")
+        return value
+    if isinstance(value, dict):
+        return {key: written(v, what) for key, v in value.items()}
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    try:
+        items = list(value)
+    except TypeError:
+        raise Error(f"{what} cannot be {value!r}") from None
+    return [written(item, what) for item in items]
+
+
+def file_name(value):
+    """A file as it is found from any folder."""
+    return os.path.abspath(os.fspath(value))

@@ -1,0 +1,186 @@
+"""Writes the type stubs with which editors complete and check calls: python3 -m phasetree._stubs > __init__.pyi.
+
+They are made from the lists that the functions are made from. What is written by hand in the package is described by
+what it says itself: its annotations would be the same lines again.
+"""
+
+from __future__ import annotations
+
+import inspect
+import textwrap
+
+from phasetree import _formula, _parts, _scene, _trees
+
+_TYPES = {
+    "number": "float",
+    "whole number": "int",
+    "true or false": "bool",
+    "text": "str | Expression",
+    "name of a file": "str | PathLike[str]",
+    "field": "Field | Expression",
+    "object": "Object",
+    "phase": "Phase | str",
+    "phase or list of phases": "Phase | str | Sequence[Phase | str]",
+    "list of phases": "Sequence[Phase | str]",
+    "colour": "Sequence[float] | str",
+    "colour or texture": "Sequence[float] | str | Texture",
+    "opaque material": "Material",
+    "list of fields": "Field | Expression | Sequence[Field | Expression]",
+    "list of objects": "Object | Sequence[Object]",
+}
+_CLASSES = {
+    "Materials": "Material",
+    "Textures": "Texture",
+    "Lights": "Light",
+    "Meshes": "Mesh",
+    "Cameras": "Camera",
+    "Image": "ImageSettings",
+}
+
+
+def _type(name):
+    if name in _TYPES:
+        return _TYPES[name]
+    if name.startswith("number or "):
+        return "float | Sequence[float]"
+    if name.startswith("list of ["):
+        return "Sequence[Sequence[float]] | np.ndarray"
+    if name == "list of numbers":
+        return "Sequence[float] | np.ndarray"
+    if name.startswith("["):
+        return "Sequence[float] | np.ndarray"
+    if name.startswith("`"):
+        return "Literal[" + ", ".join(n.strip("` ") for n in name.split(",")) + "]"
+    raise ValueError(f"no type of Python is known for {name!r}")
+
+
+def _arguments(kind, first=None):
+    """The parameters as a stub has them; `first` is the type of the first one where it is `self`."""
+    parts = ["self"] if first else []
+    for p, argument in zip(kind.parameters, kind.signature().parameters.values()):
+        if first and p is kind.parameters[0]:
+            if p is kind.many:
+                parts.append(f"*{argument.name}: {first}")
+            continue
+        star = "*" if p is kind.many else ""
+        optional = " | None = ..." if p.optional else ""
+        parts.append(f"{star}{argument.name}: {_type(p.type)}{optional}")
+    return ", ".join(parts)
+
+
+def _function(name, kind, result, indent="", first=None, doc=True):
+    head = f"{indent}def {name}({_arguments(kind, first)}) -> {result}:"
+    if not doc:
+        return head + " ...\n"
+    lines = textwrap.indent(f'r"""{kind.doc}\n"""', indent + "    ")
+    return f"{head}\n{lines}\n"
+
+
+def _overloads(name, function, indent="", method_of=None):
+    """A function, or two where a field gives a field and an object an object."""
+    results = [t for t in function.makes if method_of is None or len(function.makes) == 1 or t is method_of]
+    text = ""
+    for result in results:
+        line = _function(name, function.kind, result.__name__, indent, method_of and method_of.__name__)
+        if len(function.makes) == 2:
+            of = result.__name__
+            line = line.replace("of: Object", f"of: {of}", 1)
+            if len(results) == 2:
+                line = f"{indent}@overload\n" + line
+        text += line
+    return text
+
+
+def _plain(member, indent="    "):
+    """A function that is written by hand: its signature as it is, and its documentation."""
+    is_property = isinstance(member, property)
+    function = member.fget if is_property else member
+    doc = inspect.getdoc(function)
+    text = f"{indent}@property\n" if is_property else ""
+    text += f"{indent}def {function.__name__}{_untyped(inspect.signature(function))}:"
+    return text + (f'\n{indent}    r"""{doc}"""\n' if doc else " ...\n")
+
+
+def _untyped(signature):
+    """Defaults as a stub has them."""
+    parameters = [
+        p if p.default is inspect.Parameter.empty else p.replace(default=...) for p in signature.parameters.values()
+    ]
+    return str(signature.replace(parameters=parameters)).replace("Ellipsis", "...")
+
+
+_NUMBER = "Expression | float"
+_OPERATORS = ("__or__", "__and__", "__sub__")
+
+
+def _class(cls, methods=""):
+    text = f"class {cls.__name__}:\n" + textwrap.indent(f'r"""{inspect.getdoc(cls)}"""', "    ") + "\n"
+    for name, member in vars(cls).items():
+        is_generated = name in _trees.functions
+        is_said = not name.startswith("_") or (name == "__init__" and cls in (_scene.Scene, _scene.Image))
+        if is_said and not is_generated and (inspect.isfunction(member) or isinstance(member, property)):
+            text += _plain(member)
+    if cls is _trees.Field:
+        for name in _OPERATORS:
+            text += f"    def {name}(self, other: Field | Expression) -> Field: ...\n"
+    for name in getattr(cls, "__annotations__", {}):
+        text += f"    {name}: np.ndarray\n"
+    return text + methods
+
+
+def _methods(cls):
+    text = ""
+    for name, function in _trees.functions.items():
+        if vars(cls).get(name) is function:
+            text += _overloads(name, function, "    ", cls)
+    return text
+
+
+def text():
+    """The stub file."""
+    out = '"""Written by python3 -m phasetree._stubs from the library\'s lists; see plugins/python/README.md."""\n\n'
+    out += "from os import PathLike\nfrom typing import Any, Literal, NamedTuple, Sequence, overload\n\n"
+    out += "import numpy as np\n\n__version__: str\n\n"
+    out += "class Error(ValueError): ...\n\nclass SceneError(Error):\n    file: str\n    line: int\n    column: int\n"
+    out += "    message: str\n    suggestion: str | None\n\n"
+    for name in _CLASSES.values():
+        out += f"class {name}:\n    kind: str\n    def parameters(self) -> dict[str, Any]: ...\n\n"
+    out += "class Phase:\n    name: str\n    material: Material | None\n"
+    out += "    def __call__(self, *fields: Field | Expression) -> Object: ...\n\n"
+    out += "vacuum: Phase\n\ndef phase(name: str, material: Material | None = ...) -> Phase: ...\n\n"
+    for cls in (_trees.Crossings, _trees.Hits, _trees.Closest):
+        out += _class(cls).replace(f"class {cls.__name__}:", f"class {cls.__name__}(NamedTuple):") + "\n"
+    out += _class(_trees.Field, _methods(_trees.Field)) + "\n"
+    out += "".join(["class Object:\n    phases: tuple[Phase, ...]\n", _class(_trees.Object).split("\n", 1)[1]])
+    out += _methods(_trees.Object) + "\n"
+    out += _class(_scene.Image) + "\n" + _class(_scene.Scene) + "\n"
+    out += _class(_formula.Expression)
+    for name in ("add", "radd", "sub", "rsub", "mul", "rmul", "truediv", "rtruediv"):
+        out += f"    def __{name}__(self, other: {_NUMBER}) -> Expression: ...\n"
+    out += "    def __pow__(self, other: float) -> Expression: ...\n"
+    out += "    def __neg__(self) -> Expression: ...\n    def __abs__(self) -> Expression: ...\n"
+    out += "    def __or__(self, other: Field | Expression) -> Field: ...\n"
+    out += "    def __and__(self, other: Field | Expression) -> Field: ...\n\n"
+    out += "def coordinates() -> tuple[Expression, Expression, Expression]: ...\n\n"
+    for name in _formula.functions:
+        out += f"def {name}(*values: {_NUMBER}) -> Expression: ...\n"
+    out += "\ndef load(path: str | PathLike[str]) -> Scene: ...\n\n"
+    for name, function in _trees.functions.items():
+        out += _overloads(name, function) + "\n"
+    for title, kinds in _parts.kinds.items():
+        if title == "Image":
+            out += _function("image", kinds[0], _CLASSES[title]) + "\n"
+            continue
+        out += f"class {title.lower()}:\n"
+        for kind in kinds:
+            out += "    @staticmethod\n" + _function(kind.name, kind, _CLASSES[title], "    ")
+        out += "\n"
+        for kind in kinds if title == "Materials" else ():
+            out += _function(kind.name, kind, _CLASSES[title]) + "\n"
+        if title == "Cameras":
+            out += _function("camera", kinds[0], _CLASSES[title]) + "\n"
+    return out
+
+
+if __name__ == "__main__":
+    print(text(), end="")

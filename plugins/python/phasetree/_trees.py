@@ -1,0 +1,480 @@
+"""Fields and objects of phases, and the functions and methods that make them, from the list of nodes."""
+
+from __future__ import annotations
+
+import json
+from typing import NamedTuple
+
+import numpy as np
+
+from phasetree import _phasetree, _reference
+from phasetree._errors import Error
+from phasetree._formula import Expression
+from phasetree._phases import Phase, merged, vacuum
+
+
+def _points(values, what="the points"):
+    """(N, 3) floats, contiguous, and the shape in front: the array itself where it is that already."""
+    array = np.ascontiguousarray(values, dtype=np.float32)
+    if array.ndim == 0 or array.shape[-1] != 3:
+        raise Error(f"{what} must have the shape (…, 3), but have {array.shape}")
+    return array.reshape(-1, 3), array.shape[:-1]
+
+
+class Crossings(NamedTuple):
+    """Every crossing along some rays. Those of ray i have the indices offsets[i] to offsets[i + 1]."""
+
+    start: np.ndarray  #: uint8 (N): the phase at each ray's origin
+    offsets: np.ndarray  #: int64 (N + 1)
+    t: np.ndarray  #: float32 (M): a crossing is at origin + t·direction
+    before: np.ndarray  #: uint8 (M): the phase that ends
+    after: np.ndarray  #: uint8 (M): the phase that begins
+    normal: np.ndarray  #: float32 (M, 3): unit, from `before` into `after`
+
+    @property
+    def ray(self):
+        """The number of each crossing's ray."""
+        return np.repeat(np.arange(len(self.start)), np.diff(self.offsets))
+
+    def of_ray(self, i):
+        """The crossings along one ray."""
+        if not -len(self.start) <= i < len(self.start):
+            raise IndexError(f"there are {len(self.start)} rays")
+        i %= len(self.start)
+        part = slice(self.offsets[i], self.offsets[i + 1])
+        found = self.offsets[i : i + 2] - self.offsets[i]
+        arrays = (a[part] for a in (self.t, self.before, self.after, self.normal))
+        return Crossings(self.start[i : i + 1], found, *arrays)
+
+
+class Hits(NamedTuple):
+    """The first crossing along each ray; where there is none, t is infinite and `after` is the phase at the origin."""
+
+    t: np.ndarray
+    before: np.ndarray
+    after: np.ndarray
+    normal: np.ndarray
+
+
+class Closest(NamedTuple):
+    """The closest interface to each point; where there is none, the distance is infinite and the place NaN."""
+
+    distance: np.ndarray
+    point: np.ndarray
+    here: np.ndarray  #: the phase on the point's side
+    there: np.ndarray  #: the phase beyond
+
+
+class Field:
+    """A plain signed distance, negative inside. Immutable.
+
+    a | b is the union, a & b the intersection, a - b the difference; a.smooth(r) | b and so on round the seam with the
+    radius r. Nodes that are made of a field are its methods: a.translate((0, 0, 1)).
+    """
+
+    __slots__ = ("_evaluator_", "_handle_", "_joined", "_phases_", "_radius")
+    # NumPy leaves operators between an array and a field to the field, which refuses them.
+    __array_ufunc__ = None
+
+    def __init__(self, handle, phases=(vacuum,), radius=None):
+        self._handle_ = handle
+        self._phases_ = phases  # of the objects that it is made of, which are mostly none
+        self._joined = None  # (kind, fields) of a | b | c until the handle is asked for
+        self._radius = radius
+        self._evaluator_ = None
+
+    @property
+    def _handle(self):
+        if self._handle_ is None:
+            kind, fields = self._joined
+            made = functions[kind](*fields)
+            self._handle_, self._phases_ = made._handle_, made._phases_
+        return self._handle_
+
+    @property
+    def _phases(self):
+        return self._phases_ if self._handle else ()
+
+    @property
+    def _text(self):
+        return self._handle.text([p.name for p in self._phases[1:]] or ["phase"])
+
+    @property
+    def _evaluator(self):
+        if self._evaluator_ is None:
+            self._evaluator_ = _phasetree.Evaluator(self._handle)
+        return self._evaluator_
+
+    def smooth(self, radius):
+        """The same field, whose next |, & or - rounds the seam with this radius."""
+        radius = float(radius)
+        if not 0 < radius < float("inf"):
+            raise Error(f"the radius of a smooth seam must be positive, but is {radius}")
+        return Field(self._handle, self._phases, radius)
+
+    def _with(self, other, sign, sharp, smooth):
+        other = other.field() if isinstance(other, Expression) else other
+        if isinstance(other, Object) or not isinstance(other, Field):
+            return NotImplemented if not isinstance(other, Object) else other._refuse(self, sign)
+        radii = {r for r in (self._radius, other._radius) if r is not None}
+        if len(radii) > 1:
+            raise Error(f'both sides of "{sign}" are smooth, with the radii {self._radius} and {other._radius}')
+        if radii:
+            return functions[smooth](self, other, radius=radii.pop())
+        if sign == "-":
+            return functions[sharp](self, other)
+        # A long chain is one node, not a deep tree.
+        before = self._joined[1] if self._joined and self._joined[0] == sharp else (self,)
+        result = Field(None)
+        result._joined = (sharp, (*before, other))
+        return result
+
+    def __or__(self, other):
+        return self._with(other, "|", "union", "smooth_union")
+
+    def __and__(self, other):
+        return self._with(other, "&", "intersection", "smooth_intersection")
+
+    def __sub__(self, other):
+        return self._with(other, "-", "difference", "smooth_difference")
+
+    def distance(self, points):
+        """The signed distance at points of the shape (…, 3): float32, negative inside."""
+        array, shape = _points(points)
+        return self._evaluator.component(array, 1).reshape(shape)[()]
+
+    def gradient(self, points):
+        """The gradient of the distance at points: float32 (…, 3)."""
+        array, shape = _points(points)
+        return self._evaluator.gradient(array, 1).reshape(*shape, 3)
+
+    @property
+    def bounds(self):
+        """A box around the points that are not outside: (low, high); infinite where there is none, None if empty."""
+        return self._handle.bounds
+
+    @property
+    def nodes(self):
+        """The number of nodes; those that are shared count once."""
+        return self._handle.nodes
+
+    def to_json(self):
+        """The field as a scene file says it, with the shapes that it shares."""
+        tree = json.loads(self._text)
+        node = tree["tree"]["set"]["of"]
+        return json.dumps({"shapes": tree["shapes"], "of": node} if "shapes" in tree else node)
+
+    def __eq__(self, other):
+        return isinstance(other, Field) and (
+            self._handle.is_same(other._handle) or self._text == other._text
+        )
+
+    __hash__ = None
+
+    def __repr__(self):
+        text = self.to_json()
+        return f"<Field {text if len(text) <= 100 else text[:97] + '…'}>"
+
+
+class Object:
+    """An object of phases, of which exactly one is at any point. Immutable.
+
+    Objects are joined by methods, because order matters: a.over(b), a.under(b), a.contact(b, …). Numbers of phases in
+    arrays are indices into `phases`.
+    """
+
+    __slots__ = ("_evaluator_", "_handle", "_prepared_", "phases")
+    __array_ufunc__ = None
+
+    def __init__(self, handle, phases):
+        self._handle = handle
+        self.phases = phases
+        self._evaluator_ = None
+        self._prepared_ = None
+
+    @property
+    def _phases(self):
+        return self.phases
+
+    @property
+    def names(self):
+        """The names of the phases, the vacuum first."""
+        return tuple(p.name for p in self.phases)
+
+    @property
+    def _materials(self):
+        return [p.name for p in self.phases[1:]]
+
+    def _refuse(self, other, sign, swapped=True):
+        a, b = (other, self) if swapped else (self, other)
+        raise TypeError(
+            f'"{sign}" joins fields, but here are {_named(a)} and {_named(b)}. Which of two objects is over the other '
+            "matters: a.over(b), a.under(b), a.contact(b, …), or a.unite_shape_below(…) with a field"
+        )
+
+    def __or__(self, other):
+        return self._refuse(other, "|", False)
+
+    def __and__(self, other):
+        return self._refuse(other, "&", False)
+
+    def __sub__(self, other):
+        return self._refuse(other, "-", False)
+
+    def __ror__(self, other):
+        return self._refuse(other, "|")
+
+    def __rand__(self, other):
+        return self._refuse(other, "&")
+
+    def __rsub__(self, other):
+        return self._refuse(other, "-")
+
+    def with_phases(self, *phases):
+        """The same object with its phases in this order, which decides between phases at equal distances.
+
+        All that the object has must be there; further ones may be. A phase given here with a material has that one.
+        """
+        wanted = (vacuum, *(p for p in phases if p != vacuum))
+        numbers = {}
+        for i, p in enumerate(wanted):
+            if not isinstance(p, Phase):
+                raise Error(f"{p!r} is no phase")
+            if p.name in numbers:
+                raise Error(f'"{p.name}" is there twice')
+            numbers[p.name] = i
+        used = self._handle.phases
+        kept = []
+        for i, p in enumerate(self.phases):
+            if p.name not in numbers and i in used:
+                raise Error(f'the object has the phase "{p.name}", which is not among those given')
+            kept.append(numbers.get(p.name))
+        spare = iter(sorted(set(range(len(wanted), len(wanted) + len(kept)))))
+        handle = self._handle.renumbered([next(spare) if i is None else i for i in kept])
+        return Object(handle, wanted)
+
+    @property
+    def _evaluator(self):
+        if self._evaluator_ is None:
+            self._evaluator_ = _phasetree.Evaluator(self._handle)
+        return self._evaluator_
+
+    def label(self, points):
+        """The phase at points of the shape (…, 3): uint8, an index into `phases`.
+
+        The array of points is used in place if it is contiguous float32. Where a coordinate is not finite, the vacuum.
+        """
+        array, shape = _points(points)
+        return self._evaluator.label(array).reshape(shape)[()]
+
+    def phi(self, points):
+        """Φ at points: float32 (…, phases), the signed distance to each phase, negative in it.
+
+        Column i is that of phases[i]; infinite if the object never has it.
+        """
+        array, shape = _points(points)
+        return self._evaluator.phi(array, len(self.phases)).reshape(*shape, len(self.phases))
+
+    def gradient(self, points, phase=None):
+        """The gradient at points of the distance to a phase; without one, to the phase that is at the point."""
+        array, shape = _points(points)
+        return self._evaluator.gradient(array, self.index(phase) if phase is not None else -1).reshape(*shape, 3)
+
+    def index(self, phase):
+        """The number that a phase, or one of this name, has in arrays."""
+        name = phase.name if isinstance(phase, Phase) else phase
+        if name not in self.names:
+            raise Error(f'the object has no phase {name!r}; it has {", ".join(self.names)}')
+        return self.names.index(name)
+
+    def prepare(self, quality="medium", resolution=0, progress=None):
+        """Builds the cells in which rays are traced, which happens by itself at the first ray.
+
+        quality: "low" builds faster and traces more slowly. resolution: the thickness of a phase along a ray that is
+        certain to be found; 0 takes 2·10⁻⁶ of the object's size. progress: called with "preparing" and a share of 1.
+        """
+        if quality not in ("low", "medium"):
+            raise Error(f'the quality must be "low" or "medium", but is {quality!r}')
+        self._prepared_ = _phasetree.PreparedObject(self._handle, quality == "low", resolution, progress)
+        return self
+
+    @property
+    def _prepared(self):
+        if self._prepared_ is None:
+            self.prepare()
+        return self._prepared_
+
+    @property
+    def resolution(self):
+        """The thickness of a phase along a ray that is certain to be found."""
+        return self._prepared.resolution
+
+    def trace(self, origins, directions):
+        """Every crossing along rays, given as arrays of the shape (…, 3): see Crossings."""
+        origins, directions, _ = _rays(origins, directions)
+        return Crossings(*self._prepared.trace(origins, directions))
+
+    def intersect(self, origins, directions):
+        """The first crossing along each ray, given as arrays of the shape (…, 3): see Hits."""
+        origins, directions, shape = _rays(origins, directions)
+        t, before, after, normal = self._prepared.intersect(origins, directions)
+        return Hits(t.reshape(shape), before.reshape(shape), after.reshape(shape), normal.reshape(*shape, 3))
+
+    def closest(self, points, radius=float("inf"), tolerance=0.01):
+        """The closest interface to each point, within a radius: see Closest.
+
+        tolerance: by which share the distance may be more than the least.
+        """
+        array, shape = _points(points)
+        distance, point, here, there = self._prepared.closest(array, radius, tolerance)
+        return Closest(distance.reshape(shape), point.reshape(*shape, 3), here.reshape(shape), there.reshape(shape))
+
+    @property
+    def bounds(self):
+        """A box around all that is not vacuum: (low, high); infinite where there is none, None if empty."""
+        return self._handle.bounds
+
+    @property
+    def nodes(self):
+        """The number of nodes; those that are shared count once."""
+        return self._handle.nodes
+
+    def to_json(self):
+        """The object as a scene file without camera says it."""
+        return self._handle.text(self._materials, [_material(p) for p in self.phases[1:]])
+
+    def __eq__(self, other):
+        return isinstance(other, Object) and self.phases == other.phases and self.to_json() == other.to_json()
+
+    __hash__ = None
+
+    def __repr__(self):
+        return f"<Object of {_listed(self.names[1:])}, {self.nodes} nodes>"
+
+
+def _material(phase):
+    return "null" if phase.material is None else json.dumps(phase.material.written(), ensure_ascii=False)
+
+
+def _listed(names):
+    return ", ".join(f'"{n}"' for n in names)
+
+
+def _named(value):
+    return f"an object of {_listed(value.names[1:])}" if isinstance(value, Object) else f"a {type(value).__name__}"
+
+
+def _rays(origins, directions):
+    origins = np.asarray(origins, dtype=np.float32)
+    directions = np.asarray(directions, dtype=np.float32)
+    if origins.shape != directions.shape:
+        origins, directions = np.broadcast_arrays(origins, directions)
+    origins, shape = _points(origins, "the origins")
+    directions, _ = _points(directions, "the directions")
+    return origins, directions, shape
+
+
+_A = {"field": "a field", "object": "an object of phases", "list of fields": "fields", "list of objects": "objects"}
+
+
+def _node_text(kind, values):
+    """A node's text, the handles that it names, and its phases with the handles' numbers among them."""
+    handles, phases = [], []
+    for p, value in values.items():
+        several = value if p.is_handle and p.is_list else [value]
+        if p.is_handle and p.is_list and (isinstance(value, str) or not hasattr(value, "__iter__")):
+            raise Error(f'{kind.name}: "{p.name}" must be several fields or objects, but is {value!r}')
+        for i, one in enumerate(several):
+            if p.is_handle:
+                one = one.field() if isinstance(one, Expression) else one
+                if not isinstance(one, (Field, Object)):
+                    raise Error(f'{kind.name}: "{p.name}" must be {_A[p.type]}, but is {one!r}')
+                handles.append((f"{p.name}[{i}]" if p.is_list else p.name, one))
+            elif isinstance(one, Phase):
+                phases.append(one)
+            elif isinstance(one, (list, tuple)):
+                phases += [v for v in one if isinstance(v, Phase)]
+    all_phases = merged(*(h._phases for _, h in handles), phases)
+    number = {p.name: i for i, p in enumerate(all_phases)}
+    parts = {}
+    for name, handle in handles:
+        numbers = [number[p.name] for p in handle._phases]
+        is_other = numbers != list(range(len(numbers)))
+        parts[name] = handle._handle.renumbered(numbers) if is_other else handle._handle
+    names = iter(parts)
+    text = {}
+    for p, value in values.items():
+        if p.is_handle:
+            text[p.name] = [next(names) for _ in value] if p.is_list else next(names)
+        elif p.type == "name of a file":
+            text[p.name] = _reference.file_name(value)
+        else:
+            text[p.name] = _text_of(value, f'{kind.name}: "{p.name}"')
+    return json.dumps({kind.name: text}), all_phases, parts
+
+
+def _text_of(value, what):
+    if isinstance(value, Phase):
+        return value.name
+    if isinstance(value, (list, tuple)) and any(isinstance(v, Phase) for v in value):
+        return [_text_of(v, what) for v in value]
+    return _reference.written(value, what)
+
+
+def _function(name, of_field, of_object):
+    """The function of a node, or of both nodes of a name: what it is made of decides."""
+    kind = of_object or of_field
+    signature = kind.signature()
+
+    def make(*arguments, **named):
+        values = kind.bound(signature, arguments, named)
+        first = next(iter(values.values()), None)
+        if isinstance(first, (list, tuple)):
+            first = next(iter(first), None)
+        if isinstance(first, Expression) and kind.parameters[0].is_handle:
+            first = first.field()
+        chosen, is_field = kind, of_object is None
+        if of_field and of_object and isinstance(first, Field):
+            chosen, is_field = of_field, True
+        text, phases, parts = _node_text(chosen, values)
+        materials = [p.name for p in phases[1:]]
+        if is_field:
+            return Field(_phasetree.make_field(text, materials, parts), phases)
+        return Object(_phasetree.make_object(text, materials, parts), phases)
+
+    make.__name__ = make.__qualname__ = name
+    make.__doc__ = kind.doc
+    make.__signature__ = signature
+    make.__module__ = "phasetree"
+    make.kind = kind
+    make.makes = tuple(t for t, of in ((Field, of_field), (Object, of_object)) if of)
+    return make
+
+
+def _all_functions():
+    by_name = {}
+    for title, kinds in _reference.chapters():
+        for kind in kinds if title in ("Fields", "Objects", "Warps") else ():
+            by_name.setdefault(kind.name, {})[title] = kind
+    made = {}
+    for name, of in by_name.items():
+        warp = of.get("Warps")
+        made[name] = _function(name, of.get("Fields") or warp, of.get("Objects") or warp)
+    return made
+
+
+def _add_methods():
+    """Each node that is made of a field, or of an object, is a method of it."""
+    for name, function in functions.items():
+        first = function.kind.parameters[0] if function.kind.parameters else None
+        if first is None or not first.is_handle or first.optional:
+            continue
+        takers = (Field, Object) if len(function.makes) == 2 else (Field if "field" in first.type else Object,)
+        for taker in takers:
+            if hasattr(taker, name):
+                raise AssertionError(f"{taker.__name__}.{name} is there already")
+            setattr(taker, name, function)
+
+
+functions = _all_functions()
+_add_methods()

@@ -1,0 +1,15 @@
+#include "module.hpp"
+
+#include "phasetree/version.hpp"
+
+PYBIND11_MODULE(_phasetree, module) {
+    using namespace phasetree::python;
+    module.doc() = "What the package phasetree is made of: the C++ library as it is.";
+    add_errors(module);
+    add_reference(module);
+    add_nodes(module);
+    add_points(module);
+    add_rays(module);
+    add_scenes(module);
+    add_rendering(module);
+}

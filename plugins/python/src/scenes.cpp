@@ -1,0 +1,156 @@
+// Scene files in and out: what a file says as Python's values, its object as a handle; and the checks of the parts that
+// people write, by the readers of scene files.
+#include <fmt/format.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "module.hpp"
+#include "phasetree/io/document.hpp"
+#include "phasetree/io/parameter_type.hpp"
+#include "phasetree/io/tree.hpp"
+#include "scene/read_parts.hpp"
+#include "scene/reference.hpp"
+#include "scene/scene.hpp"
+
+namespace py = pybind11;
+
+namespace phasetree::python {
+
+namespace {
+
+py::object as_python(Value value) {
+    switch (value.kind()) {
+        case Kind::null:
+            return py::none();
+        case Kind::boolean:
+            return py::bool_(value.boolean());
+        case Kind::number: {
+            const double number = value.number();
+            const bool is_whole = value.written().find_first_of(".eE") == std::string_view::npos;
+            if (is_whole && std::abs(number) < 9e15) return py::int_(static_cast<long long>(number));
+            return py::float_(number);
+        }
+        case Kind::string:
+            return py::str(std::string(value.string()));
+        case Kind::array: {
+            py::list list;
+            for (const Value item : value) list.append(as_python(item));
+            return list;
+        }
+        case Kind::object:
+            break;
+    }
+    py::dict dict;
+    for (const Value member : value) dict[py::str(std::string(member.key()))] = as_python(member);
+    return dict;
+}
+
+// The object, and all else that the scene says but for its tree. A scene that has a camera must be whole.
+py::tuple parts_of(const Document& document) {
+    SceneTree tree;
+    const Value root = document.root();
+    if (root.find("camera")) {
+        tracer::Scene scene = tracer::read_scene(document);
+        tree = {scene.phases, scene.object};
+    } else {
+        tree = tracer::read_scene_without_camera(document);
+    }
+    py::dict rest;
+    for (const Value part : root)
+        if (part.key() != "tree" && part.key() != "shapes" && part.key() != "version")
+            rest[py::str(std::string(part.key()))] = as_python(part);
+    return py::make_tuple(tree.object, rest);
+}
+
+// The names of kinds that read a file, each with the name of that parameter: of all that a scene file can say.
+std::vector<std::pair<std::string, std::string>> kinds_with_files() {
+    std::vector<std::pair<std::string, std::string>> all;
+    const std::string type = ParameterType<std::filesystem::path>::describe({}).name;
+    for (const Chapter& chapter : tracer::scene_chapters())
+        for (const KindPage& page : chapter.pages)
+            for (const ParameterPage& p : page.parameters)
+                if (p.type == type) all.emplace_back(page.name, p.name);
+    return all;
+}
+
+// The end of a string in a text, behind its closing quote.
+std::size_t end_of_string(std::string_view text, std::size_t at) {
+    for (++at; text[at] != '"'; ++at)
+        if (text[at] == '\\') ++at;
+    return at + 1;
+}
+
+// The same text with other names for the files that it names: name(file).
+std::string with_files(const std::string& text, const std::string& name, const py::function& renamed) {
+    const Document document = Document::from_text(text, name);
+    const auto kinds = kinds_with_files();
+    std::vector<Value> files, open{document.root()};
+    while (!open.empty()) {
+        const Value value = open.back();
+        open.pop_back();
+        for (const auto& [kind, parameter] : kinds)
+            if (value.is_object() && value.key() == std::string_view(kind))
+                if (const auto file = value.find(parameter); file && file->is_string()) files.push_back(*file);
+        if (value.is_array() || value.is_object())
+            for (const Value item : value) open.push_back(item);
+    }
+    std::ranges::sort(files, {}, &Value::offset);
+    std::string result;
+    std::size_t done = 0;
+    const py::object quoted = py::module_::import("json").attr("dumps");
+    for (const Value file : files) {
+        result.append(text, done, file.offset() - done);
+        result += quoted(renamed(std::string(file.string()))).cast<std::string>();
+        done = end_of_string(text, file.offset());
+    }
+    return result.append(text, done);
+}
+
+// What Python's own reader of JSON does not take: a text with comments.
+py::object value_of(const std::string& text) {
+    return as_python(Document::from_text(text).root());
+}
+
+// A part by itself, {"materials": …} for one: Error with the reader's sentence, without a place in a text that nobody
+// wrote.
+void check_part(const std::string& part, const std::string& text) {
+    const Document document = Document::from_text(text);
+    tracer::FilmSettings film;
+    try {
+        const Value root = document.root();
+        if (part == "material")
+            (void)tracer::read_material(document, root);
+        else if (part == "lights")
+            (void)tracer::read_lights(document, root);
+        else if (part == "meshes")
+            (void)tracer::read_meshes(document, root);
+        else if (part == "camera")
+            (void)tracer::read_camera(document, root, film);
+        else if (part == "render")
+            (void)tracer::read_settings(document, root, film);
+        else
+            throw std::invalid_argument(part);
+    } catch (const SceneError& e) {
+        std::string message = e.message();
+        if (e.suggestion()) message += fmt::format(" (did you mean \"{}\"?)", *e.suggestion());
+        throw ModelError(message);
+    }
+}
+
+}  // namespace
+
+void add_scenes(py::module_& module) {
+    module.def("read_file", [](const std::string& path) { return parts_of(Document::from_file(path)); });
+    module.def("read_text", [](const std::string& text, const std::string& name) {
+        return parts_of(Document::from_text(text, name));
+    });
+    module.def("text_of_file", [](const std::string& path) { return Document::from_file(path).text(); });
+    module.def("with_files", &with_files, py::arg("text"), py::arg("name"), py::arg("renamed"));
+    module.def("value_of", &value_of);
+    module.def("check_part", &check_part, py::arg("part"), py::arg("text"));
+}
+
+}  // namespace phasetree::python

@@ -1,0 +1,177 @@
+"""Whole scenes: read, written, shown. What the command makes of a file is what the package makes of it."""
+
+import filecmp
+import os
+import pathlib
+import shutil
+import tempfile
+import threading
+import unittest
+
+import numpy as np
+import phasetree as pt
+from support import SCENES, gallery_scenes, run
+
+
+def small_scene():
+    glass = pt.phase("glass", pt.clear(ior=1.5, color=(0.8, 0.95, 1), color_distance=2))
+    water = pt.phase("water", pt.clear(ior=1.33))
+    filled = pt.sphere(1).thin_shell(glass, water, half_thickness=0.05)
+    return pt.Scene(
+        filled.intersect_shape(pt.plane(offset=0.2), phases=water),
+        camera=pt.camera((0, -6, 1), (0, 0, 0), fov=30),
+        lights=[
+            pt.lights.gradient(zenith=(1, 1, 1), horizon=(0.5, 0.5, 0.5), ground="#404040"),
+            pt.lights.sphere((2, -2, 4), 0.5, radiance=(20, 20, 20)),
+        ],
+        meshes=pt.meshes.floor(pt.diffuse(pt.textures.checker(size=0.5)), height=-1.02),
+        image=pt.image(width=60, height=40, samples=4),
+    )
+
+
+class Files(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def test_scenes_are_equal_when_read_back(self):
+        for path in gallery_scenes():
+            scene = pt.load(path)
+            scene.save(self.folder / "again.json")
+            again = pt.load(self.folder / "again.json")
+            self.assertEqual(again, scene, path.name)
+            self.assertEqual(again.object, scene.object)
+            run("check", self.folder / "again.json")
+        scene = small_scene()
+        scene.save(self.folder / "small.json")
+        self.assertEqual(pt.load(self.folder / "small.json"), scene)
+
+    def test_what_differs_is_not_equal(self):
+        scene = small_scene()
+        self.assertNotEqual(scene, scene.with_(camera=pt.camera((0, -6, 2), (0, 0, 0), fov=30)))
+        self.assertNotEqual(scene, scene.with_(lights=scene.lights[:1]))
+        self.assertNotEqual(scene, scene.with_(object=scene.object.translate((0, 0, 1e-6))))
+        self.assertNotEqual(scene, scene.with_(background=(0, 0, 0)))
+
+    def test_files_beside_a_scene_are_found_from_anywhere(self):
+        inside = self.folder / "assets"
+        inside.mkdir()
+        shutil.copy(SCENES / "assets/bunny.siren.json", inside / "net.json")
+        bunny = pt.phase("bunny")(pt.siren(inside / "net.json"))
+        before = os.getcwd()
+        pt.Scene(bunny).save(self.folder / "bunny.json")
+        text = (self.folder / "bunny.json").read_text()
+        self.assertIn('"assets/net.json"', text)
+        os.chdir("/")
+        self.addCleanup(os.chdir, before)
+        self.assertEqual(pt.load(self.folder / "bunny.json").object, bunny)
+        other = self.folder / "other"
+        other.mkdir()
+        pt.load(self.folder / "bunny.json").save(other / "bunny.json")
+        self.assertEqual(pt.load(other / "bunny.json").object, bunny)
+
+    def test_errors_name_file_line_and_column(self):
+        path = self.folder / "bad.json"
+        path.write_text('{"version": 1,\n "phases": {"glass": {"clear": {"ior": 1.5}}},\n "tree": {"unde": []}}')
+        with self.assertRaises(pt.SceneError) as caught:
+            pt.load(path)
+        error = caught.exception
+        self.assertEqual((error.file, error.line, error.column), (str(path), 3, 11))
+        self.assertEqual(error.suggestion, "under")
+        self.assertTrue(str(error).startswith(f"{path}:3:11: "))
+        with self.assertRaises(pt.SceneError):
+            pt.load(self.folder / "nowhere.json")
+
+    def test_no_file_is_left_by_half(self):
+        scene = small_scene()
+        with self.assertRaises(OSError):
+            scene.save(self.folder / "no_folder" / "a.json")
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+
+class Pictures(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def test_pictures_are_the_command_s(self):
+        scene = small_scene()
+        scene.save(self.folder / "small.json")
+        for extension in ("png", "exr"):
+            theirs, own = self.folder / f"theirs.{extension}", self.folder / f"own.{extension}"
+            run("render", self.folder / "small.json", "-o", theirs, "--quiet")
+            pt.load(self.folder / "small.json").render().save(own)
+            self.assertTrue(filecmp.cmp(theirs, own, shallow=False), extension)
+
+    def test_arrays(self):
+        scene = small_scene()
+        image = scene.render()
+        self.assertEqual(image.pixels.shape, (40, 60, 3))
+        self.assertEqual(image.pixels.dtype, np.float32)
+        self.assertGreater(image.pixels.max(), 0)
+        self.assertTrue(np.array_equal(scene.render(threads=1).pixels, image.pixels))
+        self.assertFalse(np.array_equal(scene.render(seed=1).pixels, image.pixels))
+        crop = scene.render(crop=(10, 5, 30, 25))
+        self.assertTrue(np.array_equal(crop.pixels, image.pixels[5:25, 10:30]))
+        for plane in image.planes.values():
+            self.assertEqual(plane.shape, (40, 60))
+        self.assertEqual(scene.render(width=20, height=10, samples=1).pixels.shape, (10, 20, 3))
+        self.assertEqual(np.asarray(image).shape, (40, 60, 3))
+
+    def test_png_in_notebooks(self):
+        for shown in (small_scene().render(samples=1), small_scene()):
+            self.assertTrue(shown._repr_png_().startswith(b"\x89PNG"))
+        self.assertIsNone(pt.Scene(pt.phase("a")(pt.sphere(1)))._repr_png_())
+
+    def test_progress(self):
+        told = []
+        small_scene().render(width=200, height=150, samples=32, progress=lambda stage, share: told.append((stage, share)))
+        self.assertTrue(told)
+        self.assertTrue(all(0 <= share <= 1 for _, share in told))
+        with self.assertRaises(ZeroDivisionError):
+            small_scene().render(width=400, height=300, samples=4096, progress=lambda stage, share: 1 / 0)
+
+    def test_a_signal_ends_it(self):
+        import signal
+
+        was = signal.signal(signal.SIGALRM, signal.default_int_handler)
+        signal.setitimer(signal.ITIMER_REAL, 0.3)
+        try:
+            with self.assertRaises(KeyboardInterrupt):
+                small_scene().render(width=2000, height=2000, samples=4096)
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            signal.signal(signal.SIGALRM, was)
+
+    def test_two_at_once(self):
+        scene = small_scene()
+        expected = scene.render().pixels
+        results = []
+        threads = [threading.Thread(target=lambda: results.append(scene.render().pixels)) for _ in range(3)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(len(results), 3)
+        for result in results:
+            self.assertTrue(np.array_equal(result, expected))
+
+    def test_what_is_missing_is_told(self):
+        scene = small_scene()
+        for expected, call in (
+            ("no camera", lambda: scene.with_(camera=None).render()),
+            ("no lights", lambda: scene.with_(lights=()).render()),
+            ('"b" has no material', lambda: scene.with_(object=pt.phase("b")(pt.sphere(1))).render()),
+            ("is not a part", lambda: scene.render(crop=(0, 0, 100, 10))),
+            ('"samples" must be', lambda: scene.render(samples=0)),
+            ("a light cannot be", lambda: scene.with_(lights=[pt.diffuse("#ffffff")])),
+            ("shows an object of phases", lambda: pt.Scene(pt.sphere(1))),
+            ("is inside", lambda: scene.with_(object=pt.phase("b", pt.diffuse("#808080"))(pt.sphere(9))).render()),
+        ):
+            with self.subTest(expected):
+                with self.assertRaisesRegex(pt.Error, expected):
+                    call()
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,187 @@
+// Photons: against closed forms behind flat interfaces, against paths alone behind curved ones, and the map by itself.
+#include "caustics/caustics.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <random>
+
+#include "paths.hpp"
+#include "shading/fresnel.hpp"
+
+using namespace phasetree::tracer;
+using namespace phasetree::tracer::tests;
+
+namespace {
+
+// A dark floor, so that light which it sends back and which comes again does not matter for the closed forms.
+constexpr double albedo = 0.001;
+const std::string floor_material = R"({"diffuse": {"color": [0.001, 0.001, 0.001]}})";
+const std::string sun_at_60_degrees = R"({"sun": {"direction": [0, 0.8660254, 0.5], "irradiance": [4, 4, 4]}})";
+
+// What a member "render" says for few photons, gathered in a wide radius.
+const std::string few_wide_photons = R"(, "render": {"width": 32, "height": 32, "photons": 8, "photon_radius": 6})";
+
+constexpr std::uint32_t paths_a_pass = 64;
+
+// The long form finds an error of 3 %, the short one of 10 %.
+const bool long_form = std::getenv("PHASETREE_LONG_TESTS") != nullptr;
+const int passes = long_form ? 6000 : 200;
+const double planted = long_form ? 1.03 : 1.1;
+
+// The radiance along a ray, by passes of which each has photons of its own.
+Moments with_photons(const Scene& scene, const glm::vec3& origin, const glm::vec3& direction, int count = passes) {
+    const phasetree::FlushSubnormals flush;
+    const World world(scene);
+    const Caustics caustics(world, scene);
+    Moments moments;
+    PathCounters counters;
+    const Ray ray{origin, glm::normalize(direction), world.geometry().label(origin), {}};
+    for (int pass = 0; pass < count; ++pass) {
+        const auto map = caustics.photons(pass, counters, [] { return false; });
+        REQUIRE(map.has_value());
+        // Paths of one pass see the same photons, so their mean is one independent number.
+        double sum = 0;
+        for (std::uint32_t path = 0; path < paths_a_pass; ++path) {
+            Sampler sampler(static_cast<std::uint32_t>(pass), path, 0, 1);
+            sum += static_cast<double>(
+                trace_path(world, scene, ray, sampler, counters, nullptr, {&caustics.emission(), &*map}).x);
+        }
+        moments.add(sum / paths_a_pass);
+    }
+    return moments;
+}
+
+double reflectance(double cosine, double eta) {
+    return static_cast<double>(fresnel_dielectric(static_cast<float>(cosine), static_cast<float>(eta)).reflectance);
+}
+
+}  // namespace
+
+TEST_CASE("the sun through a pane, and at the ground of a pool: closed forms") {
+    const double significance = sidak(1e-4, 2);
+    const double irradiance = 4 * 0.5 / std::numbers::pi * albedo;
+    const double r = reflectance(0.5, 1.5);
+    const auto scene_with = [&](const std::string& phases, const std::string& tree, const std::string& meshes) {
+        return scene_of(phases, tree, meshes + R"("lights": [)" + sun_at_60_degrees + "]" + few_wide_photons);
+    };
+    SUBCASE("a pane over the floor") {
+        const Scene scene = scene_with(
+            R"("glass": {"clear": {"ior": 1.5}})",
+            R"({"set": {"phase": "glass", "of": {"translate": {"by": [0, 0, 0.5], "of": {"box": {"size": [3, 3, 0.2]}}}}}})",
+            R"("meshes": [{"floor": {"material": )" + floor_material + "}}], ");
+        // (1 − r)² Σ r^(2k): what passes after any number of reflections inside.
+        const double expected = irradiance * (1 - r) / (1 + r);
+        const Moments m = with_photons(scene, {-1, -1, 0.2f}, {1, 1, -0.2f});
+        CAPTURE(m.mean() / expected);
+        CHECK(mean_p_value(m, expected, 1e-3 * expected) > significance);
+        CHECK(mean_p_value(m, planted * expected, 1e-3 * expected) < significance);
+    }
+    SUBCASE("the ground of a pool, where the index is not 1") {
+        const Scene scene = scene_with(
+            R"("water": {"clear": {"ior": 1.5}}, "ground": )" + floor_material,
+            R"({"over": [{"set": {"phase": "ground", "of": {"translate": {"by": [0, 0, -1], "of": {"box": {"size": [3, 12, 1]}}}}}},
+                         {"set": {"phase": "water", "of": {"box": {"size": [3, 12, 2]}}}}]})",
+            "");
+        // Seen from within the water, so far from the sides that what comes in there falls elsewhere.
+        const Moments m = with_photons(scene, {-0.5f, -0.5f, 0.2f}, {0.5f, 0.5f, -0.7f});
+        const double expected = irradiance * (1 - r);
+        CAPTURE(m.mean() / expected);
+        CHECK(mean_p_value(m, expected, 1e-3 * expected) > significance);
+        CHECK(mean_p_value(m, planted * expected, 1e-3 * expected) < significance);
+    }
+}
+
+TEST_CASE("behind a ball of coloured glass it is as bright as by paths alone") {
+    const std::string lights[] = {R"({"sun": {"direction": [0.2, 0.3, 1], "irradiance": [4, 4, 4], "diameter": 90}})",
+                                  R"({"rectangle": {"centre": [1, 1, 4], "target": [0, 0, 0], "width": 6, "height": 6,
+                                      "radiance": [5, 5, 5]}})",
+                                  R"({"sphere": {"centre": [1, 1, 4], "radius": 2, "radiance": [5, 5, 5]}})"};
+    const double significance = sidak(1e-4, std::size(lights));
+    for (const std::string& light : lights) {
+        CAPTURE(light);
+        const bool is_sphere = light.starts_with(R"({"sphere")");  // whose photons differ most in their power
+        const Scene scene = scene_of(
+            R"("glass": {"clear": {"ior": 1.2, "absorption": [0.3, 0.3, 0.3]}})",
+            R"({"set": {"phase": "glass", "of": {"translate": {"by": [0, 0, 1.1], "of": {"sphere": {"radius": 1}}}}}})",
+            R"("meshes": [{"floor": {"material": {"diffuse": {"color": [0.6, 0.6, 0.6]}}}}], "lights": [)" + light +
+                R"(], "render": {"width": 64, "height": 64, "photons": 3, "photon_radius": 2})");
+        const World world(scene);
+        const glm::vec3 origin(-2, -2, 0.1f), direction(1.9f, 1.9f, -0.1f);
+        const Moments paths = radiance_along(world, scene, origin, direction, long_form ? 3000000 : 300000)[0];
+        const Moments photons = with_photons(scene, origin, direction, is_sphere ? 3 * passes : passes);
+        CAPTURE(photons.mean() / paths.mean());
+        // Both are estimates, so the error of their difference is that of both.
+        const double error = std::hypot(paths.standard_error(), photons.standard_error());
+        const auto p_value = [&](double factor) {
+            return phasetree::tests::normal_two_sided((factor * photons.mean() - paths.mean()) / error);
+        };
+        CAPTURE(paths.standard_error() / paths.mean());
+        CAPTURE(photons.standard_error() / photons.mean());
+        CHECK(p_value(1) > significance);
+        CHECK(p_value(planted) < significance);
+    }
+}
+
+TEST_CASE("the map finds what lies within the radius, each photon once") {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> place(-3, 3);
+    std::vector<Photon> photons;
+    for (int i = 0; i < 3000; ++i)
+        photons.push_back({{place(random), place(random), 0.1f * place(random)},
+                           {0, 0, 1},
+                           glm::vec3(1),
+                           1,
+                           phasetree::Phase{static_cast<std::uint8_t>(i % 2)},
+                           {},
+                           {0, 0, 1}});
+    const float radius = 0.4f;
+    const PhotonMap map(photons, 3000, radius);
+    CHECK(map.expected() == doctest::Approx(3000 * std::numbers::pi * 0.16));
+    const glm::vec3 normal(0, 0, 1);
+    for (int i = 0; i < 200; ++i) {
+        const glm::vec3 point(place(random), place(random), 0.0f);
+        int found = 0, expected = 0;
+        map.near(point, normal, phasetree::Phase{1}, [&](const Photon&) { ++found; });
+        for (const Photon& photon : photons) {
+            const glm::vec3 offset = photon.position - point;
+            expected += photon.phase.index == 1 && glm::length(offset) <= radius && std::abs(offset.z) <= radius / 4;
+        }
+        CHECK(found == expected);
+    }
+}
+
+TEST_CASE("no photons where nothing bends light or no light has a middle") {
+    const auto lights = [](const std::string& ior, const std::string& light) {
+        const Scene scene =
+            scene_of(R"("glass": {"clear": {"ior": )" + ior + "}}",
+                     R"({"set": {"phase": "glass", "of": {"sphere": {"radius": 1}}}})", R"("lights": [)" + light + "]");
+        const World world(scene);
+        return PhotonEmission(world, scene).lights();
+    };
+    CHECK(lights("1.5", sun_at_60_degrees) == 1);
+    CHECK(lights("1", sun_at_60_degrees) == 0);
+    CHECK(lights("1.5", R"({"constant": {}})") == 0);
+}
+
+TEST_CASE("a target's lines are as dense as it says") {
+    PhotonTarget target({1, 2, 3}, glm::normalize(glm::vec3(1, 1, 2)), 0.7f);
+    std::vector<double> weights(PhotonTarget::cells);
+    std::mt19937 random(2);
+    std::uniform_real_distribution<float> unit(0, 1);
+    for (double& weight : weights) weight = static_cast<double>(unit(random)) + 0.01;
+    target.set_weights(weights);
+    // The mean of 1/p over samples is the measure of all lines of one direction: the square's area, seen from there.
+    const glm::vec3 direction = glm::normalize(glm::vec3(0.5f, 1, 2));
+    Moments inverse;
+    for (int i = 0; i < 20000; ++i) {
+        const PhotonTarget::Aim aim = target.sample(unit(random), {unit(random), unit(random)});
+        const float density = target.crossing(aim.point - 2.0f * direction, direction).density;
+        if (density > 0) inverse.add(1 / static_cast<double>(density));
+    }
+    const double area = 1.4 * 1.4 * static_cast<double>(glm::dot(direction, glm::normalize(glm::vec3(1, 1, 2))));
+    CHECK(mean_p_value(inverse, area, 0) > 1e-4);
+    CHECK(mean_p_value(inverse, 1.03 * area, 0) < 1e-4);
+}

@@ -1,0 +1,129 @@
+#include "caustics/caustics.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "caustics/trace_photon.hpp"
+#include "lights/luminance.hpp"
+#include "phasetree/math/float_mode.hpp"
+#include "sampling/heuristic.hpp"
+#include "sampling/warps.hpp"
+#include "world/chain.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+constexpr std::size_t photons_a_task = 4096;
+
+// What is learnt before the first pass is of so many photons for each light, and of so many in all at most.
+constexpr std::size_t learnt_a_light = 1 << 15, most_learnt = 1 << 18;
+
+// Photons have pixels of their own, so that their random numbers are not those of the picture's.
+constexpr std::uint32_t column_of_passes = 0x80000000u, column_of_learning = 0x80000001u;
+
+// The size of a pixel at a distance from the camera, in the middle of the picture.
+float pixel_size(const Scene& scene, float distance) {
+    const Camera camera(scene.camera, scene.film.resolution());
+    const glm::dvec2 middle = 0.5 * glm::dvec2(scene.film.resolution());
+    const glm::vec2 lens(0.5f);
+    const CameraRay a = camera.generate(middle, lens), b = camera.generate(middle + glm::dvec2(1, 0), lens);
+    return glm::length((a.origin + distance * a.direction) - (b.origin + distance * b.direction));
+}
+
+float distance_to_object(const World& world, const Scene& scene) {
+    const Camera camera(scene.camera, scene.film.resolution());
+    const CameraRay ray = camera.generate(0.5 * glm::dvec2(scene.film.resolution()), glm::vec2(0.5f));
+    return glm::length(world.geometry().object().bounds().centre() - ray.origin);
+}
+
+}  // namespace
+
+Caustics::Caustics(const World& world, const Scene& scene)
+    : world_(world),
+      scene_(scene),
+      emission_(world, scene),
+      photons_a_pass_(static_cast<std::size_t>(scene.settings.photons * static_cast<float>(scene.film.whole().size()))),
+      first_radius_(scene.settings.photon_radius * pixel_size(scene, distance_to_object(world, scene))) {
+    if (emission_.lights() > 0 && photons_a_pass_ > 0) learn();
+}
+
+float Caustics::radius(int pass) const {
+    return first_radius_ * std::pow(1.0f + static_cast<float>(pass), -1.0f / 6.0f);
+}
+
+// What a photon is worth is its power times the weight that it has on a white diffuse surface against the other
+// techniques, in the first pass.
+void Caustics::learn() {
+    const std::size_t count = std::min(most_learnt, learnt_a_light * emission_.lights());
+    struct Worth {
+        std::size_t light = 0, cell = 0;
+        double worth = 0;
+    };
+    std::vector<Worth> found(count);
+    const float expected = static_cast<float>(photons_a_pass_) * pi * first_radius_ * first_radius_;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, photons_a_task), [&](const auto& range) {
+        const FlushSubnormals flush;
+        PathCounters uncounted;
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            Sampler sampler(column_of_learning, 0, static_cast<std::uint32_t>(i), scene_.settings.seed);
+            const std::optional<EmittedPhoton> emitted = emission_.sample(sampler);
+            if (!emitted) continue;
+            const std::optional<Photon> photon = trace_photon(world_, scene_, *emitted, sampler, uncounted);
+            if (!photon) continue;
+            const float ior = clear_at(scene_, photon->phase).ior, cosine = 0.5f;
+            const float by_photons = expected * photon->line_density * ior * ior * cosine;
+            const float weight = power_heuristic(by_photons, cosine_hemisphere_pdf(cosine),
+                                                 scene_.lights.pdf(photon->position, photon->direction));
+            found[i] = {emitted->light, emitted->cell, static_cast<double>(luminance(photon->power) * weight)};
+        }
+    });
+    // Added up in their order, whatever thread found them.
+    std::vector<std::vector<double>> worth(emission_.lights(), std::vector<double>(PhotonTarget::cells, 0.0));
+    for (const Worth& w : found) worth[w.light][w.cell] += w.worth;
+    emission_.learn(std::move(worth));
+}
+
+std::vector<Photon> Caustics::traced(std::uint32_t pass, std::size_t from, std::size_t to,
+                                     PathCounters& counters) const {
+    const FlushSubnormals flush;
+    std::vector<Photon> photons;
+    for (std::size_t i = from; i < to; ++i) {
+        Sampler sampler(column_of_passes, pass, static_cast<std::uint32_t>(i), scene_.settings.seed);
+        const std::optional<EmittedPhoton> emitted = emission_.sample(sampler);
+        if (!emitted) continue;
+        if (const auto photon = trace_photon(world_, scene_, *emitted, sampler, counters)) photons.push_back(*photon);
+    }
+    return photons;
+}
+
+std::optional<PhotonMap> Caustics::photons(int pass, PathCounters& counters,
+                                           const std::function<bool()>& cancelled) const {
+    const std::size_t count = emission_.lights() > 0 ? photons_a_pass_ : 0;
+    const std::size_t tasks = (count + photons_a_task - 1) / photons_a_task;
+    std::vector<std::vector<Photon>> parts(tasks);
+    std::vector<PathCounters> costs(tasks);
+    std::atomic<bool> stopped{false};
+    tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
+        if (stopped || cancelled()) {
+            stopped = true;
+            return;
+        }
+        const std::size_t from = task * photons_a_task;
+        parts[task] =
+            traced(static_cast<std::uint32_t>(pass), from, std::min(from + photons_a_task, count), costs[task]);
+    });
+    if (stopped) return std::nullopt;
+    std::vector<Photon> photons;
+    for (std::size_t task = 0; task < tasks; ++task) {
+        photons.insert(photons.end(), parts[task].begin(), parts[task].end());
+        counters += costs[task];
+    }
+    return PhotonMap(std::move(photons), count, radius(pass));
+}
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,40 @@
+// Caustics: light that lamps throw through curved clear interfaces, found by photons.
+//
+// Each pass over the picture has photons of its own. How many there are, and in what radius a surface gathers them,
+// follows from the number of the pass and from the whole picture, so that an image does not depend on how it was
+// divided among threads, crops or machines. The radius shrinks as the passes go on, r = r₀ (1 + pass)^(−1/6), so that
+// the blur that photons bring vanishes in the limit (Hachisuka, Ogaki & Jensen: Progressive Photon Mapping, SIGGRAPH
+// Asia 2008; Knaus & Zwicker, TOG 30(3), 2011, with α = 2/3).
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "caustics/emission.hpp"
+#include "caustics/photon_map.hpp"
+
+namespace phasetree::tracer {
+
+class Caustics {
+  public:
+    /// Traces photons to learn where they are worth something. Refers to the world and the scene.
+    Caustics(const World& world, const Scene& scene);
+
+    /// The photons of the pass that adds the sample of this number to each pixel. Uses all threads of the arena that it
+    /// is called in. Nothing if `cancelled` says so; it may be asked from any thread.
+    std::optional<PhotonMap> photons(int pass, PathCounters& counters, const std::function<bool()>& cancelled) const;
+    const PhotonEmission& emission() const { return emission_; }
+    float radius(int pass) const;
+
+  private:
+    std::vector<Photon> traced(std::uint32_t pass, std::size_t from, std::size_t to, PathCounters& counters) const;
+    void learn();
+
+    const World& world_;
+    const Scene& scene_;
+    PhotonEmission emission_;
+    std::size_t photons_a_pass_;
+    float first_radius_;
+};
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,143 @@
+#include "caustics/emission.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace phasetree::tracer {
+
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+// How much of the plane through the object a target covers, in radii of the object. Lines from a near light may pass
+// through the object and yet meet the plane outside of its silhouette.
+constexpr float target_of_infinite = 1.0f, target_of_area = 1.3f;
+
+// This part of the photons is spread evenly whatever was learnt, because what was learnt is an estimate.
+constexpr double even_part = 0.1;
+
+bool bends_light(const Material& material) {
+    const Clear* clear = std::get_if<Clear>(&material);
+    return clear && clear->ior != 1.0f;
+}
+
+float squared_ior(const Scene& scene, Phase phase) {
+    const float ior = std::get<Clear>(scene.materials[phase.index]).ior;
+    return ior * ior;
+}
+
+}  // namespace
+
+PhotonEmission::PhotonEmission(const World& world, const Scene& scene) : world_(world), scene_(scene) {
+    const Bounds& bounds = world.geometry().object().bounds();
+    if (bounds.empty() || !bounds.finite() || std::ranges::none_of(scene.materials, bends_light)) return;
+    centre_ = bounds.centre();
+    radius_ = 0.5005f * bounds.diagonal();
+    const std::span<const InfiniteLight> infinite = scene.lights.infinite();
+    for (std::size_t i = 0; i < infinite.size(); ++i) {
+        const auto middle = std::visit([](const auto& light) { return light.centre_direction(); }, infinite[i]);
+        if (middle) sources_.push_back({i, {}, 1.0, {centre_, -*middle, target_of_infinite * radius_}});
+    }
+    const std::span<const AreaLight> area = scene.lights.area();
+    for (std::size_t i = 0; i < area.size(); ++i) {
+        const glm::vec3 towards = centre_ - std::visit([](const auto& light) { return light.centre(); }, area[i]);
+        const float distance = glm::length(towards);
+        const glm::vec3 normal = distance > 0.0f ? towards / distance : glm::vec3(0.0f, 0.0f, 1.0f);
+        sources_.push_back({{}, i, 1.0, {centre_, normal, target_of_area * radius_}});
+    }
+    for (Source& source : sources_) source.share = 1.0 / static_cast<double>(sources_.size());
+}
+
+void PhotonEmission::learn(std::vector<std::vector<double>> worth) {
+    const auto sum_of = [](const std::vector<double>& cells) {
+        return std::accumulate(cells.begin(), cells.end(), 0.0);
+    };
+    double total = 0;
+    for (const std::vector<double>& cells : worth) total += sum_of(cells);
+    if (!(total > 0)) return;
+    for (std::size_t i = 0; i < sources_.size(); ++i) {
+        std::vector<double>& cells = worth[i];
+        const double sum = sum_of(cells);
+        sources_[i].share = even_part / static_cast<double>(sources_.size()) + (1 - even_part) * sum / total;
+        if (!(sum > 0)) continue;
+        const double even = even_part / (1 - even_part) * sum / static_cast<double>(cells.size());
+        for (double& cell : cells) cell += even;
+        sources_[i].target.set_weights(cells);
+    }
+}
+
+glm::vec3 PhotonEmission::outside_of_object(const glm::vec3& point, const glm::vec3& direction) const {
+    const glm::vec3 nearest = point + direction * glm::dot(centre_ - point, direction);
+    const glm::vec3 off = nearest - centre_;
+    const float squared = radius_ * radius_ - glm::dot(off, off);
+    return nearest - direction * std::sqrt(std::max(squared, 0.0f));
+}
+
+std::optional<EmittedPhoton> PhotonEmission::sample(Sampler& sampler) const {
+    double left = static_cast<double>(sampler.next());
+    std::size_t number = 0;
+    while (number + 1 < sources_.size() && left >= sources_[number].share) left -= sources_[number++].share;
+    const Source& source = sources_[number];
+    const glm::vec2 u_light = sampler.next2();
+    const float u_cell = sampler.next();
+    const PhotonTarget::Aim aim = source.target.sample(u_cell, sampler.next2());
+
+    glm::vec3 direction;
+    float back = infinity;  // from the target to the light
+    if (source.infinite) {
+        const auto sampled = std::visit([&](const auto& light) { return light.sample(u_light); },
+                                        scene_.lights.infinite()[*source.infinite]);
+        if (!sampled) return std::nullopt;
+        direction = -sampled->direction;
+    } else {
+        const SurfacePoint from = std::visit([&](const auto& light) { return light.surface_point(u_light); },
+                                             scene_.lights.area()[*source.area]);
+        back = glm::length(aim.point - from.position);
+        if (!(back > 0.0f)) return std::nullopt;
+        direction = (aim.point - from.position) / back;
+        if (!(glm::dot(direction, from.normal) > 0.0f)) return std::nullopt;
+    }
+    glm::vec3 origin = outside_of_object(aim.point, direction);
+    // A light within the sphere about the object: the photon starts at the light, but for a hair.
+    if (glm::dot(aim.point - origin, direction) > back) origin = aim.point - direction * (back * (1 - 1e-5f));
+    const bool is_outside = !world_.geometry().object().bounds().contains(origin);
+    const Phase phase = is_outside ? phasetree::vacuum : world_.geometry().label(origin);
+    if (!is_clear(scene_.materials[phase.index])) return std::nullopt;
+
+    const float density = line_density(origin, -direction, phase);
+    const auto seen = scene_.lights.seen(origin, -direction, infinity, false);
+    if (!(density > 0.0f) || !seen) return std::nullopt;
+    const float line = density * squared_ior(scene_, phase);
+    return EmittedPhoton{{origin, direction, phase, {}}, *seen, seen->radiance / line, density, number, aim.cell};
+}
+
+float PhotonEmission::line_density(const glm::vec3& origin, const glm::vec3& towards_light, Phase phase) const {
+    float sum = 0;
+    for (const Source& source : sources_)
+        sum += static_cast<float>(source.share) * density_of(source, origin, towards_light);
+    return sum / squared_ior(scene_, phase);
+}
+
+float PhotonEmission::density_of(const Source& source, const glm::vec3& origin, const glm::vec3& towards_light) const {
+    const PhotonTarget::Crossing crossing = source.target.crossing(origin, -towards_light);
+    if (!(crossing.density > 0.0f)) return 0.0f;
+    if (source.infinite)
+        return crossing.density * std::visit([&](const auto& light) { return light.pdf(towards_light); },
+                                             scene_.lights.infinite()[*source.infinite]);
+    return std::visit(
+        [&](const auto& light) {
+            const std::optional<float> distance = light.intersect(origin, towards_light);
+            if (!distance) return 0.0f;
+            const glm::vec3 point = origin + *distance * towards_light;
+            const float cosine = -glm::dot(towards_light, light.normal_at(point));
+            const float to_target = crossing.distance + *distance;
+            if (!(cosine > 0.0f) || !(to_target > 0.0f)) return 0.0f;
+            return crossing.density * to_target * to_target / (light.area() * cosine);
+        },
+        scene_.lights.area()[*source.area]);
+}
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,66 @@
+// How photons leave the lights: from which light, where and in which direction, and how densely.
+//
+// A photon starts on a line. Lines are measured by area and solid angle, dG = dA cos θ dω, which is the same at every
+// point of the line; where light is refracted n² dG is kept (the étendue). The density of lines is a mixture of the
+// lights' own, as that of directions is (lights/lights.hpp),
+//     p(line) = Σᵢ cᵢ pᵢ(line),   pᵢ = p(ω) t  of an infinite light,   pᵢ = t d²/(A cos θ)  of an area light,
+// with the density t of the line in the light's target (target.hpp), the light's area A, the angle θ at its surface and
+// the distance d from there to the target. What a photon carries is what is seen along its line, whichever light
+// proposed it. Lights that are all around, which have no middle, send none, and lines that no light proposes are left
+// to the other techniques of path.hpp.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "caustics/target.hpp"
+#include "sampling/sobol.hpp"
+#include "world/world.hpp"
+
+namespace phasetree::tracer {
+
+/// A photon that is about to start.
+struct EmittedPhoton {
+    Ray ray;                    ///< its origin is outside of the object, or at the light if that is nearer
+    Lights::Emission emission;  ///< what is seen from the origin backwards if nothing is in the way
+    glm::vec3 power;            ///< radiance of the light over the density
+    float line_density;         ///< p(line) over the square of the refractive index at the origin
+    std::size_t light;          ///< the number of the light that proposed it: less than PhotonEmission::lights()
+    std::size_t cell;           ///< of that light's target
+};
+
+class PhotonEmission {
+  public:
+    /// Refers to the world and the scene, which must outlive it. All lights have equal shares at first.
+    PhotonEmission(const World& world, const Scene& scene);
+
+    /// How many lights send photons: none if nothing clear bends light.
+    std::size_t lights() const { return sources_.size(); }
+    /// Nothing if the line leads nowhere.
+    std::optional<EmittedPhoton> sample(Sampler& sampler) const;
+    /// As EmittedPhoton::line_density, for a line that leads from a point in this phase towards a light.
+    float line_density(const glm::vec3& origin, const glm::vec3& towards_light, Phase phase) const;
+
+    /// Chooses lights and cells of their targets in proportion to these numbers from now on: worth[light][cell].
+    void learn(std::vector<std::vector<double>> worth);
+
+  private:
+    struct Source {
+        std::optional<std::size_t> infinite,
+            area;      ///< the light's number among those of its sort; one of them is there
+        double share;  ///< cᵢ
+        PhotonTarget target;
+    };
+    /// A point of a line that is sure to be before everything that it meets of the object.
+    glm::vec3 outside_of_object(const glm::vec3& point, const glm::vec3& direction) const;
+    float density_of(const Source& source, const glm::vec3& origin, const glm::vec3& towards_light) const;
+
+    const World& world_;
+    const Scene& scene_;
+    glm::vec3 centre_{0};
+    float radius_ = 0;  ///< of the sphere about the object
+    std::vector<Source> sources_;
+};
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,48 @@
+#include "caustics/trace_photon.hpp"
+
+#include <limits>
+
+#include "world/chain.hpp"
+
+namespace phasetree::tracer {
+
+bool is_lit_by_photons(const Surface& surface, const Bsdf& bsdf) {
+    return !surface.far_side && !bsdf.is_delta();
+}
+
+std::optional<Photon> trace_photon(const World& world, const Scene& scene, const EmittedPhoton& emitted,
+                                   Sampler& sampler, PathCounters& counters) {
+    Ray ray = emitted.ray;
+    glm::vec3 power = emitted.power;
+    for (int length = 0;;) {
+        const Hit hit = world.geometry().intersect(ray, counters);
+        const Surface* surface = std::get_if<Surface>(&hit);
+        if (!surface) return std::nullopt;
+        power *= transmittance(clear_at(scene, ray.phase).interior, surface->distance);
+        const Bsdf bsdf = surface->bsdf();
+        if (bsdf.passes_through()) {
+            ray = surface->transmitted(ray.direction);
+            continue;
+        }
+        if (!is_link(bsdf, *surface)) {
+            if (length == 0 || !is_lit_by_photons(*surface, bsdf)) return std::nullopt;
+            const Ray back{emitted.ray.origin, -emitted.ray.direction, emitted.ray.phase, {}};
+            const Visibility light = world.geometry().visibility(back, emitted.emission.distance, counters);
+            if (!std::holds_alternative<Escaped>(light)) return std::nullopt;
+            return Photon{surface->near_side.origin, -ray.direction, power, emitted.line_density, ray.phase,
+                          emitted.emission,          back.direction};
+        }
+        if (++length > longest_chain) return std::nullopt;
+        const Frame frame(surface->normal);
+        const auto next = bsdf.sample(frame.to_local(-ray.direction), sampler.next(), glm::vec2(0.0f));
+        if (!next) return std::nullopt;
+        const float before = clear_at(scene, ray.phase).ior;
+        ray = continued(*surface, frame, *next);
+        // A BSDF's weight is of radiance, which a refraction scales by the squared quotient of the indices; power is
+        // not scaled.
+        const float after = clear_at(scene, ray.phase).ior, ratio = after / before;
+        power *= next->weight * (ratio * ratio);
+    }
+}
+
+}  // namespace phasetree::tracer

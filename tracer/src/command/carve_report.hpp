@@ -1,0 +1,25 @@
+// What `info --carve` says: convex bounds of the whole object and of each phase.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "phasetree/carving/carve.hpp"
+#include "phasetree/io/tree.hpp"
+
+namespace phasetree::tracer {
+
+struct CarvedPart {
+    std::string name;  // of a phase; empty for the whole object
+    CarvedBounds bounds;
+    double seconds = 0;
+};
+
+/// Carves the whole object and each of its phases; the whole alone if there is only one. Throws as carve() does.
+std::vector<CarvedPart> carve_parts(const SceneTree& tree, int most_planes);
+
+void add_carved(nlohmann::ordered_json& json, const std::vector<CarvedPart>& parts);
+void print_carved(const std::vector<CarvedPart>& parts);
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,29 @@
+// Names of a scene's things as parts of channels' names, in which a point separates layer and channel.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace phasetree::tracer {
+
+/// `prefix` + name + `suffix` for each name, with _ for all but ASCII letters, digits, - and _. Names that would be
+/// equal then get a number behind them.
+inline std::vector<std::string> channel_names(const std::string& prefix, const std::vector<std::string>& names,
+                                              const std::string& suffix) {
+    const auto is_plain = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+    };
+    std::vector<std::string> channels;
+    for (std::string name : names) {
+        std::ranges::replace_if(
+            name, [&](char c) { return !is_plain(c); }, '_');
+        std::string channel = prefix + name + suffix;
+        for (int i = 2; std::ranges::find(channels, channel) != channels.end(); ++i)
+            channel = prefix + name + "_" + std::to_string(i) + suffix;
+        channels.push_back(std::move(channel));
+    }
+    return channels;
+}
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,97 @@
+// Cryptomatte layers (cryptomatte.hpp): which of several named things a pixel shows, and how much of it each covers.
+// What is covered is by the samples, so edges are as soft as the pixel filter makes them. Glass covers what is behind
+// it.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <optional>
+
+#include "film/contract.hpp"
+#include "film/cryptomatte.hpp"
+#include "film/path_record.hpp"
+#include "film/sums/weights_by_id.hpp"
+
+namespace phasetree::tracer {
+
+/// `What` says which names there are, and which of them a surface has in a scene of so many phases.
+template <class What>
+class CryptomattePlane {
+  public:
+    using Sum = WeightsById;
+    static constexpr std::string_view name = What::name;
+    static constexpr bool by_default = false;
+    /// How many things of a pixel are told of at most, the ones that cover most of it; two to a layer of four channels.
+    static constexpr std::size_t ranks = 6;
+
+    explicit CryptomattePlane(const PlaneSubjects& subjects)
+        : names_(What::names(subjects)), phases_(subjects.phases.size()) {
+        for (const std::string& n : names_) ids_.push_back(cryptomatte_id(n));
+    }
+
+    std::vector<std::string> channels() const {
+        std::vector<std::string> all;
+        for (std::size_t i = 0; i < ranks / 2; ++i)
+            for (const char* channel : {".R", ".G", ".B", ".A"})
+                all.push_back(std::string(What::layer) + "0" + std::to_string(i) + channel);
+        return all;
+    }
+    std::vector<std::pair<std::string, std::string>> attributes() const {
+        return cryptomatte_attributes(std::string(What::layer), names_);
+    }
+    std::size_t sums() const { return 1; }
+    void add(std::span<Sum> sums, const FilmSample& sample, FilmFaults& faults) const {
+        if (!sample.record || !sample.record->first) return;
+        const std::optional<std::size_t> shown = What::shown(*sample.record->first, phases_);
+        if (shown) sums[0].add(ids_[*shown], 1.0f, faults);
+    }
+    void resolve(std::span<const Sum> sums, std::uint32_t samples, std::span<float> values) const {
+        auto entries = sums[0].entries();  // by rising numbers, which decides between equal weights
+        std::ranges::stable_sort(entries, std::greater<>(), [](const auto& e) { return e.weight.value(); });
+        for (std::size_t i = 0; i < std::min(entries.size(), ranks); ++i) {
+            values[2 * i] = std::bit_cast<float>(entries[i].id);
+            values[2 * i + 1] = static_cast<float>(entries[i].weight.value() / samples);
+        }
+    }
+
+  private:
+    std::vector<std::string> names_;
+    std::vector<std::uint32_t> ids_;
+    std::size_t phases_;
+};
+
+/// The phase entered; meshes are none.
+struct MattePhase {
+    static constexpr std::string_view name = "crypto_phase";
+    static constexpr std::string_view layer = "CryptoPhase";
+    static const std::vector<std::string>& names(const PlaneSubjects& s) { return s.phases; }
+    static std::optional<std::size_t> shown(const RecordedSurface& r, std::size_t) {
+        return r.entered ? std::optional<std::size_t>(r.entered->index) : std::nullopt;
+    }
+};
+/// The object of phases, and each mesh.
+struct MatteObject {
+    static constexpr std::string_view name = "crypto_object";
+    static constexpr std::string_view layer = "CryptoObject";
+    static const std::vector<std::string>& names(const PlaneSubjects& s) { return s.objects; }
+    static std::optional<std::size_t> shown(const RecordedSurface& r, std::size_t) { return r.object; }
+};
+/// A material has the name of the phase or the mesh that it is given to.
+struct MatteMaterial {
+    static constexpr std::string_view name = "crypto_material";
+    static constexpr std::string_view layer = "CryptoMaterial";
+    static std::vector<std::string> names(const PlaneSubjects& s) {
+        std::vector<std::string> all = s.phases;
+        if (!s.objects.empty()) all.insert(all.end(), s.objects.begin() + 1, s.objects.end());
+        return all;
+    }
+    static std::optional<std::size_t> shown(const RecordedSurface& r, std::size_t phases) {
+        return r.entered ? r.entered->index : phases + r.object - 1;
+    }
+};
+
+using CryptoPhasePlane = CryptomattePlane<MattePhase>;
+using CryptoObjectPlane = CryptomattePlane<MatteObject>;
+using CryptoMaterialPlane = CryptomattePlane<MatteMaterial>;
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,33 @@
+// How far the camera ray travels in each phase, up to the first surface that is not perfectly smooth: the mean over the
+// samples, of which each is reflected or refracted by Fresnel's odds (path_record.hpp).
+#pragma once
+
+#include "film/channel_name.hpp"
+#include "film/recorded_plane.hpp"
+
+namespace phasetree::tracer {
+
+/// A channel length_PHASE.X for each phase, the vacuum among them.
+class LengthPlane {
+  public:
+    using Sum = ValueSum;
+    static constexpr std::string_view name = "length";
+    static constexpr bool by_default = false;
+    explicit LengthPlane(const PlaneSubjects& subjects) : phases_(subjects.phases) {}
+
+    std::vector<std::string> channels() const { return channel_names("length_", phases_, ".X"); }
+    std::size_t sums() const { return phases_.size(); }
+    void add(std::span<Sum> sums, const FilmSample& sample, FilmFaults& faults) const {
+        if (!sample.record) return;
+        for (std::size_t i = 0; i < sums.size(); ++i)
+            sums[i].add(static_cast<double>(sample.record->lengths[i]), faults);
+    }
+    void resolve(std::span<const Sum> sums, std::uint32_t samples, std::span<float> values) const {
+        for (std::size_t i = 0; i < sums.size(); ++i) values[i] = static_cast<float>(sums[i].value() / samples);
+    }
+
+  private:
+    std::vector<std::string> phases_;
+};
+
+}  // namespace phasetree::tracer

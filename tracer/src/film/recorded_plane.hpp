@@ -1,0 +1,79 @@
+// Planes of what a path records (path_record.hpp), by how a pixel's samples become one value. `What` says what is taken
+// of a sample: its name, its channels, and of(sample), which is nothing where the sample has nothing to tell.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "film/contract.hpp"
+#include "film/path_record.hpp"
+#include "film/sums/first_value.hpp"
+#include "film/sums/fixed_sum.hpp"
+#include "film/sums/weighted_mean.hpp"
+
+namespace phasetree::tracer {
+
+inline std::array<float, 3> components(const glm::vec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+template <class What>
+struct RecordedPlane {
+    static constexpr std::string_view name = What::name;
+    static constexpr bool by_default = false;
+    static constexpr std::size_t size = What::channels.size();
+
+    std::vector<std::string> channels() const { return {What::channels.begin(), What::channels.end()}; }
+};
+
+/// The mean of all samples, in which those that have nothing to tell count as 0: smooth along edges, as filters and
+/// denoisers want it.
+template <class What>
+struct MeanPlane : RecordedPlane<What> {
+    using Sum = ValueSum;
+    explicit MeanPlane(const PlaneSubjects&) {}
+
+    std::size_t sums() const { return What::channels.size(); }
+    void add(std::span<Sum> sums, const FilmSample& sample, FilmFaults& faults) const {
+        if (const auto values = What::of(sample))
+            for (std::size_t i = 0; i < sums.size(); ++i) sums[i].add(static_cast<double>((*values)[i]), faults);
+    }
+    void resolve(std::span<const Sum> sums, std::uint32_t samples, std::span<float> values) const {
+        for (std::size_t i = 0; i < sums.size(); ++i) values[i] = static_cast<float>(sums[i].value() / samples);
+    }
+};
+
+/// The mean of the samples that have something to tell, and What::otherwise where none has.
+template <class What>
+struct MeanOfMetPlane : RecordedPlane<What> {
+    using Sum = WeightedMean<What::channels.size()>;
+    explicit MeanOfMetPlane(const PlaneSubjects&) {}
+
+    std::size_t sums() const { return 1; }
+    void add(std::span<Sum> sums, const FilmSample& sample, FilmFaults& faults) const {
+        if (const auto values = What::of(sample)) sums[0].add(*values, 1.0f, faults);
+    }
+    void resolve(std::span<const Sum> sums, std::uint32_t, std::span<float> values) const {
+        const auto means = sums[0].mean(What::otherwise);
+        std::copy(means.begin(), means.end(), values.begin());
+    }
+};
+
+/// What the first sample has to tell, of those that have something: for what has no mean, such as numbers that name
+/// something. These planes have hard edges; mattes with soft ones are those of Cryptomatte.
+template <class What>
+struct FirstSamplePlane : RecordedPlane<What> {
+    using Sum = FirstValue<What::channels.size()>;
+    explicit FirstSamplePlane(const PlaneSubjects&) {}
+
+    std::size_t sums() const { return 1; }
+    void add(std::span<Sum> sums, const FilmSample& sample, FilmFaults&) const {
+        if (const auto values = What::of(sample)) sums[0].add(*values, sample.number);
+    }
+    void resolve(std::span<const Sum> sums, std::uint32_t, std::span<float> values) const {
+        const auto first = sums[0].values(What::otherwise);
+        std::copy(first.begin(), first.end(), values.begin());
+    }
+};
+
+}  // namespace phasetree::tracer

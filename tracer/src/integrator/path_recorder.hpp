@@ -1,0 +1,55 @@
+// Fills in what a path tells of itself (film/path_record.hpp) as it is traced. Where nobody asks, a step of a path
+// costs one comparison more.
+#pragma once
+
+#include "film/path_record.hpp"
+#include "scene/scene.hpp"
+#include "world/hit.hpp"
+
+namespace phasetree::tracer {
+
+class PathRecorder {
+  public:
+    /// Records nothing without a record. It refers to the scene.
+    PathRecorder(PathRecord* record, const Scene& scene) : record_(record), lights_(scene.lights) {
+        if (record_) begin(scene);
+    }
+
+    bool is_asked() const { return record_ != nullptr; }
+
+    /// The path has gone so far in the phase.
+    void travelled(Phase phase, float distance) {
+        if (record_ && !record_->behind) add_length(phase, distance);
+    }
+
+    /// The path was scattered: `is_delta` if in one of few directions, `is_link` if by a smooth clear interface.
+    /// `weight` is that of the next direction, or 0, and `throughput` the path's with that; both of basic radiance,
+    /// which is radiance over the square of the refractive index.
+    void scattered(const Surface& surface, bool is_delta, bool is_link, const glm::vec3& weight,
+                   const glm::vec3& throughput);
+
+    /// The path brings radiance, of an emission that was seen in the direction. `by_shadow_ray` says that it came to
+    /// the surface of which scattered() is to tell next.
+    void add_light(const glm::vec3& radiance, const Lights::Emission& emission, const glm::vec3& direction,
+                   bool by_shadow_ray) {
+        if (record_) add_to_parts(radiance, emission, direction, by_shadow_ray);
+    }
+
+    /// The path has ended.
+    void finish(const glm::vec3& radiance) {
+        if (record_) record_->indirect = radiance - record_->direct;
+    }
+
+  private:
+    void begin(const Scene& scene);
+    void add_length(Phase phase, float distance);
+    void add_to_parts(const glm::vec3& radiance, const Lights::Emission& emission, const glm::vec3& direction,
+                      bool by_shadow_ray);
+
+    PathRecord* record_;
+    const Lights& lights_;
+    float distance_ = 0;  ///< from the camera
+    int scatterings_ = 0;
+};
+
+}  // namespace phasetree::tracer
