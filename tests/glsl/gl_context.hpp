@@ -45,7 +45,7 @@ class GlContext {
     }
 
     /// Runs a fragment shader once for each of `width` × `height` places and returns what it writes to `result`.
-    /// `points` and `numbers` are textures of 32-bit floats: one row of four, and rows of 1,024.
+    /// `points` and `numbers` are textures of 32-bit floats, four to a texel: one row, and rows of 1,024.
     std::vector<glm::vec4> run(const std::string& body, const std::vector<glm::vec4>& points,
                                const std::vector<float>& numbers, int width, int height) const {
         const std::string version = dialect_ == GlDialect::es_300 ? "#version 300 es\n" : "#version 330 core\n";
@@ -56,10 +56,8 @@ class GlContext {
         const auto use = gl<decltype(&glUseProgram)>("glUseProgram");
         use(program);
         const GLuint point_texture = texture(0, GL_RGBA32F, GL_RGBA, static_cast<int>(points.size()), 1, points.data());
-        std::vector<float> padded = numbers;
-        padded.resize((numbers.size() + 1023) / 1024 * 1024 + 1024);
         const GLuint number_texture =
-            texture(1, GL_R32F, GL_RED, 1024, static_cast<int>(padded.size() / 1024), padded.data());
+            texture(1, GL_RGBA32F, GL_RGBA, 1024, static_cast<int>(numbers.size() / 4096), numbers.data());
         const auto location = gl<decltype(&glGetUniformLocation)>("glGetUniformLocation");
         const auto set = gl<decltype(&glUniform1i)>("glUniform1i");
         set(location(program, "points"), 0);

@@ -107,7 +107,7 @@ void main() {
     phasetree_distances(p, phi);
     if (row == 0) {
         float s;
-        int label = phasetree_sample_of(phi, s);
+        int label = phasetree_sample(p, s);
         result = vec4(float(label), s, 0.0, 0.0);
     } else if (row <= PHASETREE_COMPONENTS) {
         result = vec4(phi[row - 1], 0.0, 0.0, 0.0);
@@ -125,6 +125,7 @@ Comparison compared(const GlContext& gl, const Phased& object, Random& rng, cons
     const Bounds region = region_of_interest(bounds(object));
     const std::vector<glm::vec4> points = random_points(rng, region);
     const GlslShader shader = make_glsl(program, region, 1e-5f, options);
+    if (std::getenv("DUMP")) std::ofstream(std::getenv("DUMP")) << shader.text;
     const int components = static_cast<int>(program.outputs.size());
     const std::vector<glm::vec4> got =
         gl.run(shader.text + comparing_main, points, shader.numbers, point_count, 1 + 2 * components);
@@ -150,6 +151,7 @@ Comparison compared(const GlContext& gl, const Phased& object, Random& rng, cons
             for (const double v : {static_cast<double>(at(1 + k).x), static_cast<double>(at(1 + components + k).w)}) {
                 ++c.values;
                 c.wrong_values += !(std::abs(v - value) <= tolerance);
+                if (!(std::abs(v - value) <= tolerance)) MESSAGE("W " << p.x << " " << p.y << " " << p.z << " v " << v << " exp " << value << " tol " << tolerance << " comp " << k);
                 c.worst = std::max(c.worst, std::abs(v - value));
             }
             // Near an edge either side's gradient is right. So it is compared where it is that of all points about.
@@ -211,8 +213,12 @@ TEST_CASE("every node's example has the same values, labels and gradients in GLS
     Comparison all;
     for (const auto& example : examples()) {
         CAPTURE(example.filename());
+        if (const char* only = std::getenv("ONLY"); only && example.stem() != only) continue;
         const auto start = std::chrono::steady_clock::now();
-        const Comparison c = compared(*gl, read_example(example), rng);
+        GlslOptions options;
+        if (std::getenv("GRID")) options.grid = atoi(std::getenv("GRID"));
+        if (std::getenv("CALLS")) options.most_calls = static_cast<std::size_t>(atoi(std::getenv("CALLS")));
+        const Comparison c = compared(*gl, read_example(example), rng, options);
         if (std::getenv("PHASETREE_TELL"))
             MESSAGE("T " << std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() << " "
                          << example.filename().string());

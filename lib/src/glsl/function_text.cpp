@@ -128,10 +128,10 @@ class FunctionWriter {
         for (std::size_t c = 0; c < readings_.carried.size(); ++c)
             line("{} c{};", carried_gradient_[c] ? "vec4" : "float", c);
         for (std::size_t a = 0; a < readings_.arrays.size(); ++a)
-            line("{} g{}[{}];", array_gradient_[a] ? "vec4" : "float", a, readings_.arrays[a].values.size());
+            line("{} g{}[{}];", array_gradient_[a] ? "vec4" : "float", a, readings_.arrays[a].size());
         for (std::size_t i = 0; i < readings_.inputs.size(); ++i)
             for (const ElementWrite& w : readings_.inputs[i])
-                line("g{}[{}] = {};", w.array, w.first,
+                line("g{}[{}] = {};", w.array, w.first - readings_.arrays[w.array].lowest,
                      fitted({input_names[i], with_gradients_}, array_gradient_[w.array]));
     }
 
@@ -170,9 +170,9 @@ class FunctionWriter {
         for (std::size_t c = 0; c < readings_.carried.size(); ++c)
             if (readings_.carried[c].leaf == i) line("c{} = {};", c, fitted(e, carried_gradient_[c]));
         for (const ElementWrite& w : readings_.writes[i]) {
-            std::string index = std::to_string(w.first);
+            std::string index = std::to_string(w.first - readings_.arrays[w.array].lowest);
             for (std::size_t l = 0; l < w.factors.size(); ++l)
-                if (w.factors[l] != 0) index += fmt::format(" + {} * i{}", w.factors[l], l);
+                if (w.factors[l] != 0) index += fmt::format(" + ({}) * i{}", w.factors[l], l);
             line("g{}[{}] = {};", w.array, index, fitted(e, array_gradient_[w.array]));
         }
         expressions_[i] = std::move(e);
@@ -194,7 +194,8 @@ class FunctionWriter {
             case Reading::Kind::carried:
                 return {fmt::format("c{}", r.index), carried_gradient_[r.index] != 0, false};
             case Reading::Kind::element:
-                return {fmt::format("g{}[{}]", r.index, index(r, loops)), array_gradient_[r.index] != 0, false};
+                return {fmt::format("g{}[{}{}]", r.index, index(r, loops), after(readings_.arrays[r.index].lowest)),
+                        array_gradient_[r.index] != 0, false};
             case Reading::Kind::number:
             case Reading::Kind::table:
                 break;
@@ -216,6 +217,7 @@ class FunctionWriter {
         }
         return text.empty() ? "0" : text;
     }
+    static std::string after(std::int64_t lowest) { return lowest < 0 ? fmt::format(" + {}", -lowest) : ""; }
     static std::string fitted(const Expression& e, bool with_gradient) {
         return with_gradient && !e.has_gradient ? fmt::format("vec4(0.0, 0.0, 0.0, {})", e.text) : e.text;
     }

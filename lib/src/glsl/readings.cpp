@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <bit>
 #include <map>
+#include <optional>
 
 namespace phasetree::glsl {
 
 namespace {
+
+// An array has at most so many times the places that are read.
+constexpr std::size_t largest_spare = 8;
 
 bool same(const Operand& a, const Operand& b) {
     return a.value == b.value && std::bit_cast<std::uint32_t>(a.constant) == std::bit_cast<std::uint32_t>(b.constant);
@@ -191,6 +195,7 @@ class ReadingSearch {
         }
         for (std::uint32_t a = 0; a < result_.arrays.size(); ++a)
             if (result_.arrays[a].values == array.values) return Reading{Reading::Kind::element, a, {}, matter};
+        array.highest = static_cast<std::int64_t>(array.values.size()) - 1;
         result_.arrays.push_back(std::move(array));
         return Reading{Reading::Kind::element, static_cast<std::uint32_t>(result_.arrays.size() - 1), {}, matter};
     }
@@ -213,24 +218,51 @@ class ReadingSearch {
         }
         return true;
     }
+    // Finds where all instances of a leaf go in an array. The places of those that are read are known and must be
+    // linear in the counters; the others go to places around these.
     bool write_instances(std::uint32_t array, std::uint32_t number,
                          const std::map<std::int32_t, std::int64_t>& places) {
         const Leaf& leaf = nest_.leaves()[number];
-        const auto place_of = [&](std::uint32_t step) {
-            const auto found = places.find(static_cast<std::int32_t>(step + inputs()));
-            return found == places.end() ? std::int64_t{-1} : found->second;
+        const std::size_t depth = leaf.loops.size();
+        struct Instance {
+            std::vector<std::uint32_t> counters;
+            std::optional<std::int64_t> place;
         };
-        ElementWrite write{array, place_of(leaf.first), {}};
-        for (const NestItem* loop : leaf.loops)
-            write.factors.push_back(place_of(leaf.first + loop->period) - write.first);
+        std::vector<Instance> instances;
         Counters counters(counts_of(leaf.loops));
         do {
-            std::int64_t place = write.first;
-            for (std::size_t l = 0; l < leaf.loops.size(); ++l) place += write.factors[l] * counters[l];
-            if (place < 0 || place != place_of(step_at(leaf, counters))) return false;
+            Instance instance;
+            for (std::size_t l = 0; l < depth; ++l) instance.counters.push_back(counters[l]);
+            const auto found = places.find(static_cast<std::int32_t>(step_at(leaf, counters) + inputs()));
+            if (found != places.end()) instance.place = found->second;
+            instances.push_back(std::move(instance));
         } while (counters.next());
+        const auto first = std::ranges::find_if(instances, [](const Instance& i) { return i.place.has_value(); });
+        ElementWrite write{array, *first->place, {}};
+        const auto count = static_cast<std::int64_t>(result_.arrays[array].values.size());
+        for (std::size_t l = 0; l < depth; ++l) {
+            const auto other = std::ranges::find_if(instances, [&](const Instance& i) {
+                bool differs_here_alone = i.place && i.counters[l] != first->counters[l];
+                for (std::size_t m = 0; m < depth; ++m)
+                    differs_here_alone = differs_here_alone && (m == l || i.counters[m] == first->counters[m]);
+                return differs_here_alone;
+            });
+            const auto step = [&] {
+                return static_cast<std::int64_t>(other->counters[l]) - static_cast<std::int64_t>(first->counters[l]);
+            };
+            write.factors.push_back(other == instances.end() ? count : (*other->place - *first->place) / step());
+        }
+        for (std::size_t l = 0; l < depth; ++l) write.first -= write.factors[l] * first->counters[l];
+        ValueArray& to = result_.arrays[array];
+        for (const Instance& i : instances) {
+            std::int64_t place = write.first;
+            for (std::size_t l = 0; l < depth; ++l) place += write.factors[l] * i.counters[l];
+            if (i.place ? place != *i.place : place >= 0 && place < count) return false;
+            to.lowest = std::min(to.lowest, place);
+            to.highest = std::max(to.highest, place);
+        }
         result_.writes[number].push_back(std::move(write));
-        return true;
+        return to.size() <= largest_spare * to.values.size();
     }
 
     const Nest& nest_;

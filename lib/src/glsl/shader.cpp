@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "glsl/functions.hpp"
+#include "glsl/program_table.hpp"
+#include "glsl/pruned_grid.hpp"
 #include "glsl/runtime.hpp"
 #include "program/op_traits.hpp"
 
@@ -61,7 +63,7 @@ std::string program_text(const Program& program, const Functions& functions, con
     return text + "}\n";
 }
 
-std::string heading(const Program& program, const GlslOptions& options) {
+std::string heading(const Program& program, const GlslOptions& options, std::size_t rows) {
     std::string text =
         "// An object of several phases: its distances, labels, normals, and rays from phase to phase.\n"
         "// Made by phasetree. For GLSL ES 3.00 and GLSL 3.30: put #version before this text and main() behind it.\n"
@@ -70,11 +72,21 @@ std::string heading(const Program& program, const GlslOptions& options) {
         "//     void phasetree_gradients(vec3 p, out vec4 phi[PHASETREE_COMPONENTS])   xyz the gradient, w the "
         "distance\n"
         "//     int phasetree_phase(int component)                                     the phase of a component\n"
-        "//     int phasetree_label(vec3 p)                                            the phase at p\n"
+        "//     int phasetree_label(vec3 p)                                            the phase at p; 0 is vacuum\n"
         "//     int phasetree_sample(vec3 p, out float interface_distance)\n"
         "//     vec3 phasetree_normal(vec3 p, int phase)                               out of the phase\n"
         "//     PhasetreeCrossing phasetree_trace(vec3 origin, vec3 direction, float t_min, float t_max, int carried)\n"
+        "//\n"
+        "// In a fragment shader, for example:\n"
+        "//\n"
+        "//     PhasetreeCrossing c = phasetree_trace(eye, direction, 0.0, 1e9, -1);\n"
+        "//     color = c.found ? vec4(0.5 + 0.5 * c.normal, 1.0) : vec4(0.0, 0.0, 0.0, 1.0);\n"
         "//\n";
+    if (rows > 0)
+        text += fmt::format(
+            "// The sampler phasetree_numbers must be a texture of format RGBA32F that is 1024 wide and {} high, with\n"
+            "// the numbers that came with this text, and without a filter (NEAREST).\n//\n",
+            rows);
     for (const Output& o : program.outputs)
         if (o.phase.index < options.phase_names.size()) {
             std::string name = options.phase_names[o.phase.index];
@@ -99,35 +111,96 @@ std::string definitions(const Program& program, const Bounds& bounds, float reso
     return text + fmt::format("    return {};\n}}\n\n", program.outputs.back().phase.index);
 }
 
+// Four numbers to a vector.
 std::string numbers_text(const std::vector<float>& numbers, bool in_texture) {
     if (in_texture)
         return "uniform highp sampler2D phasetree_numbers;\n"
-               "float pt_number(int i) { return texelFetch(phasetree_numbers, ivec2(i & 1023, i >> 10), 0).r; }\n\n";
+               "vec4 pt_four(int i) { return texelFetch(phasetree_numbers, ivec2(i & 1023, i >> 10), 0); }\n"
+               "float pt_number(int i) { return pt_four(i >> 2)[i & 3]; }\n\n";
     if (numbers.empty()) return "float pt_number(int i) { return 0.0; }\n\n";
-    std::string text = fmt::format("const float pt_numbers[{0}] = float[{0}](", numbers.size());
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-        text += (i == 0 ? "\n    " : i % 8 == 0 ? ",\n    " : ", ") + literal(numbers[i]);
-    return text + ");\nfloat pt_number(int i) { return pt_numbers[i]; }\n\n";
+    std::string text = fmt::format("const vec4 pt_numbers[{0}] = vec4[{0}](", numbers.size() / 4);
+    for (std::size_t i = 0; i < numbers.size(); i += 4)
+        text += fmt::format("{}vec4({}, {}, {}, {})", i == 0 ? "\n    " : i % 8 == 0 ? ",\n    " : ", ",
+                            literal(numbers[i]), literal(numbers[i + 1]), literal(numbers[i + 2]),
+                            literal(numbers[i + 3]));
+    return text +
+           ");\nvec4 pt_four(int i) { return pt_numbers[i]; }\n"
+           "float pt_number(int i) { return pt_numbers[i >> 2][i & 3]; }\n\n";
+}
+
+void fill_rows(std::vector<float>& numbers, std::size_t row) {
+    numbers.resize((numbers.size() + row - 1) / row * row, 0.f);
+}
+
+// All that evaluates the object, but not yet what reads its numbers.
+struct Evaluation {
+    std::string text;
+    std::vector<float> numbers;
+    std::size_t boxes = 0, programs = 0;
+};
+
+// A text with a call for each instruction.
+Evaluation by_calls(const Program& program) {
+    Functions functions;
+    const std::vector<std::uint32_t> calls = add_all(program, functions);
+    functions.finish();
+    return {functions.text(false) + "\n" + program_text(program, functions, calls, false) + glsl::gradient_arithmetic +
+                "\n" + functions.text(true) + "\n" + program_text(program, functions, calls, true) +
+                glsl::calls_sampler,
+            functions.numbers()};
+}
+
+glsl::BoxProgram whole_of(const Program& program) {
+    glsl::BoxProgram whole{program.instructions, {}};
+    for (const Output& o : program.outputs) whole.outputs.push_back({o.phase, o.value, false});
+    return whole;
+}
+
+// A loop that runs a table of instructions.
+Evaluation by_table(Program program, const Bounds& bounds, float resolution, const GlslOptions& options) {
+    const glsl::BoxProgram whole = whole_of(program);
+    glsl::PrunedGrid grid;
+    if (options.grid > 0)
+        grid = glsl::prune_on_grid(program, bounds, 4 * resolution, options.grid, options.cancelled);
+    // The instructions of the whole say where the constants of each end; rewriting leaves them as they are.
+    Functions functions;
+    glsl::ProgramTable table(program, functions);
+    table.add(whole);
+    for (const glsl::BoxProgram& p : grid.programs) table.add(p);
+    functions.finish();
+    Evaluation result{{}, functions.numbers(), grid.content.size(), grid.programs.size()};
+    const std::vector<std::size_t> places = table.append_to(result.numbers);
+    result.text = fmt::format("const int PT_WHOLE = {};\n", places[0]);
+    if (options.grid > 0) {
+        result.text += fmt::format("const int PT_GRID = {};\nconst ivec3 PT_BOXES = ivec3({}, {}, {});\n",
+                                   result.numbers.size(), grid.boxes[0], grid.boxes[1], grid.boxes[2]);
+        for (const std::int32_t c : grid.content)
+            result.numbers.push_back(
+                c < 0 ? static_cast<float>(c) : static_cast<float>(places[static_cast<std::size_t>(c) + 1]));
+    }
+    result.text += functions.text(false) + "\n" + table.text(false) + glsl::gradient_arithmetic + "\n" +
+                   functions.text(true) + "\n" + table.text(true) + glsl::table_evaluation +
+                   (options.grid > 0 ? glsl::grid_of_programs : glsl::one_program) + glsl::table_sampler +
+                   (options.grid > 0 ? glsl::grid_sampler : glsl::one_program_sampler);
+    return result;
 }
 
 }  // namespace
 
 GlslShader make_glsl(const Program& program, const Bounds& bounds, float resolution, const GlslOptions& options) {
     if (program.instructions.size() > longest_glsl_program)
-        throw ModelError(
-            fmt::format("the object has {} instructions, and a shader takes {}: export a part of it, or "
-                        "a page, which cuts it into cells",
-                        program.instructions.size(), longest_glsl_program));
-    Functions functions;
-    const std::vector<std::uint32_t> calls = add_all(program, functions);
-    functions.finish();
-    const bool in_texture = functions.numbers().size() > options.most_numbers_in_text;
+        throw ModelError(fmt::format("the object has {} instructions, and a shader takes {}: export a part of it",
+                                     program.instructions.size(), longest_glsl_program));
+    const bool is_table = options.grid > 0 || program.instructions.size() > options.most_calls;
+    Evaluation evaluation = is_table ? by_table(program, bounds, resolution, options) : by_calls(program);
+    const bool in_texture = evaluation.numbers.size() > options.most_numbers_in_text;
+    fill_rows(evaluation.numbers, in_texture ? GlslShader::numbers_in_row : 4);
     GlslShader shader;
-    shader.text = heading(program, options) + definitions(program, bounds, resolution, options) +
-                  numbers_text(functions.numbers(), in_texture) + functions.text(false) + "\n" +
-                  program_text(program, functions, calls, false) + glsl::gradient_arithmetic + "\n" +
-                  functions.text(true) + "\n" + program_text(program, functions, calls, true) + glsl::phase_tracer;
-    if (in_texture) shader.numbers = functions.numbers();
+    shader.text = heading(program, options, in_texture ? evaluation.numbers.size() / GlslShader::numbers_in_row : 0) + definitions(program, bounds, resolution, options) +
+                  numbers_text(evaluation.numbers, in_texture) + evaluation.text + glsl::phase_tracer;
+    if (in_texture) shader.numbers = std::move(evaluation.numbers);
+    shader.boxes = evaluation.boxes;
+    shader.programs = evaluation.programs;
     return shader;
 }
 
