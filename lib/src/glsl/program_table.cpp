@@ -44,14 +44,13 @@ std::size_t ProgramTable::add(const BoxProgram& program) {
     Entry entry;
     for (std::size_t i = 0; i < assembly.steps.size(); ++i) {
         const evaluation::Step& s = assembly.steps[i];
-        entry.steps.push_back(
-            {instruction_at({static_cast<Op>(s.op), 0, 0, assembly.data[i]}), s.to, s.a, s.b});
+        entry.steps.push_back({instruction_at({static_cast<Op>(s.op), 0, 0, assembly.data[i]}), s.to, s.a, s.b});
     }
     for (const evaluation::OutputSlot& o : assembly.outputs) {
         const auto of_whole =
             std::ranges::find(whole_.outputs, static_cast<int>(o.phase), [](const Output& w) { return w.phase.index; });
-        entry.outputs.push_back({o.phase, static_cast<float>(o.slot), o.sign,
-                                 static_cast<float>(of_whole - whole_.outputs.begin())});
+        entry.outputs.push_back(
+            {o.phase, static_cast<float>(o.slot), o.sign, static_cast<float>(of_whole - whole_.outputs.begin())});
     }
     slots_ = std::max(slots_, assembly.slots);
     entries_.push_back(std::move(entry));
@@ -105,9 +104,9 @@ std::string ProgramTable::text(bool with_gradients) const {
             arguments.push_back(slot("b"));
         const std::string call = functions_.call_at(f, arguments, "at", with_gradients);
         if (gives_point(op))
-            text += fmt::format(
-                "            case {0}: {{ {1} q = {2}; {3} = q[0]; {4} = q[1]; {5} = q[2]; break; }}\n", f,
-                with_gradients ? "mat3x4" : "vec3", call, slot("to"), slot("to + 1"), slot("to + 2"));
+            text +=
+                fmt::format("            case {0}: {{ {1} q = {2}; {3} = q[0]; {4} = q[1]; {5} = q[2]; break; }}\n", f,
+                            with_gradients ? "mat3x4" : "vec3", call, slot("to"), slot("to + 1"), slot("to + 2"));
         else
             text += fmt::format("            case {}: {} = {}; break;\n", f, slot("to"), call);
     }

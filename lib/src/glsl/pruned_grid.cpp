@@ -117,8 +117,8 @@ class GridPruning {
             key.insert(key.end(), {static_cast<std::uint32_t>(o.phase.index), o.value, o.negate ? 1u : 0u});
         const auto [found, is_new] = numbers_.try_emplace(std::move(key), numbers_.size());
         if (is_new)
-            grid_.programs.push_back({{program.code.begin(), program.code.end()},
-                                      {program.outputs.begin(), program.outputs.end()}});
+            grid_.programs.push_back(
+                {{program.code.begin(), program.code.end()}, {program.outputs.begin(), program.outputs.end()}});
         return static_cast<std::int32_t>(found->second);
     }
 

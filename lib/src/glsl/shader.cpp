@@ -120,9 +120,12 @@ std::string numbers_text(const std::vector<float>& numbers, bool in_texture) {
     if (numbers.empty()) return "float pt_number(int i) { return 0.0; }\n\n";
     std::string text = fmt::format("const vec4 pt_numbers[{0}] = vec4[{0}](", numbers.size() / 4);
     for (std::size_t i = 0; i < numbers.size(); i += 4)
-        text += fmt::format("{}vec4({}, {}, {}, {})", i == 0 ? "\n    " : i % 8 == 0 ? ",\n    " : ", ",
-                            literal(numbers[i]), literal(numbers[i + 1]), literal(numbers[i + 2]),
-                            literal(numbers[i + 3]));
+        text +=
+            fmt::format("{}vec4({}, {}, {}, {})",
+                        i == 0       ? "\n    "
+                        : i % 8 == 0 ? ",\n    "
+                                     : ", ",
+                        literal(numbers[i]), literal(numbers[i + 1]), literal(numbers[i + 2]), literal(numbers[i + 3]));
     return text +
            ");\nvec4 pt_four(int i) { return pt_numbers[i]; }\n"
            "float pt_number(int i) { return pt_numbers[i >> 2][i & 3]; }\n\n";
@@ -160,8 +163,7 @@ glsl::BoxProgram whole_of(const Program& program) {
 Evaluation by_table(Program program, const Bounds& bounds, float resolution, const GlslOptions& options) {
     const glsl::BoxProgram whole = whole_of(program);
     glsl::PrunedGrid grid;
-    if (options.grid > 0)
-        grid = glsl::prune_on_grid(program, bounds, 4 * resolution, options.grid, options.cancelled);
+    if (options.grid > 0) grid = glsl::prune_on_grid(program, bounds, 4 * resolution, options.grid, options.cancelled);
     // The instructions of the whole say where the constants of each end; rewriting leaves them as they are.
     Functions functions;
     glsl::ProgramTable table(program, functions);
@@ -175,8 +177,8 @@ Evaluation by_table(Program program, const Bounds& bounds, float resolution, con
         result.text += fmt::format("const int PT_GRID = {};\nconst ivec3 PT_BOXES = ivec3({}, {}, {});\n",
                                    result.numbers.size(), grid.boxes[0], grid.boxes[1], grid.boxes[2]);
         for (const std::int32_t c : grid.content)
-            result.numbers.push_back(
-                c < 0 ? static_cast<float>(c) : static_cast<float>(places[static_cast<std::size_t>(c) + 1]));
+            result.numbers.push_back(c < 0 ? static_cast<float>(c)
+                                           : static_cast<float>(places[static_cast<std::size_t>(c) + 1]));
     }
     result.text += functions.text(false) + "\n" + table.text(false) + glsl::gradient_arithmetic + "\n" +
                    functions.text(true) + "\n" + table.text(true) + glsl::table_evaluation +
@@ -196,8 +198,9 @@ GlslShader make_glsl(const Program& program, const Bounds& bounds, float resolut
     const bool in_texture = evaluation.numbers.size() > options.most_numbers_in_text;
     fill_rows(evaluation.numbers, in_texture ? GlslShader::numbers_in_row : 4);
     GlslShader shader;
-    shader.text = heading(program, options, in_texture ? evaluation.numbers.size() / GlslShader::numbers_in_row : 0) + definitions(program, bounds, resolution, options) +
-                  numbers_text(evaluation.numbers, in_texture) + evaluation.text + glsl::phase_tracer;
+    shader.text = heading(program, options, in_texture ? evaluation.numbers.size() / GlslShader::numbers_in_row : 0) +
+                  definitions(program, bounds, resolution, options) + numbers_text(evaluation.numbers, in_texture) +
+                  evaluation.text + glsl::phase_tracer;
     if (in_texture) shader.numbers = std::move(evaluation.numbers);
     shader.boxes = evaluation.boxes;
     shader.programs = evaluation.programs;

@@ -88,9 +88,9 @@ void add_export(CLI::App& app, Run& run) {
         run = [=] {
             const std::string extension = std::filesystem::path(options->output).extension().string();
             if (extension == ".glsl") return export_shader(*file, *options);
-            throw OutputError(fmt::format("cannot write \"{}\": {}, and an export is .glsl", options->output,
-                                          extension.empty() ? "it has no extension"
-                                                            : "its extension is \"" + extension + "\""));
+            throw OutputError(
+                fmt::format("cannot write \"{}\": {}, and an export is .glsl", options->output,
+                            extension.empty() ? "it has no extension" : "its extension is \"" + extension + "\""));
         };
     });
 }
