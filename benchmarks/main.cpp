@@ -33,9 +33,15 @@ const std::vector<Command>& commands() {
         {"phases", "the same geometry with 1 to 32 phases (Figure 20)", phases},
         {"simd", "instruction sets and threads", simd},
         {"host", "what a host pays for decoding, cells from files, points", host},
+        {"carve", "carved bounds against boxes (Figure 23)", carve},
+        {"march", "steps along one ray from phase to phase (Figure 21)", march},
+        {"proxies", "what proxies save by walking the tree, and through cells", proxies},
     };
     return all;
 }
+
+// Minutes and gigabytes, and so not one of all.
+const Command resolutions{"resolution", "a field against its triangles at 64³ to 1024³", resolution};
 
 // Not a measurement, and so not one of all: what a change that should change nothing must leave as it was.
 const Command fingerprints{"fingerprint", "what is computed for every scene, to the last bit: for comparing two builds",
@@ -113,7 +119,10 @@ int main(int argc, char** argv) {
     for (const Command& command : commands())
         app.add_subcommand(command.name, command.what)->callback([&] { chosen.push_back(command); });
     app.add_subcommand(fingerprints.name, fingerprints.what)->callback([&] { chosen.push_back(fingerprints); });
-    app.add_subcommand("all", "all of these but the fingerprints")->callback([&] { chosen = commands(); });
+    app.add_subcommand(resolutions.name, resolutions.what)->callback([&] { chosen.push_back(resolutions); });
+    app.add_subcommand("all", "all of these but the resolutions and the fingerprints")->callback([&] {
+        chosen = commands();
+    });
     try {
         app.parse(argc, argv);
         if (settings.quick) settings.width = settings.height = 128;

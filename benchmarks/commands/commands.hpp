@@ -14,6 +14,10 @@ Report phases(const Settings&);
 Report quality(const Settings&);
 Report simd(const Settings&);
 Report host(const Settings&);
+Report carve(const Settings&);
+Report proxies(const Settings&);
+Report resolution(const Settings&);
+Report march(const Settings&);
 Report fingerprint(const Settings&);
 
 }  // namespace phasetree::bench

@@ -56,15 +56,13 @@ void Report::say(const std::string& line) {
 }
 
 void Report::table(const std::string& key, const Table& table) {
+    keep(key, table);
     std::vector<std::size_t> widths;
     std::vector<std::vector<std::string>> texts;
     for (const Column& c : table.columns_) widths.push_back(width_of(c.heading));
-    auto& list = json_[key] = nlohmann::ordered_json::array();
     for (const auto& row : table.rows_) {
-        auto& object = list.emplace_back(nlohmann::ordered_json::object());
         auto& line = texts.emplace_back();
         for (std::size_t i = 0; i < row.size(); ++i) {
-            object[table.columns_[i].key] = as_json(row[i]);
             line.push_back(printed(row[i], table.columns_[i]));
             widths[i] = std::max(widths[i], width_of(line.back()));
         }
@@ -77,6 +75,14 @@ void Report::table(const std::string& key, const Table& table) {
     };
     join([&](std::size_t i) { return table.columns_[i].heading; });
     for (const auto& line : texts) join([&](std::size_t i) { return line[i]; });
+}
+
+void Report::keep(const std::string& key, const Table& table) {
+    auto& list = json_[key] = nlohmann::ordered_json::array();
+    for (const auto& row : table.rows_) {
+        auto& object = list.emplace_back(nlohmann::ordered_json::object());
+        for (std::size_t i = 0; i < row.size(); ++i) object[table.columns_[i].key] = as_json(row[i]);
+    }
 }
 
 void Report::target(const std::string& what, double measured, double wanted, bool met, const char* sign,

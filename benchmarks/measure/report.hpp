@@ -37,6 +37,8 @@ class Report {
     // A line of explanation: what is compared, on which rays, how many, with how many threads.
     void say(const std::string& line);
     void table(const std::string& key, const Table&);
+    // The same, without printing it: for plots.
+    void keep(const std::string& key, const Table&);
     // Compares with what is wanted; the verdict is printed, and does not change the exit code.
     void at_most(const std::string& what, double measured, double wanted, const std::string& format = "{:.2f}");
     void at_least(const std::string& what, double measured, double wanted, const std::string& format = "{:.2f}");

@@ -170,7 +170,7 @@ TEST_CASE("gradients equal central differences away from kinks") {
     // Differences of the oracle's Φ in double, h = 10⁻⁵: they are off by h² and 10⁻¹⁶/h, about 10⁻¹⁰. A kink shows
     // itself by one-sided differences that disagree; so does curvature above 50/m, whose share must stay small.
     constexpr double h = 1e-5;
-    std::size_t compared = 0, skipped = 0;
+    std::size_t compared = 0, skipped = 0, ties = 0;
     double worst = 0;
     for_many_objects(34, long_tests() ? 1000 : 60, [&](const Phased& object, Random& rng) {
         const Evaluator evaluator(record(object));
@@ -205,13 +205,16 @@ TEST_CASE("gradients equal central differences away from kinks") {
                 CAPTURE(p.x);
                 CAPTURE(p.y);
                 CAPTURE(p.z);
-                // Rounding of a position, some 10⁻⁷, turns the gradient by up to curvature times that. And where two
-                // places of a surface are as near but for rounding, the direction from either may be given: a share δ
-                // of the distance apart they are nearer by δ²/2, which is less than 2⁻²⁴ up to δ = 3.5·10⁻⁴.
+                // Rounding of a position, some 10⁻⁷, turns the gradient by up to curvature times that: below 10⁻⁴. But
+                // where two places of a surface are as near but for rounding, the direction to either may be given:
+                // one that lies aside by a share δ of the distance is farther by a share δ²/2, which floats do not
+                // see up to δ = 3.5·10⁻⁴. An example is a point above a face of a box and beside that of its copy.
+                ties += error > 1e-4;
                 REQUIRE(error < 4e-4);
             });
         }
     });
-    MESSAGE(compared, " gradients, ", skipped, " at kinks; largest error ", worst);
+    MESSAGE(compared, " gradients, ", skipped, " at kinks, ", ties, " at ties; largest error ", worst);
+    CHECK(ties < compared / 10000);
     CHECK(skipped < compared / 20);
 }
