@@ -9,6 +9,7 @@ COMMAND is the built phasetree. The exit code is 77 where there is no Chromium, 
 """
 import argparse
 import base64
+import fcntl
 import json
 import os
 import pathlib
@@ -33,6 +34,9 @@ class Browser:
         to_browser, self.sender = os.pipe()
         self.receiver, from_browser = os.pipe()
 
+        # Far from 3 and 4, which they become: what is there already must not be closed.
+        to_browser, from_browser = (fcntl.fcntl(f, fcntl.F_DUPFD, 64) for f in (to_browser, from_browser))
+
         def pipes():
             os.dup2(to_browser, 3)
             os.dup2(from_browser, 4)
@@ -41,7 +45,7 @@ class Browser:
             [executable, "--headless=new", "--no-sandbox", "--remote-debugging-pipe", "--use-gl=angle",
              "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", "--no-first-run",
              f"--user-data-dir={self.profile.name}", f"--window-size={width},{height}", "about:blank"],
-            preexec_fn=pipes, close_fds=False, stderr=subprocess.DEVNULL)
+            preexec_fn=pipes, pass_fds=(3, 4, to_browser, from_browser), stderr=subprocess.DEVNULL)
         os.close(to_browser)
         os.close(from_browser)
         self.buffer, self.count, self.session = b"", 0, None
@@ -188,7 +192,7 @@ def main():
     parser.add_argument("--open", action="store_true")
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--size", default="800x600")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     chromium = next((p for p in map(shutil.which, ["chromium", "chromium-browser", "google-chrome"]) if p), None)
     looks = options.open or options.check
     if looks and not chromium:
