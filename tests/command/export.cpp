@@ -38,6 +38,35 @@ TEST_CASE("numbers that no text can hold are in a file beside, in whole rows of 
           std::string::npos);
 }
 
+TEST_CASE("a page is one small file that asks for no other, whatever phases are called") {
+    const Shell shell;
+    SceneText scene;
+    scene.phases = R"({"</script><b>&\"": {"clear": {"ior": 1.5}}, "wood": {"diffuse": {"color": [0.5, 0.4, 0.3]}}})";
+    scene.tree = R"({"set": {"phase": "</script><b>&\"", "of": "ball"}})";
+    write_text(shell.directory / "scene.json", scene.text());
+    const Outcome o = shell.run({"export", "scene.json", "-o", "page.html"});
+    CHECK(o.err == "");
+    CHECK(o.code == 0);
+    const std::string page = bytes_of(shell.directory / "page.html");
+    CHECK(page.starts_with("<!DOCTYPE html>"));
+    CHECK(page.size() < 500'000);
+    CHECK(page.find("<b>&") == std::string::npos);
+    CHECK(page.find("</script>") == page.rfind("</script>"));
+    for (const char* word : {"http:", "https:", "src=", "href=", "@import", "fetch("})
+        CHECK(page.find(word) == std::string::npos);
+}
+
+TEST_CASE("a page of a tree alone has colours of its own") {
+    const Shell shell;
+    write_text(
+        shell.directory / "tree.json",
+        R"({"version": 1, "phases": {"a": {}}, "tree": {"set": {"phase": "a", "of": {"sphere": {"radius": 1}}}}})");
+    const Outcome o = shell.run({"export", "tree.json", "-o", "page.html"});
+    CHECK(o.err == "");
+    CHECK(o.code == 0);
+    CHECK(bytes_of(shell.directory / "page.html").find("<canvas") != std::string::npos);
+}
+
 TEST_CASE("what cannot be exported is said in a line, and no file is written") {
     const Shell shell;
     write_text(shell.directory / "scene.json", SceneText().text());

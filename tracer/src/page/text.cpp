@@ -163,7 +163,7 @@ async function open() {
       state.frame = took;
       state.scale = scale;
       // The next frame has as many pixels as the wanted time allows, but no sudden change.
-      scale = Math.min(1, Math.max(0.06, scale * Math.min(1.25, Math.max(0.6, Math.sqrt(wanted / Math.max(took, 1))))));
+      scale = Math.min(1, Math.max(0.12, scale * Math.min(1.25, Math.max(0.6, Math.sqrt(wanted / Math.max(took, 1))))));
       show(low, w, h, 1, null);
       is_dirty = false;
       if (!state.ready) { state.ready = true; state.opened = performance.now() - opened; $("message").textContent = ""; }
