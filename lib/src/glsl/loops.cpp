@@ -1,0 +1,131 @@
+#include "glsl/loops.hpp"
+
+#include <algorithm>
+
+#include "glsl/readings.hpp"
+
+namespace phasetree::glsl {
+
+namespace {
+
+constexpr std::uint32_t fewest_iterations = 3;
+// A loop that saves fewer steps than this is harder to read than what it replaces.
+constexpr std::uint32_t fewest_saved = 32, fewest_saved_by_part = 256;
+// The longest iteration that is sought, in items, the most comparisons in all, and the most steps in loops that are
+// tried.
+constexpr std::size_t longest_iteration = 2048, most_comparisons = std::size_t{1} << 28,
+                      most_steps_tried = std::size_t{1} << 25;
+
+std::uint64_t combined(std::uint64_t a, std::uint64_t b) {
+    a ^= b + 0x9e3779b97f4a7c15u + (a << 6) + (a >> 2);
+    return a * 0xff51afd7ed558ccdu;
+}
+
+// An item that is not in a loop yet, and a hash of its form: of the operations, not of the operands.
+struct Candidate {
+    NestItem item;
+    std::uint64_t form;
+};
+
+class LoopSearch {
+  public:
+    explicit LoopSearch(const Trace& trace) : trace_(trace) {
+        for (std::uint32_t i = 0; i < trace.steps.size(); ++i) {
+            const TraceStep& s = trace.steps[i];
+            const std::uint64_t form =
+                combined(static_cast<std::uint64_t>(s.op) << 8 | static_cast<std::uint64_t>(s.function),
+                         static_cast<std::uint64_t>(s.table) << 4 | s.operands);
+            list_.push_back({{i, 1, 1, {}}, form});
+        }
+    }
+
+    std::vector<NestItem> run() {
+        std::size_t comparisons = 0;
+        for (std::size_t length = 1; length <= longest_iteration && fewest_iterations * length <= list_.size();
+             ++length) {
+            comparisons += list_.size();
+            if (comparisons > most_comparisons) break;
+            // Loops around those that were found are shorter in items than these.
+            if (find_of_length(length)) length = 0;
+        }
+        std::vector<NestItem> items;
+        for (Candidate& c : list_) items.push_back(std::move(c.item));
+        return items;
+    }
+
+  private:
+    // Finds loops whose iterations are so many items long. Returns whether there were any.
+    bool find_of_length(std::size_t length) {
+        // For each item, how many from it on equal the one that is an iteration later.
+        std::vector<std::uint32_t> equal(list_.size(), 0);
+        bool has_any = false;
+        for (std::size_t i = list_.size() - length; i-- > 0;) {
+            equal[i] = list_[i].form == list_[i + length].form ? equal[i + 1] + 1 : 0;
+            has_any = has_any || equal[i] + length >= fewest_iterations * length;
+        }
+        if (!has_any) return false;
+        const std::size_t before = list_.size();
+        std::vector<Candidate> result;
+        std::size_t failures = 0;
+        for (std::size_t i = 0; i < list_.size();) {
+            const auto iterations = static_cast<std::uint32_t>(equal[i] / length + 1);
+            // A stretch that repeats may begin before the loop does, by less than an iteration.
+            if (iterations >= fewest_iterations && failures < length) {
+                if (auto loop = longest_loop_at(i, length, iterations)) {
+                    i += loop->item.count * length;
+                    result.push_back(std::move(*loop));
+                    failures = 0;
+                    continue;
+                }
+                ++failures;
+            }
+            if (equal[i] == 0) failures = 0;
+            result.push_back(std::move(list_[i++]));
+        }
+        list_ = std::move(result);
+        return list_.size() < before;
+    }
+
+    // Where not all iterations are a loop the first of them may be, as in two layers of a network of the same width.
+    // That is sought only if it saves much: elsewhere it would tear apart what is a loop in another way.
+    std::optional<Candidate> longest_loop_at(std::size_t first, std::size_t length, std::uint32_t iterations) {
+        auto found = loop_at(first, length, iterations);
+        if (found) return found;
+        const std::uint32_t period = list_[first + length].item.offset - list_[first].item.offset;
+        std::uint32_t holds = std::max(fewest_iterations, fewest_saved_by_part / period + 1) - 1, fails = iterations;
+        while (fails > holds + 1) {
+            const std::uint32_t middle = holds + (fails - holds) / 2;
+            auto part = loop_at(first, length, middle);
+            if (part) found = std::move(part);
+            (found && found->item.count == middle ? holds : fails) = middle;
+        }
+        return found;
+    }
+
+    std::optional<Candidate> loop_at(std::size_t first, std::size_t length, std::uint32_t iterations) {
+        const std::uint32_t start = list_[first].item.offset;
+        NestItem loop{start, list_[first + length].item.offset - start, iterations, {}};
+        if ((iterations - 1) * loop.period < fewest_saved) return std::nullopt;
+        std::uint64_t form = iterations;
+        for (std::size_t i = first; i < first + length; ++i) {
+            loop.body.push_back(list_[i].item);
+            loop.body.back().offset -= start;
+            form = combined(form, list_[i].form);
+        }
+        steps_tried_ += loop.span();
+        if (steps_tried_ > most_steps_tried || !is_loop(trace_, loop)) return std::nullopt;
+        return Candidate{std::move(loop), form};
+    }
+
+    const Trace& trace_;
+    std::vector<Candidate> list_;
+    std::size_t steps_tried_ = 0;
+};
+
+}  // namespace
+
+std::vector<NestItem> find_loops(const Trace& trace) {
+    return LoopSearch(trace).run();
+}
+
+}  // namespace phasetree::glsl

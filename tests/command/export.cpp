@@ -1,0 +1,94 @@
+// `phasetree export`: the files that it writes, and what it says where it cannot. What the shaders compute is compared
+// in tests/glsl.
+#include "command.hpp"
+
+using namespace phasetree::tests;
+
+TEST_CASE("a shader is text with all functions that its comments name, and nothing else is written") {
+    const Shell shell;
+    write_text(shell.directory / "scene.json", SceneText().text());
+    const Outcome o = shell.run({"export", "scene.json", "-o", "shader.glsl"});
+    CHECK(o.code == 0);
+    CHECK(o.out == "");
+    CHECK(o.err == "");
+    const std::string text = bytes_of(shell.directory / "shader.glsl");
+    for (const char* function :
+         {"void phasetree_distances(vec3 p,", "void phasetree_gradients(vec3 p,", "int phasetree_label(vec3 p)",
+          "int phasetree_sample(vec3 p,", "vec3 phasetree_normal(vec3 p,", "PhasetreeCrossing phasetree_trace("}) {
+        CAPTURE(function);
+        const std::size_t named = text.find(function);
+        CHECK(named != std::string::npos);
+        CHECK(text.find(function, named + 1) != std::string::npos);
+    }
+    CHECK(text.find("// phase 1: glass") != std::string::npos);
+    CHECK(text.find("\n#version") == std::string::npos);
+    CHECK(shell.run({"export", "scene.json", "-o", "again.glsl"}).code == 0);
+    CHECK(bytes_of(shell.directory / "again.glsl") == text);
+}
+
+TEST_CASE("numbers that no text can hold are in a file beside, in whole rows of a texture") {
+    const Shell shell;
+    write_text(shell.directory / "scene.json", SceneText().text());
+    const Outcome o = shell.run({"export", "scene.json", "-o", "shader.glsl", "--grid", "16"});
+    CHECK(o.code == 0);
+    const std::string numbers = bytes_of(shell.directory / "shader.f32");
+    CHECK(!numbers.empty());
+    CHECK(numbers.size() % (4 * 4 * 1024) == 0);
+    CHECK(bytes_of(shell.directory / "shader.glsl").find("uniform highp sampler2D phasetree_numbers;") !=
+          std::string::npos);
+}
+
+TEST_CASE("a page is one small file that asks for no other, whatever phases are called") {
+    const Shell shell;
+    SceneText scene;
+    scene.phases = R"({"</script><b>&\"": {"clear": {"ior": 1.5}}, "wood": {"diffuse": {"color": [0.5, 0.4, 0.3]}}})";
+    scene.tree = R"({"set": {"phase": "</script><b>&\"", "of": "ball"}})";
+    write_text(shell.directory / "scene.json", scene.text());
+    const Outcome o = shell.run({"export", "scene.json", "-o", "page.html"});
+    CHECK(o.err == "");
+    CHECK(o.code == 0);
+    const std::string page = bytes_of(shell.directory / "page.html");
+    CHECK(page.starts_with("<!DOCTYPE html>"));
+    CHECK(page.size() < 500'000);
+    CHECK(page.find("<b>&") == std::string::npos);
+    CHECK(page.find("</script>") == page.rfind("</script>"));
+    for (const char* word : {"http:", "https:", "src=", "href=", "@import", "fetch("})
+        CHECK(page.find(word) == std::string::npos);
+}
+
+TEST_CASE("a page of a tree alone has colours of its own") {
+    const Shell shell;
+    write_text(
+        shell.directory / "tree.json",
+        R"({"version": 1, "phases": {"a": {}}, "tree": {"set": {"phase": "a", "of": {"sphere": {"radius": 1}}}}})");
+    const Outcome o = shell.run({"export", "tree.json", "-o", "page.html"});
+    CHECK(o.err == "");
+    CHECK(o.code == 0);
+    CHECK(bytes_of(shell.directory / "page.html").find("<canvas") != std::string::npos);
+}
+
+TEST_CASE("what cannot be exported is said in a line, and no file is written") {
+    const Shell shell;
+    write_text(shell.directory / "scene.json", SceneText().text());
+    SceneText unbounded;
+    unbounded.tree = R"({"set": {"phase": "glass", "of": {"plane": {}}}})";
+    write_text(shell.directory / "unbounded.json", unbounded.text());
+    write_text(shell.directory / "no_tree.json", R"({"version": 1, "phases": {"glass": {"clear": {}}}})");
+    const auto refused = [&](const std::vector<std::string>& arguments, const std::string& said) {
+        std::vector<std::string> words{"export"};
+        words.insert(words.end(), arguments.begin(), arguments.end());
+        const Outcome o = shell.run(words);
+        CAPTURE(o.err);
+        CHECK(o.code == 2);
+        CHECK(o.err.find(said) != std::string::npos);
+    };
+    refused({"scene.json", "-o", "shader.gls"}, "cannot write \"shader.gls\": its extension is \".gls\"");
+    refused({"scene.json", "-o", "shader"}, "it has no extension");
+    refused({"scene.json"}, "--output is required");
+    refused({"scene.json", "-o", "nowhere/shader.glsl"}, "nowhere");
+    refused({"scene.json", "-o", "shader.glsl", "--grid", "1000"}, "--grid");
+    refused({"missing.json", "-o", "shader.glsl"}, "missing.json");
+    refused({"unbounded.json", "-o", "shader.glsl"}, "the object is unbounded");
+    refused({"no_tree.json", "-o", "shader.glsl"}, "\"tree\"");
+    CHECK(bytes_of(shell.directory / "shader.glsl").empty());
+}

@@ -1,0 +1,177 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <bit>
+#include <filesystem>
+
+#include "command/commands.hpp"
+#include "command/load.hpp"
+#include "command/streams.hpp"
+#include "output/error.hpp"
+#include "output/file.hpp"
+#include "output/interrupt.hpp"
+#include "page/page.hpp"
+#include "phasetree/building/options.hpp"
+#include "phasetree/glsl/shader.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/trace/tracer.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+// Numbers of shaders are rounded more often than ours, and a bracket must be longer than what that moves.
+constexpr float finest_of_diagonal = 1e-5f;
+
+struct Options {
+    std::string output;
+    int grid = 0;
+};
+
+std::string numbers_as_bytes(const std::vector<float>& numbers) {
+    std::string bytes;
+    bytes.reserve(4 * numbers.size());
+    for (const float v : numbers) {
+        const auto bits = std::bit_cast<std::uint32_t>(v);
+        for (int i = 0; i < 4; ++i) bytes += static_cast<char>(bits >> (8 * i) & 255);
+    }
+    return bytes;
+}
+
+// A page is read at once by people who wait for it.
+constexpr std::size_t largest_page = 500'000;
+// The boxes along the longest side that are tried, finest first, and the length of a bracket: a page is looked at.
+constexpr int page_grids[] = {32, 24, 16, 12, 8, 5};
+constexpr float bracket_on_page = 3e-5f;
+
+std::vector<Look> looks_without_materials(const PhaseNames& phases) {
+    std::vector<Look> looks;
+    for (std::size_t i = 0; i < phases.names.size(); ++i) {
+        // Colours that differ: around the circle by the golden ratio.
+        const float turn = 6.2831853f * 0.618034f * static_cast<float>(i);
+        Look look{phases.names[i], i == 0 ? Look::clear : Look::coated};
+        if (i > 0) look.color = 0.45f + 0.35f * glm::cos(turn + glm::vec3(0, 2.1f, 4.2f));
+        looks.push_back(look);
+    }
+    return looks;
+}
+
+int export_page(const SceneFile& file, const Options& chosen) {
+    const std::filesystem::path path = chosen.output;
+    check_file_writable(path);
+    const Document document = read_document(file);
+    const bool is_whole = document.root().find("camera").has_value();
+    std::optional<Scene> scene;
+    SceneTree tree;
+    if (is_whole) {
+        scene = load_scene(document);
+        tree = {scene->phases, scene->object};
+    } else {
+        tree = read_scene_without_camera(document);
+    }
+    const TraceableObject traceable = made_of_tree(document, [&] { return prepare_to_trace(tree.object); });
+    print_warning(file.shown(), traceable.warning);
+    const Bounds& bounds = traceable.bounds;
+    const Program program = record_tree(document, tree.object);
+    std::vector<Look> looks;
+    PageView view{bounds.centre() + 1.4f * bounds.diagonal() * glm::vec3(0.45f, -0.8f, 0.4f), bounds.centre(), 40};
+    float floor = bounds.low.z;
+    if (scene) {
+        for (std::size_t i = 0; i < tree.phases.names.size(); ++i)
+            looks.push_back(look_of(tree.phases.names[i], scene->materials[i], bounds));
+        view = view_of(scene->camera);
+        for (const Mesh& mesh : scene->meshes)
+            if (mesh.name.starts_with("floor") && !mesh.vertices.empty()) floor = mesh.vertices.front().z;
+    } else {
+        looks = looks_without_materials(tree.phases);
+    }
+    GlslOptions options;
+    options.phase_names = tree.phases.names;
+    options.most_numbers_in_text = 0;
+    options.steps = 256;
+    options.cancelled = [] { return interrupted(); };
+    const float resolution = std::max(traceable.resolution, bracket_on_page * bounds.diagonal());
+    const std::string title = file.is_standard_input() ? "phasetree" : std::filesystem::path(file.name).stem().string();
+    const InterruptGuard guard;
+    try {
+        for (const int grid : page_grids) {
+            options.grid = grid;
+            const GlslShader shader =
+                made_of_tree(document, [&] { return make_glsl(program, bounds, resolution, options); });
+            const std::string page = make_page(title, shader, bounds, looks, view, floor);
+            if (page.size() > largest_page) continue;
+            write_file(page, path);
+            return 0;
+        }
+    } catch (const BuildCancelled&) {
+        say("phasetree: interrupted; nothing is written\n");
+        return 1;
+    }
+    throw OutputError(
+        fmt::format("cannot write \"{}\": the page would be larger than {} kB", chosen.output, largest_page / 1000));
+}
+
+int export_shader(const SceneFile& file, const Options& chosen) {
+    const std::filesystem::path path = chosen.output;
+    std::filesystem::path numbers_path = path;
+    numbers_path.replace_extension(".f32");
+    check_file_writable(path);
+    const Document document = read_document(file);
+    const SceneTree tree = read_model(document);
+    const TraceableObject traceable = made_of_tree(document, [&] { return prepare_to_trace(tree.object); });
+    print_warning(file.shown(), traceable.warning);
+    const Program program = record_tree(document, tree.object);
+    GlslOptions options;
+    options.phase_names = tree.phases.names;
+    options.grid = chosen.grid;
+    options.cancelled = [] { return interrupted(); };
+    const float resolution = std::max(traceable.resolution, finest_of_diagonal * traceable.bounds.diagonal());
+    const InterruptGuard guard;
+    try {
+        const GlslShader shader =
+            made_of_tree(document, [&] { return make_glsl(program, traceable.bounds, resolution, options); });
+        // The shader comes last: where it is, all that it needs is.
+        if (!shader.numbers.empty()) write_file(numbers_as_bytes(shader.numbers), numbers_path);
+        write_file(shader.text, path);
+    } catch (const BuildCancelled&) {
+        say("phasetree: interrupted; nothing is written\n");
+        return 1;
+    }
+    return 0;
+}
+
+}  // namespace
+
+void add_export(CLI::App& app, Run& run) {
+    CLI::App* command = app.add_subcommand("export", "Write a scene's object for other programs");
+    command->footer(
+        "The extension of FILE says what is written.\n"
+        ".glsl: functions in GLSL ES 3.00 (WebGL 2) and GLSL 3.30 for the distances, the label,\n"
+        "normals and rays from phase to phase; comments at its top say how they are called. If it\n"
+        "has more numbers than a shader can hold they are in FILE with the extension .f32: 32-bit\n"
+        "floats, lowest byte first, for a texture of format RGBA32F that is 1024 texels wide.\n"
+        ".html: a page of at most 500 kB that shows the object in a browser with WebGL 2, from disk\n"
+        "and without a net. Drag to turn, with shift or the right button to move, scroll to zoom;\n"
+        "arrows, +, - and 0 do the same; phases can be hidden, and a plane cuts the object open.");
+    const auto file = add_scene_file(*command);
+    auto options = std::make_shared<Options>();
+    command->add_option("-o,--output", options->output, "The file to write")->required()->option_text("FILE");
+    command
+        ->add_option(
+            "--grid", options->grid,
+            "Of a shader: divide the object's bounds into boxes, so many along the longest side, and evaluate in each "
+            "only what matters there; 0 for none (default: 0)")
+        ->check(CLI::Range(0, 64))
+        ->option_text("N");
+    command->callback([=, &run] {
+        run = [=] {
+            const std::string extension = std::filesystem::path(options->output).extension().string();
+            if (extension == ".glsl") return export_shader(*file, *options);
+            if (extension == ".html") return export_page(*file, *options);
+            throw OutputError(
+                fmt::format("cannot write \"{}\": {}, and an export is .glsl or .html", options->output,
+                            extension.empty() ? "it has no extension" : "its extension is \"" + extension + "\""));
+        };
+    });
+}
+
+}  // namespace phasetree::tracer
