@@ -21,6 +21,7 @@ void add_info(CLI::App& app, Run& run);
 void add_eval(CLI::App& app, Run& run);
 void add_trace(CLI::App& app, Run& run);
 void add_nodes(CLI::App& app, Run& run);
+void add_view(CLI::App& app, Run& run);
 
 // All of them, in the order of the help.
 void add_commands(CLI::App& app, Run& run);

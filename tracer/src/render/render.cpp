@@ -83,6 +83,7 @@ class Renderer {
             }
             run(pass);
             if (!stopped_ || done == 0) done = pass.last;
+            if (!stopped_) job_.passed(film_, done);
         }
         return done;
     }
