@@ -191,6 +191,11 @@ void serve(Session& session, const ServeOptions& options) {
     server.new_task_queue = [] { return new Workers; };
     server.set_payload_max_length(Connection::most_bytes_of_body);
     server.set_tcp_nodelay(true);
+    // In place of the library's SO_REUSEPORT, with which another program could take a share of the requests.
+    server.set_socket_options([](socket_t socket) {
+        const int yes = 1;
+        ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    });
     int port = options.port;
     if (port == 0)
         port = server.bind_to_any_port("127.0.0.1");
