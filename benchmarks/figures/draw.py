@@ -56,6 +56,8 @@ def number(value):
         return "0"
     if abs(value) >= 10000:
         return f"{value:,.0f}"
+    if abs(value) < 1e-3:
+        return "10" + f"{math.log10(value):.0f}".translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
     return f"{value:g}"
 
 
@@ -212,11 +214,11 @@ def draw_scaling(data):
             ("Building", "seconds, one thread", [("build_seconds", 1, "c0", "all phases"), ("opaque_build_seconds", 1, "c1", "opaque")]),
             ("Memory", "MB", [("cell_bytes", 1e-6, "c0", "cells"), ("embree_bytes", 1e-6, "c1", "Embree's tree")])]):
         values = [middle(row[key]) * scale for key, scale, _, _ in series for row in rows]
-        a = Axes(f, (76 + 284 * k, 48, 195, 190), x, decades(values), title, "bumps", label, True, True)
+        a = Axes(f, (76 + 278 * k, 48, 195, 190), x, decades(values), title, "bumps", label, True, True)
         for i, (key, scale, kind, name) in enumerate(series):
             a.plot([(row["bumps"], middle(row[key]) * scale) for row in rows], kind)
-            f.rect(76 + 284 * k, 294 + 19 * i, 14, 11, kind + " bar")
-            f.text(96 + 284 * k, 304 + 19 * i, name)
+            f.rect(76 + 278 * k, 294 + 19 * i, 14, 11, kind + " bar")
+            f.text(96 + 278 * k, 304 + 19 * i, name)
     f.write("scaling.svg")
 
 
@@ -255,9 +257,10 @@ def draw_march(data):
         f.rect(84, 414 + 18 * k, 14, 11, kind + " bar")
         unit = "batches of eight points" if kind == "c2" else "evaluations"
         f.text(104, 424 + 18 * k, f"{names[k]}: {ways[key]['evaluations']:.0f} {unit} for {ways[key]['crossings']:.0f} crossings")
-    for k, (tint, name) in enumerate([("p0", "glass"), ("p1", "sand"), ("p2", "wood"), ("p3", "brass")]):
-        f.rect(560 + 70 * k, 394, 14, 11, tint)
-        f.text(579 + 70 * k, 404, name, "small")
+    met = [(tints[p], name) for p, name in enumerate(["glass", "sand", "wood", "brass"], 1) if p in {phase for _, _, phase in bands}]
+    for k, (tint, name) in enumerate(met):
+        f.rect(640 + 80 * k, 394, 14, 11, tint)
+        f.text(659 + 80 * k, 404, name, "small")
     f.write("march.svg")
 
 
@@ -269,7 +272,7 @@ def draw_resolution(data):
     kinds = dict(zip(scenes, ["c0", "c1"]))
     grids = sorted({row["cubes"] for row in meshes})
     x = (grids[0] / 1.2, grids[-1] * 1.2)
-    panels = [("Rays: a field over its triangles", "rate of the field, ×", None, (0.2, 2)),
+    panels = [("Rays: a field over its triangles", "rate of the field, ×", None, (0.2, 2.5)),
               ("Error of the mesh", "mean, parts of the diagonal", "error", None),
               ("Memory", "MB", "bytes", None), ("Building", "seconds, one thread", "build_seconds", None)]
     for k, (title, label, key, limits) in enumerate(panels):

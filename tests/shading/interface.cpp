@@ -19,11 +19,16 @@ const Material water = Clear{1.33f, Medium{}, 0.0f};
 const Material sand = Diffuse{ConstantTexture{{0.5f, 0.4f, 0.3f}}};
 const Material varnish = Coated{ConstantTexture{{0.5f, 0.4f, 0.3f}}, 1.5f, 0.0f};
 
+Interface between(const Material& from, const Material& to) {
+    SharedSurfaces shared;
+    return Interface::between(from, to, shared);
+}
+
 // An interface together with its BSDF at the origin, which refers to it.
 class Optics {
   public:
     Optics(const Material& from, const Material& to)
-        : interface_(Interface::between(from, to)), bsdf_(interface_.at(glm::vec3{0.0f})) {}
+        : interface_(between(from, to)), bsdf_(interface_.at(glm::vec3{0.0f})) {}
     const Bsdf* operator->() const { return &bsdf_; }
 
   private:
@@ -88,10 +93,10 @@ TEST_CASE("interface: varnish reflects less in water and not at all in glass of 
 
 TEST_CASE("interface: opaque surfaces take their colour from the texture at the point") {
     const Material checker = Diffuse{CheckerTexture{glm::vec3{0.9f}, glm::vec3{0.1f}, 1.0f, glm::vec3{0.0f}}};
-    const Interface interface = Interface::between(water, checker);
+    const Interface interface = between(water, checker);
     const glm::vec3 w = direction(10.0);
-    CHECK(interface.at({0.5f, 0.5f, 0.5f}).evaluate(w, w).x == doctest::Approx(0.9f * w.z / pi));
-    CHECK(interface.at({1.5f, 0.5f, 0.5f}).evaluate(w, w).x == doctest::Approx(0.1f * w.z / pi));
+    CHECK(interface.at(glm::vec3{0.5f, 0.5f, 0.5f}).evaluate(w, w).x == doctest::Approx(0.9f * w.z / pi));
+    CHECK(interface.at(glm::vec3{1.5f, 0.5f, 0.5f}).evaluate(w, w).x == doctest::Approx(0.1f * w.z / pi));
 }
 
 TEST_CASE("interface: nothing comes out of opaque materials") {
@@ -102,7 +107,8 @@ TEST_CASE("interface: nothing comes out of opaque materials") {
 
 TEST_CASE("interface table: the same as pair by pair, and a wrong index is an error") {
     const std::vector<Material> materials{vacuum(), glass, water, sand, varnish};
-    const InterfaceTable table(materials);
+    SharedSurfaces shared;
+    const InterfaceTable table(materials, shared);
     const glm::vec3 wo = direction(35.0);
     for (std::size_t from = 0; from < materials.size(); ++from) {
         for (std::size_t to = 0; to < materials.size(); ++to) {

@@ -125,6 +125,30 @@ TEST_CASE("behind a ball of coloured glass it is as bright as by paths alone") {
     }
 }
 
+TEST_CASE("a lamp in water, behind a ball of glass: as bright as by paths alone") {
+    // The chain starts and ends where the index is not 1.
+    const Scene scene = scene_of(
+        R"("glass": {"clear": {"ior": 1.6}}, "water": {"clear": {"ior": 1.33}})",
+        R"({"over": [{"set": {"phase": "glass", "of": {"translate": {"by": [0, 0, 1.1], "of": {"sphere": {"radius": 1}}}}}},
+                     {"set": {"phase": "water", "of": {"translate": {"by": [0, 0, 4.5], "of": {"box": {"size": [9, 9, 10]}}}}}}]})",
+        R"("meshes": [{"floor": {"material": {"diffuse": {"color": [0.02, 0.02, 0.02]}}}}],
+           "lights": [{"rectangle": {"centre": [1, 1, 4], "target": [0, 0, 0], "width": 6, "height": 6, "radiance": [5, 5, 5]}}],
+           "render": {"width": 64, "height": 64, "photons": 3, "photon_radius": 2})");
+    const World world(scene);
+    const glm::vec3 origin(-2, -2, 0.1f), direction(1.9f, 1.9f, -0.1f);
+    const Moments paths = radiance_along(world, scene, origin, direction, long_form ? 3000000 : 300000)[0];
+    const Moments photons = with_photons(scene, origin, direction);
+    const double error = std::hypot(paths.standard_error(), photons.standard_error());
+    const auto p_value = [&](double factor) {
+        return phasetree::tests::normal_two_sided((factor * photons.mean() - paths.mean()) / error);
+    };
+    CAPTURE(photons.mean() / paths.mean());
+    CAPTURE(paths.standard_error() / paths.mean());
+    CAPTURE(photons.standard_error() / photons.mean());
+    CHECK(p_value(1) > 1e-4);
+    CHECK(p_value(planted) < 1e-4);
+}
+
 TEST_CASE("the map finds what lies within the radius, each photon once") {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> place(-3, 3);
@@ -164,6 +188,29 @@ TEST_CASE("no photons where nothing bends light or no light has a middle") {
     CHECK(lights("1.5", sun_at_60_degrees) == 1);
     CHECK(lights("1", sun_at_60_degrees) == 0);
     CHECK(lights("1.5", R"({"constant": {}})") == 0);
+}
+
+TEST_CASE("a lamp above a wall throws no photons through what is below it") {
+    const auto found_on_the_floor = [](const std::string& lamp_height) {
+        const Scene scene = scene_of(
+            R"("glass": {"clear": {"ior": 1.5}})",
+            R"({"set": {"phase": "glass", "of": {"translate": {"by": [0, 0, 1.1], "of": {"sphere": {"radius": 1}}}}}})",
+            R"("meshes": [{"floor": {"material": {"diffuse": {"color": [0.5, 0.5, 0.5]}}}}, {"floor": {"height": 3, "material": {"diffuse": {"color": [0.5, 0.5, 0.5]}}}}],
+               "lights": [{"rectangle": {"centre": [0, 0, )" +
+                lamp_height + R"(], "target": [0, 0, 0], "width": 1, "height": 1, "radiance": [5, 5, 5]}}])" +
+                few_wide_photons);
+        const World world(scene);
+        const Caustics caustics(world, scene);
+        PathCounters counters;
+        const auto map = caustics.photons(0, counters, [] { return false; });
+        REQUIRE(map.has_value());
+        int found = 0;
+        for (const float x : {-0.2f, -0.1f, 0.0f, 0.1f, 0.2f})
+            map->near({x, 0, 0}, {0, 0, 1}, phasetree::vacuum, [&](const Photon&) { ++found; });
+        return found;
+    };
+    CHECK(found_on_the_floor("2.9") > 0);
+    CHECK(found_on_the_floor("3.1") == 0);
 }
 
 TEST_CASE("a target's lines are as dense as it says") {

@@ -159,18 +159,19 @@ TEST_CASE("furnace: white paint and varnish, by next-event estimation and BSDF s
     }
 }
 
-TEST_CASE("furnace: rough glass gives back at most what it got, and nearly that") {
-    // GGX by single scattering loses what would hit the surface again: at α = 0.1 little, but for grazing light, as it
-    // is within the sphere when a ray enters 0.85 radii beside the centre.
-    const std::string rough = R"("glass": {"clear": {"ior": 1.5, "roughness": 0.1}})";
-    const Scene scene = scene_of(rough, sphere);
-    const World world(scene);
-    for (const glm::vec3& direction : {glm::vec3(0, 1, 0), glm::vec3(0.1f, 1, 0.05f), glm::vec3(0, 1, 0.17f)}) {
-        const Moments m = radiance_along(world, scene, {0, -5, 0}, direction, 40000)[0];
-        CAPTURE(direction.z);
-        CAPTURE(m.mean());
-        CAPTURE(m.standard_error());
-        CHECK(m.mean() < 1.0 + 4 * m.standard_error());
-        CHECK(m.mean() > (direction.z < 0.1f ? 0.96 : 0.9));
+TEST_CASE("furnace: rough glass gives back what it got") {
+    for (const char* const roughness : {"0.1", "0.3"}) {
+        const std::string rough = std::string(R"("glass": {"clear": {"ior": 1.5, "roughness": )") + roughness + "}}";
+        const Scene scene = scene_of(rough, sphere);
+        const World world(scene);
+        for (const glm::vec3& direction : {glm::vec3(0, 1, 0), glm::vec3(0.1f, 1, 0.05f), glm::vec3(0, 1, 0.17f)}) {
+            const Moments m = radiance_along(world, scene, {0, -5, 0}, direction, 40000)[0];
+            CAPTURE(roughness);
+            CAPTURE(direction.z);
+            CAPTURE(m.mean());
+            CAPTURE(m.standard_error());
+            // The tables of the losses are good to some thousandths, and a path passes two surfaces or more.
+            CHECK(std::abs(m.mean() - 1.0) < 0.005 + 4 * m.standard_error());
+        }
     }
 }

@@ -121,6 +121,10 @@ void tell(std::vector<float>& told, const tracer::Material& material) {
             if constexpr (requires { m.ior; }) told.push_back(m.ior);
             if constexpr (requires { m.interior; }) tell(told, transmittance(m.interior, 1));
             if constexpr (requires { m.roughness; }) told.push_back(m.roughness);
+            if constexpr (requires { m.film; }) {
+                told.push_back(m.film ? m.film->thickness : -1);
+                told.push_back(m.film ? m.film->ior : 0);
+            }
             if constexpr (requires { m.color; }) tell(told, m.color);
             if constexpr (requires { m.eta; }) {
                 tell(told, m.eta);
@@ -195,11 +199,15 @@ std::vector<Case> cases() {
                               std::map<std::string, std::string> instead = {}) {
         all.push_back({"Materials", name, needed, "{\"" + name + "\": ", "}", tell_material, std::move(instead)});
     };
-    material("clear", R"("ior": 1.5)", {{"color_distance", R"("ior": 1.5, "color": [0.2, 0.5, 0.8])"}});
+    material("clear", R"("ior": 1.5)",
+             {{"color_distance", R"("ior": 1.5, "color": [0.2, 0.5, 0.8])"},
+              {"film_ior", R"("ior": 1.5, "film_thickness": 300)"}});
     material("diffuse", R"("color": [0.1, 0.2, 0.3])");
     const std::string index = R"("eta": [1, 2, 3], "k": [2, 3, 4])";
-    material("conductor", R"("metal": "gold")", {{"eta", index}, {"k", index}});
-    material("coated", R"("color": [0.1, 0.2, 0.3])");
+    material("conductor", R"("metal": "gold")",
+             {{"eta", index}, {"k", index}, {"film_ior", R"("metal": "gold", "film_thickness": 300)"}});
+    material("coated", R"("color": [0.1, 0.2, 0.3])",
+             {{"film_ior", R"("color": [0.1, 0.2, 0.3], "film_thickness": 300)"}});
     for (const char* const name : {"wood", "speckle", "marble", "checker"})
         all.push_back(
             {"Textures", name, "", fmt::format("{{\"diffuse\": {{\"color\": {{\"{}\": ", name), "}}}", tell_material});
@@ -373,7 +381,7 @@ TEST_CASE("every key changes what is read") {
             std::string value = "[0.25, 0.5, 0.75]";
             if (key == "material") value = R"({"diffuse": {"color": [0.1, 0.5, 0.5]}})";
             if (const auto numbers = numbers_of(property); numbers && !is_vector(property))
-                value = numbers->find("type")->string() == "integer" ? "5" : key == "ior" ? "1.75" : "0.75";
+                value = numbers->find("type")->string() == "integer" ? "5" : key.ends_with("ior") ? "1.75" : "0.75";
             if (key == "turbidity") value = "5";
             // Not where the lamp itself is, and seen from it.
             if (key == "centre") value = "[0.25, 0.5, 5]";

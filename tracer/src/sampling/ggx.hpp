@@ -40,6 +40,11 @@ class Ggx {
         return 2.0f / (std::abs(i.z) * slope_term(o) + std::abs(o.z) * slope_term(i));
     }
 
+    /// G₂/G₁(o): the part of the light that o's visible normals reflect to i which leaves the surface.
+    float shadowing_of_reflected(const glm::vec3& o, const glm::vec3& i) const {
+        return reflection_visibility(o, i) * std::abs(o.z) * std::abs(i.z) / masking(o);
+    }
+
     /// G₂ / (|o.z| |i.z|) for transmission.
     float transmission_visibility(const glm::vec3& o, const glm::vec3& i) const {
         return 4.0f / ((std::abs(o.z) + slope_term(o)) * (std::abs(i.z) + slope_term(i)));

@@ -22,6 +22,7 @@ Clear ClearParameters::made() const {
     clear.ior = ior;
     clear.interior = medium;
     clear.roughness = roughness;
+    clear.film = film();
     return clear;
 }
 
@@ -38,11 +39,11 @@ Conductor ConductorParameters::made() const {
                              ParameterError::Place::key);
     if (metal) {
         const Metal found = find_metal(*metal).value();
-        return {found.eta, found.k, roughness};
+        return {found.eta, found.k, roughness, film()};
     }
     if (!eta) throw ParameterError("eta", "is missing");
     if (!k) throw ParameterError("k", "is missing");
-    return {*eta, *k, roughness};
+    return {*eta, *k, roughness, film()};
 }
 
 Material read_material(const Document& document, Value value) {

@@ -10,13 +10,34 @@
 #include "phasetree/model/concepts.hpp"
 #include "scene/parameter_types.hpp"
 #include "shading/material.hpp"
+#include "shading/thin_film.hpp"
 
 namespace phasetree::tracer {
 
 inline constexpr Parameter roughness_parameter{"roughness", "", "α of GGX: 0 is polished, 0.1 satin, 0.5 matt.",
                                                limits::fraction, true};
 
-struct ClearParameters {
+// What clear, conducting and coated materials have of a thin film on their surface.
+struct FilmParameters {
+    std::optional<float> film_thickness{};
+    float film_ior = SurfaceFilm{}.ior;
+
+    template <class P, class V>
+    static void film_parameters(V&& v) {
+        v(&P::film_thickness,
+          Parameter{"film_thickness", "nm",
+                    "Thickness of a film on the surface, which shows colours as soap and oil do; there is none without "
+                    "it. Where two clear materials have one, the thicker counts.",
+                    Limits{.low = 0, .high = ThinFilm::thickest}, true});
+        v(&P::film_ior, Parameter{"film_ior", "", "Refractive index of the film.", Limits{.low = 1, .high = 4}, true});
+    }
+    std::optional<SurfaceFilm> film() const {
+        if (!film_thickness) return std::nullopt;
+        return SurfaceFilm{*film_thickness, film_ior};
+    }
+};
+
+struct ClearParameters : FilmParameters {
     static constexpr KindInfo info{"clear", "Vacuum, air, water, glass: light travels inside.", "exp(−a d)"};
 
     float ior = 1.0f;
@@ -38,6 +59,7 @@ struct ClearParameters {
         v(&P::color_distance,
           Parameter{"color_distance", "m", "The distance after which the colour is left.", limits::positive, true});
         v(&P::roughness, roughness_parameter);
+        film_parameters<P>(v);
     }
     Clear made() const;
 };
@@ -56,7 +78,7 @@ struct DiffuseParameters {
 
 std::vector<std::string_view> names_of_metals();
 
-struct ConductorParameters {
+struct ConductorParameters : FilmParameters {
     static constexpr KindInfo info{"conductor",
                                    "Metal: one of the measured ones, or with a complex index η + ik of one's own."};
 
@@ -74,11 +96,12 @@ struct ConductorParameters {
         v(&P::k, RgbParameter{{"k", "", "k for red, green and blue; needed unless a metal is named.",
                                limits::non_negative, true}});
         v(&P::roughness, roughness_parameter);
+        film_parameters<P>(v);
     }
     Conductor made() const;
 };
 
-struct CoatedParameters {
+struct CoatedParameters : FilmParameters {
     static constexpr KindInfo info{"coated", "Varnished or glazed: a clear coat over a diffuse base."};
 
     Texture color{};
@@ -91,8 +114,9 @@ struct CoatedParameters {
         v(&P::color, Parameter{"color", "", "Reflectance of the base.", limits::any});
         v(&P::ior, Parameter{"ior", "", "Refractive index of the coat.", Limits{.low = 1, .high = 4}, true});
         v(&P::roughness, roughness_parameter);
+        film_parameters<P>(v);
     }
-    Coated made() const { return {color, ior, roughness}; }
+    Coated made() const { return {color, ior, roughness, film()}; }
 };
 
 using MaterialKinds = TypeList<ClearParameters, DiffuseParameters, ConductorParameters, CoatedParameters>;

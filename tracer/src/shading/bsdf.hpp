@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -38,7 +39,8 @@ using AnyBsdf = BsdfOf<DiffuseBsdf, SmoothDielectricBsdf, RoughDielectricBsdf, S
 
 class Bsdf {
   public:
-    Bsdf(AnyBsdf kind) : kind_(std::move(kind)) {}
+    template <class Kind>
+    requires(!std::is_same_v<Kind, Bsdf>) Bsdf(Kind kind) : kind_(std::move(kind)) {}
 
     std::optional<BsdfSample> sample(const glm::vec3& wo, float u_lobe, const glm::vec2& u) const {
         return std::visit([&](const auto& bsdf) { return bsdf.sample(wo, u_lobe, u); }, kind_);

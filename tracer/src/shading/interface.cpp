@@ -13,51 +13,105 @@ bool is_smooth(float roughness) {
     return !(roughness >= least_roughness);
 }
 
+ValueRange range_of(float number) {
+    return {number, number};
+}
+
+// Of what rough surfaces of that range need tables for; nothing, if none is rough.
+std::optional<ValueRange> rough_part(const ValueRange& roughness) {
+    if (is_smooth(roughness.greatest)) return std::nullopt;
+    return ValueRange{std::clamp(roughness.least, least_roughness, 1.0f), std::min(roughness.greatest, 1.0f)};
+}
+
+std::optional<FilmOfSurface> film_of(const std::optional<SurfaceFilm>& film) {
+    if (!film) return std::nullopt;
+    return FilmOfSurface{film->ior, range_of(film->thickness)};
+}
+
+// An interface of two clear materials has one film.
+const std::optional<SurfaceFilm>& thicker(const std::optional<SurfaceFilm>& a, const std::optional<SurfaceFilm>& b) {
+    return !a || (b && b->thickness > a->thickness) ? b : a;
+}
+
+float thickness_of(const std::optional<SurfaceFilm>& film) {
+    return film ? film->thickness : 0.0f;
+}
+
 // optics_of() gives the optics of each kind of material, seen from within a clear one.
 
-Bsdf optics_of(const Clear& from, const Clear& to) {
-    const float roughness = std::max(from.roughness, to.roughness);
-    if (from.ior == to.ior || is_smooth(roughness)) return Bsdf(SmoothDielectricBsdf(from.ior, to.ior));
-    return Bsdf(RoughDielectricBsdf(from.ior, to.ior, std::min(roughness, 1.0f)));
+Interface::Optics optics_of(const Clear& from, const Clear& to, SharedSurfaces& shared) {
+    const std::optional<SurfaceFilm>& film = thicker(from.film, to.film);
+    const ValueRange a = range_of(from.roughness), b = range_of(to.roughness);
+    const ValueRange roughness{std::max(a.least, b.least), std::max(a.greatest, b.greatest)};
+    return Interface::ClearOptics{shared.dielectric(from.ior, to.ior, rough_part(roughness), film_of(film)),
+                                  from.roughness, to.roughness, thickness_of(film)};
 }
 
-Bsdf optics_of(const Clear& from, const Conductor& to) {
-    const glm::vec3 eta = to.eta / from.ior;
-    const glm::vec3 k = to.k / from.ior;
-    if (is_smooth(to.roughness)) return Bsdf(SmoothConductorBsdf(eta, k));
-    return Bsdf(RoughConductorBsdf(eta, k, std::min(to.roughness, 1.0f)));
+Interface::Optics optics_of(const Clear& from, const Conductor& to, SharedSurfaces& shared) {
+    return Interface::MetalOptics{
+        shared.conductor(from.ior, to.eta, to.k, rough_part(range_of(to.roughness)), film_of(to.film)), to.roughness,
+        thickness_of(to.film)};
 }
 
-TexturedOptics optics_of(const Clear&, const Diffuse& to) {
-    return {std::make_shared<const Texture>(to.color), nullptr};
+Interface::Optics optics_of(const Clear&, const Diffuse& to, SharedSurfaces&) {
+    return Interface::DiffuseOptics{std::make_shared<const Texture>(to.color)};
 }
 
-TexturedOptics optics_of(const Clear& from, const Coated& to) {
-    const float roughness = is_smooth(to.roughness) ? 0.0f : std::min(to.roughness, 1.0f);
-    return {std::make_shared<const Texture>(to.color),
-            std::make_shared<const CoatingAlbedo>(to.ior / from.ior, roughness)};
+Interface::Optics optics_of(const Clear& from, const Coated& to, SharedSurfaces& shared) {
+    ValueRange roughness = range_of(to.roughness);
+    if (is_smooth(roughness.least)) roughness.least = 0.0f;
+    if (is_smooth(roughness.greatest)) roughness.greatest = 0.0f;
+    roughness.greatest = std::min(roughness.greatest, 1.0f);
+    return Interface::CoatedOptics{std::make_shared<const Texture>(to.color),
+                                   shared.coating(from.ior, to.ior, roughness, film_of(to.film)), to.roughness,
+                                   thickness_of(to.film)};
+}
+
+// bsdf_of() gives the BSDF of each kind of optics at a place.
+
+Bsdf bsdf_of(const Interface::ClearOptics& optics, const glm::vec3&) {
+    const float thickness = optics.thickness;
+    if (optics.surface->is_none()) return SmoothDielectricBsdf(*optics.surface, thickness);
+    const float roughness = std::max(optics.from, optics.to);
+    if (is_smooth(roughness)) return SmoothDielectricBsdf(*optics.surface, thickness);
+    return RoughDielectricBsdf(*optics.surface, std::min(roughness, 1.0f));
+}
+
+Bsdf bsdf_of(const Interface::MetalOptics& optics, const glm::vec3&) {
+    const float thickness = optics.thickness;
+    const float roughness = optics.roughness;
+    if (is_smooth(roughness)) return SmoothConductorBsdf(*optics.surface, thickness);
+    return RoughConductorBsdf(*optics.surface, std::min(roughness, 1.0f), thickness);
+}
+
+Bsdf bsdf_of(const Interface::DiffuseOptics& optics, const glm::vec3& p) {
+    return DiffuseBsdf(color_at(*optics.color, p));
+}
+
+Bsdf bsdf_of(const Interface::CoatedOptics& optics, const glm::vec3& p) {
+    const float roughness = optics.roughness;
+    return CoatedDiffuseBsdf(
+        optics.coating->at(is_smooth(roughness) ? 0.0f : std::min(roughness, 1.0f), optics.thickness),
+        color_at(*optics.color, p));
 }
 
 }  // namespace
 
-Interface Interface::between(const Material& from, const Material& to) {
+Interface Interface::between(const Material& from, const Material& to, SharedSurfaces& shared) {
     const Clear* clear = std::get_if<Clear>(&from);
-    if (clear == nullptr) return Interface(Bsdf(DiffuseBsdf(glm::vec3{0.0f})));
-    return std::visit([&](const auto& material) { return Interface(optics_of(*clear, material)); }, to);
+    if (clear == nullptr)
+        return Interface(DiffuseOptics{std::make_shared<const Texture>(ConstantTexture{glm::vec3(0.0f)})});
+    return std::visit([&](const auto& material) { return Interface(optics_of(*clear, material, shared)); }, to);
 }
 
-Bsdf Interface::at(const glm::vec3& position) const& {
-    if (const Bsdf* bsdf = std::get_if<Bsdf>(&optics_)) return *bsdf;
-    const TexturedOptics& textured = std::get<TexturedOptics>(optics_);
-    const glm::vec3 color = color_at(*textured.color, position);
-    if (textured.coating == nullptr) return Bsdf(DiffuseBsdf(color));
-    return Bsdf(CoatedDiffuseBsdf(*textured.coating, color));
+Bsdf Interface::at(const glm::vec3& point) const& {
+    return std::visit([&](const auto& optics) { return bsdf_of(optics, point); }, optics_);
 }
 
-InterfaceTable::InterfaceTable(std::span<const Material> materials) : count_(materials.size()) {
+InterfaceTable::InterfaceTable(std::span<const Material> materials, SharedSurfaces& shared) : count_(materials.size()) {
     interfaces_.reserve(count_ * count_);
     for (const Material& from : materials) {
-        for (const Material& to : materials) interfaces_.push_back(Interface::between(from, to));
+        for (const Material& to : materials) interfaces_.push_back(Interface::between(from, to, shared));
     }
 }
 

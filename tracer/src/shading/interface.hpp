@@ -18,36 +18,52 @@
 
 #include "shading/bsdf.hpp"
 #include "shading/material.hpp"
+#include "shading/shared_surfaces.hpp"
 
 namespace phasetree::tracer {
-
-/// Optics that depend on the place by the colour of the diffuse part.
-struct TexturedOptics {
-    std::shared_ptr<const Texture> color;
-    std::shared_ptr<const CoatingAlbedo> coating;  ///< none for a plain diffuse surface
-};
 
 /// The optics of an ordered pair of materials: of any surface, also a mesh's, where a ray in the one meets the other.
 class Interface {
   public:
-    /// `from` is the material the ray is in, `to` the one it meets.
-    static Interface between(const Material& from, const Material& to);
+    /// `from` is the material the ray is in, `to` the one it meets. What surfaces share is made only once.
+    static Interface between(const Material& from, const Material& to, SharedSurfaces& shared);
 
-    /// The BSDF at a point; `position` is in the space textures are defined in. It refers to data of this interface and
-    /// must not outlive it.
+    /// The BSDF at a place, which is in the space textures are defined in. It refers to data of this interface and must
+    /// not outlive it.
     Bsdf at(const glm::vec3& position) const&;
     Bsdf at(const glm::vec3& position) && = delete;
 
-  private:
-    explicit Interface(std::variant<Bsdf, TexturedOptics> optics) : optics_(std::move(optics)) {}
+    struct ClearOptics {
+        std::shared_ptr<const DielectricSurface> surface;
+        float from, to;  ///< roughness of both materials, of which the greater counts
+        float thickness;
+    };
+    struct MetalOptics {
+        std::shared_ptr<const ConductorSurface> surface;
+        float roughness;
+        float thickness;
+    };
+    struct DiffuseOptics {
+        std::shared_ptr<const Texture> color;
+    };
+    struct CoatedOptics {
+        std::shared_ptr<const Texture> color;
+        std::shared_ptr<const CoatingAlbedo> coating;
+        float roughness;
+        float thickness;
+    };
+    using Optics = std::variant<ClearOptics, MetalOptics, DiffuseOptics, CoatedOptics>;
 
-    std::variant<Bsdf, TexturedOptics> optics_;
+  private:
+    explicit Interface(Optics optics) : optics_(std::move(optics)) {}
+
+    Optics optics_;
 };
 
 /// The interfaces of every ordered pair of materials, built once.
 class InterfaceTable {
   public:
-    explicit InterfaceTable(std::span<const Material> materials);
+    InterfaceTable(std::span<const Material> materials, SharedSurfaces& shared);
 
     /// Throws std::out_of_range for the number of no material.
     const Interface& between(std::size_t from, std::size_t to) const;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <optional>
 #include <variant>
 
 #include "media/medium.hpp"
@@ -13,11 +14,18 @@
 
 namespace phasetree::tracer {
 
+/// A film of some hundred nanometres on a surface, which shows colours by interference: thin_film.hpp.
+struct SurfaceFilm {
+    float thickness = 0.0f;  ///< in nanometres
+    float ior = 1.33f;
+};
+
 /// Vacuum, air, water, glass.
 struct Clear {
     float ior = 1.0f;   ///< the refractive index against vacuum, greater than 0
     Medium interior{};  ///< what rays travel through inside
     float roughness = 0.0f;
+    std::optional<SurfaceFilm> film{};
 };
 
 struct Diffuse {
@@ -29,6 +37,7 @@ struct Conductor {
     glm::vec3 eta{1.0f};
     glm::vec3 k{0.0f};
     float roughness = 0.0f;
+    std::optional<SurfaceFilm> film{};
 };
 
 /// A diffuse base under a clear coat: varnished or glazed.
@@ -36,6 +45,7 @@ struct Coated {
     Texture color = ConstantTexture{};
     float ior = 1.5f;  ///< of the coat, against vacuum
     float roughness = 0.0f;
+    std::optional<SurfaceFilm> film{};
 };
 
 /// Every kind of material.

@@ -46,11 +46,12 @@ void attach(RTCScene embree, RTCDevice device, const Mesh& mesh, unsigned id) {
     rtcReleaseGeometry(geometry);
 }
 
-std::vector<Interface> interfaces_of(std::span<const Mesh> meshes, std::span<const Material> phases) {
+std::vector<Interface> interfaces_of(std::span<const Mesh> meshes, std::span<const Material> phases,
+                                     SharedSurfaces& shared) {
     std::vector<Interface> interfaces;
     interfaces.reserve(meshes.size() * phases.size());
     for (const Mesh& mesh : meshes)
-        for (const Material& from : phases) interfaces.push_back(Interface::between(from, mesh.material));
+        for (const Material& from : phases) interfaces.push_back(Interface::between(from, mesh.material, shared));
     return interfaces;
 }
 
@@ -76,13 +77,16 @@ TracedGeometry::SceneHandle TracedGeometry::embree_scene(RTCDevice device, const
 }
 
 TracedGeometry::TracedGeometry(const Scene& scene, const WorldOptions& options)
+    : TracedGeometry(scene, options, SharedSurfaces()) {}
+
+TracedGeometry::TracedGeometry(const Scene& scene, const WorldOptions& options, SharedSurfaces&& shared)
     : scene_(scene),
       object_(prepared(scene, options)),
       device_(start_embree()),
       tree_(device_.get(), object_, embree::CellGeometry::Options{.rays_carry_phases = true}),
       embree_(embree_scene(device_.get(), tree_, scene.meshes)),
-      interfaces_(scene.materials),
-      mesh_interfaces_(interfaces_of(scene.meshes, scene.materials)),
+      interfaces_(scene.materials, shared),
+      mesh_interfaces_(interfaces_of(scene.meshes, scene.materials, shared)),
       surface_epsilon_(relative_surface_epsilon * object_->bounds().diagonal()) {}
 
 // Whether the ray meets anything.

@@ -31,6 +31,9 @@ class TracedGeometry {
     const InterfaceCells& object() const { return *object_; }
 
   private:
+    /// `shared` is used while the interfaces are made.
+    TracedGeometry(const Scene& scene, const WorldOptions& options, SharedSurfaces&& shared);
+
     struct Release {
         void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
         void operator()(RTCScene scene) const { rtcReleaseScene(scene); }

@@ -23,7 +23,7 @@ namespace phasetree::tracer {
 class CoatedDiffuseBsdf {
   public:
     /// The coating's albedo is shared by all points of an interface and must outlive the BSDF.
-    CoatedDiffuseBsdf(const CoatingAlbedo& coating, const glm::vec3& base_albedo);
+    CoatedDiffuseBsdf(const CoatingAlbedo::At& coating, const glm::vec3& base_albedo);
 
     std::optional<BsdfSample> sample(const glm::vec3& wo, float u_lobe, const glm::vec2& u) const;
     glm::vec3 evaluate(const glm::vec3& wo, const glm::vec3& wi) const;
@@ -32,11 +32,11 @@ class CoatedDiffuseBsdf {
     bool passes_through() const { return false; }
 
   private:
-    bool smooth() const { return !(coating_->roughness() > 0.0f); }
-    float coating_probability(float reflected) const;
-    glm::vec3 evaluate_base(float transmitted, const glm::vec3& wi) const;
+    bool smooth() const { return !(coating_.roughness() > 0.0f); }
+    float coating_probability(const glm::vec3& reflected) const;
+    glm::vec3 evaluate_base(const glm::vec3& transmitted, const glm::vec3& wi) const;
 
-    const CoatingAlbedo* coating_;
+    CoatingAlbedo::At coating_;
     glm::vec3 base_;  ///< ρ′/(1 − E_avg)
     float base_brightness_;
     Ggx ggx_;

@@ -5,36 +5,73 @@
 //   E_avg  = 2 ∫ E(μ) μ dμ, the albedo under uniform light
 //   F_int  = 1 − (1 − E_avg)/η², the part of diffuse light from inside that is reflected back inside, by reciprocity
 //
+// All that is not reflected at once gets to the base, also what meets microfacets again, so that nothing is lost.
+//
 // η is the coating's index relative to the clear medium it touches. Less than 1 is possible (varnish under a denser
-// liquid): then E is 1 beyond the critical angle, and the equations still hold.
+// liquid): then E is 1 beyond the critical angle, and the equations still hold. With a thin film on the coating, each
+// colour has an E of its own.
 //
 // Reference for the reciprocity: Egan & Hilgeman, Optical Properties of Inhomogeneous Materials, 1979, chapter 6.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "shading/bsdf/dielectric_surface.hpp"
 
 namespace phasetree::tracer {
 
 class CoatingAlbedo {
   public:
     /// `roughness` is GGX's α; 0 is smooth.
-    CoatingAlbedo(float eta, float roughness);
+    CoatingAlbedo(float eta, float roughness)
+        : CoatingAlbedo(DielectricSurface(1.0f, eta), ValueRange{roughness, roughness}, ValueRange{}) {}
+    /// From the clear medium into the coating. Roughness varies over the surface in its range, and so does the
+    /// thickness of the film where the coating is smooth; where it is rough the film is as thick as the middle.
+    CoatingAlbedo(const DielectricSurface& surface, const ValueRange& roughness, const ValueRange& film_thickness);
 
-    float eta() const { return eta_; }
-    float roughness() const { return roughness_; }
-    float directional(float cos_theta) const;  ///< E(μ)
-    float average() const { return average_; }
-    float internal() const { return internal_; }
+    /// Of one place.
+    class At {
+      public:
+        float roughness() const { return roughness_; }
+        glm::vec3 fresnel(float cos_theta) const {
+            return albedo_->surface_.fresnel(cos_theta, thickness_).reflectance;
+        }
+        glm::vec3 directional(float cos_theta) const;  ///< E(μ)
+        glm::vec3 average() const { return average_; }
+        glm::vec3 internal() const;
+
+      private:
+        friend class CoatingAlbedo;
+        At(const CoatingAlbedo& albedo, float roughness, float thickness);
+
+        const CoatingAlbedo* albedo_;
+        float roughness_, thickness_;
+        std::size_t below_ = 0;  ///< of the tables by roughness, and how far towards the next
+        float part_ = 0.0f;
+        glm::vec3 average_{0.0f};
+    };
+    At at(float roughness, float thickness = 0.0f) const { return At(*this, roughness, thickness); }
 
   private:
-    static constexpr std::size_t nodes = 64;  ///< at μ = (i / (nodes − 1))², dense where E is steep
+    static constexpr std::size_t nodes = 128;  ///< at μ = (i / (nodes − 1))², dense where E is steep
 
-    float eta_;
-    float roughness_;
-    float average_ = 0.0f;
-    float internal_ = 0.0f;
-    std::array<float, nodes> table_{};
+    struct Table {
+        std::array<glm::vec3, nodes> directional;
+        glm::vec3 average;
+    };
+
+    static glm::vec3 in_table(const Table& table, float cos_theta);
+    Table table_of(float roughness) const;
+
+    DielectricSurface surface_;
+    RoughnessNodes roughnesses_;  ///< of the tables
+    float middle_thickness_;
+    std::vector<Table> tables_;               ///< none if the coating is nowhere rough
+    std::vector<glm::vec3> smooth_averages_;  ///< where it is smooth, by the thickness of the film
+    ValueRange thickness_;
 };
 
 }  // namespace phasetree::tracer

@@ -1,34 +1,54 @@
 #include "shading/bsdf/rough_conductor.hpp"
 
+#include <algorithm>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "shading/fresnel.hpp"
+#include "sampling/warps.hpp"
+#include "shading/bsdf/lobes.hpp"
 
 namespace phasetree::tracer {
 
-std::optional<BsdfSample> RoughConductorBsdf::sample(const glm::vec3& wo, float, const glm::vec2& u) const {
-    if (!(wo.z > 0.0f)) return std::nullopt;
-    const glm::vec3 m = ggx_.sample_visible_normal(wo, u);
+RoughConductorBsdf::RoughConductorBsdf(const ConductorSurface& surface, float roughness, float thickness)
+    : surface_(&surface), ggx_(roughness), thickness_(thickness), multiple_(surface.multiple(roughness, thickness)) {}
+
+RoughConductorBsdf::Scattered RoughConductorBsdf::scattered(const glm::vec3& wo, const glm::vec3& wi,
+                                                            const glm::vec3& m) const {
     const float cos_o = glm::dot(wo, m);
-    if (!(cos_o > 0.0f)) return std::nullopt;
-    const glm::vec3 wi = 2.0f * cos_o * m - wo;
-    if (!(wi.z > 0.0f)) return std::nullopt;
-    const float shadowing = ggx_.reflection_visibility(wo, wi) * wo.z * wi.z / ggx_.masking(wo);
-    return BsdfSample{wi, fresnel_conductor(cos_o, eta_, k_) * shadowing,
-                      ggx_.visible_normal_pdf(wo, m) / (4.0f * cos_o), false, false};
+    const float lost = multiple_.losses.at(wo.z).x;
+    const float average = std::max(multiple_.losses.average().x, 1e-30f);
+    const float once = 0.25f * ggx_.distribution(m) * ggx_.reflection_visibility(wo, wi) * wi.z;
+    const float again = lost * multiple_.losses.at(wi.z).x / average * cosine_hemisphere_pdf(wi.z);
+    return {surface_->fresnel(cos_o, thickness_) * once + multiple_.reflected * again,
+            (1.0f - lost) * ggx_.visible_normal_pdf(wo, m) / (4.0f * cos_o) + lost * multiple_.losses.pdf(wi.z)};
+}
+
+std::optional<BsdfSample> RoughConductorBsdf::sample(const glm::vec3& wo, float u_lobe, const glm::vec2& u) const {
+    if (!(wo.z > 0.0f)) return std::nullopt;
+    glm::vec3 m, wi;
+    if (u_lobe < multiple_.losses.at(wo.z).x) {
+        wi = multiple_.losses.sample(u);
+        m = glm::normalize(wo + wi);
+    } else {
+        m = ggx_.sample_visible_normal(wo, u);
+        const float cos_o = glm::dot(wo, m);
+        if (!(cos_o > 0.0f)) return std::nullopt;
+        wi = 2.0f * cos_o * m - wo;
+        if (!(wi.z > 0.0f)) return std::nullopt;
+    }
+    const Scattered all = scattered(wo, wi, m);
+    if (!(all.pdf > 0.0f)) return std::nullopt;
+    return BsdfSample{wi, all.value / all.pdf, all.pdf, false, false};
 }
 
 glm::vec3 RoughConductorBsdf::evaluate(const glm::vec3& wo, const glm::vec3& wi) const {
     if (!(wo.z > 0.0f) || !(wi.z > 0.0f)) return glm::vec3{0.0f};
-    const glm::vec3 m = glm::normalize(wo + wi);
-    return fresnel_conductor(glm::dot(wo, m), eta_, k_) *
-           (0.25f * ggx_.distribution(m) * ggx_.reflection_visibility(wo, wi) * wi.z);
+    return scattered(wo, wi, glm::normalize(wo + wi)).value;
 }
 
 float RoughConductorBsdf::pdf(const glm::vec3& wo, const glm::vec3& wi) const {
     if (!(wo.z > 0.0f) || !(wi.z > 0.0f)) return 0.0f;
-    const glm::vec3 m = glm::normalize(wo + wi);
-    return ggx_.visible_normal_pdf(wo, m) / (4.0f * glm::dot(wo, m));
+    return scattered(wo, wi, glm::normalize(wo + wi)).pdf;
 }
 
 }  // namespace phasetree::tracer

@@ -1,5 +1,6 @@
-// A rough metal: GGX microfacets, f = F D G₂ / (4 |o.z| |i.z|) with Fresnel's equations for the complex index η + ik
-// relative to the clear medium it touches.
+// A rough metal: GGX microfacets, f = F D G₂ / (4 |o.z| |i.z|), with Fresnel's equations for the complex index η + ik
+// relative to the clear medium it touches, and what is scattered more than once,
+// f = c (1 − E(o)) (1 − E(i)) / (π L̄), by lost_energy.hpp with c as conductor_surface.hpp has it.
 //
 // References: Cook & Torrance, A Reflectance Model for Computer Graphics, 1982; Walter et al. 2007 (see ggx.hpp).
 #pragma once
@@ -9,14 +10,16 @@
 #include <optional>
 
 #include "sampling/ggx.hpp"
+#include "shading/bsdf/conductor_surface.hpp"
 #include "shading/bsdf/sample.hpp"
 
 namespace phasetree::tracer {
 
 class RoughConductorBsdf {
   public:
-    /// Index relative to the medium in front.
-    RoughConductorBsdf(const glm::vec3& eta, const glm::vec3& k, float roughness) : eta_(eta), k_(k), ggx_(roughness) {}
+    /// The surface is shared by all points of an interface and must outlive the BSDF; `roughness` is within its range,
+    /// and so is the thickness of its film in nanometres.
+    RoughConductorBsdf(const ConductorSurface& surface, float roughness, float thickness = 0.0f);
 
     std::optional<BsdfSample> sample(const glm::vec3& wo, float u_lobe, const glm::vec2& u) const;
     glm::vec3 evaluate(const glm::vec3& wo, const glm::vec3& wi) const;
@@ -25,9 +28,18 @@ class RoughConductorBsdf {
     bool passes_through() const { return false; }
 
   private:
-    glm::vec3 eta_;
-    glm::vec3 k_;
+    /// f |cos θi|, and the density with which it is sampled.
+    struct Scattered {
+        glm::vec3 value;
+        float pdf;
+    };
+    /// At the microfacet with this normal, and by several scatterings.
+    Scattered scattered(const glm::vec3& wo, const glm::vec3& wi, const glm::vec3& m) const;
+
+    const ConductorSurface* surface_;
     Ggx ggx_;
+    float thickness_;
+    ConductorSurface::Multiple multiple_;
 };
 
 }  // namespace phasetree::tracer

@@ -1,17 +1,22 @@
 #include "shading/bsdf/rough_dielectric.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 
-#include "shading/bsdf/smooth_dielectric.hpp"
-#include "shading/fresnel.hpp"
+#include "sampling/warps.hpp"
+#include "shading/bsdf/lobes.hpp"
 
 namespace phasetree::tracer {
 
-RoughDielectricBsdf::RoughDielectricBsdf(float ior_from, float ior_to, float roughness)
-    : ggx_(roughness), eta_(ior_to / ior_from), radiance_factor_(radiance_factor(ior_from, ior_to)) {}
+RoughDielectricBsdf::RoughDielectricBsdf(const DielectricSurface& surface, float roughness)
+    : surface_(&surface),
+      ggx_(roughness),
+      eta_(surface.eta()),
+      multiple_(surface.multiple(roughness)),
+      transmitted_(mean_of_channels(multiple_.transmitted)) {}
 
 std::optional<glm::vec3> RoughDielectricBsdf::microfacet(const glm::vec3& wo, const glm::vec3& wi) const {
-    if (!(wo.z > 0.0f) || wi.z == 0.0f) return std::nullopt;
     const bool transmitted = wi.z < 0.0f;
     glm::vec3 half = transmitted ? wo + eta_ * wi : wo + wi;
     const float length = glm::length(half);
@@ -24,56 +29,87 @@ std::optional<glm::vec3> RoughDielectricBsdf::microfacet(const glm::vec3& wo, co
     return half;
 }
 
+RoughDielectricBsdf::Scattered RoughDielectricBsdf::once(const glm::vec3& wo, const glm::vec3& wi,
+                                                         const glm::vec3& m) const {
+    const float cos_o = glm::dot(wo, m);
+    const glm::vec3 reflectance = surface_->fresnel(cos_o, surface_->middle_thickness()).reflectance;
+    const float chosen = mean_of_channels(reflectance);
+    const float normal_pdf = ggx_.visible_normal_pdf(wo, m);
+    const float distribution = ggx_.distribution(m);
+    if (wi.z > 0.0f) {
+        return {reflectance * (0.25f * distribution * ggx_.reflection_visibility(wo, wi) * wi.z),
+                chosen * normal_pdf / (4.0f * cos_o)};
+    }
+    const float cos_i = -glm::dot(wi, m);
+    const float denominator = cos_o - eta_ * cos_i;
+    const float squared = denominator * denominator;
+    return {
+        (1.0f - reflectance) * (distribution * ggx_.transmission_visibility(wo, wi) * cos_o * cos_i * -wi.z / squared),
+        (1.0f - chosen) * normal_pdf * eta_ * eta_ * cos_i / squared};
+}
+
+RoughDielectricBsdf::Scattered RoughDielectricBsdf::scattered(const glm::vec3& wo, const glm::vec3& wi,
+                                                              const std::optional<glm::vec3>& m) const {
+    const glm::vec3 lost = multiple_.from.at(wo.z);
+    const float again = mean_of_channels(lost);
+    const bool is_transmitted = wi.z < 0.0f;
+    const float cosine = std::abs(wi.z);
+    const LossTables::At& side = is_transmitted ? multiple_.to : multiple_.from;
+    Scattered sum;
+    if (again > 0.0f) {
+        const glm::vec3 part =
+            is_transmitted ? multiple_.transmitted * surface_->radiance_factor() : 1.0f - multiple_.transmitted;
+        const glm::vec3 average = glm::max(side.average(), glm::vec3(1e-30f));
+        sum.value = part * lost * side.at(cosine) / average * cosine_hemisphere_pdf(cosine);
+        sum.pdf = again * (is_transmitted ? transmitted_ : 1.0f - transmitted_) * side.pdf(cosine);
+    }
+    if (m) {
+        const Scattered single = once(wo, wi, *m);
+        if (std::isfinite(single.pdf)) {
+            sum.value += single.value;
+            sum.pdf += (1.0f - again) * single.pdf;
+        }
+    }
+    return sum;
+}
+
 std::optional<BsdfSample> RoughDielectricBsdf::sample(const glm::vec3& wo, float u_lobe, const glm::vec2& u) const {
     if (!(wo.z > 0.0f)) return std::nullopt;
-    if (passes_through()) return BsdfSample{-wo, glm::vec3{1.0f}, 1.0f, true, true};
+    const auto given = [&](const glm::vec3& wi, const std::optional<glm::vec3>& m) -> std::optional<BsdfSample> {
+        const Scattered all = scattered(wo, wi, m);
+        if (!(all.pdf > 0.0f)) return std::nullopt;
+        return BsdfSample{wi, all.value / all.pdf, all.pdf, false, wi.z < 0.0f};
+    };
+    const float again = mean_of_channels(multiple_.from.at(wo.z));
+    if (u_lobe < again) {
+        const bool is_transmitted = u_lobe < again * transmitted_;
+        glm::vec3 wi = (is_transmitted ? multiple_.to : multiple_.from).sample(u);
+        if (is_transmitted) wi.z = -wi.z;
+        return given(wi, microfacet(wo, wi));
+    }
+    const float lobe = stretched(u_lobe, again, 1.0f);
     const glm::vec3 m = ggx_.sample_visible_normal(wo, u);
     const float cos_o = glm::dot(wo, m);
     if (!(cos_o > 0.0f)) return std::nullopt;
-    const auto [reflectance, cos_transmitted] = fresnel_dielectric(cos_o, eta_);
-    const float normal_pdf = ggx_.visible_normal_pdf(wo, m);
-    const float masking = ggx_.masking(wo);
-    if (u_lobe < reflectance) {
+    const auto [reflectance, cos_transmitted] = surface_->fresnel(cos_o, surface_->middle_thickness());
+    if (lobe < mean_of_channels(reflectance)) {
         const glm::vec3 wi = 2.0f * cos_o * m - wo;
         if (!(wi.z > 0.0f)) return std::nullopt;
-        const float weight = ggx_.reflection_visibility(wo, wi) * wo.z * wi.z / masking;
-        return BsdfSample{wi, glm::vec3{weight}, reflectance * normal_pdf / (4.0f * cos_o), false, false};
+        return given(wi, m);
     }
     const glm::vec3 wi = (cos_o / eta_ - cos_transmitted) * m - wo / eta_;
     if (!(wi.z < 0.0f)) return std::nullopt;
-    const float denominator = cos_o - eta_ * cos_transmitted;
-    const float jacobian = eta_ * eta_ * cos_transmitted / (denominator * denominator);
-    return BsdfSample{wi, glm::vec3{radiance_factor_ * ggx_.masking(wi)}, (1.0f - reflectance) * normal_pdf * jacobian,
-                      false, true};
+    return given(wi, m);
 }
 
 glm::vec3 RoughDielectricBsdf::evaluate(const glm::vec3& wo, const glm::vec3& wi) const {
-    if (passes_through()) return glm::vec3{0.0f};
-    const std::optional<glm::vec3> m = microfacet(wo, wi);
-    if (!m) return glm::vec3{0.0f};
-    const float cos_o = glm::dot(wo, *m);
-    const float reflectance = fresnel_dielectric(cos_o, eta_).reflectance;
-    const float distribution = ggx_.distribution(*m);
-    if (wi.z > 0.0f) {
-        return glm::vec3{0.25f * reflectance * distribution * ggx_.reflection_visibility(wo, wi) * wi.z};
-    }
-    const float cos_i = glm::dot(wi, *m);
-    const float denominator = cos_o + eta_ * cos_i;
-    return glm::vec3{(1.0f - reflectance) * distribution * ggx_.transmission_visibility(wo, wi) * cos_o * -cos_i *
-                     -wi.z / (denominator * denominator)};
+    if (!(wo.z > 0.0f) || wi.z == 0.0f) return glm::vec3{0.0f};
+    return scattered(wo, wi, microfacet(wo, wi)).value;
 }
 
 float RoughDielectricBsdf::pdf(const glm::vec3& wo, const glm::vec3& wi) const {
-    if (passes_through()) return 0.0f;
-    const std::optional<glm::vec3> m = microfacet(wo, wi);
-    if (!m) return 0.0f;
-    const float cos_o = glm::dot(wo, *m);
-    const float reflectance = fresnel_dielectric(cos_o, eta_).reflectance;
-    const float normal_pdf = ggx_.visible_normal_pdf(wo, *m);
-    if (wi.z > 0.0f) return reflectance * normal_pdf / (4.0f * cos_o);
-    const float cos_i = glm::dot(wi, *m);
-    const float denominator = cos_o + eta_ * cos_i;
-    return (1.0f - reflectance) * normal_pdf * eta_ * eta_ * -cos_i / (denominator * denominator);
+    if (!(wo.z > 0.0f) || wi.z == 0.0f) return 0.0f;
+    return scattered(wo, wi, microfacet(wo, wi)).pdf;
 }
 
 }  // namespace phasetree::tracer

@@ -5,8 +5,13 @@
 //   reflection,   m ∥ wo + wi:    f = F D G₂ / (4 |o.z| |i.z|)
 //   transmission, m ∥ wo + η wi:  f = (1 − F) D G₂ |o·m| |i·m| / (|o.z| |i.z| (o·m + η i·m)²)
 //
-// The transmitted f contains the factor (η_from/η_to)² of radiance: f(o, i) η_to² is reciprocal. Light scattered more
-// than once between microfacets is lost, at most some per cent for great roughness.
+// and what is scattered more than once, by lost_energy.hpp with a, b the sides of wo and behind, and t as
+// dielectric_surface.hpp has it:
+//
+//   reflection:    f = (1 − t) (1 − E_a(o)) (1 − E_a(i)) / (π L̄_a)
+//   transmission:  f = t (1 − E_a(o)) (1 − E_b(i)) / (π L̄_b)
+//
+// The transmitted f of both contains the factor (η_from/η_to)² of radiance: f(o, i) η_to² is reciprocal.
 //
 // Reference: Walter, Marschner, Li & Torrance, Microfacet Models for Refraction through Rough Surfaces, EGSR 2007,
 // equations 16, 17, 20 and 21, with visible normals in place of (24).
@@ -17,27 +22,41 @@
 #include <optional>
 
 #include "sampling/ggx.hpp"
+#include "shading/bsdf/dielectric_surface.hpp"
 #include "shading/bsdf/sample.hpp"
 
 namespace phasetree::tracer {
 
 class RoughDielectricBsdf {
   public:
-    RoughDielectricBsdf(float ior_from, float ior_to, float roughness);
+    /// The surface is shared by all points of an interface and must outlive the BSDF; `roughness` is within its range.
+    RoughDielectricBsdf(const DielectricSurface& surface, float roughness);
 
     std::optional<BsdfSample> sample(const glm::vec3& wo, float u_lobe, const glm::vec2& u) const;
     glm::vec3 evaluate(const glm::vec3& wo, const glm::vec3& wi) const;
     float pdf(const glm::vec3& wo, const glm::vec3& wi) const;
-    bool is_delta() const { return passes_through(); }
-    bool passes_through() const { return eta_ == 1.0f; }
+    bool is_delta() const { return false; }
+    bool passes_through() const { return false; }
 
   private:
+    /// f |cos θi|, and the density with which it is sampled.
+    struct Scattered {
+        glm::vec3 value{0.0f};
+        float pdf = 0.0f;
+    };
+
     /// The microfacet normal that takes wo to wi, on the side of wo; nothing if no microfacet does.
     std::optional<glm::vec3> microfacet(const glm::vec3& wo, const glm::vec3& wi) const;
+    /// By one scattering, at a microfacet with this normal.
+    Scattered once(const glm::vec3& wo, const glm::vec3& wi, const glm::vec3& m) const;
+    /// By one scattering (none, if no microfacet is given) and by several.
+    Scattered scattered(const glm::vec3& wo, const glm::vec3& wi, const std::optional<glm::vec3>& m) const;
 
+    const DielectricSurface* surface_;
     Ggx ggx_;
     float eta_;
-    float radiance_factor_;
+    DielectricSurface::Multiple multiple_;
+    float transmitted_;  ///< probability of transmission after several scatterings
 };
 
 }  // namespace phasetree::tracer

@@ -1,24 +1,26 @@
-// A polished metal: mirror reflection, weighted by Fresnel's equations for the complex index η + ik relative to the
-// clear medium it touches.
+// A polished metal: mirror reflection, weighted by what conductor_surface.hpp has of it: Fresnel's equations for the
+// complex index relative to the clear medium it touches, or those of a thin film on it.
 #pragma once
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 
+#include "shading/bsdf/conductor_surface.hpp"
 #include "shading/bsdf/sample.hpp"
-#include "shading/fresnel.hpp"
 
 namespace phasetree::tracer {
 
 class SmoothConductorBsdf {
   public:
-    /// Relative to the medium in front.
-    SmoothConductorBsdf(const glm::vec3& eta, const glm::vec3& k) : eta_(eta), k_(k) {}
+    /// The surface is shared by all points of an interface and must outlive the BSDF; the thickness of its film is in
+    /// nanometres, and within the surface's range.
+    explicit SmoothConductorBsdf(const ConductorSurface& surface, float thickness = 0.0f)
+        : surface_(&surface), thickness_(thickness) {}
 
     std::optional<BsdfSample> sample(const glm::vec3& wo, float /*u_lobe*/, const glm::vec2& /*u*/) const {
         if (!(wo.z > 0.0f)) return std::nullopt;
-        return BsdfSample{{-wo.x, -wo.y, wo.z}, fresnel_conductor(wo.z, eta_, k_), 1.0f, true, false};
+        return BsdfSample{{-wo.x, -wo.y, wo.z}, surface_->fresnel(wo.z, thickness_), 1.0f, true, false};
     }
     glm::vec3 evaluate(const glm::vec3& /*wo*/, const glm::vec3& /*wi*/) const { return glm::vec3{0.0f}; }
     float pdf(const glm::vec3& /*wo*/, const glm::vec3& /*wi*/) const { return 0.0f; }
@@ -26,8 +28,8 @@ class SmoothConductorBsdf {
     bool passes_through() const { return false; }
 
   private:
-    glm::vec3 eta_;
-    glm::vec3 k_;
+    const ConductorSurface* surface_;
+    float thickness_;
 };
 
 }  // namespace phasetree::tracer

@@ -1,0 +1,47 @@
+// What is the same all over a metal's surface, smooth or rough, with a thin film or without: how much it reflects, and
+// for a rough one the light that its BSDF has to give back after several scatterings (lost_energy.hpp).
+//
+// Of what a lossless metal of that roughness would give back after several scatterings, a real one gives
+//     c = F̄² q / (1 − F̄ (1 − q)),   q = 1 / (1 + α/2 + α²/5),
+// the sum over the second, third … scattering, of each of which F̄ is left, Fresnel's reflectance under uniform light,
+// and the part q of the light gets away. So the colour of a rough metal is deeper than that of a polished one. We
+// fitted q to walks on the microsurface: the light that meets the surface again gets away more readily than that which
+// comes from outside, of which the part 1 − L̄ does.
+//
+// Reference: Kulla & Conty 2017 (lost_energy.hpp), and for the square of F̄ Hill, A Multi-Faceted Exploration, 2018.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "shading/bsdf/film_of_surface.hpp"
+#include "shading/bsdf/lost_energy.hpp"
+#include "shading/thin_film.hpp"
+
+namespace phasetree::tracer {
+
+class ConductorSurface {
+  public:
+    /// The index η + ik is that against vacuum, as is `ior` of the clear medium in front. `roughness` is that of GGX,
+    /// for a surface that is rough somewhere.
+    ConductorSurface(float ior, const glm::vec3& eta, const glm::vec3& k,
+                     const std::optional<ValueRange>& roughness = {}, const std::optional<FilmOfSurface>& film = {});
+
+    glm::vec3 fresnel(float cos_theta, float thickness) const;
+
+    /// Of the lobe after several scatterings at a place of that roughness: what single scattering loses, and the part
+    /// of it that this metal gives back.
+    struct Multiple {
+        LossTables::At losses;
+        glm::vec3 reflected;
+    };
+    Multiple multiple(float roughness, float thickness) const;
+
+  private:
+    glm::vec3 eta_, k_;  ///< relative to the medium in front
+    std::optional<ThinFilm> film_;
+    std::optional<LossTables> losses_;
+    glm::vec3 mean_reflectance_{0.0f};  ///< F̄ without a film
+};
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,70 @@
+// What is the same all over an interface of two clear media, smooth or rough, with a thin film or without: how much it
+// reflects, and for a rough one the light that its BSDF has to give back after several scatterings (lost_energy.hpp).
+//
+// Of the light that is scattered several times on the side a, the part t_ab leaves through the surface to the side b.
+// Reciprocity asks that t_ab/t_ba = n_b² L̄_b / (n_a² L̄_a), with L̄ the loss of lost_energy.hpp of each side. Of what is
+// free after that, t_ab + t_ba, we take (1 − F̄_a) + (1 − F̄_b), with F̄ Fresnel's reflectance under uniform light:
+// each further scattering lets through so much. Neither is more than 1. A walk on the microsurface lets through up to 7
+// % of the light more from outside (η = 1.5), and up to 30 % more or less from inside where α is 1.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "shading/bsdf/film_of_surface.hpp"
+#include "shading/bsdf/lost_energy.hpp"
+#include "shading/fresnel.hpp"
+#include "shading/thin_film.hpp"
+
+namespace phasetree::tracer {
+
+/// (η_from/η_to)², by which radiance changes when it is refracted.
+float radiance_factor(float ior_from, float ior_to);
+
+class DielectricSurface {
+  public:
+    /// `roughness` is that of GGX, for an interface that is rough somewhere. Where it is rough, a film whose thickness
+    /// varies is as thick as the middle of its range everywhere, so that the tables are right.
+    DielectricSurface(float ior_from, float ior_to, const std::optional<ValueRange>& roughness = {},
+                      const std::optional<FilmOfSurface>& film = {});
+
+    /// The same, met from the other side. It shares all tables.
+    DielectricSurface reversed() const;
+
+    float eta() const { return eta_; }  ///< η_to/η_from
+    float radiance_factor() const { return radiance_factor_; }
+    /// Equal indices, and nothing between: light goes on as if there were no interface.
+    bool is_none() const { return eta_ == 1.0f && !film_; }
+    bool has_film() const { return film_ != nullptr; }
+    /// Of the film where the interface is rough.
+    float middle_thickness() const { return middle_thickness_; }
+
+    struct Fresnel {
+        glm::vec3 reflectance;
+        float cos_transmitted;
+    };
+    Fresnel fresnel(float cos_theta, float thickness) const;
+
+    /// Of the lobes after several scatterings at a place of that roughness.
+    struct Multiple {
+        LossTables::At from, to;  ///< seen from the side of wo, and from the other
+        glm::vec3 transmitted;    ///< t_ab
+    };
+    Multiple multiple(float roughness) const;
+
+  private:
+    struct Side {
+        LossTables losses;
+        glm::vec3 mean_reflectance;  ///< F̄
+    };
+
+    Side side(const ValueRange& roughness) const;
+
+    float eta_;
+    float radiance_factor_, radiance_factor_back_;
+    float middle_thickness_;
+    std::shared_ptr<const ThinFilm> film_;  ///< seen from the rarer medium
+    std::shared_ptr<const Side> from_, to_;
+};
+
+}  // namespace phasetree::tracer

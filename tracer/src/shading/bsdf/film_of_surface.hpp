@@ -1,0 +1,61 @@
+// What a surface is told of its thin film and of its roughness when it is made, both of which may vary over it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+namespace phasetree::tracer {
+
+/// From the least to the greatest value that a parameter of a surface has anywhere on it.
+struct ValueRange {
+    float least = 0.0f, greatest = 0.0f;
+
+    float middle() const { return 0.5f * (least + greatest); }
+    bool operator==(const ValueRange&) const = default;
+};
+
+/// Roughnesses at which there are tables for a range of them. What is lost at an angle depends on the ratio of
+/// roughness and cosine, so they are the closer the smaller: evenly in the fourth root.
+class RoughnessNodes {
+  public:
+    explicit RoughnessNodes(const ValueRange& range) : first_(root(range.least)), step_(root(range.greatest) - first_) {
+        constexpr float widest_step = 1.0f / 32.0f;
+        intervals_ = step_ > 0.0f ? static_cast<std::size_t>(std::ceil(step_ / widest_step)) : 0;
+        if (intervals_ > 0) step_ /= static_cast<float>(intervals_);
+    }
+
+    std::size_t size() const { return intervals_ + 1; }
+    float roughness(std::size_t i) const {
+        const float r = first_ + step_ * static_cast<float>(i);
+        return (r * r) * (r * r);
+    }
+    /// The node below, and how far it is to the next; there is a next unless there is one node alone.
+    struct Place {
+        std::size_t below;
+        float part;
+    };
+    Place place(float roughness) const {
+        if (intervals_ == 0) return {0, 0.0f};
+        const float at = std::clamp((root(roughness) - first_) / step_, 0.0f, static_cast<float>(intervals_));
+        const std::size_t below = std::min(static_cast<std::size_t>(at), intervals_ - 1);
+        return {below, at - static_cast<float>(below)};
+    }
+
+  private:
+    static float root(float x) { return std::sqrt(std::sqrt(x)); }
+
+    float first_, step_;
+    std::size_t intervals_;
+};
+
+/// A thin film (thin_film.hpp) whose thickness is in nanometres.
+struct FilmOfSurface {
+    float ior = 1.33f;
+    ValueRange thickness;
+
+    bool operator==(const FilmOfSurface&) const = default;
+};
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,78 @@
+// What a rough surface loses because its microfacets are followed for one scattering only, and the lobe that gives it
+// back.
+//
+//   1 − E(μ)    the part of the light along μ = cos θ that single scattering loses: it would meet the surface again
+//   L̄           2 ∫ (1 − E(μ)) μ dμ, the same under uniform light
+//
+// Light that has been scattered several times has forgotten where it came from, so it is given back by
+// f = c (1 − E(o)) (1 − E(i)) / (π L̄), which is reciprocal, and whose albedo is c (1 − E(o)): with c = 1 a lossless
+// surface reflects all light, whatever the table's own error. E is integrated numerically from the very microfacets
+// that are sampled. Its lobe is sampled in proportion to the mean of (1 − E) μ between two nodes of the table.
+//
+// References: Kelemen & Szirmay-Kalos, A Microfacet Based Coupled Specular-Matte BRDF Model, Eurographics 2001 (the
+// lobe); Kulla & Conty, Revisiting Physically Based Shading at Imageworks, SIGGRAPH course 2017 (it as lost energy).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "shading/bsdf/film_of_surface.hpp"
+
+namespace phasetree::tracer {
+
+/// 1 − E(μ) of one roughness, of each colour channel.
+class LossTable {
+  public:
+    /// Of a surface whose single scattering gives back E(μ).
+    explicit LossTable(const std::function<glm::vec3(float)>& directional_albedo);
+
+    glm::vec3 at(float cos_theta) const;
+    const glm::vec3& average() const { return average_; }
+
+    /// A direction with z > 0 of the lobe, and its density.
+    glm::vec3 sample(const glm::vec2& u) const;
+    float pdf(float cos_theta) const;
+
+  private:
+    static constexpr std::size_t nodes = 128;  ///< at μ = (i / (nodes − 1))², dense where E is steep
+
+    std::array<glm::vec3, nodes> loss_;
+    glm::vec3 average_{0.0f};
+    std::array<float, nodes - 1> density_;  ///< of the lobe between two nodes, over that of Lambert's law
+    std::array<float, nodes> cumulative_;
+};
+
+/// 1 − E(μ) over a range of roughness; of one roughness alone, if the range is empty.
+class LossTables {
+  public:
+    LossTables(const ValueRange& roughness, const std::function<LossTable(float)>& table);
+
+    /// What a point of the surface has of it, interpolated between the tables of the neighbouring roughnesses.
+    class At {
+      public:
+        At(const LossTable& below, const LossTable& above, float part) : below_(&below), above_(&above), part_(part) {}
+
+        glm::vec3 at(float cos_theta) const;
+        glm::vec3 average() const;
+        glm::vec3 sample(const glm::vec2& u) const { return nearest().sample(u); }
+        float pdf(float cos_theta) const { return nearest().pdf(cos_theta); }
+
+      private:
+        const LossTable& nearest() const { return part_ < 0.5f ? *below_ : *above_; }
+
+        const LossTable* below_;
+        const LossTable* above_;
+        float part_;
+    };
+    At at(float roughness) const;
+
+  private:
+    RoughnessNodes nodes_;
+    std::vector<LossTable> tables_;
+};
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,43 @@
+// Surfaces with their tables, each made once, however many interfaces have the like.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "shading/bsdf/coating_albedo.hpp"
+#include "shading/bsdf/conductor_surface.hpp"
+#include "shading/bsdf/dielectric_surface.hpp"
+
+namespace phasetree::tracer {
+
+/// It is used while a scene's interfaces are made, in one thread, and forgotten then.
+class SharedSurfaces {
+  public:
+    std::shared_ptr<const DielectricSurface> dielectric(float ior_from, float ior_to,
+                                                        const std::optional<ValueRange>& roughness,
+                                                        const std::optional<FilmOfSurface>& film);
+    std::shared_ptr<const ConductorSurface> conductor(float ior, const glm::vec3& eta, const glm::vec3& k,
+                                                      const std::optional<ValueRange>& roughness,
+                                                      const std::optional<FilmOfSurface>& film);
+    std::shared_ptr<const CoatingAlbedo> coating(float ior_from, float ior_coat, const ValueRange& roughness,
+                                                 const std::optional<FilmOfSurface>& film);
+
+  private:
+    struct Key {
+        glm::vec3 eta, k;
+        float ior;
+        std::optional<ValueRange> roughness;
+        std::optional<FilmOfSurface> film;
+        bool operator==(const Key&) const = default;
+    };
+    template <class Surface>
+    using Made = std::vector<std::pair<Key, std::shared_ptr<const Surface>>>;
+
+    Made<DielectricSurface> dielectrics_;
+    Made<ConductorSurface> conductors_;
+    Made<CoatingAlbedo> coatings_;
+};
+
+}  // namespace phasetree::tracer

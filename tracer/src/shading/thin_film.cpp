@@ -1,0 +1,124 @@
+#include "shading/thin_film.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <glm/common.hpp>
+#include <numbers>
+
+#include "shading/colour_matching.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+// What of the film depends on the angle alone: r₁₂, r₂₃ of both polarisations, and q₂.
+struct Faces {
+    Complex outer[2], inner[2], inside;
+
+    Faces(double outside, double film, const Complex& behind, double cos_theta) {
+        const double sine2 = outside * outside * (1.0 - cos_theta * cos_theta);
+        const Complex n[3] = {outside, film, behind};
+        Complex q[3];
+        for (int i = 0; i < 3; ++i) q[i] = std::sqrt(n[i] * n[i] - sine2);
+        const auto s = [&](int j, int k) { return (q[j] - q[k]) / (q[j] + q[k]); };
+        const auto p = [&](int j, int k) {
+            const Complex a = n[k] * n[k] * q[j], b = n[j] * n[j] * q[k];
+            return (a - b) / (a + b);
+        };
+        outer[0] = s(0, 1);
+        outer[1] = p(0, 1);
+        inner[0] = s(1, 2);
+        inner[1] = p(1, 2);
+        inside = q[1];
+    }
+
+    double reflectance(double thickness, double wavelength) const {
+        const Complex phase = std::exp(Complex(0.0, 4.0 * std::numbers::pi * thickness / wavelength) * inside);
+        double sum = 0.0;
+        for (int i = 0; i < 2; ++i) {
+            const Complex again = inner[i] * phase;
+            sum += 0.5 * std::norm((outer[i] + again) / (1.0 + outer[i] * again));
+        }
+        return std::min(sum, 1.0);
+    }
+};
+
+glm::vec3 colour(const ThinFilm::Layers& layers, const std::vector<SpectralWeight>& weights, double cos_theta,
+                 double thickness) {
+    // Grazing light is all reflected; there the formulas are 0/0.
+    if (!(cos_theta > 0.0)) return glm::vec3(1.0f);
+    const bool grey = layers.eta == glm::vec3(layers.eta.x) && layers.k == glm::vec3(layers.k.x);
+    glm::dvec3 sum(0.0);
+    for (int c = 0; c < (grey ? 1 : 3); ++c) {
+        const Faces faces(static_cast<double>(layers.outside), static_cast<double>(layers.film),
+                          Complex(static_cast<double>(layers.eta[c]), static_cast<double>(layers.k[c])), cos_theta);
+        for (const SpectralWeight& w : weights) {
+            const double reflectance = faces.reflectance(thickness, w.wavelength);
+            if (grey)
+                sum += reflectance * w.weight;
+            else
+                sum[c] += reflectance * w.weight[c];
+        }
+    }
+    return glm::clamp(glm::vec3(sum), 0.0f, 1.0f);
+}
+
+}  // namespace
+
+double thin_film_reflectance(double outside, double film, double behind_eta, double behind_k, double cos_theta,
+                             double thickness, double wavelength) {
+    return Faces(outside, film, Complex(behind_eta, behind_k), cos_theta).reflectance(thickness, wavelength);
+}
+
+ThinFilm::ThinFilm(const Layers& layers, float least_thickness, float greatest_thickness) : least_(least_thickness) {
+    // R swings once in λ/(2 n₂), some 150 nm; linear interpolation over this step is off by less than a thousandth.
+    constexpr float widest_step = 4.0f;
+    const float range = greatest_thickness - least_thickness;
+    const int intervals = range > 0.0f ? static_cast<int>(std::ceil(range / widest_step)) : 0;
+    if (intervals > 0) step_ = range / static_cast<float>(intervals);
+    const std::vector<SpectralWeight> weights = spectral_weights();
+    for (int row = 0; row <= intervals; ++row) {
+        const double thickness = static_cast<double>(least_ + step_ * static_cast<float>(row));
+        glm::dvec3 sum(0.0);
+        for (std::size_t i = 0; i < cosines; ++i) {
+            const double cosine = static_cast<double>(i) / (cosines - 1);
+            table_.push_back(colour(layers, weights, cosine, thickness));
+            // The trapezoidal rule for 2 ∫ R μ dμ; both of its ends are there, and μ is 0 at the first.
+            sum += 2.0 * cosine * glm::dvec3(table_.back()) * (i + 1 == cosines ? 0.5 : 1.0) / (cosines - 1.0);
+        }
+        averages_.emplace_back(sum);
+    }
+}
+
+std::size_t ThinFilm::row_of(float thickness, float& part) const {
+    part = 0.0f;
+    if (averages_.size() == 1) return 0;
+    const float position = std::clamp((thickness - least_) / step_, 0.0f, static_cast<float>(averages_.size() - 1));
+    const std::size_t row = std::min(static_cast<std::size_t>(position), averages_.size() - 2);
+    part = position - static_cast<float>(row);
+    return row;
+}
+
+glm::vec3 ThinFilm::reflectance(float cos_theta, float thickness) const {
+    const float position = std::clamp(cos_theta, 0.0f, 1.0f) * static_cast<float>(cosines - 1);
+    const std::size_t below = std::min(static_cast<std::size_t>(position), cosines - 2);
+    const float between = position - static_cast<float>(below);
+    const auto in_row = [&](std::size_t row) {
+        const glm::vec3* at = &table_[row * cosines + below];
+        return glm::mix(at[0], at[1], between);
+    };
+    float part = 0.0f;
+    const std::size_t row = row_of(thickness, part);
+    return part > 0.0f ? glm::mix(in_row(row), in_row(row + 1), part) : in_row(row);
+}
+
+glm::vec3 ThinFilm::average(float thickness) const {
+    float part = 0.0f;
+    const std::size_t row = row_of(thickness, part);
+    return part > 0.0f ? glm::mix(averages_[row], averages_[row + 1], part) : averages_[row];
+}
+
+}  // namespace phasetree::tracer
