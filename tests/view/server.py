@@ -138,6 +138,26 @@ class Files(unittest.TestCase):
             (view.file.parent / "leaf.obj").write_text(leaf.replace("1 1 -1", "3 1 -1"), encoding="utf-8")
             view.wait_for(lambda s: is_ready(s) and s["version"] > there.state["version"] + 2)
 
+    def test_the_camera_is_written_into_the_file_and_nothing_else_changes(self):
+        old = '{"position": [0, -5, 0], "look_at": [0, 0, 0], "fov": 30}'
+        commented = '{"position": [0, -5, 0], // not "here}"\n "look_at": /* {{ */ [0, 0, 0], "fov": 30}'
+        text = "// Two balls { in one file }.\n" + changed(SCENE, old, commented)
+        with View(text) as view:
+            view.file.chmod(0o640)
+            view.ready()
+            view.post("change", {"camera": {"position": [5, 0, 0], "look_at": [0, 0, 0]}})
+            turned = view.wait_for(lambda s: is_ready(s) and "[5, 0, 0]" in s["camera"])
+            self.assertEqual(view.post("write", {}).status, 200)
+            new = '{"position": [5, 0, 0], "look_at": [0, 0, 0]}'
+            self.assertEqual(view.file.read_text(encoding="utf-8"), changed(text, commented, new))
+            self.assertEqual(view.file.stat().st_mode & 0o777, 0o640)
+            again = view.wait_for(lambda s: is_ready(s) and s["version"] > turned.state["version"])
+            self.assertEqual(again.pixels, turned.pixels)
+            # A file that is wrong by now is left as it is.
+            view.file.write_text("{", encoding="utf-8")
+            self.assertEqual(view.post("write", {}).status, 400)
+            self.assertEqual(view.file.read_text(encoding="utf-8"), "{")
+
     def test_a_scene_that_takes_for_ever_is_left_by_the_next_change(self):
         with View() as view:
             before = view.ready()

@@ -47,6 +47,7 @@ class View:
         self.folder = tempfile.TemporaryDirectory()
         self.file = pathlib.Path(self.folder.name) / "scene.json"
         self.file.write_text(text, encoding="utf-8")
+        self.prepare()
         self.errors = open(pathlib.Path(self.folder.name) / "errors", "w+", encoding="utf-8")  # noqa: SIM115
         self.process = subprocess.Popen([COMMAND, "view", str(self.file), *options], stdout=subprocess.PIPE,
                                         stderr=self.errors, text=True, preexec_fn=self._hear_signals)
@@ -58,6 +59,9 @@ class View:
             self.process.kill()
             raise AssertionError(f"no address: {self.url!r} {self.said()}")
         self.port, self.token = int(found[1]), found[2]
+
+    def prepare(self):
+        """Puts into the folder what the scene needs beside it."""
 
     @staticmethod
     def _hear_signals():

@@ -4,14 +4,17 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
+#include <filesystem>
 
 #include "command/commands.hpp"
 #include "command/load.hpp"
 #include "command/max_memory.hpp"
 #include "command/streams.hpp"
 #include "output/error.hpp"
+#include "output/file.hpp"
 #include "output/interrupt.hpp"
 #include "render/threads.hpp"
+#include "scene/camera_text.hpp"
 #include "view/server.hpp"
 
 namespace phasetree::tracer {
@@ -53,6 +56,15 @@ view::ViewedScene read_viewed(const Options& options, view::WatchedFiles& files)
             }};
 }
 
+// The file keeps who may read and write it.
+void write_camera(const Options& options, const std::string& camera) {
+    const Document document = read_document(*options.scene);
+    const std::filesystem::path file = options.scene->name;
+    const std::filesystem::perms permissions = std::filesystem::status(file).permissions();
+    write_file(with_camera(document, camera), file);
+    std::filesystem::permissions(file, permissions);
+}
+
 // The desktop's browser, which is left to itself. Where there is none, the address that was printed is enough.
 void open_browser(const std::string& url) {
     std::string program = "xdg-open", address = url;
@@ -73,12 +85,14 @@ int view_scene(const Options& options) {
     if (options.scene->is_standard_input())
         throw OutputError("view: the scene must be a file, which is read again when it is saved");
     const AvailableThreads threads(options.threads);
-    const view::SessionOptions session_options{.name = options.scene->shown(),
-                                               .threads = threads.count(),
-                                               .most_bytes = options.most_bytes,
-                                               .samples = options.samples,
-                                               .width = options.width,
-                                               .tell = [](std::string_view text) { say(text); }};
+    const view::SessionOptions session_options{
+        .name = options.scene->shown(),
+        .threads = threads.count(),
+        .most_bytes = options.most_bytes,
+        .samples = options.samples,
+        .width = options.width,
+        .write_camera = [&](const std::string& text) { write_camera(options, text); },
+        .tell = [](std::string_view text) { say(text); }};
     // A scene that is wrong from the start is said as by every subcommand.
     view::WatchedFiles first_files;
     std::optional<view::ViewedScene> first = read_viewed(options, first_files);

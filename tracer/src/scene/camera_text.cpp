@@ -52,10 +52,37 @@ std::string written(TypeList<Kinds...>, const Parameters& parameters, const Pixe
     return text;
 }
 
+// Where an object ends that begins at `from`, in a text that has been read as JSON with comments: behind its bracket.
+std::size_t end_of_object(const std::string& text, std::size_t from) {
+    int depth = 0;
+    for (std::size_t i = from; i < text.size(); ++i) {
+        if (text.compare(i, 2, "//") == 0) {
+            i = text.find_first_of("\r\n", i);
+        } else if (text.compare(i, 2, "/*") == 0) {
+            i = text.find("*/", i + 2) + 1;
+        } else if (text[i] == '"') {
+            while (text[++i] != '"')
+                if (text[i] == '\\') ++i;
+        } else if (text[i] == '{') {
+            ++depth;
+        } else if (text[i] == '}' && --depth == 0) {
+            return i + 1;
+        }
+    }
+    return text.size();
+}
+
 }  // namespace
 
 std::string camera_text(const AnyCameraParameters& camera, const PixelFilter& filter) {
     return std::visit([&](const auto& parameters) { return written(CameraKinds(), parameters, filter); }, camera);
+}
+
+std::string with_camera(const Document& document, const std::string& camera) {
+    const auto old = document.root().find("camera");
+    if (!old || !old->is_object()) throw document.error(document.root(), "the scene has no camera to be replaced");
+    std::string text = document.text();
+    return text.replace(old->offset(), end_of_object(text, old->offset()) - old->offset(), camera);
 }
 
 }  // namespace phasetree::tracer

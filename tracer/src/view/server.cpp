@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "output/encode.hpp"
+#include "output/error.hpp"
 #include "phasetree/io/error.hpp"
 #include "phasetree/model/handle.hpp"
 #include "view/access.hpp"
@@ -97,7 +98,7 @@ class Answers {
             return true;
         }
         if (request.method != "POST") return refuse(response, 405, "only GET and POST are understood");
-        if (name != "change" && name != "ask") return refuse(response, 404, "there is no such page");
+        if (name != "change" && name != "ask" && name != "write") return refuse(response, 404, "there is no such page");
         if (request.has_header("Content-Encoding") || request.has_header("Transfer-Encoding") ||
             !request.has_header("Content-Length"))
             return refuse(response, 411, "a request must be plain and say its length");
@@ -112,6 +113,9 @@ class Answers {
             if (name == "change") {
                 const std::uint64_t version = session_.change(read_change(request.body, *shown));
                 response.set_content(fmt::format("{{\"version\": {}}}", version), json);
+            } else if (name == "write") {
+                session_.write_camera();
+                response.set_content("{}", json);
             } else if (shown->picture) {
                 const glm::vec2 place = read_place(request.body, *shown);
                 response.set_content(written(probe(*shown->picture, place)), json);
@@ -121,6 +125,8 @@ class Answers {
         } catch (const SceneError& e) {
             refuse(response, 400, e.what());
         } catch (const ModelError& e) {
+            refuse(response, 409, e.what());
+        } catch (const OutputError& e) {
             refuse(response, 409, e.what());
         }
     }
@@ -212,7 +218,7 @@ void serve(Session& session, const ServeOptions& options) {
     const auto post = [&](const httplib::Request& request, httplib::Response& response) {
         answers.post(request, response);
     };
-    for (const char* name : {"change", "ask"}) server.Post(std::string(access.path()) + name, post);
+    for (const char* name : {"change", "ask", "write"}) server.Post(std::string(access.path()) + name, post);
     server.set_exception_handler([](const httplib::Request&, httplib::Response& response, std::exception_ptr) {
         Answers::refuse(response, 500, "this cannot be answered: memory may have run out");
     });

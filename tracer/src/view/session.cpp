@@ -210,9 +210,9 @@ void Session::build(const Wishes& wishes) {
     if (object.size() == 0)
         warning += fmt::format("{}: warning: the object is empty, so no ray meets it\n", options_.name);
     if (!warning.empty()) options_.tell(warning);
+    warning_ = warning;
     show([&](Shown& shown) {
         shown.error.clear();
-        shown.warning = warning;
         shown.scene = options_.name;
         shown.resolution = scene->film.resolution();
         shown.samples = scene->settings.samples;
@@ -236,6 +236,7 @@ bool Session::draw(const Wishes& wishes) {
     show([&](Shown& shown) {
         shown.camera = scene_->camera;
         shown.camera_text = camera_text(scene_->camera, file.film.filter);
+        shown.warning = warning_ + warning_of_camera();
         shown.doing = "Taking the first picture";
     });
     for (const int scale : ladder_.scales(file.film.resolution()))
@@ -250,6 +251,14 @@ bool Session::draw(const Wishes& wishes) {
     if (!draw_whole(wishes, file.settings.samples)) return false;
     show([](Shown& shown) { shown.doing = "Ready"; });
     return true;
+}
+
+// That it can stand where it sees nothing.
+std::string Session::warning_of_camera() const {
+    const Phase phase = prepared_->world().geometry().label(position_of(scene_->camera));
+    if (is_clear(scene_->materials[phase.index])) return {};
+    return fmt::format("{}: warning: the camera is inside \"{}\", which is opaque\n", options_.name,
+                       scene_->phases[phase]);
 }
 
 // Returns whether it was finished, as draw_whole() does.

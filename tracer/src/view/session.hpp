@@ -29,6 +29,8 @@ struct SessionOptions {
     std::size_t most_bytes = 0;
     std::optional<int> samples;  ///< in place of the scene's
     std::optional<int> width;    ///< of the picture, likewise; the height follows
+    /// Puts a camera into the scene's file. Throws SceneError and OutputError.
+    std::function<void(const std::string& camera)> write_camera = [](const std::string&) {};
     /// Is told errors and warnings, each with its line's end.
     std::function<void(std::string_view)> tell = [](std::string_view) {};
 };
@@ -53,6 +55,9 @@ class Session {
     std::uint64_t change(const Change& change);
     /// To be called now and then: reads the scene again if a file of it has been saved.
     void look_at_files();
+
+    /// Puts the camera that is shown into the scene's file. Throws as SessionOptions::write_camera does.
+    void write_camera() const { options_.write_camera(shown()->camera_text); }
 
     std::shared_ptr<const Shown> shown() const;
     /// What is shown once its version is more than `version`, or when the time is over.
@@ -93,6 +98,7 @@ class Session {
     bool draw(const Wishes& wishes);
     bool draw_coarser(const Wishes& wishes, int scale);
     bool draw_whole(const Wishes& wishes, int samples);
+    std::string warning_of_camera() const;
     void show_picture(const Wishes& wishes, Image image, int scale, int samples);
     void expose();
     void fail(const std::string& error);
@@ -123,6 +129,7 @@ class Session {
     std::shared_ptr<Scene> scene_;  // without what is hidden
     std::shared_ptr<const Prepared> prepared_;
     std::uint64_t last_reading_ = 0, last_good_reading_ = 0;
+    std::string warning_;          // of the object
     ObjectNumber built_for_;       // whether in vain or not
     PictureNumber finished_for_;   // of the picture that has all samples
     std::uint64_t drawn_for_ = 0;  // the number of the wishes whose first picture has been shown

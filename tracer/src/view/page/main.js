@@ -4,7 +4,7 @@ import {listen} from "./input.js";
 import {showPhases} from "./phases.js";
 import {draw, place} from "./picture.js";
 import {showPoint} from "./point.js";
-import {Changes, ask, follow} from "./server.js";
+import {Changes, ask, follow, writeCamera} from "./server.js";
 
 const element = (id) => document.getElementById(id);
 const canvas = element("picture"), exposure = element("exposure");
@@ -92,6 +92,14 @@ element("copy").addEventListener("click", async () => {
     document.execCommand("copy");
   }
   element("copied").textContent = "Copied.";
+});
+element("write").addEventListener("click", async () => {
+  try {
+    await writeCamera();
+    element("copied").textContent = "Written.";
+  } catch (error) {
+    showText("error", error.message);
+  }
 });
 element("save").addEventListener("click", () => {
   element("save").download = `${(state?.scene ?? "picture").replace(/^.*\//, "").replace(/\.[^.]*$/, "")}.png`;

@@ -12,6 +12,7 @@ async function post(name, wish) {
 }
 
 export const ask = (x, y) => post("ask", {x, y});
+export const writeCamera = () => post("write", {});
 
 // Sends changes one after the other. Those that come while one is on its way are joined, so that a fast mouse leaves no
 // queue behind.
