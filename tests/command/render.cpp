@@ -211,7 +211,7 @@ TEST_CASE("--cells keeps the prepared object from one rendering to the next") {
     CHECK(render({"--cells", "."}).code == 2);
 }
 
-TEST_CASE("Ctrl-C writes what there is and exits with 1") {
+TEST_CASE("Ctrl-C writes what there is and exits with 130") {
     const Shell shell;
     write_text(shell.directory / "scene.json", SceneText().text());
     Interrupt interrupt{SIGINT};
@@ -219,7 +219,7 @@ TEST_CASE("Ctrl-C writes what there is and exits with 1") {
                                 "", std::ref(interrupt));
     CAPTURE(o.err);
     CHECK(interrupt.is_sent);
-    CHECK(o.code == 1);
+    CHECK(o.code == 130);
     CHECK(o.signal == 0);
     CHECK(o.processor_seconds - interrupt.used < 3);
     CHECK(o.err.find("interrupted") != std::string::npos);
@@ -250,14 +250,14 @@ TEST_CASE("Ctrl-C while the object is prepared ends it at once and writes nothin
 }
 
 // Even a picture of one sample a pixel, cut off in its only pass, is not told to be whole.
-TEST_CASE("Ctrl-C in the first pass exits with 1 too") {
+TEST_CASE("Ctrl-C in the first pass exits with 130 too") {
     const Shell shell;
     write_text(shell.directory / "scene.json", SceneText().text());
     Interrupt interrupt{SIGINT};
     const Outcome o = shell.run({"render", "scene.json", "-o", "a.exr", "--quiet", "--spp", "1", "--size", "8000x6000"},
                                 "", std::ref(interrupt));
     CAPTURE(o.err);
-    CHECK(o.code == 1);
+    CHECK(o.code == 130);
     CHECK(o.err.find("interrupted") != std::string::npos);
     CHECK(shell.directory.size() == 2);
 }

@@ -14,6 +14,7 @@ constexpr Target list[] = {
     {"image", Inputs::bytes, 16384, 500, "", run_image},
     {"lines", Inputs::lines, 1024, 10000, "", run_lines},
     {"obj", Inputs::lines, 4096, 10000, "", run_obj},
+    {"part", Inputs::bytes, 8192, 3000, "", run_part},
     {"scene", Inputs::json, 8192, 10000, "scenes", run_scene},
     {"settings", Inputs::json, 8192, 500, "", run_settings},
     {"weights", Inputs::json, 8192, 10000, "", run_weights},

@@ -47,6 +47,7 @@ void run_color_config(Bytes);
 void run_image(Bytes);
 void run_lines(Bytes);
 void run_obj(Bytes);
+void run_part(Bytes);
 void run_scene(Bytes);
 void run_settings(Bytes);
 void run_weights(Bytes);

@@ -3,7 +3,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "math/mixed_hash.hpp"
+#include "phasetree_support/mixed_hash.hpp"
 
 namespace phasetree::building {
 
@@ -15,7 +15,7 @@ namespace {
 float spread_factor(const Bounds& box) {
     const glm::vec3 c = box.centre();
     std::uint64_t hash = 0;
-    for (int i = 0; i < 3; ++i) hash = mixed(hash, std::bit_cast<std::uint32_t>(c[i]));
+    for (int i = 0; i < 3; ++i) hash = support::mixed(hash, std::bit_cast<std::uint32_t>(c[i]));
     return 1 + 3 * static_cast<float>(hash & 0xffff) / 0x10000;
 }
 

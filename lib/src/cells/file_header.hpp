@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "cells/checksum.hpp"
+#include "phasetree_support/checksum.hpp"
 
 namespace phasetree::cells {
+
+using support::Checksum;
 
 /// The beginning of a file of cells. The sections follow it one after another, and nothing is behind them.
 struct CellsFileHeader {

@@ -5,8 +5,8 @@
 #include <bit>
 #include <cstring>
 
-#include "math/mixed_hash.hpp"
 #include "phasetree/model/handle.hpp"
+#include "phasetree_support/mixed_hash.hpp"
 
 namespace phasetree::program {
 
@@ -18,8 +18,8 @@ InstructionList::InstructionList(Program& program, std::size_t limit) : program_
 std::uint32_t InstructionList::emit(Op op, std::uint32_t a, std::uint32_t b, std::span<const float> constants,
                                     float lipschitz) {
     work(1 + constants.size() / 16);
-    std::uint64_t hash = mixed(mixed(static_cast<std::uint64_t>(op), a), b);
-    for (const float f : constants) hash = mixed(hash, std::bit_cast<std::uint32_t>(f));
+    std::uint64_t hash = support::mixed(support::mixed(static_cast<std::uint64_t>(op), a), b);
+    for (const float f : constants) hash = support::mixed(hash, std::bit_cast<std::uint32_t>(f));
     for (;; ++hash) {
         const auto next = static_cast<std::uint32_t>(program_.instructions.size());
         const auto [where, is_new] = known_.emplace(hash, next);

@@ -3,8 +3,8 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "math/mixed_hash.hpp"
 #include "model/preparation.hpp"
+#include "phasetree_support/mixed_hash.hpp"
 #include "tree/node.hpp"
 
 namespace phasetree {
@@ -43,13 +43,13 @@ struct BoundsQuery::Memory {
     struct Hash {
         std::size_t operator()(const Key& k) const {
             std::size_t hash = std::hash<const void*>()(k.node);
-            hash = mixed(hash, std::hash<float>()(k.level));
+            hash = support::mixed(hash, std::hash<float>()(k.level));
             return hash;
         }
         std::size_t operator()(const DirectedKey& k) const {
             std::size_t hash = (*this)(k.key);
             for (const glm::dvec3& d : k.directions)
-                for (int i = 0; i < 3; ++i) hash = mixed(hash, std::hash<double>()(d[i]));
+                for (int i = 0; i < 3; ++i) hash = support::mixed(hash, std::hash<double>()(d[i]));
             return hash;
         }
     };

@@ -2,11 +2,15 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -58,26 +62,71 @@ fs::path resolved(const fs::path& path) {
     return target;
 }
 
+constexpr std::string_view temporary_end = ".tmp";
+
+/// How the temporary names of a file begin. File systems allow 255 bytes; the rest is for the numbers.
+std::string temporary_start(const fs::path& target) {
+    return fmt::format(".{}.", target.filename().string().substr(0, 200));
+}
+
 /// A name in the same directory, another one for each file that this process writes at once.
 fs::path name_beside(const fs::path& target) {
     static std::atomic<unsigned> written{0};
-    // File systems allow 255 bytes; the rest is for the numbers.
-    const std::string name = target.filename().string().substr(0, 200);
     fs::path beside = target;
-    beside.replace_filename(fmt::format(".{}.{}.{}.tmp", name, ::getpid(), written++));
+    beside.replace_filename(fmt::format("{}{}.{}{}", temporary_start(target), ::getpid(), written++, temporary_end));
     return beside;
+}
+
+bool is_temporary_of(const fs::path& target, const std::string& name) {
+    const std::string start = temporary_start(target);
+    if (name.size() <= start.size() + temporary_end.size() || !name.starts_with(start) ||
+        !name.ends_with(temporary_end))
+        return false;
+    const auto numbers = std::string_view(name).substr(start.size(), name.size() - start.size() - temporary_end.size());
+    return numbers.find_first_not_of("0123456789.") == std::string_view::npos && std::ranges::count(numbers, '.') == 1;
+}
+
+/// Takes away the temporary files of processes that were killed. One that is still being written is locked by its
+/// writer, on whatever machine; where there are no locks everything stays.
+void remove_abandoned(const fs::path& target) {
+    std::error_code error;
+    fs::directory_iterator at(folder_of(target), error);
+    for (const fs::directory_iterator end; !error && at != end; at.increment(error)) {
+        if (!is_temporary_of(target, at->path().filename().string())) continue;
+        const int file = ::open(at->path().c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+        if (file < 0) continue;
+        if (::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlink(at->path().c_str());
+        ::close(file);
+    }
+}
+
+/// Whether an open file still has that name.
+bool has_name(int file, const fs::path& name) {
+    struct stat of_file {};
+    struct stat of_name {};
+    return ::fstat(file, &of_file) == 0 && ::stat(name.c_str(), &of_name) == 0 && of_file.st_ino == of_name.st_ino &&
+           of_file.st_dev == of_name.st_dev;
 }
 
 }  // namespace
 
 WholeFile::WholeFile(const fs::path& path) : target_(resolved(path)), temporary_(name_beside(target_)) {
-    ::unlink(temporary_.c_str());  // of a process that was killed and had the same id
-    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor_ < 0) {
-        const int code = errno;
-        throw FileError(code, fmt::format("no file can be created in the directory \"{}\": {}",
-                                          folder_of(target_).string(), std::generic_category().message(code)));
+    remove_abandoned(target_);
+    ::unlink(temporary_.c_str());  // of a process that was killed and had the same id, where there are no locks
+    open();
+    // Between its creation and its lock the file looks abandoned to another process that writes the same one.
+    while (::flock(descriptor_, LOCK_EX) == 0 && !has_name(descriptor_, temporary_)) {
+        ::close(std::exchange(descriptor_, -1));
+        open();
     }
+}
+
+void WholeFile::open() {
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor_ >= 0) return;
+    const int code = errno;
+    throw FileError(code, fmt::format("no file can be created in the directory \"{}\": {}", folder_of(target_).string(),
+                                      std::generic_category().message(code)));
 }
 
 WholeFile::~WholeFile() {
@@ -95,12 +144,27 @@ void WholeFile::write(std::span<const std::byte> bytes) {
 }
 
 void WholeFile::finish() {
-    // Network file systems report a full disk only here.
-    if (::close(std::exchange(descriptor_, -1)) != 0) throw FileError(errno);
+    const int lock = ::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);  // so that it is locked until it has its name
     std::error_code error;
-    fs::rename(temporary_, target_, error);
+    // Network file systems report a full disk only here.
+    if (::close(std::exchange(descriptor_, -1)) != 0)
+        error.assign(errno, std::generic_category());
+    else
+        fs::rename(temporary_, target_, error);
+    if (lock >= 0) ::close(lock);
     if (error) throw FileError(error.value());
     is_renamed_ = true;
+}
+
+void WholeFile::finish_on_disk() {
+    if (::fsync(descriptor_) != 0) throw FileError(errno);
+    finish();
+    // The name is kept by the folder.
+    const int folder = ::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder < 0) throw FileError(errno);
+    const int failure = ::fsync(folder) == 0 ? 0 : errno;
+    ::close(folder);
+    if (failure != 0 && failure != EINVAL) throw FileError(failure);  // EINVAL: this file system has no such call
 }
 
 }  // namespace phasetree::support

@@ -71,6 +71,11 @@ int rename(const char* from, const char* to) {
     return static_cast<int>(::syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0));
 }
 
+int fsync(int file) {
+    if (fails()) return -1;
+    return static_cast<int>(::syscall(SYS_fsync, file));
+}
+
 // EINTR leaves a file closed on Linux; so does every other error.
 int close(int file) {
     const bool failed = file > STDERR_FILENO && fails();

@@ -34,7 +34,8 @@ void shine(const tracer::Lights& lights, const glm::vec3& p) {
 }
 
 void scatter(const tracer::Scene& scene) {
-    const tracer::InterfaceTable table(scene.materials);
+    tracer::SharedSurfaces shared;
+    const tracer::InterfaceTable table(scene.materials, shared);
     const std::size_t count = std::min<std::size_t>(scene.materials.size(), 4);
     const glm::vec3 wo = glm::normalize(glm::vec3(0.3f, 0.4f, 0.5f));
     for (std::size_t from = 0; from < count; ++from)

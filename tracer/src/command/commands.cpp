@@ -7,6 +7,8 @@ namespace phasetree::tracer {
 void add_commands(CLI::App& app, Run& run) {
     add_render(app, run);
     add_view(app, run);
+    add_merge(app, run);
+    add_farm(app, run);
     add_check(app, run);
     add_info(app, run);
     add_eval(app, run);

@@ -6,6 +6,7 @@
 #include "command/numbers.hpp"
 #include "command/streams.hpp"
 #include "command/subcommand.hpp"
+#include "film_file/error.hpp"
 #include "output/error.hpp"
 #include "phasetree/io/error.hpp"
 #include "phasetree/model/handle.hpp"
@@ -22,7 +23,8 @@ int run_command(int argc, char** argv) {
     app.require_subcommand(1);
     app.footer(
         "Exit codes: 0 for success; 1 if the run was interrupted or something could not be written;\n"
-        "2 for a scene, input or arguments that are wrong; 3 of check for a scene that is only a tree.");
+        "2 for a scene, input or arguments that are wrong; 3 of check for a scene that is only a tree;\n"
+        "75 of a render that SIGTERM or SIGHUP ended and that --resume goes on with; 130 if Ctrl-C ended it.");
     tracer::Run run;
     tracer::add_commands(app, run);
     try {
@@ -41,6 +43,8 @@ int run_command(int argc, char** argv) {
     } catch (const ModelError& e) {
         say("phasetree: {}\n", e.what());
     } catch (const tracer::OutputError& e) {
+        say("phasetree: {}\n", e.what());
+    } catch (const tracer::FilmFileError& e) {
         say("phasetree: {}\n", e.what());
     } catch (const tracer::DisplayError& e) {
         say("phasetree: {}\n", e.what());

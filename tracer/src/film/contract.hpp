@@ -34,6 +34,8 @@ struct PlaneSubjects {
     std::vector<std::string> phases;   ///< in order, the vacuum first
     std::vector<std::string> groups;   ///< of lights, in the order of Lights::groups
     std::vector<std::string> objects;  ///< the object of phases, then the meshes
+
+    bool operator==(const PlaneSubjects&) const = default;
 };
 
 /// A sum is what a plane keeps of the samples. Each kind of sum has its own way to add a sample's value:

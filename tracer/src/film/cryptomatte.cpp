@@ -49,7 +49,8 @@ std::vector<std::pair<std::string, std::string>> cryptomatte_attributes(const st
     return {{key + "name", layer},
             {key + "hash", "MurmurHash3_32"},
             {key + "conversion", "uint32_to_float32"},
-            {key + "manifest", manifest.dump()}};
+            // Names come from scenes, which are UTF-8, or from parts, which may be anything.
+            {key + "manifest", manifest.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)}};
 }
 
 }  // namespace phasetree::tracer

@@ -7,14 +7,15 @@ namespace phasetree::tracer {
 
 void FilmTile::join(const FilmTile& other) {
     const PixelRange& part = other.area_;
-    for (int y = part.y0; y < part.y1; ++y)
+    for (int y = part.y0; y < part.y1; ++y) {
+        faults_[static_cast<std::size_t>(y - area_.y0)] += other.faults_[static_cast<std::size_t>(y - part.y0)];
         for (int x = part.x0; x < part.x1; ++x) {
             const std::size_t pixel = area_.index(x, y), theirs = part.index(x, y);
             if (other.samples_[theirs] == 0) continue;
             sums_.join(pixel, other.sums_, theirs);
             samples_[pixel] += other.samples_[theirs];
         }
-    faults_ += other.faults_;
+    }
 }
 
 Image FilmTile::image(const FilmSettings& settings) const {
@@ -32,20 +33,32 @@ void FilmTile::write_into(Image& image, const PixelRange& area) const {
         }
 }
 
-void FilmTile::write_row(int y, ByteWriter& out) const {
+std::uint64_t FilmTile::write_row(int y, ByteWriter& out) const {
+    const FilmFaults& faults = faults_[static_cast<std::size_t>(y - area_.y0)];
+    out.number(faults.not_finite);
+    out.number(faults.too_large);
+    std::uint64_t count = 0;
     for (int x = area_.x0; x < area_.x1; ++x) {
         const std::size_t pixel = area_.index(x, y);
         out.number(samples_[pixel]);
-        if (samples_[pixel] > 0) sums_.write(pixel, out);
+        count += samples_[pixel];
+        sums_.write(pixel, out);
     }
+    return count;
 }
 
-void FilmTile::read_row(int y, ByteReader& in) {
+std::uint64_t FilmTile::read_row(int y, ByteReader& in) {
+    FilmFaults& faults = faults_[static_cast<std::size_t>(y - area_.y0)];
+    faults.not_finite = in.number<std::uint64_t>();
+    faults.too_large = in.number<std::uint64_t>();
+    std::uint64_t count = 0;
     for (int x = area_.x0; x < area_.x1; ++x) {
         const std::size_t pixel = area_.index(x, y);
         samples_[pixel] = in.number<std::uint32_t>();
-        if (samples_[pixel] > 0) sums_.read(pixel, in);
+        count += samples_[pixel];
+        sums_.read(pixel, in);
     }
+    return count;
 }
 
 Image black_image(const FilmSettings& settings, const PixelRange& area, const std::vector<std::string>& channels) {

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <mutex>
 #include <vector>
 
 #include "film/image.hpp"
@@ -34,38 +35,48 @@ struct FilmSettings {
 class FilmTile {
   public:
     FilmTile(const PixelRange& area, const Planes::Choice& planes, const PlaneSubjects& subjects)
-        : area_(area), samples_(area.size()), sums_(planes, subjects, area.size()) {}
+        : area_(area),
+          samples_(area.size()),
+          sums_(planes, subjects, area.size()),
+          faults_(static_cast<std::size_t>(area.height())) {}
 
     const PixelRange& area() const { return area_; }
     /// How many samples have been added to a pixel of the area.
     std::uint32_t samples(int x, int y) const { return samples_[area_.index(x, y)]; }
-    const FilmFaults& faults() const { return faults_; }
+    FilmFaults faults() const {
+        FilmFaults sum;
+        for (const FilmFaults& row : faults_) sum += row;
+        return sum;
+    }
 
     /// Adds a sample to a pixel of the area.
     void add(int x, int y, const FilmSample& sample) {
         const std::size_t pixel = area_.index(x, y);
-        sums_.add(pixel, sample, faults_);
+        sums_.add(pixel, sample, faults_[static_cast<std::size_t>(y - area_.y0)]);
         ++samples_[pixel];
     }
     /// Adds another tile of the same planes whose area lies within this one's. No sample may be in both.
     void join(const FilmTile& other);
 
+    /// The names of the channels of its image, those of the picture first.
+    std::vector<std::string> channels() const { return sums_.channels(); }
     /// An image of the whole area. Pixels without samples are black.
     Image image(const FilmSettings& settings) const;
     /// Writes the pixels of this tile into an image of a larger area that has the same channels, and what files say of
     /// the planes.
     void write_into(Image& image, const PixelRange& area) const;
 
-    /// A row of the area as bytes; and back, into a tile that has no samples in that row. Reading throws BytesError.
-    void write_row(int y, ByteWriter& out) const;
-    void read_row(int y, ByteReader& in);
-    void add_faults(const FilmFaults& faults) { faults_ += faults; }
+    /// A row of the area as bytes; and back, into a tile that has no samples in that row. Both return how many samples
+    /// the row has. Reading throws BytesError. A tile takes no more than some thirty times the bytes of its rows,
+    /// whatever they say, because pixels without samples have theirs, too.
+    std::uint64_t write_row(int y, ByteWriter& out) const;
+    std::uint64_t read_row(int y, ByteReader& in);
 
   private:
     PixelRange area_;
     std::vector<std::uint32_t> samples_;  ///< row by row, as the sums are
     Planes::Sums sums_;
-    FilmFaults faults_;
+    std::vector<FilmFaults> faults_;  ///< of each row, so that a row is complete by itself
 };
 
 /// An image without samples of a part of a picture, with channels of these names, of which the first three are the
@@ -79,6 +90,9 @@ class Film {
         : settings_(settings), subjects_(subjects), pixels_(area, settings.planes, subjects) {}
 
     const PixelRange& area() const { return pixels_.area(); }
+    const FilmSettings& settings() const { return settings_; }
+    const PlaneSubjects& subjects() const { return subjects_; }
+    /// While tiles are being added, only what is asked of pixels that none of them has may be asked.
     const FilmTile& pixels() const { return pixels_; }
 
     /// Where a sample of pixel (x, y) falls, for u in [0, 1)²: in pixels from the top left corner of the picture,
@@ -87,8 +101,16 @@ class Film {
 
     /// A tile without samples of a part of the area.
     FilmTile tile(const PixelRange& part) const { return {part, settings_.planes, subjects_}; }
-    /// Adds a tile. Not for several threads at once: tiles count faults together.
-    void add(const FilmTile& tile) { pixels_.join(tile); }
+    /// Adds a tile. Any thread.
+    void add(const FilmTile& tile) {
+        const std::lock_guard lock(adding_);
+        pixels_.join(tile);
+    }
+    /// A row as FilmTile::write_row has it, with all or nothing of any tile that is being added. Any thread.
+    std::uint64_t write_row(int y, ByteWriter& out) const {
+        const std::lock_guard lock(adding_);
+        return pixels_.write_row(y, out);
+    }
 
     /// What the planes have recorded; pixels without samples are black.
     Image image() const { return pixels_.image(settings_); }
@@ -97,6 +119,7 @@ class Film {
     FilmSettings settings_;
     PlaneSubjects subjects_;
     FilmTile pixels_;
+    mutable std::mutex adding_;
 };
 
 }  // namespace phasetree::tracer

@@ -8,16 +8,17 @@ namespace {
 
 // The project's only mutable globals: a signal handler is a plain function without a context, so what it tells must
 // have static storage, and only lock-free atomics are allowed inside one.
-std::atomic<bool> signal_arrived{false};
+std::atomic<int> signal_arrived{0};
+std::atomic<bool> checkpoint_asked{false};
 std::atomic<bool> guard_lives{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
-constexpr std::array<int, 3> handled_signals{SIGINT, SIGTERM, SIGHUP};
+constexpr std::array<int, 4> handled_signals{SIGINT, SIGTERM, SIGHUP, SIGUSR1};
 
 // The first signal of any kind. With the default actions back, the second ends the program by the system's own hand,
 // however stuck it is, and the shell learns why.
-extern "C" void phasetree_on_interrupt(int) {
-    signal_arrived = true;
+extern "C" void phasetree_on_interrupt(int arrived) {
+    signal_arrived = arrived;
     for (const int signal : handled_signals) {
         struct sigaction current {};
         sigaction(signal, nullptr, &current);
@@ -28,30 +29,52 @@ extern "C" void phasetree_on_interrupt(int) {
     }
 }
 
+extern "C" void phasetree_on_checkpoint(int) {
+    checkpoint_asked = true;
+}
+
 }  // namespace
 
 InterruptGuard::InterruptGuard() {
     if (guard_lives.exchange(true)) throw std::logic_error("one InterruptGuard at a time");
-    signal_arrived = false;
+    signal_arrived = 0;
     struct sigaction action {};
-    action.sa_handler = phasetree_on_interrupt;
     sigemptyset(&action.sa_mask);
     for (const int signal : handled_signals) sigaddset(&action.sa_mask, signal);  // one after the other
     action.sa_flags = SA_RESTART;  // no read or write fails because of it
     for (std::size_t i = 0; i < handled_signals.size(); ++i) {
         sigaction(handled_signals[i], nullptr, &previous_[i]);
+        action.sa_handler = handled_signals[i] == SIGUSR1 ? phasetree_on_checkpoint : phasetree_on_interrupt;
         if (previous_[i].sa_handler != SIG_IGN) sigaction(handled_signals[i], &action, nullptr);
     }
 }
 
 InterruptGuard::~InterruptGuard() {
     for (std::size_t i = 0; i < handled_signals.size(); ++i) sigaction(handled_signals[i], &previous_[i], nullptr);
-    signal_arrived = false;
+    signal_arrived = 0;
     guard_lives = false;
 }
 
 bool interrupted() {
+    return interrupting_signal() != 0;
+}
+
+int interrupting_signal() {
     return signal_arrived.load(std::memory_order_relaxed);
+}
+
+void expect_checkpoint_requests() {
+    struct sigaction action {};
+    sigemptyset(&action.sa_mask);
+    action.sa_flags = SA_RESTART;
+    action.sa_handler = phasetree_on_checkpoint;
+    struct sigaction current {};
+    sigaction(SIGUSR1, nullptr, &current);
+    if (current.sa_handler != SIG_IGN) sigaction(SIGUSR1, &action, nullptr);
+}
+
+bool take_checkpoint_request() {
+    return checkpoint_asked.exchange(false);
 }
 
 }  // namespace phasetree::tracer

@@ -1,4 +1,5 @@
-// Ctrl-C, SIGTERM and a terminal that goes away (SIGHUP), turned into a question a render loop can ask.
+// Ctrl-C, SIGTERM and a terminal that goes away (SIGHUP), turned into a question a render loop can ask; and SIGUSR1,
+// which asks for a checkpoint.
 #pragma once
 
 #include <array>
@@ -7,8 +8,9 @@
 namespace phasetree::tracer {
 
 /// While it lives, the first SIGINT, SIGTERM or SIGHUP only makes interrupted() true, so that the image so far can be
-/// written; the second ends the program at once. A signal that was ignored (nohup, a background job) stays ignored. The
-/// destructor brings back the earlier handlers. One at a time: a second guard while one lives throws std::logic_error.
+/// written; the second ends the program at once. SIGUSR1 ends nothing. A signal that was ignored (nohup, a background
+/// job) stays ignored. The destructor brings back the earlier handlers. One at a time: a second guard while one lives
+/// throws std::logic_error.
 class InterruptGuard {
   public:
     InterruptGuard();
@@ -17,10 +19,16 @@ class InterruptGuard {
     InterruptGuard& operator=(const InterruptGuard&) = delete;
 
   private:
-    std::array<struct sigaction, 3> previous_{};
+    std::array<struct sigaction, 4> previous_{};
 };
 
 /// Whether a signal has arrived since the living InterruptGuard was made; false without one.
 bool interrupted();
+/// That signal, or 0.
+int interrupting_signal();
+/// From now on SIGUSR1 does not end the program, whether it can be followed yet or not.
+void expect_checkpoint_requests();
+/// Whether SIGUSR1 has arrived since this was asked last.
+bool take_checkpoint_request();
 
 }  // namespace phasetree::tracer

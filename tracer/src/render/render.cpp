@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <mutex>
 #include <utility>
 
 #include "camera/camera.hpp"
@@ -38,56 +37,46 @@ class StartingPhases {
     std::optional<Phase> single_;  // of a camera whose rays all start at one point, asked for once
 };
 
-// The numbers of a pixel's samples that one pass over the picture adds: [first, last).
-struct Pass {
-    int first, last;
-
+// How many of a job's samples each pixel has when a pass over the picture is done, from how many it had.
+int after_pass(int had, int in_all) {
     // The first pass is one sample, so that even an early Ctrl-C leaves a picture; later ones are larger.
-    static Pass from(int first, int samples) {
-        return {first, std::min(samples, first == 0 ? 1 : first + std::clamp(first, 1, 16))};
-    }
-};
-
-PlaneSubjects subjects_of(const Scene& scene) {
-    PlaneSubjects subjects{.phases = scene.phases.names, .groups = scene.lights.groups(), .objects = {"object"}};
-    for (const Mesh& mesh : scene.meshes) subjects.objects.push_back(mesh.name);
-    return subjects;
+    return std::min(in_all, had == 0 ? 1 : had + std::clamp(had, 1, 16));
 }
 
 class Renderer {
   public:
-    Renderer(const World& world, const Scene& scene, const RenderJob& job)
+    Renderer(const World& world, const Scene& scene, const RenderJob& job, Film& film)
         : world_(world),
           scene_(scene),
           job_(job),
+          samples_(job.samples.value_or(SampleRange{0, scene.settings.samples})),
           camera_(scene.camera, scene.film.resolution()),
           phases_(world.geometry(), camera_),
           // Of a picture alone no path need tell more.
           recording_(scene.film.planes.count() > 1),
           axis_(camera_.generate(glm::dvec2(scene.film.resolution()) * 0.5, glm::vec2(0.5f))),
-          film_(scene.film, job.pixels, subjects_of(scene)) {
+          film_(film) {
         if (scene.settings.caustics) caustics_.emplace(world, scene);
     }
 
     // Returns how many samples each pixel has in the end, at least. A pass that is cut off leaves some pixels with
     // more; of the first pass it leaves what there is, because something beats nothing.
     int run() {
-        int done = 0;
-        while (done < scene_.settings.samples && !stopped_) {
+        int done = fewest_samples();
+        while (done < samples_.size() && !stopped_) {
             // Each sample of a pixel sees photons of its own, so with photons a pass is one sample.
-            const Pass pass = caustics_ ? Pass{done, done + 1} : Pass::from(done, scene_.settings.samples);
+            const int next = caustics_ ? done + 1 : after_pass(done, samples_.size());
             if (caustics_) {
-                photons_ = caustics_->photons(done, counters_.local(), job_.cancelled);
+                photons_ = caustics_->photons(samples_.first + done, counters_.local(), job_.cancelled);
                 stopped_ = !photons_;
                 if (stopped_) break;
             }
-            run(pass);
-            if (!stopped_ || done == 0) done = pass.last;
+            run(next);
+            if (!stopped_ || done == 0) done = next;
             if (!stopped_) job_.passed(film_, done);
         }
         return done;
     }
-    const Film& film() const { return film_; }
     bool stopped() const { return stopped_; }
     PathCounters counters() const {
         PathCounters sum;
@@ -96,7 +85,15 @@ class Renderer {
     }
 
   private:
-    void run(const Pass& pass) {
+    int fewest_samples() const {
+        const PixelRange& area = film_.area();
+        auto fewest = static_cast<std::uint32_t>(samples_.size());
+        for (int y = area.y0; y < area.y1; ++y)
+            for (int x = area.x0; x < area.x1; ++x) fewest = std::min(fewest, film_.pixels().samples(x, y));
+        return static_cast<int>(fewest);
+    }
+    // One pass over the picture, after which each pixel has so many samples.
+    void run(int wanted) {
         const PixelRange& area = film_.area();
         tbb::parallel_for(
             tbb::blocked_range2d<int>(area.y0, area.y1, tile_side, area.x0, area.x1, tile_side),
@@ -106,12 +103,12 @@ class Renderer {
                     return;
                 }
                 const PixelRange part{tile.cols().begin(), tile.rows().begin(), tile.cols().end(), tile.rows().end()};
-                job_.advance(run(part, pass));
+                job_.advance(run(part, wanted));
             },
             tbb::simple_partitioner());
     }
-    // Adds to each pixel of a part what it lacks of the pass. Returns how many samples that were.
-    std::uint64_t run(const PixelRange& part, const Pass& pass) {
+    // Adds to each pixel of a part what it lacks. Returns how many samples that were.
+    std::uint64_t run(const PixelRange& part, int wanted) {
         const FlushSubnormals flush;
         PathCounters& counters = counters_.local();
         FilmTile tile = film_.tile(part);
@@ -119,9 +116,8 @@ class Renderer {
         for (int y = part.y0; y < part.y1; ++y)
             for (int x = part.x0; x < part.x1; ++x)
                 // Tiles of one pass do not overlap: nobody else adds to this pixel now.
-                for (int s = static_cast<int>(film_.pixels().samples(x, y)); s < pass.last; ++s, ++added)
-                    tile.add(x, y, sample(x, y, s, counters));
-        const std::lock_guard lock(adding_);
+                for (int s = static_cast<int>(film_.pixels().samples(x, y)); s < wanted; ++s, ++added)
+                    tile.add(x, y, sample(x, y, samples_.first + s, counters));
         film_.add(tile);
         return added;
     }
@@ -144,14 +140,14 @@ class Renderer {
     const World& world_;
     const Scene& scene_;
     const RenderJob& job_;
+    SampleRange samples_;
     Camera camera_;
     StartingPhases phases_;
     bool recording_;
     CameraRay axis_;  // through the middle of the picture
-    Film film_;
+    Film& film_;
     std::optional<Caustics> caustics_;
     std::optional<PhotonMap> photons_;  // of this pass
-    std::mutex adding_;                 // of tiles to the film
     tbb::enumerable_thread_specific<PathCounters> counters_;
     tbb::enumerable_thread_specific<PathRecord> records_;
     std::atomic<bool> stopped_{false};
@@ -159,11 +155,26 @@ class Renderer {
 
 }  // namespace
 
+PlaneSubjects subjects_of(const Scene& scene) {
+    PlaneSubjects subjects{.phases = scene.phases.names, .groups = scene.lights.groups(), .objects = {"object"}};
+    for (const Mesh& mesh : scene.meshes) subjects.objects.push_back(mesh.name);
+    return subjects;
+}
+
+Film film_of(const Scene& scene, const RenderJob& job) {
+    return {scene.film, job.pixels, subjects_of(scene)};
+}
+
 Rendering render(const World& world, const Scene& scene, const RenderJob& job) {
+    Film film = film_of(scene, job);
+    return render(world, scene, job, film);
+}
+
+Rendering render(const World& world, const Scene& scene, const RenderJob& job, Film& film) {
     const auto start = std::chrono::steady_clock::now();
     Rendering result;
     result.threads = job.threads > 0 ? job.threads : tbb::this_task_arena::max_concurrency();
-    Renderer renderer(world, scene, job);
+    Renderer renderer(world, scene, job, film);
     {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                         static_cast<std::size_t>(result.threads));
@@ -171,8 +182,8 @@ Rendering render(const World& world, const Scene& scene, const RenderJob& job) {
         arena.execute([&] { result.samples = renderer.run(); });
     }
     result.cancelled = renderer.stopped();
-    result.image = renderer.film().image();
-    result.faults = renderer.film().pixels().faults();
+    result.image = film.image();
+    result.faults = film.pixels().faults();
     result.counters = renderer.counters();
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;

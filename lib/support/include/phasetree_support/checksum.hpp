@@ -2,15 +2,14 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 
-#include "math/mixed_hash.hpp"
+#include "phasetree_support/mixed_hash.hpp"
 
-namespace phasetree::cells {
+namespace phasetree::support {
 
 /// A checksum of bytes, eight at a time. Each step is a bijection both of the sum so far and of the bytes that are put
-/// in, so a change within eight bytes is always found, and any other except for one in 2⁶⁴. It depends on the machine's
-/// byte order. It is no protection against forgery.
+/// in, so a change within eight bytes is always found, and any other except for one in 2⁶⁴. It is no protection
+/// against forgery.
 class Checksum {
   public:
     void put(const void* bytes, std::size_t count) {
@@ -25,11 +24,11 @@ class Checksum {
   private:
     static std::uint64_t word(const unsigned char* from, std::size_t count) {
         std::uint64_t w = 0;
-        std::memcpy(&w, from, count);
+        for (std::size_t i = 0; i < count; ++i) w |= std::uint64_t{from[i]} << (8 * i);
         return w;
     }
     void put(std::uint64_t w) { sum_ = mixed(sum_, w); }
     std::uint64_t sum_ = 0x70686173657472u;
 };
 
-}  // namespace phasetree::cells
+}  // namespace phasetree::support

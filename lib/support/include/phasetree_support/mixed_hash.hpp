@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace phasetree {
+namespace phasetree::support {
 
 /// A hash with one more value in it. Of equal hashes different values make different ones, and of equal values
 /// different hashes do.
@@ -11,4 +11,4 @@ inline std::uint64_t mixed(std::uint64_t hash, std::uint64_t value) {
     return hash ^ (hash >> 32);
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::support

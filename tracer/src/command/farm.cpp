@@ -1,0 +1,121 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "command/commands.hpp"
+#include "command/farm_scripts.hpp"
+#include "command/load.hpp"
+#include "command/pictures.hpp"
+#include "command/render_options.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+struct Options {
+    std::string kind;
+    std::shared_ptr<SceneFile> scene;
+    int shares = 0;
+    std::vector<std::string> outputs, sbatch, render_words;
+    std::string folder, program = "phasetree";
+};
+
+// What follows "--", read as render itself would. Throws OutputError.
+RenderOptions render_options(const Options& options) {
+    CLI::App app;
+    RenderOptions render;
+    add_render_options(app, render);
+    std::vector<std::string> words = options.render_words;
+    words.push_back(options.scene->name);
+    std::ranges::reverse(words);  // as CLI11 wants them
+    try {
+        app.parse(words);
+    } catch (const CLI::ParseError& e) {
+        throw OutputError(fmt::format("what follows -- is for render, which says: {}", e.what()));
+    }
+    if (!render.outputs.empty() || render.share || render.checkpoint || render.resume || render.stats)
+        throw OutputError(
+            "what follows -- is for every share: --output, --samples, --checkpoint, --resume and --stats are not");
+    return render;
+}
+
+// A file's name that no command takes for an option.
+std::string as_file(const std::string& name) {
+    return name.starts_with('-') ? "./" + name : name;
+}
+
+int write_farm(const Options& options) {
+    if (options.kind != "slurm" && options.kind != "list")
+        throw OutputError(fmt::format("a farm is \"slurm\" or \"list\", not \"{}\"", options.kind));
+    if (options.scene->is_standard_input()) throw OutputError("the scene of a farm must be a file that all can read");
+    const RenderOptions render = render_options(options);
+    Scene scene = load_scene(read_document(*options.scene));
+    apply(render, scene);
+    (void)pixels_of(render, scene);
+    Farm farm;
+    farm.program = options.program;
+    farm.scene = as_file(options.scene->name);
+    farm.render_options = options.render_words;
+    farm.has_threads = render.threads > 0;
+    if (options.scene->assets_within) {
+        farm.render_options.push_back("--assets-within");
+        farm.render_options.push_back(*options.scene->assets_within);
+    }
+    const std::filesystem::path stem = std::filesystem::path(options.scene->name).stem();
+    farm.parts = as_file((std::filesystem::path(options.folder) / stem).string());
+    farm.outputs = options.outputs;
+    if (farm.outputs.empty()) farm.outputs = {stem.string() + ".exr", stem.string() + ".png"};
+    for (std::string& output : farm.outputs) output = as_file(output);
+    check_outputs(farm.outputs);
+    farm.sbatch_options = options.sbatch;
+    farm.samples = scene.settings.samples;
+    farm.shares = options.shares;
+    if (farm.shares > farm.samples)
+        throw OutputError(
+            fmt::format("--shares {}: there are only {} samples a pixel to share", farm.shares, farm.samples));
+    for (const auto& [name, value] :
+         {std::pair("--display", render.display), std::pair("--view", render.view),
+          std::pair("--exposure", render.exposure ? std::optional(fmt::format("{}", *render.exposure)) : std::nullopt)})
+        if (value) farm.merge_options.insert(farm.merge_options.end(), {name, *value});
+    const std::string text = options.kind == "slurm" ? slurm_script(farm) : command_list(farm);
+    const auto has_line_feed = [](const std::string& word) { return word.find('\n') != std::string::npos; };
+    std::vector<std::string> all{farm.program, farm.scene, farm.parts};
+    for (const auto* words : {&farm.render_options, &farm.outputs, &farm.sbatch_options})
+        all.insert(all.end(), words->begin(), words->end());
+    if (std::ranges::any_of(all, has_line_feed)) throw OutputError("no word of a farm may have a line feed in it");
+    put(text);
+    return 0;
+}
+
+}  // namespace
+
+void add_farm(CLI::App& app, Run& run) {
+    CLI::App* command = app.add_subcommand("farm", "Write how many machines render a scene: for Slurm, or as a list");
+    auto o = std::make_shared<Options>();
+    command
+        ->add_option("kind", o->kind,
+                     "slurm: a script for bash that submits an array and a merge; list: one command a line, the merge "
+                     "last, for OpenCue, GNU parallel, nq")
+        ->required();
+    o->scene = add_scene_file(*command);
+    command->add_option("render", o->render_words, "Behind --: options of render, for every share");
+    command->add_option("--shares", o->shares, "Among how many the samples a pixel are divided")
+        ->required()
+        ->check(CLI::Range(1, 1 << 20));
+    add_outputs(*command, o->outputs, "the scene's name, .exr and .png");
+    command->add_option("--parts", o->folder, "The folder, which must be there, for the parts (default: this one)")
+        ->option_text("DIR");
+    command
+        ->add_option("--sbatch", o->sbatch,
+                     "Option of sbatch, for both jobs, as in --sbatch=--time=60; may be repeated")
+        ->take_all()
+        ->expected(1)
+        ->allow_extra_args(false)  // else it eats a "--" behind it
+        ->option_text("OPTION");
+    command->add_option("--program", o->program, "How the machines of the farm call phasetree (default: phasetree)")
+        ->option_text("PATH");
+    command->callback([o, &run] { run = [o] { return write_farm(*o); }; });
+}
+
+}  // namespace phasetree::tracer

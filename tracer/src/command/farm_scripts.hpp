@@ -1,0 +1,34 @@
+// A render as many: a script for Slurm, or one command a line for any other queue. These are texts; phasetree starts
+// and watches nothing.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace phasetree::tracer {
+
+struct Farm {
+    std::string program;                      // the command, as the machines of the farm find it
+    std::string scene;                        // its file
+    std::vector<std::string> render_options;  // of every share
+    bool has_threads = false;                 // whether they say how many threads it has
+    std::vector<std::string> outputs;         // of the merge
+    std::vector<std::string> merge_options;
+    std::string parts;  // the beginning of the parts' names
+    std::vector<std::string> sbatch_options;
+    int samples = 1, shares = 1;  // samples a pixel, divided among so many
+};
+
+// A word as a shell reads it, whatever is in it.
+std::string shell_word(const std::string& word);
+
+// Share i has the samples from i·samples/shares on, rounded down, up to where the next begins.
+int first_of_share(const Farm& farm, int share);
+std::string part_of_share(const Farm& farm, int share);
+
+// The commands of the shares, and last that of the merge.
+std::string command_list(const Farm& farm);
+// A script for bash that submits an array of the shares and a job that waits for them and merges.
+std::string slurm_script(const Farm& farm);
+
+}  // namespace phasetree::tracer

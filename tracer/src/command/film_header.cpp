@@ -1,0 +1,55 @@
+#include "command/film_header.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "phasetree/building/options.hpp"
+#include "phasetree/version.hpp"
+#include "scene/fingerprint.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+// What the picture depends on, by the names that people know; what the object's cells are like comes last.
+std::vector<std::pair<std::string, std::string>> settings_of(const RenderOptions& options, const Document& document,
+                                                             const Scene& scene, const PixelRange& pixels) {
+    std::vector<std::string_view> planes;
+    for (std::size_t i = 0; i < Planes::size; ++i)
+        if (scene.film.planes[i]) planes.push_back(Planes::names[i]);
+    std::vector<std::pair<std::string, std::string>> settings{
+        {"version", fmt::format("{} with Embree {}", version(), PHASETREE_EMBREE_MAJOR)},
+        {"scene", fmt::format("{:016x}", fingerprint(document))},
+        {"size", fmt::format("{}x{}", scene.film.width, scene.film.height)},
+        {"crop", fmt::format("{},{},{},{}", pixels.x0, pixels.y0, pixels.x1, pixels.y1)},
+        {"planes", fmt::format("{}", fmt::join(planes, ","))},
+        {"detail", options.detail ? fmt::format("{} pixels", *options.detail) : "the finest"},
+        {"build quality", options.quality == BuildQuality::low ? "low" : "medium"}};
+    for (auto& setting : settings_of_samples(scene.settings)) settings.push_back(std::move(setting));
+    return settings;
+}
+
+}  // namespace
+
+FilmFileHeader header_of(const RenderOptions& options, const Document& document, const Scene& scene,
+                         const RenderJob& job) {
+    FilmFileHeader h;
+    h.settings = settings_of(options, document, scene, job.pixels);
+    h.film = scene.film;
+    h.subjects = subjects_of(scene);
+    h.area = job.pixels;
+    h.samples = *job.samples;
+    h.samples_in_all = scene.settings.samples;
+    h.scene = std::filesystem::path(options.scene->shown()).filename().string();
+    h.seed = scene.settings.seed;
+    h.exposure_ev = scene.settings.exposure_ev;
+    h.view = scene.settings.view;
+    return h;
+}
+
+void add_cells(FilmFileHeader& header, const RenderOptions& options, const CellStatistics& cells) {
+    const std::size_t most = options.most_bytes > 0 ? options.most_bytes : default_cell_bytes();
+    header.settings.emplace_back("cells", cells.is_coarser ? fmt::format("within {} bytes", most) : "as fine as pays");
+}
+
+}  // namespace phasetree::tracer

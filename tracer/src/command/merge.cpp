@@ -1,0 +1,117 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+
+#include "command/commands.hpp"
+#include "command/pictures.hpp"
+#include "command/render_options.hpp"
+#include "film_file/merge.hpp"
+#include "output/interrupt.hpp"
+#include "output/progress.hpp"
+#include "render/threads.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+struct Options {
+    std::vector<std::string> parts, outputs;
+    std::optional<float> exposure;
+    std::optional<std::string> display, view;
+    bool may_have_gaps = false, quiet = false;
+};
+
+// The joined film as an image, and as film files if there are to be any. The image has no pixels if nobody wants it.
+struct Joined {
+    Image image;
+    FilmFaults faults;
+    bool is_complete = true;
+};
+
+Joined join(const Parts& parts, const std::vector<std::string>& film_files, bool has_image, Progress& progress) {
+    const FilmFileHeader& header = parts.header();
+    Joined joined;
+    std::vector<std::unique_ptr<FilmFileWriter>> writers;
+    for (const std::string& path : film_files) writers.push_back(std::make_unique<FilmFileWriter>(path, header));
+    ByteWriter bytes;
+    parts.join(
+        [&](const FilmTile& band) {
+            joined.faults += band.faults();
+            if (has_image && joined.image.pixels.empty())
+                joined.image = black_image(header.film, header.area, band.channels());
+            if (has_image) band.write_into(joined.image, header.area);
+            bytes.clear();
+            std::uint64_t samples = 0;
+            if (!writers.empty())
+                for (int y = band.area().y0; y < band.area().y1; ++y) samples += band.write_row(y, bytes);
+            for (const auto& writer : writers) writer->band(bytes.bytes(), samples);
+            progress.advance(1);
+        },
+        [] { return interrupted(); });
+    joined.is_complete = !interrupted();
+    if (joined.is_complete)
+        for (const auto& writer : writers) writer->finish(parts.are_joined());
+    return joined;
+}
+
+bool write_pictures(const Options& options, const Parts& parts, const std::vector<std::string>& images,
+                    const Image& image, const DisplayTransform& display) {
+    Metadata metadata;
+    metadata.scene = parts.header().scene;
+    metadata.samples_per_pixel = parts.samples_per_pixel();
+    metadata.seed = parts.header().seed;
+    Writing writing;
+    std::string written;
+    for (const std::string& output : images)
+        if (writing([&] { write_image(image, output, metadata, display); }))
+            written += fmt::format("{} ({}x{}, {} samples a pixel, of {} parts)\n", output, image.width, image.height,
+                                   metadata.samples_per_pixel, options.parts.size());
+    if (!options.quiet) say(written);
+    return writing.all_is_well();
+}
+
+int merge_parts(const Options& options) {
+    const AvailableThreads threads;
+    std::vector<std::string> images, film_files;
+    for (const std::string& output : options.outputs) (is_film_file(output) ? film_files : images).push_back(output);
+    check_outputs(options.outputs);
+    const Parts parts({options.parts.begin(), options.parts.end()}, options.may_have_gaps);
+    if (const std::string missing = parts.missing(); !missing.empty() && !images.empty() && !options.may_have_gaps)
+        throw FilmFileError(
+            fmt::format("{} of the {} of each pixel; --allow-gaps makes a picture of those that there are", missing,
+                        parts.header().samples_in_all));
+    if (!film_files.empty() && !parts.are_joined())
+        throw OutputError("a .part cannot be made of parts between which something is missing");
+    const std::optional<std::string> view = options.view ? options.view : parts.header().view;
+    const DisplayTransform display(options.display, view, options.exposure.value_or(parts.header().exposure_ev));
+    const InterruptGuard guard;
+    Progress progress(static_cast<std::uint64_t>(parts.header().bands()), ProgressOutput::standard_error(options.quiet),
+                      "merging");
+    const Joined joined = join(parts, film_files, !images.empty(), progress);
+    progress.finish();
+    if (!joined.is_complete) {
+        say("phasetree: interrupted; nothing is written\n");
+        return interrupting_signal() == SIGINT ? interrupted_by_person : 1;
+    }
+    say_faults(joined.faults);
+    return write_pictures(options, parts, images, joined.image, display) ? 0 : 1;
+}
+
+}  // namespace
+
+void add_merge(CLI::App& app, Run& run) {
+    CLI::App* command = app.add_subcommand("merge", "Join the parts of a picture that were rendered by themselves");
+    auto o = std::make_shared<Options>();
+    command->add_option("parts", o->parts, "The parts, in any order, as render --samples writes them")->required();
+    add_outputs(*command, o->outputs, "none");
+    command->get_option("--output")->required();
+    command->add_flag(
+        "--allow-gaps", o->may_have_gaps,
+        "Make a picture of the samples that there are, though some are missing or parts are not finished");
+    add_display_options(*command, o->exposure, o->display, o->view);
+    command->add_flag("--quiet", o->quiet, "No progress, errors only");
+    command->callback([o, &run] { run = [o] { return merge_parts(*o); }; });
+}
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,53 @@
+// Files at the end of hours of work: where one cannot be written, the others are.
+#pragma once
+
+#include <new>
+#include <string>
+#include <vector>
+
+#include "command/streams.hpp"
+#include "film/faults.hpp"
+#include "film_file/write.hpp"
+#include "output/file.hpp"
+#include "output/write.hpp"
+
+namespace phasetree::tracer {
+
+// Writes what it is called with, or says why it cannot be written.
+class Writing {
+  public:
+    template <class Write>
+    bool operator()(Write&& write) {
+        try {
+            write();
+            return true;
+        } catch (const std::bad_alloc&) {
+            say("phasetree: out of memory\n");
+        } catch (const std::exception& e) {
+            say("phasetree: {}\n", e.what());
+        }
+        all_is_well_ = false;
+        return false;
+    }
+    bool all_is_well() const { return all_is_well_; }
+
+  private:
+    bool all_is_well_ = true;
+};
+
+// Makes sure that they can be written, before hours of work. Throws OutputError.
+inline void check_outputs(const std::vector<std::string>& outputs) {
+    for (const std::string& output : outputs)
+        is_film_file(output) ? check_file_writable(output) : check_writable(output);
+}
+
+// What no sound scene leads to.
+inline void say_faults(const FilmFaults& faults) {
+    if (faults.not_finite > 0)
+        say("phasetree: {} values of samples were not finite numbers and count as black; please report this scene\n",
+            faults.not_finite);
+    if (faults.too_large > 0)
+        say("phasetree: {} values of samples were larger than 10^12 and are cut to that\n", faults.too_large);
+}
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,157 @@
+#include "command/render_options.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+
+#include "command/build_quality.hpp"
+#include "command/duration.hpp"
+#include "command/max_memory.hpp"
+#include "output/error.hpp"
+
+namespace phasetree::tracer {
+
+std::vector<int> integers(const std::string& text, char separator, std::size_t count, const char* option,
+                          const char* form) {
+    std::vector<int> values;
+    std::size_t from = 0;
+    while (from <= text.size() && values.size() < count) {
+        const std::size_t to = std::min(text.find(separator, from), text.size());
+        int value = 0;
+        const auto [end, error] = std::from_chars(text.data() + from, text.data() + to, value);
+        if (error != std::errc() || end != text.data() + to || from == to) break;
+        values.push_back(value);
+        from = to + 1;
+    }
+    if (values.size() != count || from != text.size() + 1)
+        throw OutputError(fmt::format("{} must be {}, but is \"{}\"", option, form, text));
+    return values;
+}
+
+namespace {
+
+Planes::Choice planes_of(const std::string& list) {
+    if (list == "all") return Planes::all();
+    Planes::Choice choice = Planes::by_default();
+    for (std::size_t from = 0; from <= list.size();) {
+        const std::size_t to = std::min(list.find(',', from), list.size());
+        const std::string_view name = std::string_view(list).substr(from, to - from);
+        const auto found = std::ranges::find(Planes::names, name);
+        if (found == Planes::names.end())
+            throw OutputError(fmt::format("--planes: there is no plane \"{}\"; the planes are {}, and \"all\"", name,
+                                          fmt::join(Planes::names, ", ")));
+        choice[static_cast<std::size_t>(found - Planes::names.begin())] = true;
+        from = to + 1;
+    }
+    return choice;
+}
+
+}  // namespace
+
+void apply(const RenderOptions& options, Scene& scene) {
+    if (options.planes) scene.film.planes = planes_of(*options.planes);
+    if (options.samples_in_all) scene.settings.samples = *options.samples_in_all;
+    if (options.seed) scene.settings.seed = *options.seed;
+    if (options.size) {
+        const std::vector<int> size = integers(*options.size, 'x', 2, "--size", "WIDTHxHEIGHT in pixels");
+        for (const int n : size)
+            if (n < 1 || n > 32768)
+                throw OutputError(fmt::format("--size {}: a side is 1 to 32768 pixels", *options.size));
+        scene.film.width = size[0];
+        scene.film.height = size[1];
+    }
+}
+
+PixelRange pixels_of(const RenderOptions& options, const Scene& scene) {
+    PixelRange range = scene.film.whole();
+    if (!options.crop) return range;
+    const std::vector<int> c = integers(*options.crop, ',', 4, "--crop", "X0,Y0,X1,Y1 in pixels");
+    range = {c[0], c[1], c[2], c[3]};
+    if (range.x0 < 0 || range.y0 < 0 || range.x1 > scene.film.width || range.y1 > scene.film.height ||
+        range.x0 >= range.x1 || range.y0 >= range.y1)
+        throw OutputError(fmt::format("--crop {} is not a part of the {}x{} image", *options.crop, scene.film.width,
+                                      scene.film.height));
+    return range;
+}
+
+SampleRange samples_of(const RenderOptions& options, const Scene& scene) {
+    SampleRange range{0, scene.settings.samples};
+    if (!options.share) return range;
+    const std::vector<int> ends = integers(*options.share, ':', 2, "--samples", "FIRST:LAST, the last excluded");
+    range = {ends[0], ends[1]};
+    if (range.first < 0 || range.first >= range.last || range.last > scene.settings.samples)
+        throw OutputError(fmt::format("--samples {}: they must be some of the {} samples a pixel, from 0 on",
+                                      *options.share, scene.settings.samples));
+    return range;
+}
+
+void add_outputs(CLI::App& command, std::vector<std::string>& outputs, const std::string& by_default) {
+    command
+        .add_option("-o,--output", outputs,
+                    "File to write: an image, the extension choosing the format: .exr .png .jpg .tif; or .part, which "
+                    "merge joins with others; may be repeated (default: " +
+                        by_default + ")")
+        ->take_all()
+        ->expected(1)
+        ->allow_extra_args(false);  // else it eats a "--" behind it
+}
+
+void add_display_options(CLI::App& command, std::optional<float>& exposure, std::optional<std::string>& display,
+                         std::optional<std::string>& view) {
+    command.add_option("--exposure", exposure, "Stops by which display images are brighter; EXR stays as it is")
+        ->check(CLI::Range(-50.0, 50.0));
+    command.add_option("--display", display, "OpenColorIO display");
+    command.add_option("--view", view, "OpenColorIO view");
+}
+
+void add_render_options(CLI::App& command, RenderOptions& o) {
+    o.scene = add_scene_file(command);
+    add_outputs(command, o.outputs, "the scene's name, .exr and .png");
+    command.add_option("--spp", o.samples_in_all, "Samples a pixel")->check(CLI::Range(1, 1 << 24));
+    command
+        .add_option("--samples", o.share,
+                    "Only those of the samples a pixel that have these numbers, from 0, the last excluded: a share of "
+                    "the work, which goes to a .part and is joined with the others by merge")
+        ->option_text("FIRST:LAST");
+    command.add_option("--size", o.size, "WIDTHxHEIGHT in pixels");
+    command.add_option("--crop", o.crop, "X0,Y0,X1,Y1: only these pixels, from the top left, the last excluded");
+    command.add_option("--threads", o.threads, "Threads (default: one a core); the image does not depend on it")
+        ->check(CLI::Range(1, 1024));
+    add_build_quality(command, o.quality);
+    add_max_memory(command, o.most_bytes);
+    command.add_option("--cells", o.cells,
+                       "File that keeps the prepared object for the next time: read if it is there and of this "
+                       "object, else written");
+    command
+        .add_option("--checkpoint", o.checkpoint,
+                    "File that keeps what is done, from which --resume goes on: written every few minutes, when "
+                    "SIGUSR1 arrives, and at the end, however that comes")
+        ->option_text("FILE");
+    add_duration(command, "--checkpoint-interval", o.checkpoint_seconds,
+                 "Time from one checkpoint to the next, such as 90s, 5m or 1h (default: 5m)");
+    command
+        .add_option(
+            "--resume", o.resume,
+            "Go on from this checkpoint, which must be of the same picture; it may be the file of --checkpoint, "
+            "too")
+        ->option_text("FILE");
+    command.add_flag("--or-start", o.may_start, "With --resume: start anew if there is no such file");
+    command.add_option("--seed", o.seed, "Seed of the sampling");
+    command
+        .add_option("--detail", o.detail,
+                    "Lets coarser levels of detail stand where their errors look no larger than so many pixels; "
+                    "without it the finest stand everywhere")
+        ->check(CLI::Range(1e-3, 1e3))
+        ->option_text("PIXELS");
+    add_display_options(command, o.exposure, o.display, o.view);
+    command.add_option("--planes", o.planes,
+                       "Planes that .exr files hold beside the picture: names with commas between them, such as "
+                       "depth,normal,crypto_phase, or all");
+    command.add_option("--stats", o.stats, "Write what rendering cost, as JSON");
+    command.add_flag("--quiet", o.quiet, "No progress, errors only");
+}
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,138 @@
+#include "film_file/header.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace phasetree::tracer {
+
+namespace {
+
+constexpr std::size_t longest_text = 1 << 20, longest_list = 1 << 20;
+constexpr int largest_side = 32768, most_samples = 1 << 24;
+
+void write_text(ByteWriter& out, std::string_view text) {
+    text = text.substr(0, longest_text);
+    out.number(static_cast<std::uint32_t>(text.size()));
+    out.append(std::as_bytes(std::span(text)));
+}
+
+std::string read_text(ByteReader& in) {
+    const auto length = in.number<std::uint32_t>();
+    if (length > longest_text) throw BytesError("it has a text of impossible length");
+    const std::span<const std::byte> bytes = in.take(length);
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::size_t read_count(ByteReader& in, std::size_t most) {
+    const auto count = in.number<std::uint32_t>();
+    if (count > most) throw BytesError("it has a list of impossible length");
+    return count;
+}
+
+void write_int(ByteWriter& out, int value) {
+    out.number(static_cast<std::uint32_t>(value));
+}
+
+int read_int(ByteReader& in, int low, int high) {
+    const auto value = in.number<std::uint32_t>();
+    if (value < static_cast<std::uint32_t>(low) || value > static_cast<std::uint32_t>(high))
+        throw BytesError("it has a number that is out of range");
+    return static_cast<int>(value);
+}
+
+Planes::Choice read_planes(ByteReader& in) {
+    Planes::Choice planes;
+    const std::size_t count = read_count(in, longest_list);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::string name = read_text(in);
+        const auto found = std::ranges::find(Planes::names, name);
+        if (found == Planes::names.end()) throw BytesError("it has a plane that this version does not know");
+        planes[static_cast<std::size_t>(found - Planes::names.begin())] = true;
+    }
+    return planes;
+}
+
+// A text of a file that may be anything, for people.
+std::string shown(const std::string& text) {
+    std::string safe = text.substr(0, 60);
+    for (char& c : safe)
+        if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';
+    return safe;
+}
+
+}  // namespace
+
+void FilmFileHeader::write(ByteWriter& out) const {
+    write_int(out, static_cast<int>(settings.size()));
+    for (const auto& [name, value] : settings) {
+        write_text(out, name);
+        write_text(out, value);
+    }
+    for (const int n : {film.width, film.height, area.x0, area.y0, area.x1, area.y1}) write_int(out, n);
+    write_int(out, static_cast<int>(film.planes.count()));
+    for (std::size_t i = 0; i < Planes::size; ++i)
+        if (film.planes[i]) write_text(out, Planes::names[i]);
+    for (const auto* names : {&subjects.phases, &subjects.groups, &subjects.objects}) {
+        write_int(out, static_cast<int>(names->size()));
+        for (const std::string& name : *names) write_text(out, name);
+    }
+    for (const int n : {samples.first, samples.last, samples_in_all}) write_int(out, n);
+    write_text(out, scene);
+    out.number(seed);
+    out.number(exposure_ev);
+    out.number(static_cast<std::uint8_t>(view ? 1 : 0));
+    if (view) write_text(out, *view);
+}
+
+FilmFileHeader FilmFileHeader::read(ByteReader& in) {
+    FilmFileHeader h;
+    for (std::size_t left = read_count(in, longest_list); left > 0; --left) {
+        std::string name = read_text(in);
+        h.settings.emplace_back(std::move(name), read_text(in));
+    }
+    h.film.width = read_int(in, 1, largest_side);
+    h.film.height = read_int(in, 1, largest_side);
+    h.area.x0 = read_int(in, 0, h.film.width - 1);
+    h.area.y0 = read_int(in, 0, h.film.height - 1);
+    h.area.x1 = read_int(in, h.area.x0 + 1, h.film.width);
+    h.area.y1 = read_int(in, h.area.y0 + 1, h.film.height);
+    h.film.planes = read_planes(in);
+    for (auto* names : {&h.subjects.phases, &h.subjects.groups, &h.subjects.objects})
+        for (std::size_t left = read_count(in, longest_list); left > 0; --left) names->push_back(read_text(in));
+    h.samples.first = read_int(in, 0, most_samples - 1);
+    h.samples.last = read_int(in, h.samples.first + 1, most_samples);
+    h.samples_in_all = read_int(in, h.samples.last, most_samples);
+    h.scene = read_text(in);
+    h.seed = in.number<std::uint32_t>();
+    h.exposure_ev = in.real();
+    if (!std::isfinite(h.exposure_ev)) throw BytesError("it has a number that is out of range");
+    if (in.number<std::uint8_t>() != 0) h.view = read_text(in);
+    return h;
+}
+
+std::string difference(const FilmFileHeader& wanted, const FilmFileHeader& found) {
+    for (std::size_t i = 0; i < wanted.settings.size(); ++i) {
+        if (i >= found.settings.size() || wanted.settings[i].first != found.settings[i].first)
+            return "it is of another version of phasetree";
+        const auto& [name, value] = wanted.settings[i];
+        const std::string& other = found.settings[i].second;
+        if (value == other) continue;
+        if (name == "scene") return "it is of another scene: the scene, or a file that it names, is not the same";
+        if (name == "version") return fmt::format("it was written by phasetree {}, not {}", shown(other), value);
+        return fmt::format("it has {} {}, not {}", shown(name), shown(other), shown(value));
+    }
+    const auto same_range = [](const PixelRange& a, const PixelRange& b) {
+        return a.x0 == b.x0 && a.y0 == b.y0 && a.x1 == b.x1 && a.y1 == b.y1;
+    };
+    // The settings say this too, unless the file was forged.
+    if (wanted.film.planes != found.film.planes || wanted.film.width != found.film.width ||
+        wanted.film.height != found.film.height || !same_range(wanted.area, found.area) ||
+        wanted.subjects != found.subjects)
+        return "it is of another picture";
+    return "";
+}
+
+}  // namespace phasetree::tracer

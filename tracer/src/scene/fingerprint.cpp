@@ -1,0 +1,93 @@
+#include "scene/fingerprint.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+
+#include "phasetree_support/checksum.hpp"
+#include "scene/image_parameters.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+using support::Checksum;
+
+void put(Checksum& sum, std::string_view text) {
+    sum.put(text.data(), text.size());
+}
+
+void put_file(Checksum& sum, const std::filesystem::path& path) {
+    std::error_code problem;
+    if (!std::filesystem::is_regular_file(path, problem)) return;
+    std::ifstream file(path, std::ios::binary);
+    std::array<char, 1 << 16> bytes;
+    while (file.read(bytes.data(), bytes.size()) || file.gcount() > 0)
+        put(sum, {bytes.data(), static_cast<std::size_t>(file.gcount())});
+}
+
+// Which strings name files only their readers know. One that by chance is a file's name counts as that file, too.
+void put_string(Checksum& sum, const Document& document, Value value) {
+    put(sum, value.string());
+    if (value.string().empty()) return;
+    try {
+        put_file(sum, document.file(value));
+    } catch (const SceneError&) {  // not within the folder that files must lie in, so none that is read
+    }
+}
+
+void put_value(Checksum& sum, const Document& document, Value value) {
+    const auto kind = static_cast<unsigned char>(value.kind());
+    sum.put(&kind, 1);
+    put(sum, value.key());
+    switch (value.kind()) {
+        case Kind::null:
+            break;
+        case Kind::boolean: {
+            const unsigned char is_true = value.boolean();
+            sum.put(&is_true, 1);
+            break;
+        }
+        case Kind::number: {
+            const double number = value.number() + 0.0;  // −0 is 0
+            sum.put(&number, sizeof number);
+            break;
+        }
+        case Kind::string:
+            put_string(sum, document, value);
+            break;
+        case Kind::array:
+        case Kind::object: {
+            const std::uint64_t size = value.size();
+            sum.put(&size, sizeof size);
+            for (const Value member : value) put_value(sum, document, member);
+        }
+    }
+}
+
+}  // namespace
+
+std::uint64_t fingerprint(const Document& document) {
+    Checksum sum;
+    for (const Value part : document.root())
+        if (part.key() != "render") put_value(sum, document, part);
+    return sum.get();
+}
+
+std::vector<std::pair<std::string, std::string>> settings_of_samples(const RenderSettings& settings) {
+    constexpr std::array<std::string_view, 5> others{"width", "height", "samples", "exposure", "view"};
+    const ImageParameters values{settings};
+    std::vector<std::pair<std::string, std::string>> all;
+    ImageParameters::parameters([&](auto member, const Parameter& p) {
+        if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(values.*member)>>)
+            if (std::ranges::find(others, p.name) == others.end())
+                all.emplace_back(p.name, fmt::format("{}", values.*member));
+    });
+    return all;
+}
+
+}  // namespace phasetree::tracer
