@@ -34,7 +34,7 @@ TEST_CASE("kill -9 at any time, again and again: nothing is lost, the bytes are 
         for (Outcome o; o.code != 0;) {
             // Some before or while the scene is read, most during the work.
             const bool is_early = below(random, 5) == 0;
-            const auto after = std::chrono::milliseconds(below(random, 250));
+            const auto after = std::chrono::milliseconds(below(random, is_early ? 250 : 600));
             std::optional<std::chrono::steady_clock::time_point> start;
             const auto kill = [&](pid_t child) {
                 const auto now = std::chrono::steady_clock::now();
