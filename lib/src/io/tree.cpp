@@ -383,10 +383,6 @@ SceneTree read_tree(const Document& document, const FileReaders& files) {
     return result;
 }
 
-Field read_field(const Document& document, Value value, const FileReaders& files) {
-    return Reader(document, {}, shapes_of(document), files).read<Field>(value);  // a field names no phases
-}
-
 Field read_field(const Document& document, const PhaseNames& names, KnownShapes known, const FileReaders& files) {
     return Reader(document, names, std::nullopt, files, std::move(known)).read<Field>(document.root());
 }

@@ -26,6 +26,7 @@ class HomogeneousMedium {
     glm::vec3 transmittance(const Way& way, Sampler&) const;
     Flight fly(const Way& way, const glm::vec3& throughput, Sampler& sampler) const;
     const HenyeyGreenstein& phase_function() const { return coefficients_.phase_function; }
+    const ScatteringCoefficients& coefficients() const { return coefficients_; }
 
   private:
     ScatteringCoefficients coefficients_;

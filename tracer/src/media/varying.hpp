@@ -28,6 +28,7 @@ class VaryingMedium {
     glm::vec3 transmittance(const Way& way, Sampler& sampler) const;
     Flight fly(const Way& way, const glm::vec3& throughput, Sampler& sampler) const;
     const HenyeyGreenstein& phase_function() const { return coefficients_.phase_function; }
+    const ScatteringCoefficients& coefficients() const { return coefficients_; }
 
   private:
     template <class Visit>

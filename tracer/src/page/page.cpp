@@ -81,6 +81,15 @@ glm::vec3 mean(const Texture& texture, const Bounds& b) {
     return sum / static_cast<float>(along * along * along);
 }
 
+// What a deep, matt-lit layer of a medium that scatters sends back: van de Hulst's fit to the half-space with the
+// similarity s = √((1 − α)/(1 − αg)), of which α is the albedo (Multiple Light Scattering 2, 1980).
+glm::vec3 reflectance(const ScatteringCoefficients& medium) {
+    const glm::vec3 albedo = medium.scattering / glm::max(medium.extinction(), glm::vec3(1e-6f));
+    const glm::vec3 s =
+        glm::sqrt((1.f - albedo) / glm::max(1.f - albedo * medium.phase_function.g(), glm::vec3(1e-6f)));
+    return (1.f - s) * (1.f - 0.139f * s) / (1.f + 1.17f * s);
+}
+
 // What metal reflects head-on.
 glm::vec3 reflectance(const Conductor& c) {
     const glm::vec3 k2 = c.k * c.k, less = c.eta - 1.f, more = c.eta + 1.f;
@@ -93,7 +102,16 @@ Look look_of(const std::string& name, const Material& material, const Bounds& bo
     Look look{name};
     if (const auto* m = std::get_if<Clear>(&material)) {
         look.ior = m->ior;
-        look.absorption = -glm::log(glm::max(transmittance(m->interior, 1), glm::vec3(1e-6f)));
+        std::visit(
+            [&](const auto& medium) {
+                if constexpr (requires { medium.coefficients(); }) {
+                    look.kind = Look::diffuse;
+                    look.color = reflectance(medium.coefficients());
+                } else {
+                    look.absorption = medium.absorption;
+                }
+            },
+            m->interior);
     } else if (const auto* d = std::get_if<Diffuse>(&material)) {
         look.kind = Look::diffuse;
         look.color = mean(d->color, bounds);

@@ -51,10 +51,6 @@ SirenNetwork read_siren(const std::filesystem::path&);
 /// text. Files are sought from the scene file's folder.
 SceneTree read_tree(const Document&, const FileReaders& = {});
 
-/// Reads a plain field that stands elsewhere in a scene document, in which the named shapes can be used too: a node or
-/// the name of a shape. Throws SceneError as read_tree() does.
-Field read_field(const Document&, Value, const FileReaders& = {});
-
 /// What a node's text may name that stands nowhere in it: handles that a program has, by names that it gives them.
 struct KnownShapes {
     std::map<std::string, Field, std::less<>> fields;
