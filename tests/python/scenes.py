@@ -46,6 +46,25 @@ class Files(unittest.TestCase):
         scene.save(self.folder / "small.json")
         self.assertEqual(pt.load(self.folder / "small.json"), scene)
 
+    def test_textures_follow_fields_that_a_file_names(self):
+        pond = pt.sphere(1).translate((0, 0, 1))
+        sand = pt.coated(
+            pt.textures.field(pond | pond.translate((2, 0, 0)), [[0, (0.2, 0.1, 0)], [0.5, "#d0c090"]]),
+            roughness=pt.numbers.field(pond, [[0, 0.1], [0.5, 0.9]]),
+        )
+        scene = pt.Scene(pt.phase("sand", sand)(pt.box((4, 4, 0.2))), camera=pt.camera((0, -6, 1), (0, 0, 0)))
+        scene.save(self.folder / "sand.json")
+        self.assertEqual(pt.load(self.folder / "sand.json"), scene)
+        named = self.folder / "named.json"
+        named.write_text(
+            """{"version": 1, "shapes": {"round": {"sphere": {"radius": 1}}, "pond": {"translate": {"by": [0, 0, 1],
+            "of": "round"}}}, "phases": {"sand": {"diffuse": {"color": {"field": {"of": "pond", "ramp": [[0, [1, 1, 1]]]}}}}},
+            "tree": {"set": {"phase": "sand", "of": "round"}}}"""
+        )
+        loaded = pt.load(named)
+        expected = pt.diffuse(pt.textures.field(pond, [[0, [1, 1, 1]]]))
+        self.assertEqual(loaded.object.phases[1].material, expected)
+
     def test_what_differs_is_not_equal(self):
         scene = small_scene()
         self.assertNotEqual(scene, scene.with_(camera=pt.camera((0, -6, 2), (0, 0, 0), fov=30)))

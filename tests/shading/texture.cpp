@@ -40,7 +40,7 @@ TEST_CASE("textures: a reflectance in [0, 1] everywhere, also where there is no 
         }
         CHECK(all);
         for (const float far : {1e10f, -1e30f, 3.4e38f}) CHECK(sane({far, 1.0f, far}));
-        color_at(texture, {nan, 0.0f, infinity});  // any colour, but no trap and no undefined conversion
+        color_at(texture, glm::vec3{nan, 0.0f, infinity});  // any colour, but no trap and no undefined conversion
     }
 }
 

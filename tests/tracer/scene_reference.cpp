@@ -47,7 +47,7 @@ const TemporaryDirectory& folder() {
     static const TemporaryDirectory made;
     static const bool is_filled = [] {
         std::string image = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n";
-        for (int i = 0; i < 32; ++i) image += "\x20\x40\x60\x80";
+        for (int i = 0; i < 32; ++i) image += std::string(1, static_cast<char>(0x20 + 2 * i)) + "\x40\x60\x80";
         write_text(made / "sky.hdr", image);
         write_text(made / "mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
         return true;
@@ -110,8 +110,13 @@ void tell(std::vector<float>& told, const glm::vec3& v) {
 void tell(std::vector<float>& told, const tracer::Texture& texture) {
     for (int i = 0; i < 20; ++i) {
         const float t = 0.173f * static_cast<float>(i);
-        tell(told, color_at(texture, {t, 0.31f - 2.1f * t, 0.7f * t * t}));
+        const glm::vec3 p(t, 0.31f - 2.1f * t, 0.7f * t * t);
+        tell(told, color_at(texture, {p, {0.36f, 0.48f, 0.8f}, glm::vec2(t, 0.3f * t)}));
     }
+}
+
+void tell(std::vector<float>& told, const tracer::Number& number) {
+    for (const float t : {0.0f, 0.4f, 1.7f}) told.push_back(number_at(number, {t, 0.5f * t, -t}));
 }
 
 void tell(std::vector<float>& told, const tracer::Material& material) {
@@ -120,9 +125,9 @@ void tell(std::vector<float>& told, const tracer::Material& material) {
         [&](const auto& m) {
             if constexpr (requires { m.ior; }) told.push_back(m.ior);
             if constexpr (requires { m.interior; }) tell(told, transmittance(m.interior, 1));
-            if constexpr (requires { m.roughness; }) told.push_back(m.roughness);
+            if constexpr (requires { m.roughness; }) tell(told, m.roughness);
             if constexpr (requires { m.film; }) {
-                told.push_back(m.film ? m.film->thickness : -1);
+                tell(told, m.film ? m.film->thickness : tracer::Number(-1.0f));
                 told.push_back(m.film ? m.film->ior : 0);
             }
             if constexpr (requires { m.color; }) tell(told, m.color);
@@ -136,6 +141,11 @@ void tell(std::vector<float>& told, const tracer::Material& material) {
 
 void tell_material(const Document& document, std::vector<float>& told) {
     tell(told, tracer::read_material(document, document.root()));
+}
+
+// Of a scene, in which a field can be read.
+void tell_material_of_scene(const Document& document, std::vector<float>& told) {
+    tell(told, tracer::read_material(document, *document.root().find("material")));
 }
 
 void tell_lights(const Document& document, std::vector<float>& told) {
@@ -211,6 +221,16 @@ std::vector<Case> cases() {
     for (const char* const name : {"wood", "speckle", "marble", "checker"})
         all.push_back(
             {"Textures", name, "", fmt::format("{{\"diffuse\": {{\"color\": {{\"{}\": ", name), "}}}", tell_material});
+    const std::string scene = R"({"phases": {"sand": {}}, "material": {")";
+    const auto texture = [&](const std::string& name, const std::string& needed) {
+        all.push_back({"Textures", name, needed, scene + R"(diffuse": {"color": {")" + name + "\": ", "}}}}",
+                       tell_material_of_scene});
+    };
+    texture("field", R"("of": {"sphere": {"radius": 1}}, "ramp": [[0, [0, 0, 0]], [1, [1, 1, 1]]])");
+    texture("image", R"("file": "sky.hdr")");
+    texture("mesh_image", R"("file": "sky.hdr")");
+    all.push_back({"Numbers", "field", R"("of": {"sphere": {"radius": 1}}, "ramp": [[-2, 0], [2, 0.5]])",
+                   scene + R"(coated": {"color": [1, 1, 1], "roughness": {"field": )", "}}}}", tell_material_of_scene});
     const auto light = [&](const std::string& name, const std::string& needed) {
         all.push_back({"Lights", name, needed, "{\"lights\": [{\"" + name + "\": ", "}]}", tell_lights});
     };
@@ -229,14 +249,21 @@ std::vector<Case> cases() {
     mesh("floor", "");
     mesh("backdrop", "");
     const std::string camera = R"("position": [0, -5, 0], "look_at": [0, 0, 0])";
-    all.push_back(
-        {"Cameras",
-         "thin_lens",
-         camera,
-         "{\"thin_lens\": ",
-         "}",
-         tell_camera,
-         {{"focus_distance", camera + R"(, "lens_radius": 0.1)"}, {"focus_at", camera + R"(, "lens_radius": 0.1)"}}});
+    const std::string lens = camera + R"(, "lens_radius": 0.1)";
+    for (const char* const name : {"thin_lens", "tilt_shift"})
+        all.push_back({"Cameras",
+                       name,
+                       camera,
+                       fmt::format("{{\"{}\": ", name),
+                       "}",
+                       tell_camera,
+                       {{"focus_distance", lens},
+                        {"focus_at", lens},
+                        {"tilt", lens},
+                        {"blades", lens},
+                        {"blade_rotation", lens + R"(, "blades": 5)"}}});
+    for (const char* const name : {"panorama", "dome"})
+        all.push_back({"Cameras", name, camera, fmt::format("{{\"{}\": ", name), "}", tell_camera});
     all.push_back({"Cameras", "orthographic", camera + R"(, "height": 3)", "{\"orthographic\": ", "}", tell_camera});
     all.push_back({"Image", "render", "", "", "", tell_settings});
     return all;
@@ -260,12 +287,19 @@ bool is_vector(Value property) {
     return property.find("items").has_value();
 }
 
+/// A vector as long as the property is, which begins with this.
+std::string vector_of(Value property, const std::string& first, const std::string& rest = "0.75") {
+    if (const auto either = property.find("anyOf")) return vector_of((*either)[either->size() - 1], first, rest);
+    const auto length = property.find("minItems");
+    std::string text = "[" + first;
+    for (int i = 1; i < (length ? static_cast<int>(length->number()) : 3); ++i) text += ", " + rest;
+    return text + "]";
+}
+
 Value properties_of(const Case& c) {
-    const std::map<std::string, std::string> definitions{{"Materials", "material"},
-                                                         {"Textures", "texture"},
-                                                         {"Lights", "light"},
-                                                         {"Meshes", "mesh"},
-                                                         {"Cameras", "camera"}};
+    const std::map<std::string, std::string> definitions{
+        {"Materials", "material"}, {"Textures", "texture"}, {"Numbers", "number_texture"},
+        {"Lights", "light"},       {"Meshes", "mesh"},      {"Cameras", "camera"}};
     if (c.chapter == "Image") return *schema().definition(c.name).find("properties");
     Value kinds = schema().definition(definitions.at(c.chapter));
     if (c.chapter == "Textures" || c.chapter == "Cameras") kinds = (*kinds.find("anyOf"))[1];
@@ -309,7 +343,10 @@ TEST_CASE("every kind is in the page, in the schema and in these tests, with the
             CHECK(!page.summary.empty());
             CHECK(tested[chapter.title].erase(page.name) == 1);
             const auto all = cases();
-            const Value properties = properties_of(*std::ranges::find(all, page.name, &Case::name));
+            const auto one = std::ranges::find_if(
+                all, [&](const Case& c) { return c.chapter == chapter.title && c.name == page.name; });
+            REQUIRE(one != all.end());
+            const Value properties = properties_of(*one);
             if (page.name != "sphere") CHECK(properties.size() == page.parameters.size());
             for (const ParameterPage& p : page.parameters) {
                 CAPTURE(p.name);
@@ -378,7 +415,9 @@ TEST_CASE("every key changes what is read") {
             const std::string key(property.key());
             CAPTURE(key);
             if (key == "file") continue;
-            std::string value = "[0.25, 0.5, 0.75]";
+            std::string value = vector_of(property, "0.25");
+            if (key == "of") value = R"({"sphere": {"radius": 1.5}})";
+            if (key == "ramp") value = c.chapter == "Textures" ? "[[0, [1, 0, 1]]]" : "[[0, 0.75]]";
             if (key == "material") value = R"({"diffuse": {"color": [0.1, 0.5, 0.5]}})";
             if (const auto numbers = numbers_of(property); numbers && !is_vector(property))
                 value = numbers->find("type")->string() == "integer" ? "5" : key.ends_with("ior") ? "1.75" : "0.75";
@@ -404,7 +443,7 @@ TEST_CASE("limits: refused outside, at the number's place, and accepted at the l
             const std::string inside = c.name == "render" || key == "ior" || key == "turbidity" ? "2" : "0.5";
             const auto text_with = [&](double number) {
                 const std::string text = fmt::format("{}", number);
-                return is_vector(property) ? fmt::format("[{}, {}, {}]", text, inside, inside) : text;
+                return is_vector(property) ? vector_of(property, text, inside) : text;
             };
             const auto check = [&](double number, bool is_allowed) {
                 CAPTURE(number);

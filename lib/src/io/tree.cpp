@@ -359,6 +359,14 @@ PhaseNames read_phases(const Document& document, Value root) {
     return names;
 }
 
+std::optional<Value> shapes_of(const Document& document) {
+    const Value root = document.root();
+    const std::optional<Value> shapes = root.is_object() ? root.find("shapes") : std::nullopt;
+    if (shapes && !shapes->is_object())
+        throw document.error(*shapes, fmt::format("\"shapes\" must be an object, but is {}", name_of(shapes->kind())));
+    return shapes;
+}
+
 }  // namespace
 
 SceneTree read_tree(const Document& document, const FileReaders& files) {
@@ -366,9 +374,7 @@ SceneTree read_tree(const Document& document, const FileReaders& files) {
     if (!root.is_object())
         throw document.error(root, fmt::format("a scene is an object, but this is {}", name_of(root.kind())));
     PhaseNames names = read_phases(document, root);
-    const std::optional<Value> shapes = root.find("shapes");
-    if (shapes && !shapes->is_object())
-        throw document.error(*shapes, fmt::format("\"shapes\" must be an object, but is {}", name_of(shapes->kind())));
+    const std::optional<Value> shapes = shapes_of(document);
     const std::optional<Value> tree = root.find("tree");
     if (!tree) throw document.error(root, "the scene needs \"tree\"");
     Reader reader(document, names, shapes, files);
@@ -383,6 +389,13 @@ Field read_field(const Document& document, const PhaseNames& names, KnownShapes 
 
 Phased read_object(const Document& document, const PhaseNames& names, KnownShapes known, const FileReaders& files) {
     return Reader(document, names, std::nullopt, files, std::move(known)).read<Phased>(document.root());
+}
+
+Field read_field(const Document& document, Value value, const FileReaders& files) {
+    const Value root = document.root();
+    PhaseNames names;
+    if (root.is_object() && root.find("phases")) names = read_phases(document, root);
+    return Reader(document, std::move(names), shapes_of(document), files).read<Field>(value);
 }
 
 }  // namespace phasetree

@@ -16,7 +16,7 @@ A formula of x, y, z = pt.coordinates() is a field, too: glass(pt.sqrt(x**2 + y*
 from phasetree import _formula, _parts, _phasetree, _trees
 from phasetree._errors import Error, SceneError
 from phasetree._formula import Expression, coordinates
-from phasetree._parts import cameras, lights, materials, meshes, textures
+from phasetree._parts import cameras, lights, materials, meshes, numbers, textures
 from phasetree._phases import Phase, phase, vacuum
 from phasetree._scene import Image, Scene, load
 from phasetree._trees import Closest, Crossings, Field, Hits, Object
@@ -33,7 +33,7 @@ camera = cameras.thin_lens
 
 __all__ = [
     "Closest", "Crossings", "Error", "Expression", "Field", "Hits", "Image", "Object", "Phase", "Scene", "SceneError",
-    "camera", "cameras", "coordinates", "image", "lights", "load", "materials", "meshes", "phase", "textures", "vacuum",
+    "camera", "cameras", "coordinates", "image", "lights", "load", "materials", "meshes", "numbers", "phase", "textures", "vacuum",
 ]  # fmt: skip
 # Not among them are those that Python has under the same name.
 __all__ += [name for name in _formula.functions if name not in ("abs", "max", "min")]

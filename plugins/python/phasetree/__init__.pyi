@@ -24,6 +24,10 @@ class Texture:
     kind: str
     def parameters(self) -> dict[str, Any]: ...
 
+class Number:
+    kind: str
+    def parameters(self) -> dict[str, Any]: ...
+
 class Light:
     kind: str
     def parameters(self) -> dict[str, Any]: ...
@@ -82,6 +86,8 @@ class Field:
 
     a | b is the union, a & b the intersection, a - b the difference; a.smooth(r) | b and so on round the seam with the
     radius r. Nodes that are made of a field are its methods: a.translate((0, 0, 1))."""
+    def written(self):
+        r"""The node as JSON has it."""
     def smooth(self, radius):
         r"""The same field, whose next |, & or - rounds the seam with this radius."""
     def distance(self, points):
@@ -2383,7 +2389,7 @@ def distort(of: Object, amplitude: float, scale: float, octaves: float | None = 
 
 class materials:
     @staticmethod
-    def clear(ior: float, absorption: Sequence[float] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | None = ...) -> Material:
+    def clear(ior: float, absorption: Sequence[float] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
         r"""Vacuum, air, water, glass: light travels inside.
 
             exp(−a d)
@@ -2392,7 +2398,9 @@ class materials:
         absorption: Absorption of red, green and blue, a; nothing is absorbed without it. ([r, g, b] in 1/m; zero or more; default none)
         color: In place of the absorption: what is left of white light after a distance. (colour; more than 0 and at most 1; default none)
         color_distance: The distance after which the colour is left. (number in m; positive; default 1)
-        roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number; at least 0 and at most 1; default 0)
+        roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
+        film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
+        film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
         """
     @staticmethod
     def diffuse(color: Sequence[float] | str | Texture) -> Material:
@@ -2401,24 +2409,28 @@ class materials:
         color: Reflectance. (colour or texture)
         """
     @staticmethod
-    def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold", "iron", "nickel", "silver", "titanium", "tungsten", "aluminum"] | None = ..., eta: Sequence[float] | np.ndarray | None = ..., k: Sequence[float] | np.ndarray | None = ..., roughness: float | None = ...) -> Material:
+    def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold", "iron", "nickel", "silver", "titanium", "tungsten", "aluminum"] | None = ..., eta: Sequence[float] | np.ndarray | None = ..., k: Sequence[float] | np.ndarray | None = ..., roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
         r"""Metal: one of the measured ones, or with a complex index η + ik of one's own.
 
         metal: A measured metal. (`"aluminium"`, `"brass"`, `"chromium"`, `"copper"`, `"gold"`, `"iron"`, `"nickel"`, `"silver"`, `"titanium"`, `"tungsten"`, `"aluminum"`; default none)
         eta: η for red, green and blue; needed unless a metal is named. ([r, g, b]; positive; default none)
         k: k for red, green and blue; needed unless a metal is named. ([r, g, b]; zero or more; default none)
-        roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number; at least 0 and at most 1; default 0)
+        roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
+        film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
+        film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
         """
     @staticmethod
-    def coated(color: Sequence[float] | str | Texture, ior: float | None = ..., roughness: float | None = ...) -> Material:
+    def coated(color: Sequence[float] | str | Texture, ior: float | None = ..., roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
         r"""Varnished or glazed: a clear coat over a diffuse base.
 
         color: Reflectance of the base. (colour or texture)
         ior: Refractive index of the coat. (number; at least 1 and at most 4; default 1.5)
-        roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number; at least 0 and at most 1; default 0)
+        roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
+        film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
+        film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
         """
 
-def clear(ior: float, absorption: Sequence[float] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | None = ...) -> Material:
+def clear(ior: float, absorption: Sequence[float] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
     r"""Vacuum, air, water, glass: light travels inside.
 
         exp(−a d)
@@ -2427,7 +2439,9 @@ def clear(ior: float, absorption: Sequence[float] | np.ndarray | None = ..., col
     absorption: Absorption of red, green and blue, a; nothing is absorbed without it. ([r, g, b] in 1/m; zero or more; default none)
     color: In place of the absorption: what is left of white light after a distance. (colour; more than 0 and at most 1; default none)
     color_distance: The distance after which the colour is left. (number in m; positive; default 1)
-    roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number; at least 0 and at most 1; default 0)
+    roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
+    film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
+    film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
     """
 
 def diffuse(color: Sequence[float] | str | Texture) -> Material:
@@ -2436,21 +2450,25 @@ def diffuse(color: Sequence[float] | str | Texture) -> Material:
     color: Reflectance. (colour or texture)
     """
 
-def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold", "iron", "nickel", "silver", "titanium", "tungsten", "aluminum"] | None = ..., eta: Sequence[float] | np.ndarray | None = ..., k: Sequence[float] | np.ndarray | None = ..., roughness: float | None = ...) -> Material:
+def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold", "iron", "nickel", "silver", "titanium", "tungsten", "aluminum"] | None = ..., eta: Sequence[float] | np.ndarray | None = ..., k: Sequence[float] | np.ndarray | None = ..., roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
     r"""Metal: one of the measured ones, or with a complex index η + ik of one's own.
 
     metal: A measured metal. (`"aluminium"`, `"brass"`, `"chromium"`, `"copper"`, `"gold"`, `"iron"`, `"nickel"`, `"silver"`, `"titanium"`, `"tungsten"`, `"aluminum"`; default none)
     eta: η for red, green and blue; needed unless a metal is named. ([r, g, b]; positive; default none)
     k: k for red, green and blue; needed unless a metal is named. ([r, g, b]; zero or more; default none)
-    roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number; at least 0 and at most 1; default 0)
+    roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
+    film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
+    film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
     """
 
-def coated(color: Sequence[float] | str | Texture, ior: float | None = ..., roughness: float | None = ...) -> Material:
+def coated(color: Sequence[float] | str | Texture, ior: float | None = ..., roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
     r"""Varnished or glazed: a clear coat over a diffuse base.
 
     color: Reflectance of the base. (colour or texture)
     ior: Refractive index of the coat. (number; at least 1 and at most 4; default 1.5)
-    roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number; at least 0 and at most 1; default 0)
+    roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
+    film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
+    film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
     """
 
 class textures:
@@ -2492,6 +2510,38 @@ class textures:
         odd: Colour of the odd cubes. (colour; at least 0 and at most 1; default [0.2, 0.2, 0.2])
         size: Length of the edge of a cube. (number in m; positive; default 1)
         origin: A corner of an even cube. A plane should pass between corners. ([x, y, z] in m; default [0, 0, 0])
+        """
+    @staticmethod
+    def field(of: Field | Expression, ramp: Sequence[Sequence[float | str | Sequence[float] | Texture]]) -> Texture:
+        r"""A colour or texture for each value of a field, such as the distance to other phases: sand that is dark where it is wet.
+
+        of: The field, or the name of a shape. (field)
+        ramp: Values of the field and the colour or texture at each, between which they are mixed. (list of [number, colour or texture] in m; at least 0 and at most 1)
+        """
+    @staticmethod
+    def image(file: str | PathLike[str], size: float | None = ..., origin: Sequence[float] | np.ndarray | None = ..., blend: float | None = ...) -> Texture:
+        r"""An image on all sides, projected along the axes and repeated without end.
+
+        file: An image of any format that OpenImageIO reads, at most 4096 × 4096 pixels. (name of a file)
+        size: Width of the image; its height is as its pixels are. (number in m; positive; default 1)
+        origin: Where its lower left corner is. ([x, y, z] in m; default [0, 0, 0])
+        blend: How widely the three projections are mixed where the surface slants: not at 0, everywhere at 1. (number; at least 0 and at most 1; default 0.3)
+        """
+    @staticmethod
+    def mesh_image(file: str | PathLike[str], repeat: Sequence[float] | np.ndarray | None = ...) -> Texture:
+        r"""An image on a mesh by the texture coordinates that its file has (OBJ: vt).
+
+        file: An image of any format that OpenImageIO reads, at most 4096 × 4096 pixels. (name of a file)
+        repeat: How often the image stands side by side, and one above the other. ([x, y]; default [1, 1])
+        """
+
+class numbers:
+    @staticmethod
+    def field(of: Field | Expression, ramp: Sequence[Sequence[float]] | np.ndarray) -> Number:
+        r"""A number for each value of a field, such as the distance to other phases.
+
+        of: The field, or the name of a shape. (field)
+        ramp: Values of the field and the number at each, between which it is interpolated. (list of [number, number] in m)
         """
 
 class lights:
@@ -2610,7 +2660,7 @@ class meshes:
 
 class cameras:
     @staticmethod
-    def thin_lens(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, up: Sequence[float] | np.ndarray | None = ..., filter: Literal["blackman_harris", "box"] | None = ..., fov: float | None = ..., lens_radius: float | None = ..., focus_distance: float | None = ..., focus_at: Sequence[float] | np.ndarray | None = ...) -> Camera:
+    def thin_lens(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, up: Sequence[float] | np.ndarray | None = ..., filter: Literal["blackman_harris", "box"] | None = ..., fov: float | None = ..., lens_radius: float | None = ..., blades: int | None = ..., blade_rotation: float | None = ..., focus_distance: float | None = ..., focus_at: Sequence[float] | np.ndarray | None = ...) -> Camera:
         r"""A lens with a plane of focus; a pinhole, if its radius is 0. The kind need not be named.
 
         position: Where it is. ([x, y, z] in m; at least -1e15 and at most 1e15)
@@ -2619,6 +2669,8 @@ class cameras:
         filter: How samples are spread about the middle of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
         fov: Angle between the upper and the lower edge of the image. (number in degrees; more than 0 and less than 180; default 40)
         lens_radius: Radius of the lens; what is out of focus blurs by it. (number in m; at least 0 and at most 1e15; default 0)
+        blades: Corners of the lens's opening, 3 or more, as an iris of so many blades makes them; 0 is a disk. (whole number; at least 0 and at most 64; default 0)
+        blade_rotation: Angle by which the opening is turned; at 0 a corner is at the right. (number in degrees; default 0)
         focus_distance: Distance of the plane of focus; without it, the plane is at look_at. (number in m; positive; default none)
         focus_at: In place of the distance: a point of the plane of focus. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
         """
@@ -2632,8 +2684,44 @@ class cameras:
         up: A direction that is up in the image; +y, or +x, if it looks along that. ([x, y, z]; default [0, 0, 1])
         filter: How samples are spread about the middle of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
         """
+    @staticmethod
+    def tilt_shift(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, up: Sequence[float] | np.ndarray | None = ..., filter: Literal["blackman_harris", "box"] | None = ..., fov: float | None = ..., lens_radius: float | None = ..., blades: int | None = ..., blade_rotation: float | None = ..., focus_distance: float | None = ..., focus_at: Sequence[float] | np.ndarray | None = ..., shift: Sequence[float] | np.ndarray | None = ..., tilt: Sequence[float] | np.ndarray | None = ...) -> Camera:
+        r"""A lens that shifts, so that verticals stay parallel, and whose plane of focus tilts.
 
-def camera(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, up: Sequence[float] | np.ndarray | None = ..., filter: Literal["blackman_harris", "box"] | None = ..., fov: float | None = ..., lens_radius: float | None = ..., focus_distance: float | None = ..., focus_at: Sequence[float] | np.ndarray | None = ...) -> Camera:
+        position: Where it is. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        look_at: A point in the middle of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        up: A direction that is up in the image; +y, or +x, if it looks along that. ([x, y, z]; default [0, 0, 1])
+        filter: How samples are spread about the middle of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
+        fov: Angle between the upper and the lower edge of the image. (number in degrees; more than 0 and less than 180; default 40)
+        lens_radius: Radius of the lens; what is out of focus blurs by it. (number in m; at least 0 and at most 1e15; default 0)
+        blades: Corners of the lens's opening, 3 or more, as an iris of so many blades makes them; 0 is a disk. (whole number; at least 0 and at most 64; default 0)
+        blade_rotation: Angle by which the opening is turned; at 0 a corner is at the right. (number in degrees; default 0)
+        focus_distance: Distance of the plane of focus; without it, the plane is at look_at. (number in m; positive; default none)
+        focus_at: In place of the distance: a point of the plane of focus. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
+        shift: By which what is shown lies farther to the right and farther up, in heights of the image: with [0, 0.5] its lower edge is where its middle was. ([x, y]; at least -100 and at most 100; default [0, 0])
+        tilt: By which the plane of focus leans away at its top, and turns away at its right. ([x, y] in degrees; more than -90 and less than 90; default [0, 0])
+        """
+    @staticmethod
+    def panorama(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, up: Sequence[float] | np.ndarray | None = ..., filter: Literal["blackman_harris", "box"] | None = ...) -> Camera:
+        r"""All directions, on an image that should be twice as wide as high (equirectangular, lat-long).
+
+        position: Where it is. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        look_at: A point in the middle of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        up: A direction that is up in the image; +y, or +x, if it looks along that. ([x, y, z]; default [0, 0, 1])
+        filter: How samples are spread about the middle of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
+        """
+    @staticmethod
+    def dome(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, up: Sequence[float] | np.ndarray | None = ..., filter: Literal["blackman_harris", "box"] | None = ..., fov: float | None = ...) -> Camera:
+        r"""A fisheye for domes: the angle from the middle grows evenly outwards, and the widest circle of the image has the field of view.
+
+        position: Where it is. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        look_at: A point in the middle of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        up: A direction that is up in the image; +y, or +x, if it looks along that. ([x, y, z]; default [0, 0, 1])
+        filter: How samples are spread about the middle of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
+        fov: Angle across the circle. (number in degrees; more than 0 and at most 360; default 180)
+        """
+
+def camera(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, up: Sequence[float] | np.ndarray | None = ..., filter: Literal["blackman_harris", "box"] | None = ..., fov: float | None = ..., lens_radius: float | None = ..., blades: int | None = ..., blade_rotation: float | None = ..., focus_distance: float | None = ..., focus_at: Sequence[float] | np.ndarray | None = ...) -> Camera:
     r"""A lens with a plane of focus; a pinhole, if its radius is 0. The kind need not be named.
 
     position: Where it is. ([x, y, z] in m; at least -1e15 and at most 1e15)
@@ -2642,6 +2730,8 @@ def camera(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np
     filter: How samples are spread about the middle of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
     fov: Angle between the upper and the lower edge of the image. (number in degrees; more than 0 and less than 180; default 40)
     lens_radius: Radius of the lens; what is out of focus blurs by it. (number in m; at least 0 and at most 1e15; default 0)
+    blades: Corners of the lens's opening, 3 or more, as an iris of so many blades makes them; 0 is a disk. (whole number; at least 0 and at most 64; default 0)
+    blade_rotation: Angle by which the opening is turned; at 0 a corner is at the right. (number in degrees; default 0)
     focus_distance: Distance of the plane of focus; without it, the plane is at look_at. (number in m; positive; default none)
     focus_at: In place of the distance: a point of the plane of focus. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
     """

@@ -1,4 +1,4 @@
-"""What a scene has beside its object: materials, textures, lights, meshes, cameras and the image's settings."""
+"""What a scene has beside its object: materials, textures, numbers, lights, meshes, cameras and the image's settings."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from phasetree import _phasetree, _reference
 _CHECKED_AS = {
     "Materials": ("material", lambda text: text),
     "Textures": ("material", lambda text: {"diffuse": {"color": text}}),
+    "Numbers": ("material", lambda text: {"clear": {"ior": 1, "film_thickness": text}}),
     "Lights": ("lights", lambda text: {"lights": [text]}),
     "Meshes": ("meshes", lambda text: [text]),
     "Cameras": ("camera", lambda text: text),
@@ -18,7 +19,7 @@ _CHECKED_AS = {
 
 
 class Part:
-    """A material, texture, light, mesh, camera, or the image's settings: a kind and its parameters, checked."""
+    """A material, texture, number, light, mesh, camera, or the image's settings: a kind and its parameters, checked."""
 
     __slots__ = ("_text", "chapter", "kind")
 
@@ -82,6 +83,7 @@ _chapters = {title: kinds for title, kinds in _reference.chapters() if title in 
 kinds = _chapters
 materials = _module("Materials: what phases and meshes are made of.", _chapters["Materials"])
 textures = _module("Textures: colours that differ from place to place.", _chapters["Textures"])
+numbers = _module("Numbers that differ from place to place.", _chapters["Numbers"])
 lights = _module("Lights.", _chapters["Lights"])
 meshes = _module("Meshes: what stands beside the object.", _chapters["Meshes"])
 cameras = _module("Cameras.", _chapters["Cameras"])

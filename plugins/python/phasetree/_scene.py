@@ -12,7 +12,7 @@ from phasetree import _parts, _phasetree
 from phasetree._errors import Error
 from phasetree._parts import Part
 from phasetree._phases import Phase, vacuum
-from phasetree._trees import Object, _material
+from phasetree._trees import Object, _material, node_of
 
 
 def _part(value, chapter, what):
@@ -188,6 +188,15 @@ def _line(stage, share):
     print(f"\r{stage} {share:4.0%}", end="", file=sys.stderr, flush=True)
 
 
+def _with_nodes(parts, phases):
+    """The same with the nodes of handles in their place."""
+    if isinstance(parts, _phasetree.FieldHandle):
+        return node_of(parts, phases or ["phase"])
+    if isinstance(parts, dict):
+        return {key: _with_nodes(value, phases) for key, value in parts.items()}
+    return [_with_nodes(value, phases) for value in parts] if isinstance(parts, list) else parts
+
+
 def load(path):
     """Reads a scene file. Raises SceneError with file, line and column. Comments and names of shapes are not kept."""
     path = os.fspath(path)
@@ -197,6 +206,7 @@ def load(path):
     absolute = _phasetree.with_files(text, path, lambda file: os.path.join(folder, file))
     if absolute != text:
         handle, parts = _phasetree.read_text(absolute, path)
+    parts = _with_nodes(parts, list(parts["phases"]))
     phases = [vacuum]
     for name, material in parts["phases"].items():
         is_material = isinstance(material, dict) and len(material) == 1

@@ -24,6 +24,9 @@ _TYPES = {
     "list of phases": "Sequence[Phase | str]",
     "colour": "Sequence[float] | str",
     "colour or texture": "Sequence[float] | str | Texture",
+    "number or field": "float | Number",
+    "list of [number, number]": "Sequence[Sequence[float]] | np.ndarray",
+    "list of [number, colour or texture]": "Sequence[Sequence[float | str | Sequence[float] | Texture]]",
     "opaque material": "Material",
     "list of fields": "Field | Expression | Sequence[Field | Expression]",
     "list of objects": "Object | Sequence[Object]",
@@ -31,6 +34,7 @@ _TYPES = {
 _CLASSES = {
     "Materials": "Material",
     "Textures": "Texture",
+    "Numbers": "Number",
     "Lights": "Light",
     "Meshes": "Mesh",
     "Cameras": "Camera",

@@ -65,6 +65,21 @@ class Closest(NamedTuple):
     there: np.ndarray  #: the phase beyond
 
 
+def node_of(handle, phases):
+    """A field's node as JSON has it, with all that it is made of in its place."""
+    scene = _phasetree.value_of(handle.text(phases))
+    shapes = scene.get("shapes", {})
+
+    def whole(value):
+        if isinstance(value, str) and value in shapes:
+            return whole(shapes[value])
+        if isinstance(value, dict):
+            return {key: whole(v) for key, v in value.items()}
+        return [whole(v) for v in value] if isinstance(value, list) else value
+
+    return whole(scene["tree"]["set"]["of"])
+
+
 class Field:
     """A plain signed distance, negative inside. Immutable.
 
@@ -98,6 +113,10 @@ class Field:
     @property
     def _text(self):
         return self._handle.text([p.name for p in self._phases[1:]] or ["phase"])
+
+    def written(self):
+        """The node as JSON has it."""
+        return node_of(self._handle, [p.name for p in self._phases[1:]] or ["phase"])
 
     @property
     def _evaluator(self):

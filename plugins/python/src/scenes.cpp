@@ -21,7 +21,9 @@ namespace phasetree::python {
 
 namespace {
 
-py::object as_python(Value value) {
+// With `document`, of a scene, what textures and numbers of materials follow is a handle: it may be the name of a
+// shape.
+py::object as_python(Value value, const Document* document = nullptr) {
     switch (value.kind()) {
         case Kind::null:
             return py::none();
@@ -37,14 +39,19 @@ py::object as_python(Value value) {
             return py::str(std::string(value.string()));
         case Kind::array: {
             py::list list;
-            for (const Value item : value) list.append(as_python(item));
+            for (const Value item : value) list.append(as_python(item, document));
             return list;
         }
         case Kind::object:
             break;
     }
     py::dict dict;
-    for (const Value member : value) dict[py::str(std::string(member.key()))] = as_python(member);
+    const bool follows = document != nullptr && value.find("ramp");
+    for (const Value member : value)
+        dict[py::str(std::string(member.key()))] =
+            follows && member.key() == "of"
+                ? py::cast(read_field(*document, member, {.height_grid = tracer::read_height_grid}))
+                : as_python(member, document);
     return dict;
 }
 
@@ -61,7 +68,7 @@ py::tuple parts_of(const Document& document) {
     py::dict rest;
     for (const Value part : root)
         if (part.key() != "tree" && part.key() != "shapes" && part.key() != "version")
-            rest[py::str(std::string(part.key()))] = as_python(part);
+            rest[py::str(std::string(part.key()))] = as_python(part, &document);
     return py::make_tuple(tree.object, rest);
 }
 

@@ -40,7 +40,7 @@ void scatter(const tracer::Scene& scene) {
     const glm::vec3 wo = glm::normalize(glm::vec3(0.3f, 0.4f, 0.5f));
     for (std::size_t from = 0; from < count; ++from)
         for (std::size_t to = 0; to < count; ++to) {
-            const tracer::Bsdf bsdf = table.between(from, to).at({0.1f, 0.2f, 0.3f});
+            const tracer::Bsdf bsdf = table.between(from, to).at(glm::vec3(0.1f, 0.2f, 0.3f));
             for (const float u : {0.0f, 0.4f, 0.9999999f}) {
                 const auto sample = bsdf.sample(wo, u, {u, 0.3f});
                 if (!sample) continue;

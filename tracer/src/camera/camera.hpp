@@ -4,8 +4,11 @@
 #include <variant>
 
 #include "camera/contract.hpp"
+#include "camera/dome.hpp"
 #include "camera/orthographic.hpp"
+#include "camera/panorama.hpp"
 #include "camera/thin_lens.hpp"
+#include "camera/tilt_shift.hpp"
 
 namespace phasetree::tracer {
 
@@ -24,7 +27,7 @@ struct CameraList {
 };
 
 /// Every kind of camera.
-using Cameras = CameraList<ThinLens, Orthographic>;
+using Cameras = CameraList<ThinLens, Orthographic, TiltShift, Panorama, Dome>;
 
 /// What a scene says of its camera.
 using AnyCameraParameters = Cameras::AnyParameters;

@@ -2,23 +2,9 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <stdexcept>
 
-#include "sampling/warps.hpp"
-
 namespace phasetree::tracer {
-
-namespace {
-
-double half_fov(float vertical_fov_degrees) {
-    if (!(vertical_fov_degrees > 0.0f) || !(vertical_fov_degrees < 180.0f)) {
-        throw std::invalid_argument("the camera's vertical field of view must be between 0 and 180 degrees");
-    }
-    return 0.5 * static_cast<double>(vertical_fov_degrees) * std::numbers::pi / 180.0;
-}
-
-}  // namespace
 
 float lens_radius_from_f_number(float f_number, float vertical_fov_degrees, float sensor_height) {
     if (!(f_number > 0.0f)) throw std::invalid_argument("the camera's f-number must be positive");
@@ -27,18 +13,15 @@ float lens_radius_from_f_number(float f_number, float vertical_fov_degrees, floa
     return static_cast<float>(focal_length / (2.0 * static_cast<double>(f_number)));
 }
 
-ThinLens::ThinLens(const ThinLensParameters& p, const glm::ivec2& resolution) : frame_(p.position, p.look_at, p.up) {
+ThinLens::ThinLens(const ThinLensParameters& p, const glm::ivec2& resolution)
+    : frame_(p.position, p.look_at, p.up), aperture_(p) {
     check_resolution(resolution);
-    if (!std::isfinite(p.lens_radius) || p.lens_radius < 0.0f) {
-        throw std::invalid_argument("the camera's lens radius must be a finite number and not negative");
-    }
     if (p.focus_distance && !(std::isfinite(*p.focus_distance) && *p.focus_distance > 0.0f)) {
         throw std::invalid_argument("the camera's focus distance must be a positive number");
     }
     half_width_ = 0.5 * resolution.x;
     half_height_ = 0.5 * resolution.y;
     pixel_size_ = std::tan(half_fov(p.vertical_fov_degrees)) / half_height_;
-    lens_radius_ = p.lens_radius;
     focus_distance_ = p.focus_distance ? static_cast<double>(*p.focus_distance) : frame_.distance;
 }
 
@@ -46,14 +29,14 @@ CameraRay ThinLens::generate(const glm::dvec2& film, const glm::vec2& lens_sampl
     const double x = (film.x - half_width_) * pixel_size_;
     const double y = (half_height_ - film.y) * pixel_size_;
     const glm::dvec3 through_centre = x * frame_.right + y * frame_.up + frame_.forward;
-    if (lens_radius_ == 0.0) return {frame_.position, glm::normalize(through_centre)};
-    const glm::dvec2 lens = lens_radius_ * glm::dvec2(square_to_uniform_disk(lens_sample));
+    if (aperture_.is_pinhole()) return {frame_.position, glm::normalize(through_centre)};
+    const glm::dvec2 lens = aperture_.sample(lens_sample);
     const glm::dvec3 on_lens = lens.x * frame_.right + lens.y * frame_.up;
     return {frame_.position + on_lens, glm::normalize(focus_distance_ * through_centre - on_lens)};
 }
 
 std::optional<glm::vec3> ThinLens::single_origin() const {
-    if (lens_radius_ == 0.0) return glm::vec3(frame_.position);
+    if (aperture_.is_pinhole()) return glm::vec3(frame_.position);
     return std::nullopt;
 }
 

@@ -1,25 +1,25 @@
 // A thin-lens camera (Cook, Porter, Carpenter: Distributed Ray Tracing, SIGGRAPH 1984).
 //
-// A pixel's ray goes from a point on the lens, a disk around the position, to where the ray through the lens's centre
-// meets the plane of focus; that plane is perpendicular to the axis. Radius 0 is a pinhole. Up is +z, pixel (0, 0) is
-// the top left one, pixels are square.
+// A pixel's ray goes from a point of the lens's opening (aperture.hpp) around the position to where the ray through the
+// lens's centre meets the plane of focus; that plane is perpendicular to the axis. Radius 0 is a pinhole. Up is +z,
+// pixel (0, 0) is the top left one, pixels are square.
 #pragma once
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 
+#include "camera/aperture.hpp"
 #include "camera/contract.hpp"
 #include "camera/view_frame.hpp"
 
 namespace phasetree::tracer {
 
-struct ThinLensParameters {
+struct ThinLensParameters : ApertureParameters {
     glm::vec3 position{0.0f, -5.0f, 0.0f};
     glm::vec3 look_at{0.0f};
     glm::vec3 up{0.0f, 0.0f, 1.0f};  ///< as ViewFrame has it
     float vertical_fov_degrees = 40.0f;
-    float lens_radius = 0.0f;             ///< in the scene's unit of length
     std::optional<float> focus_distance;  ///< along the axis; otherwise to look_at
 };
 
@@ -43,9 +43,9 @@ class ThinLens {
 
   private:
     ViewFrame frame_;
+    Aperture aperture_;
     double pixel_size_;                ///< on the plane at distance 1
     double half_width_, half_height_;  ///< of the image in pixels
-    double lens_radius_;
     double focus_distance_;
 };
 

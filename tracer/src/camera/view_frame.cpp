@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <stdexcept>
 
 namespace phasetree::tracer {
@@ -33,6 +34,13 @@ ViewFrame::ViewFrame(const glm::vec3& from, const glm::vec3& look_at, const glm:
     forward = axis / distance;
     right = right_of(forward, wanted_up);
     up = glm::cross(right, forward);
+}
+
+double half_fov(float vertical_fov_degrees) {
+    if (!(vertical_fov_degrees > 0.0f) || !(vertical_fov_degrees < 180.0f)) {
+        throw std::invalid_argument("the camera's vertical field of view must be between 0 and 180 degrees");
+    }
+    return 0.5 * static_cast<double>(vertical_fov_degrees) * std::numbers::pi / 180.0;
 }
 
 void check_resolution(const glm::ivec2& resolution) {

@@ -16,6 +16,10 @@ struct ViewFrame {
     double distance;                ///< to the point that is looked at
 };
 
+/// Half of a vertical field of view in degrees, in radians. Throws std::invalid_argument unless it is above 0 and below
+/// 180 degrees.
+double half_fov(float vertical_fov_degrees);
+
 /// Throws std::invalid_argument unless there is at least one pixel.
 void check_resolution(const glm::ivec2& resolution);
 

@@ -8,15 +8,11 @@
 #include <vector>
 
 #include "image/read_image.hpp"
+#include "image/srgb.hpp"
 
 namespace phasetree::tracer {
 
 namespace {
-
-// sRGB's electro-optical transfer function (IEC 61966-2-1).
-float linear_from_srgb(float value) {
-    return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
-}
 
 void check(const ImageHeader& header) {
     constexpr std::int64_t most_pixels = std::int64_t{1} << 27;  // 16,384 × 8,192

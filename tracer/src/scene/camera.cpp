@@ -37,6 +37,18 @@ AnyCameraParameters read_camera_of_kind(const Document& document, Value members,
     });
 }
 
+// Along the axis to the plane of focus through the point that is given. `across` is the plane's normal, over its cosine
+// with the axis.
+template <class Kind>
+float distance_of_focus(const Kind& kind, const glm::vec3& across) {
+    if (kind.focus_distance)
+        throw ParameterError("focus_at", "\"focus_at\" and \"focus_distance\" say the same; give one of them",
+                             ParameterError::Place::key);
+    const float distance = glm::dot(*kind.focus_at - kind.position, across);
+    if (!(distance > 0)) throw ParameterError("focus_at", "\"focus_at\" is behind the camera");
+    return distance;
+}
+
 }  // namespace
 
 std::vector<std::string_view> names_of_filters() {
@@ -53,12 +65,17 @@ PixelFilter filter_of_name(std::string_view name) {
 
 ThinLensParameters ThinLensKind::made() const {
     ThinLensParameters p = *this;
+    if (focus_at) p.focus_distance = distance_of_focus(*this, glm::normalize(look_at - position));
+    return p;
+}
+
+TiltShiftParameters TiltShiftKind::made() const {
+    TiltShiftParameters p = *this;
     if (focus_at) {
-        if (focus_distance)
-            throw ParameterError("focus_at", "\"focus_at\" and \"focus_distance\" say the same; give one of them",
-                                 ParameterError::Place::key);
-        p.focus_distance = glm::dot(*focus_at - position, glm::normalize(look_at - position));
-        if (!(*p.focus_distance > 0)) throw ParameterError("focus_at", "\"focus_at\" is behind the camera");
+        // Where the tilted plane through the point meets the axis.
+        const glm::vec3 axis = glm::normalize(look_at - position);
+        const glm::vec3 normal(TiltShift(*this, {1, 1}).focus_normal());
+        p.focus_distance = distance_of_focus(*this, normal / glm::dot(normal, axis));
     }
     return p;
 }

@@ -31,6 +31,27 @@ void view_parameters(V&& v) {
                       names_of_filters});
 }
 
+/// Of cameras with a lens: how wide it sees, its opening, and where it is in focus.
+template <class P, class V>
+void lens_parameters(V&& v) {
+    v(&P::vertical_fov_degrees, Parameter{"fov", "degrees", "Angle between the upper and the lower edge of the image.",
+                                          Limits{.low = 0, .high = 180, .low_open = true, .high_open = true}, true});
+    v(&P::lens_radius, Parameter{"lens_radius", "m", "Radius of the lens; what is out of focus blurs by it.",
+                                 Limits{.low = 0, .high = farthest}, true});
+    v(&P::blades, Parameter{"blades", "",
+                            "Corners of the lens's opening, 3 or more, as an iris of so many blades makes them; 0 is a "
+                            "disk.",
+                            Limits{.low = 0, .high = Aperture::most_blades}, true});
+    v(&P::rotation_degrees,
+      Parameter{"blade_rotation", "degrees", "Angle by which the opening is turned; at 0 a corner is at the right.",
+                limits::any, true});
+    v(&P::focus_distance,
+      Parameter{"focus_distance", "m", "Distance of the plane of focus; without it, the plane is at look_at.",
+                limits::positive, true});
+    v(&P::focus_at,
+      Parameter{"focus_at", "m", "In place of the distance: a point of the plane of focus.", coordinate, true});
+}
+
 struct ThinLensKind : ThinLensParameters {
     static constexpr KindInfo info{
         "thin_lens", "A lens with a plane of focus; a pinhole, if its radius is 0. The kind need not be named."};
@@ -42,19 +63,66 @@ struct ThinLensKind : ThinLensParameters {
     static void parameters(V&& v) {
         using P = ThinLensKind;
         view_parameters<P>(v);
-        v(&P::vertical_fov_degrees,
-          Parameter{"fov", "degrees", "Angle between the upper and the lower edge of the image.",
-                    Limits{.low = 0, .high = 180, .low_open = true, .high_open = true}, true});
-        v(&P::lens_radius, Parameter{"lens_radius", "m", "Radius of the lens; what is out of focus blurs by it.",
-                                     Limits{.low = 0, .high = farthest}, true});
-        v(&P::focus_distance,
-          Parameter{"focus_distance", "m", "Distance of the plane of focus; without it, the plane is at look_at.",
-                    limits::positive, true});
-        v(&P::focus_at,
-          Parameter{"focus_at", "m", "In place of the distance: a point of the plane of focus.", coordinate, true});
+        lens_parameters<P>(v);
     }
     /// Throws ParameterError.
     ThinLensParameters made() const;
+};
+
+struct TiltShiftKind : TiltShiftParameters {
+    static constexpr KindInfo info{
+        "tilt_shift", "A lens that shifts, so that verticals stay parallel, and whose plane of focus tilts."};
+
+    std::optional<glm::vec3> focus_at{};
+    std::string filter_name = "blackman_harris";
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = TiltShiftKind;
+        view_parameters<P>(v);
+        lens_parameters<P>(v);
+        v(&P::shift, Parameter{"shift", "",
+                               "By which what is shown lies farther to the right and farther up, in heights of the "
+                               "image: with [0, 0.5] its lower edge is where its middle was.",
+                               Limits{.low = -100, .high = 100}, true});
+        v(&P::tilt, Parameter{"tilt", "degrees",
+                              "By which the plane of focus leans away at its top, and turns away at its right.",
+                              Limits{.low = -90, .high = 90, .low_open = true, .high_open = true}, true});
+    }
+    /// Throws ParameterError.
+    TiltShiftParameters made() const;
+};
+
+struct PanoramaKind : PanoramaParameters {
+    static constexpr KindInfo info{"panorama",
+                                   "All directions, on an image that should be twice as wide as high (equirectangular, "
+                                   "lat-long)."};
+
+    std::string filter_name = "blackman_harris";
+
+    template <class V>
+    static void parameters(V&& v) {
+        view_parameters<PanoramaKind>(v);
+    }
+    PanoramaParameters made() const { return *this; }
+};
+
+struct DomeKind : DomeParameters {
+    static constexpr KindInfo info{
+        "dome",
+        "A fisheye for domes: the angle from the middle grows evenly outwards, and the widest "
+        "circle of the image has the field of view."};
+
+    std::string filter_name = "blackman_harris";
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = DomeKind;
+        view_parameters<P>(v);
+        v(&P::fov_degrees, Parameter{"fov", "degrees", "Angle across the circle.",
+                                     Limits{.low = 0, .high = 360, .low_open = true}, true});
+    }
+    DomeParameters made() const { return *this; }
 };
 
 struct OrthographicKind : OrthographicParameters {
@@ -75,6 +143,6 @@ struct OrthographicKind : OrthographicParameters {
     OrthographicParameters made() const { return *this; }
 };
 
-using CameraKinds = TypeList<ThinLensKind, OrthographicKind>;
+using CameraKinds = TypeList<ThinLensKind, OrthographicKind, TiltShiftKind, PanoramaKind, DomeKind>;
 
 }  // namespace phasetree::tracer

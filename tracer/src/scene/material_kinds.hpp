@@ -19,7 +19,7 @@ inline constexpr Parameter roughness_parameter{"roughness", "", "α of GGX: 0 is
 
 // What clear, conducting and coated materials have of a thin film on their surface.
 struct FilmParameters {
-    std::optional<float> film_thickness{};
+    std::optional<Number> film_thickness{};
     float film_ior = SurfaceFilm{}.ior;
 
     template <class P, class V>
@@ -44,7 +44,7 @@ struct ClearParameters : FilmParameters {
     std::optional<glm::vec3> absorption{};
     std::optional<glm::vec3> color{};
     float color_distance = 1.0f;
-    float roughness = 0.0f;
+    Number roughness = 0.0f;
 
     template <class V>
     static void parameters(V&& v) {
@@ -85,7 +85,7 @@ struct ConductorParameters : FilmParameters {
     std::optional<std::string> metal{};
     std::optional<glm::vec3> eta{};
     std::optional<glm::vec3> k{};
-    float roughness = 0.0f;
+    Number roughness = 0.0f;
 
     template <class V>
     static void parameters(V&& v) {
@@ -106,7 +106,7 @@ struct CoatedParameters : FilmParameters {
 
     Texture color{};
     float ior = Coated{}.ior;
-    float roughness = 0.0f;
+    Number roughness = 0.0f;
 
     template <class V>
     static void parameters(V&& v) {

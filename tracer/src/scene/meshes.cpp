@@ -22,6 +22,10 @@ std::vector<Mesh> read_meshes(const Document& document, Value list) {
                     const auto same = 1 + std::ranges::count(kinds, Kind::info.name);
                     mesh.name = same == 1 ? std::string(Kind::info.name) : fmt::format("{} {}", Kind::info.name, same);
                     kinds.push_back(Kind::info.name);
+                    if (mesh.uv.empty() && needs_uv(mesh.material))
+                        throw ParameterError("material",
+                                             "the texture \"mesh_image\" needs texture coordinates, which "
+                                             "not all faces of this mesh have; \"image\" needs none");
                     return mesh;
                 }));
         });

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 #include <tiny_obj_loader.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <fstream>
-#include <sstream>
+#include <span>
 
+#include "parameters/text_file.hpp"
 #include "scene/mesh_kinds.hpp"
 
 namespace phasetree::tracer {
@@ -27,19 +29,17 @@ void add_smooth_normals(Mesh& mesh) {
     }
 }
 
-std::string read_text(const std::filesystem::path& path) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(path, ignored))
-        throw ParameterError("file", fmt::format("there is no file {}", path.string()));
-    if (!std::filesystem::is_regular_file(path, ignored))
-        throw ParameterError("file", fmt::format("{} is not a regular file", path.string()));
-    if (std::filesystem::file_size(path, ignored) > max_file_bytes)
-        throw ParameterError("file", fmt::format("{} is larger than 1 GiB", path.string()));
-    std::ifstream stream(path, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    if (!stream) throw ParameterError("file", fmt::format("{} cannot be read", path.string()));
-    return text.str();
+// The texture coordinates of a triangle's corners, if it has any.
+void add_uv(Mesh& mesh, const std::vector<float>& coordinates, std::span<const tinyobj::index_t> corners) {
+    std::array<glm::vec2, 3> uv;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const int index = corners[k].texcoord_index;
+        const std::size_t at = 2 * static_cast<std::size_t>(std::max(index, 0));
+        if (index < 0 || at + 1 >= coordinates.size()) return;
+        uv[k] = {coordinates[at], coordinates[at + 1]};
+        if (!std::isfinite(uv[k].x) || !std::isfinite(uv[k].y)) return;
+    }
+    mesh.uv.push_back(uv);
 }
 
 }  // namespace
@@ -49,7 +49,7 @@ Mesh ObjParameters::made() const {
     tinyobj::ObjReaderConfig config;
     config.triangulate = true;
     config.vertex_color = false;
-    if (!obj.ParseFromString(read_text(file), "", config))
+    if (!obj.ParseFromString(read_text_file(file, max_file_bytes, "1 GiB"), "", config))
         throw ParameterError("file", fmt::format("{} is not a readable OBJ file: {}", file.string(), obj.Error()));
 
     const float turn = glm::radians(rotate_z_degrees);
@@ -78,8 +78,11 @@ Mesh ObjParameters::made() const {
                 triangle[k] = static_cast<unsigned>(vertex);
             }
             mesh.triangles.push_back(triangle);
+            add_uv(mesh, obj.GetAttrib().texcoords, std::span(index).subspan(i, 3));
         }
     }
+    // Some faces without coordinates are as none at all.
+    if (mesh.uv.size() != mesh.triangles.size()) mesh.uv.clear();
     if (mesh.triangles.empty()) throw ParameterError("file", fmt::format("{} has no faces", file.string()));
     if (smooth) add_smooth_normals(mesh);
     return mesh;

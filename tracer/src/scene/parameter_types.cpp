@@ -8,21 +8,125 @@
 
 namespace phasetree {
 
+namespace {
+
+// A texture as it was read, with what it needs to be asked for colours.
+template <class Kind>
+Kind prepared(Kind kind) {
+    if constexpr (requires { kind.prepare(); }) {
+        try {
+            kind.prepare();
+        } catch (const ModelError& e) {
+            throw ParameterError("of", e.what());
+        }
+    }
+    return kind;
+}
+
+// Calls add(at, value) for each stop of a ramp.
+template <class Add>
+void read_ramp(const Document& document, Value list, std::string_view what, const Add& add) {
+    if (!list.is_array() || list.size() == 0)
+        throw document.error(list, fmt::format("{} must be a list of stops, [[value, …], …]", what));
+    std::optional<float> last;
+    for (const Value stop : list) {
+        if (!stop.is_array() || stop.size() != 2)
+            throw document.error(stop, fmt::format("a stop of {} must be a list of two: a value of the field, and what "
+                                                   "it becomes",
+                                                   what));
+        const float at = as<float>(document, stop[0], "the value of a stop");
+        if (last && !(at >= *last))
+            throw document.error(stop[0],
+                                 fmt::format("the values of {} must rise, but {} follows {}", what, at, *last));
+        last = at;
+        add(at, stop[1]);
+    }
+}
+
+std::string schema_of_ramp(const std::string& item) {
+    return R"({"type": "array", "minItems": 1, "items": {"type": "array", "minItems": 2, "maxItems": 2, "items": [)"
+           R"({"type": "number"}, )" +
+           item + "]}}";
+}
+
+}  // namespace
+
 using TextureType = ParameterType<tracer::Texture, Parameter>;
 
 tracer::Texture TextureType::read(const Document& document, Value value, std::string_view, const Parameter&) {
     if (!value.is_object())
         return tracer::ConstantTexture{as_colour(document, value, "the colour", range_of(limits::fraction))};
     tracer::Texture texture;
-    with_kind(tracer::SolidTextures(), document, value, "a texture", [&]<class Solid>(Value member) {
-        texture = read_kind<Solid>(document, member, fmt::format("the {} texture", Solid::info.name),
-                                   [](const Solid& solid) { return solid; });
+    with_kind(tracer::NamedTextures(), document, value, "a texture", [&]<class Kind>(Value member) {
+        texture = read_kind<Kind>(document, member, fmt::format("the {} texture", Kind::info.name), prepared<Kind>);
     });
     return texture;
 }
 
 ValueType TextureType::describe(const Parameter&) {
     return {"colour or texture", schema_reference("texture")};
+}
+
+using TextureRampType = ParameterType<tracer::TextureRamp, tracer::RampParameter>;
+
+tracer::TextureRamp TextureRampType::read(const Document& document, Value value, std::string_view what,
+                                          const tracer::RampParameter& p) {
+    std::vector<tracer::TextureStop> stops;
+    read_ramp(document, value, what, [&](float at, Value colour) {
+        stops.push_back({at, TextureType::read(document, colour, what, p)});
+    });
+    return std::make_shared<const std::vector<tracer::TextureStop>>(std::move(stops));
+}
+
+ValueType TextureRampType::describe(const tracer::RampParameter&) {
+    return {"list of [number, colour or texture]", schema_of_ramp(schema_reference("texture"))};
+}
+
+using NumberRampType = ParameterType<std::vector<tracer::NumberStop>, tracer::RampParameter>;
+
+std::vector<tracer::NumberStop> NumberRampType::read(const Document& document, Value value, std::string_view what,
+                                                     const tracer::RampParameter&) {
+    std::vector<tracer::NumberStop> stops;
+    read_ramp(document, value, what, [&](float at, Value number) {
+        stops.push_back({at, as<float>(document, number, "the number of a stop")});
+    });
+    return stops;
+}
+
+ValueType NumberRampType::describe(const tracer::RampParameter&) {
+    return {"list of [number, number]", schema_of_ramp(R"({"type": "number"})")};
+}
+
+using NumberType = ParameterType<tracer::Number, Parameter>;
+
+tracer::Number NumberType::read(const Document& document, Value value, std::string_view what, const Parameter& p) {
+    if (!value.is_object()) return as<float>(document, value, what, range_of(p.limits));
+    tracer::Number number;
+    with_kind(tracer::NumberTextures(), document, value, what, [&]<class Kind>(Value member) {
+        number = read_kind<Kind>(document, member, fmt::format("the {} of {}", Kind::info.name, what), [&](Kind kind) {
+            for (const float end : {kind.least(), kind.greatest()})
+                if (!p.limits.contains(end))
+                    throw ParameterError("ramp", fmt::format("{} must be {}, but the ramp has {}", what,
+                                                             phasetree::describe(range_of(p.limits)), end));
+            return prepared(std::move(kind));
+        });
+    });
+    return number;
+}
+
+ValueType NumberType::describe(const Parameter& p) {
+    return {"number or field",
+            schema_of_either(ParameterType<float, Parameter>::describe(p).schema, schema_reference("number_texture"))};
+}
+
+using FieldType = ParameterType<Field, Parameter>;
+
+Field FieldType::read(const Document& document, Value value, std::string_view, const Parameter&) {
+    return read_field(document, value, {.height_grid = tracer::read_height_grid});
+}
+
+ValueType FieldType::describe(const Parameter&) {
+    return {"field", schema_reference("field")};
 }
 
 using MaterialType = ParameterType<tracer::Material, Parameter>;

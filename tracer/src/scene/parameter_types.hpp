@@ -2,6 +2,7 @@
 #pragma once
 
 #include "phasetree/io/parameter_type.hpp"
+#include "phasetree/model/handle.hpp"
 #include "shading/material.hpp"
 
 namespace phasetree::tracer {
@@ -16,12 +17,38 @@ struct PartParameter : Parameter {
 
 namespace phasetree {
 
-// A colour, or one of the solid textures.
+// A colour, or one of the textures.
 template <>
 struct ParameterType<tracer::Texture, Parameter> {
     static tracer::Texture read(const Document&, Value, std::string_view what, const Parameter&);
     static ValueType describe(const Parameter&);
     static std::string written(const tracer::Texture&) { return "none"; }
+};
+
+// The stops of a ramp.
+template <>
+struct ParameterType<tracer::TextureRamp, tracer::RampParameter> {
+    static tracer::TextureRamp read(const Document&, Value, std::string_view what, const tracer::RampParameter&);
+    static ValueType describe(const tracer::RampParameter&);
+    static std::string written(const tracer::TextureRamp&) { return "none"; }
+};
+template <>
+struct ParameterType<std::vector<tracer::NumberStop>, tracer::RampParameter> {
+    static std::vector<tracer::NumberStop> read(const Document&, Value, std::string_view what,
+                                                const tracer::RampParameter&);
+    static ValueType describe(const tracer::RampParameter&);
+    static std::string written(const std::vector<tracer::NumberStop>&) { return "none"; }
+};
+
+// A number, or one that follows a field. The limits are those of each of its values.
+template <>
+struct ParameterType<tracer::Number, Parameter> {
+    static tracer::Number read(const Document&, Value, std::string_view what, const Parameter&);
+    static ValueType describe(const Parameter&);
+    static std::string written(const tracer::Number& number) {
+        const float* constant = std::get_if<float>(&number);
+        return constant ? ParameterType<float, Parameter>::written(*constant) : "none";
+    }
 };
 
 // Not a clear one: meshes have no inside.
@@ -30,6 +57,14 @@ struct ParameterType<tracer::Material, Parameter> {
     static tracer::Material read(const Document&, Value, std::string_view what, const Parameter&);
     static ValueType describe(const Parameter&);
     static std::string written(const tracer::Material&) { return "none"; }
+};
+
+// A field of the tree: a node or the name of a shape.
+template <>
+struct ParameterType<Field, Parameter> {
+    static Field read(const Document&, Value value, std::string_view what, const Parameter&);
+    static ValueType describe(const Parameter&);
+    static std::string written(const Field&) { return "none"; }
 };
 
 template <>

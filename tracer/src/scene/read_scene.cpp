@@ -32,6 +32,15 @@ void check_version(const Document& document, Value version) {
         throw document.error(version, "this program reads scenes of version 1");
 }
 
+Material read_phase_material(const Document& document, Value phase) {
+    Material material = read_material(document, phase);
+    if (needs_uv(material))
+        throw document.error(phase,
+                             "the texture \"mesh_image\" is for meshes, because phases have no texture "
+                             "coordinates; use \"image\"");
+    return material;
+}
+
 }  // namespace
 
 Scene read_scene(const Document& document) {
@@ -46,7 +55,7 @@ Scene read_scene(const Document& document) {
     scene.object = std::move(tree.object);
     scene.materials.push_back(vacuum());
     for (const Value phase : needed(root, &FileParts::phases))
-        scene.materials.push_back(read_material(document, phase));
+        scene.materials.push_back(read_phase_material(document, phase));
     scene.lights = read_lights(document, document.root());
     if (parts.meshes) scene.meshes = read_meshes(document, *parts.meshes);
     scene.camera = read_camera(document, needed(root, &FileParts::camera), scene.film);
@@ -85,7 +94,7 @@ PhaseSet opaque_phases(const Document& document) {
     std::vector<Material> materials{vacuum()};
     ObjectReader root(document, document.root(), "the scene");
     for (const Value phase : needed(root, &FileParts::phases))
-        materials.push_back(phase.is_object() ? read_material(document, phase) : vacuum());
+        materials.push_back(phase.is_object() ? read_phase_material(document, phase) : vacuum());
     return opaque_phases(materials);
 }
 

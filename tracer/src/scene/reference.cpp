@@ -34,7 +34,10 @@ std::vector<Chapter> scene_chapters() {
     chapters.push_back(
         {"Materials", "A phase or a mesh is of one material, `{\"kind\": {parameters}}`.", pages_of(MaterialKinds())});
     chapters.push_back({"Textures", "A material's colour may be a texture, which is a colour for each point of space.",
-                        pages_of(SolidTextures())});
+                        pages_of(NamedTextures())});
+    chapters.push_back({"Numbers",
+                        "A material's roughness, and the thickness of a film on it, may be another at each point.",
+                        pages_of(NumberTextures())});
     chapters.push_back({"Lights", "Radiances have no unit. Those of all lights and the exposure belong together.",
                         pages_of(LightKinds())});
     chapters.push_back({"Meshes", "What stands beside the object. Meshes are opaque.", pages_of(MeshKinds())});
@@ -62,7 +65,8 @@ std::string scene_reference_markdown() {
 std::string scene_json_schema() {
     const std::pair<std::string, std::string> definitions[] = {
         {"colour", colour_type(limits::non_negative).schema},
-        {"texture", schema_of_either(colour_type(limits::fraction).schema, schema_of_one(pages_of(SolidTextures())))},
+        {"texture", schema_of_either(colour_type(limits::fraction).schema, schema_of_one(pages_of(NamedTextures())))},
+        {"number_texture", schema_of_one(pages_of(NumberTextures()))},
         {"material", schema_of_one(pages_of(MaterialKinds()))},
         {"opaque_material", schema_of_one(pages_of_opaque(MaterialKinds()))},
         {"light", schema_of_one(pages_of(LightKinds()))},

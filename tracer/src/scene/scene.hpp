@@ -1,6 +1,7 @@
 // A scene file, read: everything an image needs, as plain values.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <optional>
@@ -15,11 +16,13 @@
 
 namespace phasetree::tracer {
 
-// Triangles beside the object, of one opaque material. With vertex normals (one a vertex) the shading is smooth.
+// Triangles beside the object, of one opaque material. With vertex normals (one a vertex) the shading is smooth. With
+// texture coordinates, of which each triangle has those of its corners, images can be laid on it.
 struct Mesh {
     std::vector<glm::vec3> vertices;
     std::vector<glm::vec3> normals;
     std::vector<glm::uvec3> triangles;
+    std::vector<std::array<glm::vec2, 3>> uv;
     Material material;
     std::string name{};  // its kind, with a number behind it from the second of a kind on: "floor", "obj 2"
 };

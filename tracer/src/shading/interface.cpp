@@ -13,8 +13,8 @@ bool is_smooth(float roughness) {
     return !(roughness >= least_roughness);
 }
 
-ValueRange range_of(float number) {
-    return {number, number};
+ValueRange range_of(const Number& number) {
+    return {least_of(number), greatest_of(number)};
 }
 
 // Of what rough surfaces of that range need tables for; nothing, if none is rough.
@@ -30,11 +30,11 @@ std::optional<FilmOfSurface> film_of(const std::optional<SurfaceFilm>& film) {
 
 // An interface of two clear materials has one film.
 const std::optional<SurfaceFilm>& thicker(const std::optional<SurfaceFilm>& a, const std::optional<SurfaceFilm>& b) {
-    return !a || (b && b->thickness > a->thickness) ? b : a;
+    return !a || (b && greatest_of(b->thickness) > greatest_of(a->thickness)) ? b : a;
 }
 
-float thickness_of(const std::optional<SurfaceFilm>& film) {
-    return film ? film->thickness : 0.0f;
+Number thickness_of(const std::optional<SurfaceFilm>& film) {
+    return film ? film->thickness : Number(0.0f);
 }
 
 // optics_of() gives the optics of each kind of material, seen from within a clear one.
@@ -69,30 +69,30 @@ Interface::Optics optics_of(const Clear& from, const Coated& to, SharedSurfaces&
 
 // bsdf_of() gives the BSDF of each kind of optics at a place.
 
-Bsdf bsdf_of(const Interface::ClearOptics& optics, const glm::vec3&) {
-    const float thickness = optics.thickness;
+Bsdf bsdf_of(const Interface::ClearOptics& optics, const TexturePoint& p) {
+    const float thickness = number_at(optics.thickness, p.position);
     if (optics.surface->is_none()) return SmoothDielectricBsdf(*optics.surface, thickness);
-    const float roughness = std::max(optics.from, optics.to);
+    const float roughness = std::max(number_at(optics.from, p.position), number_at(optics.to, p.position));
     if (is_smooth(roughness)) return SmoothDielectricBsdf(*optics.surface, thickness);
     return RoughDielectricBsdf(*optics.surface, std::min(roughness, 1.0f));
 }
 
-Bsdf bsdf_of(const Interface::MetalOptics& optics, const glm::vec3&) {
-    const float thickness = optics.thickness;
-    const float roughness = optics.roughness;
+Bsdf bsdf_of(const Interface::MetalOptics& optics, const TexturePoint& p) {
+    const float thickness = number_at(optics.thickness, p.position);
+    const float roughness = number_at(optics.roughness, p.position);
     if (is_smooth(roughness)) return SmoothConductorBsdf(*optics.surface, thickness);
     return RoughConductorBsdf(*optics.surface, std::min(roughness, 1.0f), thickness);
 }
 
-Bsdf bsdf_of(const Interface::DiffuseOptics& optics, const glm::vec3& p) {
+Bsdf bsdf_of(const Interface::DiffuseOptics& optics, const TexturePoint& p) {
     return DiffuseBsdf(color_at(*optics.color, p));
 }
 
-Bsdf bsdf_of(const Interface::CoatedOptics& optics, const glm::vec3& p) {
-    const float roughness = optics.roughness;
-    return CoatedDiffuseBsdf(
-        optics.coating->at(is_smooth(roughness) ? 0.0f : std::min(roughness, 1.0f), optics.thickness),
-        color_at(*optics.color, p));
+Bsdf bsdf_of(const Interface::CoatedOptics& optics, const TexturePoint& p) {
+    const float roughness = number_at(optics.roughness, p.position);
+    return CoatedDiffuseBsdf(optics.coating->at(is_smooth(roughness) ? 0.0f : std::min(roughness, 1.0f),
+                                                number_at(optics.thickness, p.position)),
+                             color_at(*optics.color, p));
 }
 
 }  // namespace
@@ -104,7 +104,7 @@ Interface Interface::between(const Material& from, const Material& to, SharedSur
     return std::visit([&](const auto& material) { return Interface(optics_of(*clear, material, shared)); }, to);
 }
 
-Bsdf Interface::at(const glm::vec3& point) const& {
+Bsdf Interface::at(const TexturePoint& point) const& {
     return std::visit([&](const auto& optics) { return bsdf_of(optics, point); }, optics_);
 }
 

@@ -30,18 +30,18 @@ class Interface {
 
     /// The BSDF at a place, which is in the space textures are defined in. It refers to data of this interface and must
     /// not outlive it.
-    Bsdf at(const glm::vec3& position) const&;
-    Bsdf at(const glm::vec3& position) && = delete;
+    Bsdf at(const TexturePoint& point) const&;
+    Bsdf at(const TexturePoint& point) && = delete;
 
     struct ClearOptics {
         std::shared_ptr<const DielectricSurface> surface;
-        float from, to;  ///< roughness of both materials, of which the greater counts
-        float thickness;
+        Number from, to;  ///< roughness of both materials, of which the greater counts
+        Number thickness;
     };
     struct MetalOptics {
         std::shared_ptr<const ConductorSurface> surface;
-        float roughness;
-        float thickness;
+        Number roughness;
+        Number thickness;
     };
     struct DiffuseOptics {
         std::shared_ptr<const Texture> color;
@@ -49,8 +49,8 @@ class Interface {
     struct CoatedOptics {
         std::shared_ptr<const Texture> color;
         std::shared_ptr<const CoatingAlbedo> coating;
-        float roughness;
-        float thickness;
+        Number roughness;
+        Number thickness;
     };
     using Optics = std::variant<ClearOptics, MetalOptics, DiffuseOptics, CoatedOptics>;
 

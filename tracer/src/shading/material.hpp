@@ -10,13 +10,14 @@
 #include <variant>
 
 #include "media/medium.hpp"
+#include "shading/texture/number.hpp"
 #include "shading/texture/texture.hpp"
 
 namespace phasetree::tracer {
 
 /// A film of some hundred nanometres on a surface, which shows colours by interference: thin_film.hpp.
 struct SurfaceFilm {
-    float thickness = 0.0f;  ///< in nanometres
+    Number thickness = 0.0f;  ///< in nanometres
     float ior = 1.33f;
 };
 
@@ -24,7 +25,7 @@ struct SurfaceFilm {
 struct Clear {
     float ior = 1.0f;   ///< the refractive index against vacuum, greater than 0
     Medium interior{};  ///< what rays travel through inside
-    float roughness = 0.0f;
+    Number roughness = 0.0f;
     std::optional<SurfaceFilm> film{};
 };
 
@@ -36,7 +37,7 @@ struct Diffuse {
 struct Conductor {
     glm::vec3 eta{1.0f};
     glm::vec3 k{0.0f};
-    float roughness = 0.0f;
+    Number roughness = 0.0f;
     std::optional<SurfaceFilm> film{};
 };
 
@@ -44,12 +45,24 @@ struct Conductor {
 struct Coated {
     Texture color = ConstantTexture{};
     float ior = 1.5f;  ///< of the coat, against vacuum
-    float roughness = 0.0f;
+    Number roughness = 0.0f;
     std::optional<SurfaceFilm> film{};
 };
 
 /// Every kind of material.
 using Material = std::variant<Clear, Diffuse, Conductor, Coated>;
+
+/// Whether a texture of it needs the texture coordinates of a mesh.
+inline bool needs_uv(const Material& material) {
+    return std::visit(
+        [](const auto& kind) {
+            if constexpr (requires { kind.color; })
+                return needs_uv(kind.color);
+            else
+                return false;
+        },
+        material);
+}
 
 inline Material vacuum() {
     return Clear{};

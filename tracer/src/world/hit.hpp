@@ -32,8 +32,9 @@ struct Surface {
     StartHint hint;                                  ///< for a ray from either side
     std::uint32_t object;                            ///< 0 is the object of phases, i + 1 mesh i of the scene
     std::optional<Phase> entered;                    ///< the phase behind, clear or opaque; none behind a mesh
+    std::optional<glm::vec2> uv{};                   ///< texture coordinates of a mesh that has any
 
-    Bsdf bsdf() const { return optics.get().at(near_side.origin); }
+    Bsdf bsdf() const { return optics.get().at({near_side.origin, normal, uv}); }
     /// A ray that leaves the surface to the side from which it was met.
     Ray reflected(const glm::vec3& direction) const { return leaving(near_side, direction); }
     /// A ray that leaves the surface to its far side. Throws std::bad_optional_access if light does not travel there.

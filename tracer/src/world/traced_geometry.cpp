@@ -55,6 +55,13 @@ std::vector<Interface> interfaces_of(std::span<const Mesh> meshes, std::span<con
     return interfaces;
 }
 
+std::optional<glm::vec2> uv_at(const Mesh& mesh, const RTCRayHit& hit) {
+    if (mesh.uv.empty()) return std::nullopt;
+    const auto& corners = mesh.uv[hit.hit.primID];
+    const float u = hit.hit.u, v = hit.hit.v;
+    return (1 - u - v) * corners[0] + u * corners[1] + v * corners[2];
+}
+
 }  // namespace
 
 TracedGeometry::DeviceHandle TracedGeometry::start_embree() {
@@ -160,7 +167,8 @@ Surface TracedGeometry::surface_of_mesh(const Ray& ray, const RTCRayHit& hit) co
             .optics = mesh_interfaces_[index * scene_.materials.size() + ray.phase.index],
             .hint = {},
             .object = hit.hit.geomID,
-            .entered = std::nullopt};
+            .entered = std::nullopt,
+            .uv = uv_at(mesh, hit)};
 }
 
 Phase TracedGeometry::label(const glm::vec3& p) const {

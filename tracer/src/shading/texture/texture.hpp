@@ -1,6 +1,7 @@
 // The list of all textures, and a texture of any kind by value.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <glm/vec3.hpp>
 #include <variant>
@@ -9,7 +10,10 @@
 #include "shading/texture/checker.hpp"
 #include "shading/texture/constant.hpp"
 #include "shading/texture/contract.hpp"
+#include "shading/texture/field.hpp"
+#include "shading/texture/image.hpp"
 #include "shading/texture/marble.hpp"
+#include "shading/texture/mesh_image.hpp"
 #include "shading/texture/speckle.hpp"
 #include "shading/texture/wood.hpp"
 
@@ -17,7 +21,8 @@ namespace phasetree::tracer {
 
 // Those that a scene file names, with their parameters: one list, from which the reader, the reference and the schema
 // follow. A colour by itself is the constant one.
-using SolidTextures = TypeList<WoodTexture, SpeckleTexture, MarbleTexture, CheckerTexture>;
+using NamedTextures =
+    TypeList<WoodTexture, SpeckleTexture, MarbleTexture, CheckerTexture, FieldTexture, ImageTexture, MeshImageTexture>;
 
 /// A kind of texture, once its contract has been asked of it. If it does not meet that, the message names the kind and
 /// the member.
@@ -30,17 +35,38 @@ struct CheckedTexture {
 template <class... Kinds>
 using TextureOf = std::variant<typename CheckedTexture<Kinds>::Type...>;
 
-template <class... Solids>
-TextureOf<ConstantTexture, Solids...> variant_of_textures(TypeList<Solids...>);
+template <class... Named>
+TextureOf<ConstantTexture, Named...> variant_of_textures(TypeList<Named...>);
 
 /// Every kind of texture.
-using Texture = decltype(variant_of_textures(SolidTextures()));
+using Texture = decltype(variant_of_textures(NamedTextures()));
 
-/// The texture's colour at a point, for any point whatever: TextureKind's at() is asked within its limits only.
-inline glm::vec3 color_at(const Texture& texture, const glm::vec3& position) {
+struct TextureStop {
+    float at;
+    Texture texture;
+};
+
+/// The texture's colour at a place, for any place whatever: TextureKind's at() is asked within its limits only.
+inline glm::vec3 color_at(const Texture& texture, TexturePoint point) {
     // Where floats resolve no texture any more, and for what is no position, it is the colour of the origin.
-    const bool near = std::abs(position.x) < 1e9f && std::abs(position.y) < 1e9f && std::abs(position.z) < 1e9f;
-    return std::visit([&](const auto& kind) { return kind.at(near ? position : glm::vec3{0.0f}); }, texture);
+    const glm::vec3& p = point.position;
+    if (!(std::abs(p.x) < 1e9f && std::abs(p.y) < 1e9f && std::abs(p.z) < 1e9f)) point.position = glm::vec3(0.0f);
+    return std::visit(
+        [&](const auto& kind) {
+            if constexpr (
+                requires { kind.at(point.position); } && !requires { kind.at(point); })
+                return kind.at(point.position);
+            else
+                return kind.at(point);
+        },
+        texture);
+}
+
+/// Whether it can only be on a mesh, whose file has texture coordinates.
+inline bool needs_uv(const Texture& texture) {
+    if (const auto* field = std::get_if<FieldTexture>(&texture))
+        return std::ranges::any_of(*field->ramp, [](const TextureStop& stop) { return needs_uv(stop.texture); });
+    return std::holds_alternative<MeshImageTexture>(texture);
 }
 
 }  // namespace phasetree::tracer

@@ -1,0 +1,131 @@
+// Textures as scenes spell them: driven by fields of the tree, and from images, on phases and on meshes.
+#include <OpenImageIO/imageio.h>
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "paths.hpp"
+
+using namespace phasetree::tracer;
+using namespace phasetree::tracer::tests;
+
+namespace {
+
+const std::string water_over_sand = R"({"under": [{"set": {"phase": "sand", "of": {"box": {"size": [2, 2, 2]}}}},
+    {"set": {"phase": "water", "of": {"translate": {"by": [3, 0, 0], "of": {"sphere": {"radius": 1}}}}}}]})";
+
+Scene sand_of(const std::string& material, const std::string& more = "") {
+    return scene_of(R"("water": {"clear": {"ior": 1.33}}, "sand": )" + material, water_over_sand,
+                    white_environment + more);
+}
+
+std::string message_of(const std::string& material, const std::string& more = "") {
+    try {
+        (void)sand_of(material, more);
+    } catch (const phasetree::SceneError& e) {
+        return e.what();
+    }
+    return "";
+}
+
+bool says(const std::string& material, const std::string& part, const std::string& more = "") {
+    const std::string message = message_of(material, more);
+    CAPTURE(message);
+    return message.find(part) != std::string::npos;
+}
+
+const std::string ball_of_water = R"({"translate": {"by": [3, 0, 0], "of": {"sphere": {"radius": 1}}}})";
+
+// Two by two pixels: red, green, above blue, and grey of sRGB 0.5.
+std::filesystem::path four_pixels() {
+    const std::filesystem::path path = std::filesystem::temp_directory_path() / "phasetree_test_four_pixels.png";
+    const unsigned char pixels[] = {255, 0, 0, 0, 255, 0, 0, 0, 255, 128, 128, 128};
+    const auto out = OIIO::ImageOutput::create(path.string());
+    REQUIRE(out);
+    REQUIRE(out->open(path.string(), OIIO::ImageSpec(2, 2, 3, OIIO::TypeDesc::UINT8)));
+    REQUIRE(out->write_image(OIIO::TypeDesc::UINT8, pixels));
+    out->close();
+    return path;
+}
+
+}  // namespace
+
+TEST_CASE("textures by the tree: colours follow the distance to another phase, along a ramp") {
+    const Scene scene = sand_of(R"({"diffuse": {"color": {"field": {"of": )" + ball_of_water +
+                                R"(, "ramp": [[0, [0, 0, 0]], [1, [0.5, 0.25, 0]], [2, {"checker": {"even": [1, 1, 1],
+        "odd": [1, 1, 1]}}]]}}}})");
+    const Texture& color = std::get<Diffuse>(scene.materials[2]).color;
+    // At distance 1 + d from the ball's middle.
+    const auto at = [&](float d) { return color_at(color, glm::vec3(3 - 1 - d, 0, 0)); };
+    CHECK(glm::length(at(-0.5f)) == 0.0f);
+    CHECK(glm::length(at(0.5f) - glm::vec3(0.25f, 0.125f, 0)) < 1e-6f);
+    CHECK(glm::length(at(1.5f) - glm::vec3(0.75f, 0.625f, 0.5f)) < 1e-6f);
+    CHECK(at(7) == glm::vec3(1));
+    CHECK_FALSE(glm::length(at(0.505f) - glm::vec3(0.25f, 0.125f, 0)) < 1e-3f);
+}
+
+TEST_CASE("textures by the tree: roughness and films, and what is wrong with a ramp") {
+    const auto ramp = [](const std::string& stops) {
+        return R"({"conductor": {"metal": "gold", "roughness": {"field": {"of": {"sphere": {"radius": 1}}, "ramp": )" +
+               stops + "}}}}";
+    };
+    const Scene scene = sand_of(ramp("[[0, 0.1], [2, 0.5]]"));
+    const Number& roughness = std::get<Conductor>(scene.materials[2]).roughness;
+    CHECK(number_at(roughness, {2, 0, 0}) == doctest::Approx(0.3));
+    CHECK(number_at(roughness, {9, 0, 0}) == 0.5f);
+    CHECK(least_of(roughness) == 0.1f);
+    CHECK(greatest_of(roughness) == 0.5f);
+    CHECK(says(ramp("[[0, 0.1], [2, 1.5]]"), "1.5"));
+    CHECK(says(ramp("[[2, 0.1], [0, 0.5]]"), "must rise, but 0 follows 2"));
+    CHECK(says(ramp("[]"), "must be a list of stops"));
+    CHECK(says(ramp("[[1]]"), "must be a list of two"));
+    CHECK(says(R"({"diffuse": {"color": {"field": {"of": "pond", "ramp": [[0, [1, 1, 1]]]}}}})",
+               "there is no shape \"pond\""));
+    const Scene film = sand_of(R"({"clear": {"ior": 1.5, "film_thickness": {"field": {"of": {"plane": {}},
+        "ramp": [[0, 100], [1, 900]]}}, "film_ior": 1.4}})");
+    CHECK(number_at(std::get<Clear>(film.materials[2]).film->thickness, {0, 0, 0.5f}) == doctest::Approx(500));
+}
+
+TEST_CASE("textures from images: sRGB is decoded, and each side of a solid gets its own projection") {
+    const std::filesystem::path path = four_pixels();
+    const Scene scene =
+        sand_of(R"({"diffuse": {"color": {"image": {"file": ")" + path.string() + R"(", "size": 2, "blend": 0}}}})");
+    const Texture& color = std::get<Diffuse>(scene.materials[2]).color;
+    const auto at = [&](const glm::vec3& p, const glm::vec3& n) { return color_at(color, {p, n, std::nullopt}); };
+    // Middles of the pixels: the lower left one is blue.
+    CHECK(glm::length(at({0.5f, 0.5f, 9}, {0, 0, 1}) - glm::vec3(0, 0, 1)) < 1e-4f);
+    CHECK(glm::length(at({0.5f, 1.5f, 9}, {0, 0, -1}) - glm::vec3(1, 0, 0)) < 1e-4f);
+    CHECK(glm::length(at({2.5f, 9, 1.5f}, {0, 1, 0}) - glm::vec3(1, 0, 0)) < 1e-4f);
+    CHECK(glm::length(at({9, 1.5f, 1.5f}, {1, 0, 0}) - glm::vec3(0, 1, 0)) < 1e-4f);
+    CHECK(at({1.5f, 0.5f, 9}, {0, 0, 1}).x == doctest::Approx(0.2158605f).epsilon(1e-4));  // of 128/255
+    CHECK_FALSE(at({1.5f, 0.5f, 9}, {0, 0, 1}).x == doctest::Approx(1.01f * 0.2158605f).epsilon(1e-4));
+    CHECK(says(R"({"diffuse": {"color": {"image": {"file": "no_such_file.png"}}}})", "there is no such file"));
+    CHECK(says(R"({"diffuse": {"color": {"mesh_image": {"file": ")" + path.string() + R"("}}}})", "for meshes"));
+    std::filesystem::remove(path);
+}
+
+TEST_CASE("textures from images: on a mesh by its coordinates, and an error where it has none") {
+    const std::filesystem::path path = four_pixels();
+    const std::filesystem::path obj = std::filesystem::temp_directory_path() / "phasetree_test_uv.obj";
+    const auto mesh_of = [&](const std::string& faces) {
+        std::ofstream(obj) << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n" << faces;
+        return std::string(R"(, "meshes": [{"obj": {"file": ")") + obj.string() +
+               R"(", "material": {"diffuse": {"color": {"mesh_image": {"file": ")" + path.string() + R"("}}}}}}])";
+    };
+    const Scene scene = sand_of(R"({"diffuse": {"color": [1, 1, 1]}})", mesh_of("f 1/1 2/2 3/3 4/4\n"));
+    const Mesh& mesh = scene.meshes.at(0);
+    REQUIRE(mesh.uv.size() == 2);
+    REQUIRE(mesh.triangles.size() == 2);
+    for (std::size_t t = 0; t < 2; ++t)
+        for (std::size_t k = 0; k < 3; ++k)
+            CHECK(mesh.uv[t][k] == glm::vec2(mesh.vertices[mesh.triangles[t][static_cast<int>(k)]]));
+    const Texture& color = std::get<Diffuse>(mesh.material).color;
+    CHECK(glm::length(color_at(color, {{}, {0, 0, 1}, glm::vec2(0.25f, 0.25f)}) - glm::vec3(0, 0, 1)) < 1e-4f);
+    CHECK(says(R"({"diffuse": {"color": [1, 1, 1]}})", "needs texture coordinates", mesh_of("f 1 2 3\n")));
+    CHECK(
+        says(R"({"diffuse": {"color": [1, 1, 1]}})", "needs texture coordinates", mesh_of("f 1/1 2/2 3/3\nf 1 3 4\n")));
+    std::filesystem::remove(path);
+    std::filesystem::remove(obj);
+}

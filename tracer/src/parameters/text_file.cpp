@@ -1,0 +1,27 @@
+#include "parameters/text_file.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "phasetree/io/kind.hpp"
+
+namespace phasetree::tracer {
+
+std::string read_text_file(const std::filesystem::path& path, std::uintmax_t most_bytes, std::string_view limit) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored))
+        throw ParameterError("file", fmt::format("there is no file {}", path.string()));
+    if (!std::filesystem::is_regular_file(path, ignored))
+        throw ParameterError("file", fmt::format("{} is not a regular file", path.string()));
+    if (std::filesystem::file_size(path, ignored) > most_bytes)
+        throw ParameterError("file", fmt::format("{} is larger than {}", path.string(), limit));
+    std::ifstream stream(path, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    if (!stream) throw ParameterError("file", fmt::format("{} cannot be read", path.string()));
+    return text.str();
+}
+
+}  // namespace phasetree::tracer

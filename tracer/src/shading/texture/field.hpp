@@ -1,0 +1,49 @@
+// Colours driven by a field of the tree: sand that is dark near water, edges that are worn. A ramp makes colours, or
+// other textures, of the field's value, which is a distance: negative inside of the field's solid, and for the field
+// `merge` of an object, that to the nearest of some of its phases.
+//
+// Two textures are mixed in linear light.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <memory>
+#include <vector>
+
+#include "phasetree/io/kind.hpp"
+#include "shading/texture/field_value.hpp"
+#include "shading/texture/texture_point.hpp"
+
+namespace phasetree::tracer {
+
+/// The texture from this value of the field on, until the next; texture.hpp has the member that is left out here.
+struct TextureStop;
+using TextureRamp = std::shared_ptr<const std::vector<TextureStop>>;
+
+/// A list of stops, [[value, colour or number], …], of which the values rise.
+struct RampParameter : Parameter {};
+
+struct FieldTexture {
+    static constexpr KindInfo info{
+        "field",
+        "A colour or texture for each value of a field, such as the distance to other phases: "
+        "sand that is dark where it is wet."};
+
+    Field of{};
+    TextureRamp ramp{};
+    FieldValue value{};  // of the field, once it is prepared
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = FieldTexture;
+        v(&P::of, Parameter{"of", "", "The field, or the name of a shape."});
+        v(&P::ramp, RampParameter{{"ramp", "m",
+                                   "Values of the field and the colour or texture at each, between which "
+                                   "they are mixed.",
+                                   limits::fraction}});
+    }
+    void prepare() { value = FieldValue(of); }
+
+    glm::vec3 at(const TexturePoint& p) const;
+};
+
+}  // namespace phasetree::tracer

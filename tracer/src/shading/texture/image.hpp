@@ -1,0 +1,48 @@
+// An image on all sides of a solid: projected along the three axes and mixed where the surface slants.
+//
+// With the normal n, m = max |nᵢ| and the blend b, the projection along axis i weighs max(|nᵢ| − (1 − b) m, 0): at b =
+// 0 only the nearest axis counts, at b = 1 each by |nᵢ|. The image is repeated without end. Along x its right is +y,
+// along y and z it is +x; its top is +z, along z it is +y.
+//
+// Reference: Geiss, Generating Complex Procedural Terrains Using the GPU, GPU Gems 3, 2007, section 1.5 (triplanar
+// projection).
+#pragma once
+
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <memory>
+
+#include "image/texture_image.hpp"
+#include "phasetree/io/kind.hpp"
+#include "shading/texture/texture_point.hpp"
+
+namespace phasetree::tracer {
+
+struct ImageTexture {
+    static constexpr KindInfo info{"image",
+                                   "An image on all sides, projected along the axes and repeated without end."};
+
+    std::filesystem::path file{};
+    float size = 1.0f;       // width of the image in the scene
+    glm::vec3 origin{0.0f};  // where its lower left corner is
+    float blend = 0.3f;
+    std::shared_ptr<const TextureImage> image{};  // once it is prepared
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = ImageTexture;
+        v(&P::file, image_file_parameter);
+        v(&P::size,
+          Parameter{"size", "m", "Width of the image; its height is as its pixels are.", limits::positive, true});
+        v(&P::origin, Parameter{"origin", "m", "Where its lower left corner is.", limits::any, true});
+        v(&P::blend, Parameter{"blend", "",
+                               "How widely the three projections are mixed where the surface slants: not at "
+                               "0, everywhere at 1.",
+                               limits::fraction, true});
+    }
+    void prepare() { image = load_texture_image(file); }
+
+    glm::vec3 at(const TexturePoint& p) const;
+};
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,37 @@
+// An image on a mesh by the mesh's own texture coordinates, of which (0, 0) is the image's lower left corner and (1, 1)
+// its upper right one; beyond, it is repeated.
+#pragma once
+
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+
+#include "image/texture_image.hpp"
+#include "phasetree/io/kind.hpp"
+#include "shading/texture/texture_point.hpp"
+
+namespace phasetree::tracer {
+
+struct MeshImageTexture {
+    static constexpr KindInfo info{"mesh_image",
+                                   "An image on a mesh by the texture coordinates that its file has (OBJ: vt)."};
+
+    std::filesystem::path file{};
+    glm::vec2 repeat{1.0f};
+    std::shared_ptr<const TextureImage> image{};  // once it is prepared
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = MeshImageTexture;
+        v(&P::file, image_file_parameter);
+        v(&P::repeat, Parameter{"repeat", "", "How often the image stands side by side, and one above the other.",
+                                limits::any, true});
+    }
+    void prepare() { image = load_texture_image(file); }
+
+    // A mesh without coordinates is refused where the scene is read.
+    glm::vec3 at(const TexturePoint& p) const { return image->at(p.uv.value_or(glm::vec2(0.0f)) * repeat); }
+};
+
+}  // namespace phasetree::tracer
