@@ -60,7 +60,7 @@ TEST_CASE("a page of a tree alone has colours of its own") {
     const Shell shell;
     write_text(
         shell.directory / "tree.json",
-        R"({"version": 1, "phases": {"a": {}}, "tree": {"set": {"phase": "a", "of": {"sphere": {"radius": 1}}}}})");
+        R"({"version": 1, "phases": {"a": null}, "tree": {"set": {"phase": "a", "of": {"sphere": {"radius": 1}}}}})");
     const Outcome o = shell.run({"export", "tree.json", "-o", "page.html"});
     CHECK(o.err == "");
     CHECK(o.code == 0);
