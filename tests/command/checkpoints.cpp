@@ -1,4 +1,5 @@
 // A render that is killed, however and whenever, goes on from its checkpoint and ends with the same bytes.
+#include <optional>
 #include <thread>
 
 #include "cut_scene.hpp"
@@ -26,30 +27,35 @@ TEST_CASE("kill -9 at any time, again and again: nothing is lost, the bytes are 
     const std::string whole = bytes_of(shell.directory / "whole.exr");
     Uniform random(9);
     const int wanted = is_long() ? 200 : 8;
-    int kills = 0, renders = 0;
+    int kills = 0, renders = 0, with_more = 0;
     while (kills < wanted) {
         std::filesystem::remove(shell.directory / "a.part");
         std::filesystem::remove(shell.directory / "a.exr");
         for (Outcome o; o.code != 0;) {
-            // From before the scene is read to behind the last checkpoint; longer every time, so that it ends.
-            const auto after = std::chrono::milliseconds(below(random, 300));
-            const auto start = std::chrono::steady_clock::now();
+            // Some before or while the scene is read, most during the work.
+            const bool is_early = below(random, 5) == 0;
+            const auto after = std::chrono::milliseconds(below(random, is_early ? 250 : 600));
+            std::optional<std::chrono::steady_clock::time_point> start;
+            const auto kill = [&](pid_t child) {
+                const auto now = std::chrono::steady_clock::now();
+                if (!start && (is_early || is_ready(child))) start = now;
+                if (start && now - *start >= after && kills < wanted) ::kill(child, SIGKILL);
+            };
+            const std::string before = bytes_of(shell.directory / "a.part");
             const std::string threads = std::to_string(1 + below(random, 3));
-            o = shell.run(joined(joined(render, resumed),
-                                 {"--checkpoint-interval", "0.06", "-o", "a.exr", "--threads", threads}),
-                          "", [&](pid_t child) {
-                              if (std::chrono::steady_clock::now() - start >= after && kills < wanted)
-                                  ::kill(child, SIGKILL);
-                          });
+            const std::vector<std::string> more{"--checkpoint-interval", "0.06", "-o", "a.exr", "--threads", threads};
+            o = shell.run(joined(joined(render, resumed), more), "", kill);
             CAPTURE(o.err);
             REQUIRE((o.code == 0 || o.signal == SIGKILL));
             kills += o.signal == SIGKILL;
+            with_more += o.signal == SIGKILL && bytes_of(shell.directory / "a.part") != before;
         }
         ++renders;
         const bool same = bytes_of(shell.directory / "a.exr") == whole;
         CHECK(same);
     }
-    MESSAGE(kills, " kills in ", renders, " renders");
+    MESSAGE(kills, " kills in ", renders, " renders, ", with_more, " of them after a checkpoint");
+    CHECK(with_more > 0);
     // The scene, the whole, the checkpoint and the image.
     CHECK(shell.directory.size() == 4);
 }

@@ -448,8 +448,10 @@ TEST_CASE("wrong arguments: one error, exit code 2, nothing left behind") {
     }
     CHECK(shell.run({"rendre", "scene.json"}).err ==
           "phasetree: unknown subcommand \"rendre\"; did you mean \"render\"?\n");
-    CHECK(shell.run({"nothing"}).err ==
-          "phasetree: unknown subcommand \"nothing\"; the subcommands are render, check, info, eval, trace, nodes\n");
+    CHECK(
+        shell.run({"nothing"}).err ==
+        "phasetree: unknown subcommand \"nothing\"; the subcommands are render, view, merge, farm, check, info, eval, "
+        "trace, nodes\n");
     CHECK(shell.run({"--help"}).code == 0);
     CHECK(shell.run({"render", "--help"}).code == 0);
     CHECK(shell.run({"--version"}).out.find("phasetree") == 0);

@@ -20,6 +20,7 @@ inline constexpr int only_a_tree = 3;
 inline constexpr int resume_me = 75, interrupted_by_person = 130;
 
 void add_render(CLI::App& app, Run& run);
+void add_view(CLI::App& app, Run& run);
 void add_merge(CLI::App& app, Run& run);
 void add_farm(CLI::App& app, Run& run);
 void add_check(CLI::App& app, Run& run);

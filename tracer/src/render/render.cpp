@@ -73,6 +73,7 @@ class Renderer {
             }
             run(next);
             if (!stopped_ || done == 0) done = next;
+            if (!stopped_) job_.passed(film_, done);
         }
         return done;
     }

@@ -19,6 +19,8 @@ struct RenderJob {
     /// Called with the samples done since the last call, from any thread.
     std::function<void(std::uint64_t)> advance = [](std::uint64_t) {};
     std::function<bool()> cancelled = [] { return false; };
+    /// Called after each whole pass with how many samples each pixel has by then; nothing is added meanwhile.
+    std::function<void(const Film&, int)> passed = [](const Film&, int) {};
 };
 
 struct Rendering {

@@ -1,0 +1,173 @@
+"""The live view's page in Chromium: turned, clicked, hidden from, edited, by mouse, touch and keyboard.
+
+PHASETREE_SCREENSHOTS names a folder for pictures of it."""
+
+import json
+import os
+import pathlib
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+
+import browser  # noqa: E402
+from support import SCENE, View, skip  # noqa: E402
+
+LARGER = SCENE.replace('"width": 96, "height": 64', '"width": 240, "height": 160')
+READY = "document.getElementById('status')?.textContent.startsWith('Ready')"
+SEEN = "document.getElementById('picture').toDataURL()"
+CAMERA = "document.getElementById('camera').value"
+SHIFT = 8
+
+
+class Page(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        if not browser.program():
+            skip("Chromium is not installed (package chromium)")
+        cls.view = View(LARGER).__enter__()
+        cls.browser = browser.Browser().__enter__()
+
+    @classmethod
+    def tearDownClass(cls):
+        if hasattr(cls, "browser"):
+            cls.browser.__exit__()
+            cls.view.__exit__()
+
+    def setUp(self):
+        self.view.file.write_text(LARGER, encoding="utf-8")
+        self.view.post("change", {"camera": None, "hidden": [], "exposure": 0})
+        self.browser.events.clear()
+        self.browser.open(self.view.url)
+        self.browser.wait_for(READY)
+        self.before = self.browser.run(SEEN)
+        box = self.browser.run("JSON.stringify(document.getElementById('picture').getBoundingClientRect())")
+        self.box = json.loads(box)
+
+    def tearDown(self):
+        self.assertEqual(self.browser.complaints(), [])
+
+    def at(self, x, y):
+        """Where a place of the picture, by shares of its sides, is in the window."""
+        return self.box["x"] + x * self.box["width"], self.box["y"] + y * self.box["height"]
+
+    def text(self, name):
+        return self.browser.run(f"document.getElementById('{name}').textContent")
+
+    def shoot(self, name):
+        if folder := os.environ.get("PHASETREE_SCREENSHOTS"):
+            self.browser.screenshot(pathlib.Path(folder) / f"{name}.png")
+
+    def wait_for_another(self, than, where=SEEN):
+        self.browser.wait_for(f"{READY} && {where} !== {json.dumps(than)}")
+        return self.browser.run(where)
+
+    def test_it_shows_the_scene_and_loads_nothing_from_elsewhere(self):
+        self.assertIn("scene.json", self.text("scene"))
+        self.assertEqual(self.browser.run("document.getElementById('picture').width"), 240)
+        self.assertGreater(len(self.browser.addresses()), 5)
+        for address in self.browser.addresses():
+            self.assertTrue(address.startswith((self.view.url, "data:")), address)
+        self.shoot("light")
+        self.browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark"}])
+        self.assertEqual(self.browser.run("getComputedStyle(document.body).backgroundColor"), "rgb(27, 28, 30)")
+        self.shoot("dark")
+        self.browser.call("Emulation.setEmulatedMedia", features=[])
+
+    def test_dragging_turns_moves_and_the_wheel_zooms(self):
+        camera = json.loads("{" + self.browser.run(CAMERA) + "}")["camera"]
+        self.browser.drag(self.at(0.5, 0.5), self.at(0.7, 0.4))
+        self.wait_for_another(self.before)
+        turned = json.loads("{" + self.browser.run(CAMERA) + "}")["camera"]
+        # Around the object's centre: as far away as before.
+        self.assertNotEqual(turned["position"], camera["position"])
+        self.assertAlmostEqual(sum(x * x for x in turned["position"]), 25, places=2)
+        self.browser.drag(self.at(0.5, 0.5), self.at(0.6, 0.5), SHIFT)
+        moved = json.loads("{" + self.wait_for_another('"camera": ' + json.dumps(turned), CAMERA) + "}")["camera"]
+        self.assertNotEqual(moved["look_at"], turned["look_at"])
+        self.browser.mouse("mouseWheel", *self.at(0.5, 0.5), deltaX=0, deltaY=-200)
+        text = self.browser.wait_for(f"{CAMERA} !== {json.dumps('x')} && {READY} && {CAMERA}")
+        self.browser.run("document.getElementById('reset').click()")
+        self.browser.wait_for(f"{READY} && {SEEN} === {json.dumps(self.before)}")
+        self.assertIn("position", text)
+
+    def test_what_is_under_the_pointer_stays_there_when_the_picture_is_moved(self):
+        # The ball of wood is 0.6 to the right; the picture is 2.68 high and 4.02 wide where the balls are.
+        self.browser.drag(self.at(0.65, 0.5), self.at(0.5, 0.5), SHIFT)
+        self.wait_for_another(self.before)
+        self.browser.click(*self.at(0.5, 0.5))
+        self.browser.wait_for("document.getElementById('point').textContent.includes('wood at')")
+
+    def test_two_fingers_zoom(self):
+        x, y = self.at(0.5, 0.5)
+        def touch(kind, spread):
+            points = [{"x": x - spread, "y": y, "id": 1}, {"x": x + spread, "y": y, "id": 2}] if spread else []
+            self.browser.call("Input.dispatchTouchEvent", type=kind, touchPoints=points)
+        self.browser.call("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=2)
+        touch("touchStart", 20)
+        for spread in (30, 40):
+            touch("touchMove", spread)
+        touch("touchEnd", 0)
+        self.wait_for_another(self.before)
+        position = json.loads("{" + self.browser.run(CAMERA) + "}")["camera"]["position"]
+        self.assertLess(abs(position[1]), 4.5)
+        self.browser.call("Emulation.setTouchEmulationEnabled", enabled=False)
+
+    def test_a_click_tells_what_is_there(self):
+        self.browser.click(*self.at(0.65, 0.5))
+        self.browser.wait_for("document.getElementById('point').textContent.includes('wood at')")
+        rows = self.browser.run("[...document.querySelectorAll('#point table:last-child tbody tr')].map((r) => r.innerText)")
+        self.assertEqual([row.split("\t")[1:] for row in rows], [["vacuum", "wood"], ["wood", "vacuum"]])
+        self.shoot("point")
+        self.browser.click(*self.at(0.02, 0.02))
+        self.browser.wait_for("document.getElementById('point').textContent.includes('Nothing is met')")
+
+    def test_the_keyboard_does_it_all(self):
+        self.browser.run("document.getElementById('picture').focus()")
+        self.browser.press("ArrowRight")
+        turned = self.wait_for_another(self.before)
+        self.browser.press("+", "Equal", "+")
+        self.wait_for_another(turned)
+        self.browser.press("0", "Digit0", "0")
+        self.browser.wait_for(f"{READY} && {SEEN} === {json.dumps(self.before)}")
+        self.browser.press("Enter")
+        self.browser.wait_for("document.getElementById('point').textContent.includes('Nothing is met')")
+        # From the picture the next stop is the first phase; a blank ticks it.
+        self.browser.press("Tab")
+        self.assertEqual(self.browser.run("document.activeElement.value"), "glass")
+        self.browser.press(" ", "Space", " ")
+        hidden = self.wait_for_another(self.before)
+        self.assertEqual(self.browser.run("document.activeElement.value"), "glass")
+        self.assertFalse(self.browser.run("document.activeElement.checked"))
+        self.shoot("hidden")
+        self.browser.press(" ", "Space", " ")
+        self.wait_for_another(hidden)
+
+    def test_a_screen_reader_is_told_names(self):
+        nodes = self.browser.call("Accessibility.getFullAXTree")["nodes"]
+        told = {(n["role"]["value"], n["name"]["value"]) for n in nodes if n.get("name", {}).get("value")}
+        for role, name in (("checkbox", "glass"), ("checkbox", "wood"), ("group", "Phases"), ("button", "Turn left"),
+                           ("application", "Picture of the scene"), ("link", "Save the picture"),
+                           ("textbox", "Text of the camera")):
+            self.assertIn((role, name), told)
+        self.assertTrue(any(role == "slider" and name.startswith("Exposure") for role, name in told))
+
+    def test_the_file_is_followed_and_its_errors_are_shown(self):
+        self.view.file.write_text(LARGER.replace('"radius": 0.5', '"raduis": 0.5'), encoding="utf-8")
+        self.browser.wait_for("!document.getElementById('error').hidden")
+        error = self.text("error")
+        self.assertIn("scene.json:3:", error)
+        self.assertIn('did you mean "radius"?', error)
+        self.assertEqual(self.browser.run(SEEN), self.before)
+        self.shoot("error")
+        self.view.file.write_text(LARGER.replace('"radius": 0.5', '"radius": 0.4'), encoding="utf-8")
+        self.browser.wait_for("document.getElementById('error').hidden")
+        self.wait_for_another(self.before)
+
+    def test_the_exposure_brightens(self):
+        self.browser.run("(() => { const e = document.getElementById('exposure'); e.value = 2; e.dispatchEvent(new Event('input')); })()")
+        self.wait_for_another(self.before)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,339 @@
+"""The live view's server: what it shows, whom it refuses, and that it outlives what it is sent."""
+
+import json
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+
+from support import COMMAND, SCENE, View, is_ready  # noqa: E402
+
+
+def changed(text, old, new):
+    assert old in text
+    return text.replace(old, new)
+
+
+# A ball of grains with noise as fine as dust: more than a million cells, and minutes until they are built.
+ENDLESS = changed(SCENE, '"ball": {"sphere": {"radius": 0.5}}', """"ball": {"displace": {"amplitude": 0.002,
+    "scale": 0.01, "octaves": 6, "of": {"fibonacci_sphere": {"count": 20000, "radius": 1,
+        "of": {"smooth_union": {"radius": 0.01, "of": [{"sphere": {"radius": 0.01}}, {"box": {"size": [0.01, 0.01, 0.03]}}]}}}}}}""")
+
+
+class Pictures(unittest.TestCase):
+    def test_the_finished_picture_is_that_of_render(self):
+        with View() as view, tempfile.TemporaryDirectory() as folder:
+            view.ready()
+            picture = view.get("picture.png")
+            self.assertEqual(picture.headers["Content-Type"], "image/png")
+            out = pathlib.Path(folder) / "scene.png"
+            subprocess.run([COMMAND, "render", str(view.file), "-o", str(out), "--quiet"], check=True)
+            self.assertEqual(picture.body, out.read_bytes())
+
+    def test_a_coarse_picture_comes_first(self):
+        with View(SCENE.replace('"width": 96, "height": 64', '"width": 1200, "height": 800')) as view:
+            first = view.wait_for(lambda s: "picture" in s)
+            self.assertGreaterEqual(first.state["picture"]["scale"], 2)
+            size = first.state["picture"]
+            self.assertEqual(len(first.pixels), 3 * size["width"] * size["height"])
+
+    def test_the_camera_turns_and_goes_back(self):
+        with View() as view:
+            before = view.ready()
+            version = json.loads(view.post("change", {"camera": {"position": [5, 0, 0], "look_at": [0, 0, 0]}}).body)
+            after = view.wait_for(lambda s: is_ready(s) and s["version"] > version["version"])
+            self.assertNotEqual(before.pixels, after.pixels)
+            self.assertEqual(json.loads(after.state["camera"]), {"position": [5, 0, 0], "look_at": [0, 0, 0]})
+            view.post("change", {"camera": None})
+            back = view.wait_for(lambda s: is_ready(s) and s["camera"] == before.state["camera"])
+            self.assertEqual(back.pixels, before.pixels)
+
+    def test_the_camera_is_said_as_the_file_says_it(self):
+        cameras = ['{"position": [0, -5, 0.25], "look_at": [0, 0, 0], "up": [1, 0, 1], "fov": 31.5, "lens_radius": 0.1, '
+                   '"focus_distance": 4.5, "filter": "box"}',
+                   '{"orthographic": {"position": [0, -5, 0], "look_at": [0, 0, 0], "height": 3}}']
+        for camera in cameras:
+            text = changed(SCENE, '{"position": [0, -5, 0], "look_at": [0, 0, 0], "fov": 30}', camera)
+            with View(text) as view:
+                self.assertEqual(json.loads(view.ready().state["camera"]), json.loads(camera))
+
+    def test_phases_are_hidden(self):
+        with View() as view:
+            before = view.ready()
+            self.assertEqual([p["name"] for p in before.state["phases"]], ["glass", "wood"])
+            # The wood is on the right.
+            self.assertEqual(json.loads(view.post("ask", {"x": 64, "y": 32}).body)["met"], "wood")
+            view.post("change", {"hidden": ["wood"]})
+            after = view.wait_for(lambda s: is_ready(s) and s["phases"][1]["hidden"])
+            self.assertNotEqual(before.pixels, after.pixels)
+            self.assertEqual(json.loads(view.post("ask", {"x": 64, "y": 32}).body)["met"], "")
+            view.post("change", {"hidden": ["wood", "glass"]})
+            view.wait_for(lambda s: s["phases"][0]["hidden"])
+            view.post("change", {"hidden": []})
+            back = view.wait_for(lambda s: is_ready(s) and not any(p["hidden"] for p in s["phases"]))
+            self.assertEqual(back.pixels, before.pixels)
+
+    def test_a_point_tells_what_trace_and_eval_tell(self):
+        with View() as view:
+            view.ready()
+            told = json.loads(view.post("ask", {"x": 34, "y": 32}).body)
+            self.assertEqual(told["met"], "glass")
+            ray = " ".join(map(str, told["origin"] + told["direction"]))
+            traced = subprocess.run([COMMAND, "trace", str(view.file)], input=ray, capture_output=True, text=True, check=True, timeout=60)
+            lines = [line.split(",") for line in traced.stdout.splitlines()[2:]]
+            self.assertEqual([(c["from"], c["to"]) for c in told["crossings"]], [(n[2], n[3]) for n in lines])
+            for crossing, line in zip(told["crossings"], lines):
+                self.assertAlmostEqual(crossing["distance"], float(line[1]), delta=1e-4)
+            self.assertEqual([d["phase"] for d in told["distances"]], ["vacuum", "glass", "wood"])
+            # It is told of the bracket's near end, which is in the vacuum still.
+            self.assertLess(told["distances"][0]["phi"], 0)
+            self.assertAlmostEqual(told["distances"][1]["phi"], 0, delta=1e-4)
+
+    def test_the_exposure_changes_the_picture_that_is_there(self):
+        with View() as view:
+            before = view.ready()
+            view.post("change", {"exposure": 2})
+            after = view.wait_for(lambda s: s["exposure"] == 2)
+            self.assertEqual(after.state["picture"]["samples"], 4)
+            self.assertGreater(sum(after.pixels), sum(before.pixels))
+
+
+class Files(unittest.TestCase):
+    def test_a_saved_file_is_read_again_and_an_error_is_shown_over_the_last_picture(self):
+        with View() as view:
+            before = view.ready()
+            view.file.write_text(changed(SCENE, '"radius": 0.5', '"raduis": 0.5'), encoding="utf-8")
+            wrong = view.wait_for(lambda s: s["error"])
+            self.assertEqual(wrong.pixels, before.pixels)
+            checked = subprocess.run([COMMAND, "check", str(view.file)], capture_output=True, text=True, check=False, timeout=60)
+            self.assertEqual(checked.returncode, 2)
+            self.assertEqual(wrong.state["error"] + "\n", checked.stderr)
+            self.assertIn("scene.json:3:", wrong.state["error"])
+            self.assertIn(wrong.state["error"], view.said())
+            # The picture that there is can be turned all the same.
+            view.post("change", {"camera": {"position": [5, 0, 0], "look_at": [0, 0, 0]}})
+            turned = view.wait_for(lambda s: is_ready(s) and "[5, 0, 0]" in s["camera"])
+            self.assertNotEqual(turned.pixels, before.pixels)
+            self.assertEqual(turned.state["error"], wrong.state["error"])
+            view.post("change", {"camera": None})
+            view.file.write_text(changed(SCENE, '"radius": 0.5', '"radius": 0.4'), encoding="utf-8")
+            right = view.wait_for(lambda s: is_ready(s) and not s["error"] and "fov" in s["camera"])
+            self.assertNotEqual(right.pixels, before.pixels)
+
+    def test_a_file_that_the_scene_names_is_watched_even_before_it_is_there(self):
+        text = changed(SCENE, '"lights"', '"meshes": [{"obj": {"file": "leaf.obj", "material": {"diffuse": {"color": [0.2, 0.6, 0.2]}}}}], "lights"')
+        leaf = "v -1 1 -1\nv 1 1 -1\nv 0 1 1\nf 1 2 3\n"
+        with View() as view:
+            before = view.ready()
+            view.file.write_text(text, encoding="utf-8")
+            self.assertIn("leaf.obj", view.wait_for(lambda s: s["error"]).state["error"])
+            (view.file.parent / "leaf.obj").write_text(leaf, encoding="utf-8")
+            there = view.wait_for(lambda s: is_ready(s) and not s["error"])
+            self.assertNotEqual(there.pixels, before.pixels)
+            (view.file.parent / "leaf.obj").write_text(leaf.replace("1 1 -1", "3 1 -1"), encoding="utf-8")
+            view.wait_for(lambda s: is_ready(s) and s["version"] > there.state["version"] + 2)
+
+    def test_the_camera_is_written_into_the_file_and_nothing_else_changes(self):
+        old = '{"position": [0, -5, 0], "look_at": [0, 0, 0], "fov": 30}'
+        commented = '{"position": [0, -5, 0], // not "here}"\n "look_at": /* {{ */ [0, 0, 0], "fov": 30}'
+        text = "// Two balls { in one file }.\n" + changed(SCENE, old, commented)
+        with View(text) as view:
+            view.file.chmod(0o640)
+            view.ready()
+            view.post("change", {"camera": {"position": [5, 0, 0], "look_at": [0, 0, 0]}})
+            turned = view.wait_for(lambda s: is_ready(s) and "[5, 0, 0]" in s["camera"])
+            self.assertEqual(view.post("write", {}).status, 200)
+            new = '{"position": [5, 0, 0], "look_at": [0, 0, 0]}'
+            self.assertEqual(view.file.read_text(encoding="utf-8"), changed(text, commented, new))
+            self.assertEqual(view.file.stat().st_mode & 0o777, 0o640)
+            again = view.wait_for(lambda s: is_ready(s) and s["version"] > turned.state["version"])
+            self.assertEqual(again.pixels, turned.pixels)
+            # A file that is wrong by now is left as it is.
+            view.file.write_text("{", encoding="utf-8")
+            self.assertEqual(view.post("write", {}).status, 400)
+            self.assertEqual(view.file.read_text(encoding="utf-8"), "{")
+
+    def test_a_scene_that_takes_for_ever_is_left_by_the_next_change(self):
+        with View() as view:
+            before = view.ready()
+            view.file.write_text(ENDLESS, encoding="utf-8")
+            view.wait_for(lambda s: s["doing"] == "Building cells")
+            time.sleep(0.5)
+            self.assertEqual(view.get("picture").state["doing"], "Building cells")
+            view.file.write_text(SCENE + "\n", encoding="utf-8")
+            self.assertEqual(view.ready().pixels, before.pixels)
+
+    def test_control_c_leaves_it_too(self):
+        with View(ENDLESS) as view:
+            view.wait_for(lambda s: s["doing"] == "Building cells")
+            self.assertEqual(view.end(signal.SIGINT), 0)
+
+
+class Refusals(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.view = View().__enter__()
+        cls.view.ready()
+
+    @classmethod
+    def tearDownClass(cls):
+        code = cls.view.end(signal.SIGTERM)
+        cls.view.__exit__()
+        assert code == 0, code
+
+    def tearDown(self):
+        # Whatever it was sent, it lives and answers.
+        self.assertEqual(self.view.get("").status, 200)
+        self.assertEqual(self.view.get("picture").status, 200)
+
+    def test_only_the_token_opens(self):
+        view = self.view
+        for path in ("/", "/picture", f"/{'0' * 32}/", f"/{view.token[:-1]}/", f"/{view.token}", f"//{view.token}/",
+                     f"/{view.token}0/picture", "/../../etc/passwd"):
+            self.assertEqual(view.request("GET", path).status, 403, path)
+        self.assertEqual(view.request("POST", "/change", "{}", {"Content-Type": "application/json"}).status, 403)
+        self.assertEqual(view.get("../../etc/passwd").status, 404)
+        self.assertEqual(view.request("PUT", f"/{view.token}/change", "{}").status, 405)
+
+    def test_only_its_own_host_and_origin(self):
+        view = self.view
+        own = f"127.0.0.1:{view.port}"
+        for host in ("evil.example", f"evil.example:{view.port}", "127.0.0.1", f"127.0.0.1:{view.port}.evil.example", ""):
+            self.assertEqual(view.get("", headers={"Host": host}).status, 403, host)
+        for origin in ("http://evil.example", "null", f"https://{own}", f"http://{own}.evil.example"):
+            for method in ("GET", "POST"):
+                answer = view.request(method, f"/{view.token}/change", "{}", {"Host": own, "Origin": origin})
+                self.assertEqual(answer.status, 403, origin)
+        self.assertEqual(view.get("", headers={"Host": own, "Origin": f"http://{own}"}).status, 200)
+        self.assertEqual(view.get("", headers={"Host": f"localhost:{view.port}"}).status, 200)
+
+    def test_nobody_may_frame_it_or_learn_its_address(self):
+        headers = self.view.get("").headers
+        self.assertIn("default-src 'none'", headers["Content-Security-Policy"])
+        self.assertIn("frame-ancestors 'none'", headers["Content-Security-Policy"])
+        self.assertEqual(headers["Referrer-Policy"], "no-referrer")
+
+    def test_it_listens_on_the_loopback_address_alone(self):
+        listening = []
+        for table in ("/proc/net/tcp", "/proc/net/tcp6"):
+            for line in pathlib.Path(table).read_text(encoding="ascii").splitlines()[1:]:
+                address, port = line.split()[1].split(":")
+                if line.split()[3] == "0A" and int(port, 16) == self.view.port:
+                    listening.append(address)
+        self.assertEqual(listening, ["0100007F"])
+
+    def test_wrong_changes_are_refused_and_told(self):
+        view = self.view
+        before = view.get("picture").state["version"]
+        for wish in ("", "{", "[]", "{}x", "1e999", '{"camera": 5}', '{"camera": {"position": [0, 0, 0]}}', '{"exposure": 99}',
+                     '{"camera": {"position": [0, 0, 0], "look_at": [0, 0, 0]}}', '{"hidden": "glass"}', '{"hiden": []}',
+                     "[" * 60000, b'{"hidden": ["\xff"]}'):
+            answer = view.post("change", wish)
+            self.assertEqual(answer.status, 400, wish[:60])
+        self.assertIn(b'did you mean "hidden"', view.post("change", '{"hiden": []}').body)
+        for place in ("{}", '{"x": -1, "y": 0}', '{"x": 1e9, "y": 0}', '{"x": 1, "y": 1, "z": 1}'):
+            self.assertEqual(view.post("ask", place).status, 400, place)
+        self.assertEqual(view.get("picture").state["version"], before)
+
+    def test_large_and_strange_bodies_are_refused(self):
+        view = self.view
+        path = f"/{view.token}/change"
+        kind = {"Content-Type": "application/json"}
+        self.assertEqual(view.post("change", " " * 65537).status, 413)
+        self.assertEqual(view.request("POST", path, "{}", {"Content-Type": "text/plain"}).status, 415)
+        self.assertEqual(view.request("POST", path, "{}", {**kind, "Content-Encoding": "gzip"}).status, 411)
+        self.assertEqual(view.request("POST", path, iter([b"{}"]), {**kind, "Transfer-Encoding": "chunked"}).status, 411)
+
+    def answer_to(self, *parts, pause=0.0):
+        with self.view.connect() as connection:
+            try:
+                for part in parts:
+                    connection.sendall(part)
+                    time.sleep(pause)
+                return connection.recv(100)
+            except (BrokenPipeError, ConnectionResetError):
+                return b""
+
+    def test_heads_are_limited(self):
+        head = f"GET /{self.view.token}/ HTTP/1.1\r\nHost: 127.0.0.1:{self.view.port}\r\n".encode()
+        for line in (b"X: " + b"x" * 20000 + b"\r\n\r\n", b"X: y\r\n" * 5000 + b"\r\n", b"\0" * 20000):
+            self.assertNotIn(b"200 OK", self.answer_to(head + line))
+        self.assertNotIn(b"200 OK", self.answer_to(b"GET /" + b"a" * 15000 + b" HTTP/1.1\r\n\r\n"))
+        # A thousand times the picture, or a pattern that is matched by recursion.
+        ranges = b"Range: bytes=" + b",".join([b"0-"] * 2000) + b"\r\n\r\n"
+        self.assertIn(b"200 OK", self.answer_to(head + ranges))
+
+    def test_half_requests_run_out_of_time(self):
+        begun = f"POST /{self.view.token}/change HTTP/1.1\r\nHost: 127.0.0.1:{self.view.port}\r\n".encode()
+        body = begun + b"Content-Type: application/json\r\nContent-Length: 100\r\n\r\n{"
+        for half in (b"", b"GET", begun, body):
+            with self.view.connect() as connection:
+                connection.sendall(half)
+                start = time.monotonic()
+                while connection.recv(100):
+                    pass
+                self.assertLess(time.monotonic() - start, 15)
+
+    def test_a_request_that_drips_runs_out_of_time(self):
+        start = time.monotonic()
+        with self.view.connect() as connection:
+            try:
+                while time.monotonic() - start < 20:
+                    connection.sendall(b"X")
+                    time.sleep(0.05)
+            except (BrokenPipeError, ConnectionResetError):
+                pass
+        self.assertLess(time.monotonic() - start, 15)
+
+    def test_floods_are_refused(self):
+        threads = pathlib.Path(f"/proc/{self.view.process.pid}/task")
+        before = len(list(threads.iterdir()))
+        flood = [self.view.connect() for _ in range(300)]
+        try:
+            time.sleep(0.5)
+            self.assertLessEqual(len(list(threads.iterdir())), before + 2)
+        finally:
+            for connection in flood:
+                connection.close()
+
+
+class Ends(unittest.TestCase):
+    def test_it_ends_while_requests_are_open(self):
+        with View() as view:
+            state = view.ready().state
+            waiting = view.connect()
+            waiting.sendall(f"GET /{view.token}/picture?after={state['version']} HTTP/1.1\r\n"
+                            f"Host: 127.0.0.1:{view.port}\r\n\r\n".encode())
+            half = view.connect()
+            half.sendall(b"GET /")
+            start = time.monotonic()
+            self.assertEqual(view.end(signal.SIGTERM), 0)
+            self.assertLess(time.monotonic() - start, 10)
+            waiting.close()
+            half.close()
+
+    def test_a_scene_that_is_wrong_from_the_start_is_said(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "wrong.json"
+            file.write_text(SCENE.replace("wood", "wod", 1), encoding="utf-8")
+            run = subprocess.run([COMMAND, "view", str(file)], capture_output=True, text=True, check=False, timeout=60)
+            self.assertEqual((run.returncode, run.stdout), (2, ""))
+            self.assertIn("wrong.json:4:", run.stderr)
+            run = subprocess.run([COMMAND, "view", "-"], input=SCENE, capture_output=True, text=True, check=False, timeout=60)
+            self.assertEqual((run.returncode, run.stdout), (2, ""))
+
+    def test_a_port_that_is_taken(self):
+        with View() as view:
+            run = subprocess.run([COMMAND, "view", str(view.file), "--port", str(view.port)], capture_output=True, text=True,
+                                 check=False, timeout=60)
+            self.assertEqual((run.returncode, run.stdout), (1, ""))
+            self.assertIn(str(view.port), run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

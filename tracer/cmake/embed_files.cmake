@@ -1,0 +1,11 @@
+# Writes a C++ file with the texts of files: cmake -DOUT=… -DFOLDER=… -DNAMES=a,b -P embed_files.cmake
+string(REPLACE "," ";" names "${NAMES}")
+set(text "// Made of the files in view/page by tracer/cmake/embed_files.cmake.\n#include \"view/page_files.hpp\"\n\n")
+string(APPEND text "namespace phasetree::tracer::view {\n\nnamespace {\n\nconstexpr PageFile files[] = {\n")
+foreach(name ${names})
+    file(READ "${FOLDER}/${name}" content)
+    string(APPEND text "    {\"${name}\", R\"page_file(${content})page_file\"},\n")
+endforeach()
+string(APPEND text "};\n\n}  // namespace\n\nstd::span<const PageFile> page_files() {\n    return files;\n}\n\n")
+string(APPEND text "}  // namespace phasetree::tracer::view\n")
+file(WRITE "${OUT}" "${text}")

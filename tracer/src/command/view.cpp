@@ -1,0 +1,142 @@
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <filesystem>
+
+#include "command/commands.hpp"
+#include "command/load.hpp"
+#include "command/max_memory.hpp"
+#include "command/streams.hpp"
+#include "output/error.hpp"
+#include "output/file.hpp"
+#include "output/interrupt.hpp"
+#include "render/threads.hpp"
+#include "scene/camera_text.hpp"
+#include "view/server.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+struct Options {
+    std::shared_ptr<SceneFile> scene;
+    std::optional<int> samples, width;
+    std::optional<std::string> display, view;
+    int threads = 0, port = 0;
+    std::size_t most_bytes = 0;
+    bool opens = false;
+};
+
+// Files that the scene names. Which strings are names of files the readers know; every string with a dot in it that may
+// be read as one is watched, which costs a look now and then.
+void add_named_files(const Document& document, Value value, view::WatchedFiles& files) {
+    if (value.is_string() && value.string().find('.') != std::string_view::npos && value.string().size() < 1024) {
+        try {
+            files.add(document.file(value));
+        } catch (const SceneError&) {
+            // It leaves the folder that files must lie in, which the reader says if it is a file.
+        }
+    }
+    for (const Value child : value) add_named_files(document, child, files);
+}
+
+view::ViewedScene read_viewed(const Options& options, view::WatchedFiles& files) {
+    files.add(options.scene->name);
+    const Document document = read_document(*options.scene);
+    add_named_files(document, document.root(), files);
+    Scene scene = load_scene(document);
+    // A name that is wrong is said now.
+    (void)display_of(document, scene.settings, options.display, options.view, {});
+    const RenderSettings settings = scene.settings;
+    return {std::move(scene), [=, display = options.display, view = options.view](float exposure_ev) {
+                return display_of(document, settings, display, view, exposure_ev);
+            }};
+}
+
+// The file keeps who may read and write it.
+void write_camera(const Options& options, const std::string& camera) {
+    const Document document = read_document(*options.scene);
+    const std::filesystem::path file = options.scene->name;
+    const std::filesystem::perms permissions = std::filesystem::status(file).permissions();
+    write_file(with_camera(document, camera), file);
+    std::filesystem::permissions(file, permissions);
+}
+
+// The desktop's browser, which is left to itself. Where there is none, the address that was printed is enough.
+void open_browser(const std::string& url) {
+    std::string program = "xdg-open", address = url;
+    char* const arguments[] = {program.data(), address.data(), nullptr};
+    posix_spawn_file_actions_t quiet;
+    posix_spawn_file_actions_init(&quiet);
+    posix_spawn_file_actions_addopen(&quiet, 1, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addopen(&quiet, 2, "/dev/null", O_WRONLY, 0);
+    pid_t browser = 0;
+    if (::posix_spawnp(&browser, program.c_str(), &quiet, nullptr, arguments, environ) != 0)
+        say("phasetree: xdg-open cannot be started; open the address by hand\n");
+    posix_spawn_file_actions_destroy(&quiet);
+}
+
+int view_scene(const Options& options) {
+    if (!view::can_serve())
+        throw OutputError("view: this phasetree was built without cpp-httplib, which serves the page");
+    if (options.scene->is_standard_input())
+        throw OutputError("view: the scene must be a file, which is read again when it is saved");
+    const AvailableThreads threads(options.threads);
+    const view::SessionOptions session_options{
+        .name = options.scene->shown(),
+        .threads = threads.count(),
+        .most_bytes = options.most_bytes,
+        .samples = options.samples,
+        .width = options.width,
+        .write_camera = [&](const std::string& text) { write_camera(options, text); },
+        .tell = [](std::string_view text) { say(text); }};
+    // A scene that is wrong from the start is said as by every subcommand.
+    view::WatchedFiles first_files;
+    std::optional<view::ViewedScene> first = read_viewed(options, first_files);
+    const InterruptGuard guard;
+    const auto read = [&](view::WatchedFiles& files) {
+        if (!first) return read_viewed(options, files);
+        files = first_files;
+        return *std::exchange(first, std::nullopt);
+    };
+    view::Session session(read, session_options);
+    view::serve(session, {.port = options.port,
+                          .is_over = [] { return interrupted(); },
+                          .serving =
+                              [&](const std::string& url) {
+                                  put("{}\n", url);
+                                  finish_output();
+                                  say("phasetree: serving {} there until Ctrl-C\n", options.scene->shown());
+                                  if (options.opens) open_browser(url);
+                              }});
+    return 0;
+}
+
+}  // namespace
+
+void add_view(CLI::App& app, Run& run) {
+    CLI::App* command = app.add_subcommand("view", "Show a scene in the browser, to be turned and edited live");
+    command->footer(
+        "Prints the address of a page on this machine, and serves it until Ctrl-C. Whoever has the\n"
+        "address may look; it is another one each time. The picture is refined while one looks,\n"
+        "and the scene is read again when one of its files is saved.");
+    auto o = std::make_shared<Options>();
+    o->scene = add_scene_file(*command);
+    command->add_flag("--open", o->opens, "Open the page in the desktop's browser, by xdg-open");
+    command->add_option("--port", o->port, "Port of 127.0.0.1 (default: any that is free)")
+        ->check(CLI::Range(1, 65535));
+    command->add_option("--spp", o->samples, "Samples a pixel in the end")->check(CLI::Range(1, 1 << 24));
+    command->add_option("--width", o->width, "Pixels across; the height follows (default: the scene's)")
+        ->check(CLI::Range(1, 8192));
+    command->add_option("--threads", o->threads, "Threads that render (default: one a core)")
+        ->check(CLI::Range(1, 1024));
+    add_max_memory(*command, o->most_bytes);
+    command->add_option("--display", o->display, "OpenColorIO display");
+    command->add_option("--view", o->view, "OpenColorIO view");
+    command->callback([o, &run] { run = [o] { return view_scene(*o); }; });
+}
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,54 @@
+// A connection to a client that is not trusted: nothing is waited for longer than until a deadline, and nothing larger
+// is read than a limit. What it gives to cpp-httplib is a head that is complete.
+#pragma once
+
+#include <httplib.h>
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace phasetree::tracer::view {
+
+class Connection : public httplib::Stream {
+  public:
+    static constexpr std::size_t most_bytes_of_head = 16 * 1024;
+    static constexpr std::size_t most_bytes_of_body = 64 * 1024;
+    static constexpr std::chrono::milliseconds to_send_a_request{3000};
+    static constexpr std::chrono::milliseconds to_take_an_answer{10000};
+
+    /// Closes the socket in the end.
+    explicit Connection(int socket);
+    ~Connection() override;
+    Connection(const Connection&) = delete;
+    Connection& operator=(const Connection&) = delete;
+
+    /// Reads until the empty line that ends a request's head. Whether that came in time and is not too large.
+    bool read_head();
+    /// Answers without the library.
+    void refuse(std::string_view status);
+
+    bool is_readable() const override { return true; }
+    bool is_writable() const override { return true; }
+    ssize_t read(char* to, std::size_t size) override;
+    ssize_t write(const char* from, std::size_t size) override;
+    void get_remote_ip_and_port(std::string& ip, int& port) const override;
+    void get_local_ip_and_port(std::string& ip, int& port) const override;
+    socket_t socket() const override { return socket_; }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    bool wait(short events) const;
+    ssize_t receive(char* to, std::size_t size);
+
+    int socket_;
+    std::string head_;          ///< and what came with it
+    std::size_t given_ = 0;     ///< of that to the library
+    std::size_t received_ = 0;  ///< in all
+    Clock::time_point deadline_ = Clock::now() + to_send_a_request;
+    bool is_answering_ = false;
+};
+
+}  // namespace phasetree::tracer::view

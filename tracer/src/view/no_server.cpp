@@ -1,0 +1,16 @@
+// In place of server.cpp in a build without cpp-httplib.
+#include "view/server.hpp"
+
+#include <stdexcept>
+
+namespace phasetree::tracer::view {
+
+bool can_serve() {
+    return false;
+}
+
+void serve(Session&, const ServeOptions&) {
+    throw std::logic_error("this build cannot serve pages");
+}
+
+}  // namespace phasetree::tracer::view

@@ -1,0 +1,69 @@
+// Mouse, touch and keys on the picture. `act` has turn(right, up) in radians, move(right, up) in shares of the
+// picture's height, zoom(factor), ask(event), askMiddle() and reset().
+
+const radiansAcross = Math.PI; // for a drag over the picture's height
+const step = Math.PI / 24;     // for a key
+
+export function listen(canvas, act) {
+  const pointers = new Map();
+  let hasMoved = false, spread = 0;
+
+  const distance = () => {
+    const [a, b] = [...pointers.values()];
+    return Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY);
+  };
+  canvas.addEventListener("pointerdown", (event) => {
+    canvas.setPointerCapture(event.pointerId);
+    canvas.focus();
+    pointers.set(event.pointerId, event);
+    if (pointers.size === 1) hasMoved = false;
+    if (pointers.size === 2) spread = distance();
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    const last = pointers.get(event.pointerId);
+    if (!last) return;
+    const height = canvas.getBoundingClientRect().height;
+    const right = (event.clientX - last.clientX) / height, down = (event.clientY - last.clientY) / height;
+    // A hand that clicks trembles.
+    if (!hasMoved && Math.hypot(right, down) * height < 4) return;
+    hasMoved = true;
+    pointers.set(event.pointerId, event);
+    if (pointers.size === 2) {
+      const now = distance();
+      if (spread > 0 && now > 0) act.zoom(spread / now);
+      spread = now;
+      act.move(right / 2, -down / 2);
+    } else if (event.shiftKey || event.buttons & 2) {
+      act.move(right, -down);
+    } else {
+      act.turn(-right * radiansAcross, down * radiansAcross);
+    }
+  });
+  const release = (event) => {
+    const isClick = event.type === "pointerup" && pointers.size === 1 && !hasMoved && event.button === 0;
+    pointers.delete(event.pointerId);
+    if (isClick) act.ask(event);
+  };
+  canvas.addEventListener("pointerup", release);
+  canvas.addEventListener("pointercancel", release);
+  canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+  canvas.addEventListener("wheel", (event) => {
+    event.preventDefault();
+    act.zoom(Math.exp(Math.max(-1, Math.min(1, event.deltaY / 400))));
+  }, {passive: false});
+
+  const arrows = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
+  canvas.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.altKey || event.metaKey) return;
+    const arrow = arrows[event.key];
+    if (arrow && event.shiftKey) act.move(0.1 * arrow[0], 0.1 * arrow[1]);
+    else if (arrow) act.turn(step * arrow[0], step * arrow[1]);
+    else if (event.key === "+" || event.key === "=") act.zoom(0.9);
+    else if (event.key === "-") act.zoom(1 / 0.9);
+    else if (event.key === "0") act.reset();
+    else if (event.key === "Enter") act.askMiddle();
+    else return;
+    event.preventDefault();
+  });
+  return {step};
+}

@@ -1,0 +1,108 @@
+// The page: what the server shows goes to the elements, what is done with those goes to the server.
+import {moved, turned, zoomed} from "./camera.js";
+import {listen} from "./input.js";
+import {showPhases} from "./phases.js";
+import {draw, place} from "./picture.js";
+import {showPoint} from "./point.js";
+import {Changes, ask, follow, writeCamera} from "./server.js";
+
+const element = (id) => document.getElementById(id);
+const canvas = element("picture"), exposure = element("exposure");
+
+let state = null, camera = null;
+const changes = new Changes((error) => showText("error", error.message));
+
+function showText(id, text) {
+  const place = element(id);
+  if (place.textContent === text) return;
+  place.textContent = text;
+  place.hidden = text === "";
+}
+
+function statusOf(state) {
+  const seconds = state.seconds_to_picture > 0 ? `; first picture after ${state.seconds_to_picture.toFixed(2)} s` : "";
+  return `${state.doing}${seconds}`;
+}
+
+function showExposure(stops) {
+  exposure.value = stops;
+  element("exposure-value").value = `${Number(stops).toFixed(1)} stops`;
+}
+
+function told(next, pixels) {
+  state = next;
+  element("scene").textContent = state.scene || "phasetree view";
+  element("status").textContent = statusOf(state);
+  showText("error", state.error);
+  showText("warning", state.warning);
+  if (pixels) draw(canvas, state, pixels);
+  // What was changed here a moment ago is newer than what the server knows.
+  if (changes.arePending || state.version < changes.version) return;
+  showPhases(element("phases"), state.phases, (hidden) => changes.make({hidden}));
+  if (document.activeElement !== exposure) showExposure(state.exposure);
+  if (state.camera) {
+    camera = JSON.parse(state.camera);
+    showCamera(state.camera);
+  }
+}
+
+function showCamera(text) {
+  const area = element("camera");
+  const said = `"camera": ${text}`;
+  if (area.value !== said) area.value = said;
+}
+
+function look(next) {
+  camera = next;
+  changes.make({camera});
+}
+
+async function askAt(x, y) {
+  try {
+    showPoint(element("point"), await ask(x, y));
+  } catch (error) {
+    showText("error", error.message);
+  }
+}
+
+const act = {
+  turn: (right, up) => camera && look(turned(camera, state.centre, right, up)),
+  move: (right, up) => camera && look(moved(camera, state.centre, right, up)),
+  zoom: (factor) => camera && look(zoomed(camera, state.centre, state.radius, factor)),
+  reset: () => changes.make({camera: null}),
+  ask: (event) => askAt(...place(canvas, event)),
+  askMiddle: () => askAt(canvas.width / 2, canvas.height / 2),
+};
+
+const {step} = listen(canvas, act);
+for (const button of document.querySelectorAll("[data-turn]"))
+  button.addEventListener("click", () => act.turn(...button.dataset.turn.split(" ").map((n) => step * Number(n))));
+for (const button of document.querySelectorAll("[data-zoom]"))
+  button.addEventListener("click", () => act.zoom(Number(button.dataset.zoom)));
+element("reset").addEventListener("click", act.reset);
+exposure.addEventListener("input", () => {
+  showExposure(exposure.value);
+  changes.make({exposure: Number(exposure.value)});
+});
+element("copy").addEventListener("click", async () => {
+  try {
+    await navigator.clipboard.writeText(element("camera").value);
+  } catch {
+    element("camera").select();
+    document.execCommand("copy");
+  }
+  element("copied").textContent = "Copied.";
+});
+element("write").addEventListener("click", async () => {
+  try {
+    await writeCamera();
+    element("copied").textContent = "Written.";
+  } catch (error) {
+    showText("error", error.message);
+  }
+});
+element("save").addEventListener("click", () => {
+  element("save").download = `${(state?.scene ?? "picture").replace(/^.*\//, "").replace(/\.[^.]*$/, "")}.png`;
+});
+
+follow(told, () => { element("status").textContent = "The server does not answer."; });

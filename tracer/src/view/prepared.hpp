@@ -1,0 +1,42 @@
+// A scene that is ready for rays, some of whose phases may be hidden.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "phasetree/trace/tracer.hpp"
+#include "scene/scene.hpp"
+#include "world/world.hpp"
+
+namespace phasetree::tracer::view {
+
+/// The scene without these phases: vacuum takes their place, as by the node `remove`. Names that it does not have count
+/// for nothing.
+Scene without_phases(const Scene& scene, const std::vector<std::string>& hidden);
+
+class Prepared {
+  public:
+    /// Shares the scene, whose camera, film and number of samples its owner may go on to change: nothing here reads
+    /// them. Throws as World does.
+    Prepared(std::shared_ptr<const Scene> scene, const WorldOptions& options);
+
+    const Scene& scene() const { return *scene_; }
+    const World& world() const { return world_; }
+    BuildQuality quality() const { return quality_; }
+    /// Traces through opaque phases, too. It is made when it is first asked for, which no picture does. Throws
+    /// ModelError.
+    const InterfaceTracer& tracer() const;
+
+  private:
+    std::shared_ptr<const Scene> scene_;
+    BuildQuality quality_;
+    World world_;
+    mutable std::once_flag once_;
+    mutable std::optional<InterfaceTracer> tracer_;
+};
+
+}  // namespace phasetree::tracer::view

@@ -1,0 +1,67 @@
+#include "view/probe.hpp"
+
+#include <limits>
+
+#include "phasetree/math/float_mode.hpp"
+
+namespace phasetree::tracer::view {
+
+namespace {
+
+// Fills in the ray's crossings of the object.
+void follow(const Prepared& prepared, Probed& result) {
+    const PhaseNames& names = prepared.scene().phases;
+    const InterfaceTracer& tracer = prepared.tracer();
+    Evaluator::Workspace& workspace = Evaluator::thread_workspace();
+    glm::vec3 from = result.origin;
+    Phase phase = tracer.label(from, workspace);
+    result.start = names[phase];
+    while (const auto crossing =
+               tracer.first_crossing(from, result.direction, 0, std::numeric_limits<float>::max(), phase, workspace)) {
+        if (result.crossings.size() == Probed::most) {
+            result.has_more = true;
+            return;
+        }
+        const float distance = glm::dot(crossing->p_in - result.origin, result.direction);
+        result.crossings.push_back({distance, names[crossing->from], names[crossing->to]});
+        from = crossing->p_out;
+        phase = crossing->to;
+    }
+}
+
+// Fills in what is met first: the object, or a mesh before it.
+void meet(const Prepared& prepared, Probed& result) {
+    const World& world = prepared.world();
+    PathCounters counters;
+    const Ray ray{result.origin, result.direction, world.geometry().label(result.origin), {}};
+    const Hit hit = world.geometry().intersect(ray, counters);
+    const auto* surface = std::get_if<Surface>(&hit);
+    if (!surface) return;
+    result.point = result.origin + surface->distance * result.direction;
+    if (surface->object == 0)
+        result.met = prepared.scene().phases[surface->entered.value()];
+    else
+        result.met = prepared.scene().meshes[surface->object - 1].name;
+    const Phases<float> phi = prepared.world().geometry().object().whole().distances(surface->near_side.origin,
+                                                                                     Evaluator::thread_workspace());
+    const std::vector<std::string>& names = prepared.scene().phases.names;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (phi.has(static_cast<int>(i))) result.distances.push_back({names[i], phi[static_cast<int>(i)]});
+}
+
+}  // namespace
+
+Probed probe(const Picture& picture, const glm::vec2& place) {
+    const FlushSubnormals flush;
+    const Camera camera(picture.camera, picture.viewed->scene.film.resolution());
+    // The middle of a lens is the middle of the unit square.
+    const CameraRay ray = camera.generate(place, glm::vec2(0.5f));
+    Probed result;
+    result.origin = ray.origin;
+    result.direction = ray.direction;
+    meet(*picture.prepared, result);
+    if (picture.prepared->world().geometry().object().size() > 0) follow(*picture.prepared, result);
+    return result;
+}
+
+}  // namespace phasetree::tracer::view

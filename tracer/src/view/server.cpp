@@ -1,0 +1,237 @@
+#include "view/server.hpp"
+
+#include <fmt/format.h>
+#include <httplib.h>
+#include <sys/socket.h>
+
+#include <atomic>
+#include <charconv>
+#include <set>
+#include <stdexcept>
+#include <thread>
+
+#include "output/encode.hpp"
+#include "output/error.hpp"
+#include "phasetree/io/error.hpp"
+#include "phasetree/model/handle.hpp"
+#include "view/access.hpp"
+#include "view/connection.hpp"
+#include "view/page_files.hpp"
+#include "view/requests.hpp"
+#include "view/workers.hpp"
+
+namespace phasetree::tracer::view {
+
+namespace {
+
+// How long a request for the next picture waits for it, and how many may wait: the others are told what there is.
+constexpr std::chrono::milliseconds longest_wait{5000};
+constexpr int most_waiting = 6;
+
+constexpr const char* plain = "text/plain; charset=utf-8";
+constexpr const char* json = "application/json";
+
+std::string type_of(std::string_view file) {
+    if (file.ends_with(".js")) return "text/javascript; charset=utf-8";
+    if (file.ends_with(".css")) return "text/css; charset=utf-8";
+    return "text/html; charset=utf-8";
+}
+
+std::uint64_t number(const httplib::Request& request, const char* name) {
+    const std::string text = request.get_param_value(name);
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size() ? value : 0;
+}
+
+// cpp-httplib with connections of our own in place of its.
+class Server : public httplib::Server {
+  public:
+    /// Ends all connections.
+    void end_connections() {
+        const std::lock_guard lock(mutex_);
+        is_over_ = true;
+        for (const int socket : open_) ::shutdown(socket, SHUT_RDWR);
+    }
+
+  private:
+    // A request a connection: what was left unread of one is never taken for another.
+    bool process_and_close_socket(socket_t socket) override {
+        Connection connection(socket);
+        if (Workers::is_refusing()) {
+            connection.refuse("503 Service Unavailable");
+            return false;
+        }
+        {
+            const std::lock_guard lock(mutex_);
+            if (is_over_) return false;
+            open_.insert(socket);
+        }
+        bool is_closed = false;
+        bool is_answered = false;
+        if (connection.read_head())
+            is_answered = process_request(connection, true, is_closed, {});
+        else
+            connection.refuse("408 Request Timeout");
+        const std::lock_guard lock(mutex_);
+        open_.erase(socket);
+        return is_answered;
+    }
+
+    std::mutex mutex_;
+    std::set<int> open_;
+    bool is_over_ = false;
+};
+
+class Answers {
+  public:
+    Answers(Session& session, Access access) : session_(session), access_(std::move(access)) {}
+
+    // Before the body is read. Whether it is answered already.
+    bool head(const httplib::Request& request, httplib::Response& response) const {
+        set_headers(response);
+        if (!access_.allows(request.get_header_value("Host"), request.get_header_value("Origin"), request.path))
+            return refuse(response, 403, "forbidden: the address is the one that phasetree view has printed");
+        const std::string_view name = access_.within(request.path);
+        if (request.method == "GET") {
+            if (!get(name, request, response)) return refuse(response, 404, "there is no such page");
+            return true;
+        }
+        if (request.method != "POST") return refuse(response, 405, "only GET and POST are understood");
+        if (name != "change" && name != "ask" && name != "write") return refuse(response, 404, "there is no such page");
+        if (request.has_header("Content-Encoding") || request.has_header("Transfer-Encoding") ||
+            !request.has_header("Content-Length"))
+            return refuse(response, 411, "a request must be plain and say its length");
+        if (request.get_header_value("Content-Type") != json)
+            return refuse(response, 415, "a request must be of the type application/json");
+        return false;
+    }
+    void post(const httplib::Request& request, httplib::Response& response) const {
+        const std::string_view name = access_.within(request.path);
+        try {
+            const std::shared_ptr<const Shown> shown = session_.shown();
+            if (name == "change") {
+                const std::uint64_t version = session_.change(read_change(request.body, *shown));
+                response.set_content(fmt::format("{{\"version\": {}}}", version), json);
+            } else if (name == "write") {
+                session_.write_camera();
+                response.set_content("{}", json);
+            } else if (shown->picture) {
+                const glm::vec2 place = read_place(request.body, *shown);
+                response.set_content(written(probe(*shown->picture, place)), json);
+            } else {
+                refuse(response, 409, "there is no picture yet");
+            }
+        } catch (const SceneError& e) {
+            refuse(response, 400, e.what());
+        } catch (const ModelError& e) {
+            refuse(response, 409, e.what());
+        } catch (const OutputError& e) {
+            refuse(response, 409, e.what());
+        }
+    }
+    static bool refuse(httplib::Response& response, int status, const std::string& reason) {
+        response.status = status;
+        response.set_content(reason + "\n", plain);
+        return true;
+    }
+
+  private:
+    // The page may load nothing from elsewhere and be shown in nobody's frame, and its address goes nowhere.
+    static void set_headers(httplib::Response& response) {
+        response.set_header("Content-Security-Policy",
+                            "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
+                            "connect-src 'self'; form-action 'none'; base-uri 'none'; frame-ancestors 'none'");
+        response.set_header("Referrer-Policy", "no-referrer");
+        response.set_header("X-Content-Type-Options", "nosniff");
+        response.set_header("Cross-Origin-Resource-Policy", "same-origin");
+        response.set_header("Cache-Control", "no-store");
+    }
+    bool get(std::string_view name, const httplib::Request& request, httplib::Response& response) const {
+        if (name == "picture") return picture(request, response);
+        if (name == "picture.png") return file(response);
+        for (const PageFile& f : page_files())
+            if (f.name == (name.empty() ? "index.html" : name)) {
+                response.set_content(std::string(f.text), type_of(f.name));
+                return true;
+            }
+        return false;
+    }
+    // What is shown after a version as a line of JSON, and behind it the picture's pixels, if the client has not got
+    // them yet.
+    bool picture(const httplib::Request& request, httplib::Response& response) const {
+        const bool may_wait = waiting_.fetch_add(1) < most_waiting;
+        const std::shared_ptr<const Shown> shown =
+            session_.shown_after(number(request, "after"), may_wait ? longest_wait : std::chrono::milliseconds(0));
+        --waiting_;
+        std::string body = written(*shown) + "\n";
+        if (shown->picture && shown->picture->number != number(request, "picture"))
+            body.append(reinterpret_cast<const char*>(shown->picture->pixels.data()), shown->picture->pixels.size());
+        response.set_content(std::move(body), "application/octet-stream");
+        return true;
+    }
+    bool file(httplib::Response& response) const {
+        const std::shared_ptr<const Shown> shown = session_.shown();
+        if (!shown->picture) return refuse(response, 409, "there is no picture yet");
+        const Picture& p = *shown->picture;
+        const Metadata metadata{shown->scene, p.samples, p.viewed->scene.settings.seed};
+        const std::vector<unsigned char> bytes =
+            encode(p.linear, Format::png, metadata, p.viewed->display(p.exposure_ev));
+        response.set_content(std::string(bytes.begin(), bytes.end()), "image/png");
+        return true;
+    }
+
+    Session& session_;
+    Access access_;
+    mutable std::atomic<int> waiting_{0};
+};
+
+}  // namespace
+
+bool can_serve() {
+    return true;
+}
+
+void serve(Session& session, const ServeOptions& options) {
+    Server server;
+    server.new_task_queue = [] { return new Workers; };
+    server.set_payload_max_length(Connection::most_bytes_of_body);
+    server.set_tcp_nodelay(true);
+    // In place of the library's SO_REUSEPORT, with which another program could take a share of the requests.
+    server.set_socket_options([](socket_t socket) {
+        const int yes = 1;
+        ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    });
+    int port = options.port;
+    if (port == 0)
+        port = server.bind_to_any_port("127.0.0.1");
+    else if (!server.bind_to_port("127.0.0.1", port))
+        port = -1;
+    if (port < 0) throw std::runtime_error(fmt::format("port {} of 127.0.0.1 cannot be had", options.port));
+
+    const Access access(port, random_token());
+    const Answers answers(session, access);
+    using Handled = httplib::Server::HandlerResponse;
+    server.set_pre_routing_handler([&](const httplib::Request& request, httplib::Response& response) {
+        return answers.head(request, response) ? Handled::Handled : Handled::Unhandled;
+    });
+    const auto post = [&](const httplib::Request& request, httplib::Response& response) {
+        answers.post(request, response);
+    };
+    for (const char* name : {"change", "ask", "write"}) server.Post(std::string(access.path()) + name, post);
+    server.set_exception_handler([](const httplib::Request&, httplib::Response& response, std::exception_ptr) {
+        Answers::refuse(response, 500, "this cannot be answered: memory may have run out");
+    });
+    std::thread listening([&] { server.listen_after_bind(); });
+    options.serving(access.url());
+    while (!options.is_over()) {
+        session.look_at_files();
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    session.stop();
+    server.stop();
+    server.end_connections();
+    listening.join();
+}
+
+}  // namespace phasetree::tracer::view

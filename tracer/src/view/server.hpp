@@ -1,0 +1,24 @@
+// Serves the page of a session on the loopback address.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "view/session.hpp"
+
+namespace phasetree::tracer::view {
+
+/// Whether this build can serve pages: it had the library for it.
+bool can_serve();
+
+struct ServeOptions {
+    int port = 0;  ///< 0: any that is free
+    std::function<bool()> is_over;
+    std::function<void(const std::string& url)> serving;  ///< is told where, once requests are answered
+};
+
+/// Answers requests until it is over; then the session is stopped. Throws std::runtime_error where the port cannot be
+/// had.
+void serve(Session& session, const ServeOptions& options);
+
+}  // namespace phasetree::tracer::view

@@ -1,0 +1,358 @@
+#include "view/session.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <utility>
+
+#include "output/quantise.hpp"
+#include "phasetree/io/error.hpp"
+#include "scene/camera_text.hpp"
+
+namespace phasetree::tracer::view {
+
+namespace {
+
+// While the camera is turned each wish comes before the picture of the last is there. A coarse one is finished all the
+// same, unless it takes longer than this.
+constexpr std::chrono::milliseconds patience{250};
+// Pictures that follow each other faster than this are not shown one by one.
+constexpr std::chrono::milliseconds between_pictures{100};
+
+// What a terminal would show.
+std::string told(std::exception_ptr failure) {
+    try {
+        std::rethrow_exception(failure);
+    } catch (const SceneError& e) {
+        return e.what();
+    } catch (const std::bad_alloc&) {
+        return "phasetree: out of memory";
+    } catch (const std::exception& e) {
+        return fmt::format("phasetree: {}", e.what());
+    }
+}
+
+std::vector<std::uint8_t> on_display(const Image& image, const DisplayTransform& display) {
+    std::vector<glm::vec3> pixels = image.pixels;
+    display.apply(pixels);
+    return quantise8(pixels, image.width, 0, 0);
+}
+
+void set_width(FilmSettings& film, int width) {
+    constexpr double highest = 32768;  // as of scene files
+    film.height =
+        static_cast<int>(std::clamp(std::round(static_cast<double>(width) * film.height / film.width), 1.0, highest));
+    film.width = width;
+}
+
+}  // namespace
+
+Session::Session(ReadScene read, SessionOptions options)
+    : read_(std::move(read)), options_(std::move(options)), thread_([this] { work(); }) {}
+
+Session::~Session() {
+    stop();
+    thread_.join();
+}
+
+void Session::stop() {
+    const std::lock_guard lock(mutex_);
+    stopped_ = true;
+    told_.notify_all();
+}
+
+template <class Edit>
+void Session::show(Edit&& edit) {
+    const std::lock_guard lock(mutex_);
+    auto next = std::make_shared<Shown>(*shown_);
+    edit(*next);
+    ++next->version;
+    shown_ = std::move(next);
+    told_.notify_all();
+}
+
+std::shared_ptr<const Shown> Session::shown() const {
+    const std::lock_guard lock(mutex_);
+    return shown_;
+}
+
+std::shared_ptr<const Shown> Session::shown_after(std::uint64_t version, std::chrono::milliseconds most) const {
+    std::unique_lock lock(mutex_);
+    told_.wait_for(lock, most, [&] { return stopped_ || shown_->version > version; });
+    return shown_;
+}
+
+std::uint64_t Session::change(const Change& change) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (change.exposure_ev) wishes_.exposure_ev = change.exposure_ev;
+        if (change.has_camera) wishes_.camera = change.camera;
+        if (change.has_camera) ++wishes_.view;
+        if (change.hidden) wishes_.hidden = *change.hidden;
+        if (change.hidden) ++wishes_.object;
+        if (change.has_camera || change.hidden) wishes_.since = Clock::now();
+        number_ = wishes_.number();
+        number_of_object_ = wishes_.number_of_object();
+        told_.notify_all();
+    }
+    if (change.exposure_ev) expose();
+    return shown()->version;
+}
+
+// A file is read when it has been the same at two looks, because some programs save in several steps.
+void Session::look_at_files() {
+    const std::lock_guard lock(mutex_);
+    if (is_to_be_read_) return;
+    const WatchedFiles now = files_.now();
+    if (now == files_) {
+        changed_files_.reset();
+        return;
+    }
+    if (changed_files_ != now) {
+        changed_files_ = now;
+        return;
+    }
+    changed_files_.reset();
+    is_to_be_read_ = true;
+    ++wishes_.reading;
+    wishes_.since = Clock::now();
+    number_ = wishes_.number();
+    number_of_object_ = wishes_.number_of_object();
+    told_.notify_all();
+}
+
+void Session::work() {
+    std::uint64_t followed = 0;
+    while (true) {
+        Wishes wishes;
+        {
+            std::unique_lock lock(mutex_);
+            told_.wait(lock, [&] { return stopped_ || wishes_.number() != followed; });
+            if (stopped_) return;
+            wishes = wishes_;
+        }
+        followed = wishes.number();
+        try {
+            follow(wishes);
+        } catch (const BuildCancelled&) {
+            // Another wish has come, which the next turn follows.
+        } catch (...) {
+            fail(told(std::current_exception()));
+        }
+    }
+}
+
+void Session::follow(Wishes wishes) {
+    if (wishes.reading != last_reading_) {
+        last_reading_ = wishes.reading;
+        read(wishes);
+    }
+    if (!viewed_) return;
+    const ObjectNumber object{last_good_reading_, wishes.object};
+    if (object != built_for_) {
+        // Set first: what cannot be built is not tried again before another object is wished for.
+        built_for_ = object;
+        build(wishes);
+    }
+    const PictureNumber picture{object, wishes.view};
+    if (!prepared_ || picture == finished_for_) return;
+    if (draw(wishes)) finished_for_ = picture;
+}
+
+// Where the scene cannot be read, the last one stays.
+void Session::read(Wishes& wishes) {
+    show([](Shown& shown) { shown.doing = "Reading the scene"; });
+    WatchedFiles files;
+    std::shared_ptr<const ViewedScene> viewed;
+    std::string error;
+    try {
+        ViewedScene scene = read_(files);
+        if (options_.samples) scene.scene.settings.samples = *options_.samples;
+        if (options_.width) set_width(scene.scene.film, *options_.width);
+        viewed = std::make_shared<const ViewedScene>(std::move(scene));
+    } catch (...) {
+        error = told(std::current_exception());
+    }
+    {
+        const std::lock_guard lock(mutex_);
+        files_ = std::move(files);
+        is_to_be_read_ = false;
+        // Who edits the camera in the file wants to see that, and not where the mouse has turned it.
+        const auto text = [](const Scene& scene) { return camera_text(scene.camera, scene.film.filter); };
+        if (viewed && viewed_ && text(viewed->scene) != text(viewed_->scene)) {
+            wishes_.camera.reset();
+            wishes.camera.reset();
+        }
+    }
+    if (!viewed) return fail(error);
+    viewed_ = std::move(viewed);
+    last_good_reading_ = wishes.reading;
+}
+
+void Session::build(const Wishes& wishes) {
+    show([](Shown& shown) { shown.doing = "Building cells"; });
+    const auto scene = std::make_shared<Scene>(without_phases(viewed_->scene, wishes.hidden));
+    const WorldOptions options{.quality = BuildQuality::low,
+                               .cancelled = [&] { return is_of_another_object(wishes); },
+                               .most_bytes = options_.most_bytes};
+    try {
+        prepared_ = std::make_shared<const Prepared>(scene, options);
+    } catch (const BuildCancelled&) {
+        built_for_ = {};
+        throw;
+    }
+    scene_ = scene;
+    const InterfaceCells& object = prepared_->world().geometry().object();
+    std::string warning = object.warning();
+    if (!warning.empty()) warning = fmt::format("{}: warning: {}\n", options_.name, warning);
+    if (object.size() == 0)
+        warning += fmt::format("{}: warning: the object is empty, so no ray meets it\n", options_.name);
+    if (!warning.empty()) options_.tell(warning);
+    warning_ = warning;
+    show([&](Shown& shown) {
+        shown.error.clear();
+        shown.scene = options_.name;
+        shown.resolution = scene->film.resolution();
+        shown.samples = scene->settings.samples;
+        shown.phases.clear();
+        for (std::size_t i = 1; i < scene->phases.names.size(); ++i) {
+            const std::string& name = scene->phases.names[i];
+            shown.phases.push_back({name, std::ranges::find(wishes.hidden, name) != wishes.hidden.end()});
+        }
+        // Hiding a part must not move what the camera turns around.
+        const Bounds bounds = phasetree::bounds(viewed_->scene.object);
+        if (bounds.empty() || !bounds.finite()) return;
+        shown.centre = bounds.centre();
+        shown.radius = 0.5f * bounds.diagonal();
+    });
+}
+
+// Returns whether the picture has all its samples.
+bool Session::draw(const Wishes& wishes) {
+    const Scene& file = viewed_->scene;
+    scene_->camera = wishes.camera.value_or(file.camera);
+    show([&](Shown& shown) {
+        shown.camera = scene_->camera;
+        shown.camera_text = camera_text(scene_->camera, file.film.filter);
+        shown.warning = warning_ + warning_of_camera();
+        shown.doing = "Taking the first picture";
+    });
+    for (const int scale : ladder_.scales(file.film.resolution()))
+        if (scale > 1 && !draw_coarser(wishes, scale)) return false;
+    if (prepared_->quality() != options_.quality) {
+        if (!draw_whole(wishes, 1)) return false;
+        show([](Shown& shown) { shown.doing = "Building better cells"; });
+        prepared_ = std::make_shared<const Prepared>(scene_, WorldOptions{.quality = options_.quality,
+                                                                          .cancelled = [&] { return is_stale(wishes); },
+                                                                          .most_bytes = options_.most_bytes});
+    }
+    if (!draw_whole(wishes, file.settings.samples)) return false;
+    show([](Shown& shown) { shown.doing = "Ready"; });
+    return true;
+}
+
+// That it can stand where it sees nothing.
+std::string Session::warning_of_camera() const {
+    const Phase phase = prepared_->world().geometry().label(position_of(scene_->camera));
+    if (is_clear(scene_->materials[phase.index])) return {};
+    return fmt::format("{}: warning: the camera is inside \"{}\", which is opaque\n", options_.name,
+                       scene_->phases[phase]);
+}
+
+// Returns whether it was finished, as draw_whole() does.
+bool Session::draw_coarser(const Wishes& wishes, int scale) {
+    const glm::ivec2 size = coarser(viewed_->scene.film.resolution(), scale);
+    scene_->film.width = size.x;
+    scene_->film.height = size.y;
+    scene_->settings.samples = 1;
+    const bool is_first = drawn_for_ != wishes.number();
+    RenderJob job;
+    job.pixels = scene_->film.whole();
+    job.threads = options_.threads;
+    job.cancelled = [&, is_first] {
+        const bool is_over = !is_first || Clock::now() - wishes.since > patience;
+        return is_of_another_object(wishes) || (is_over && is_stale(wishes));
+    };
+    Rendering rendering = render(prepared_->world(), *scene_, job);
+    if (rendering.cancelled) return false;
+    ladder_.learn(rendering.image.pixels.size(), rendering.seconds);
+    show_picture(wishes, std::move(rendering.image), scale, 1);
+    return !is_stale(wishes);
+}
+
+bool Session::draw_whole(const Wishes& wishes, int samples) {
+    scene_->film = viewed_->scene.film;
+    scene_->film.planes = Planes::by_default();
+    scene_->settings.samples = samples;
+    RenderJob job;
+    job.pixels = scene_->film.whole();
+    job.threads = options_.threads;
+    job.cancelled = [&] { return is_stale(wishes); };
+    Clock::time_point last;
+    job.passed = [&](const Film& film, int done) {
+        if (done < samples && Clock::now() - last < between_pictures) return;
+        show_picture(wishes, film.image(), 1, done);
+        show([&](Shown& shown) { shown.doing = fmt::format("{} of {} samples", done, shown.samples); });
+        last = Clock::now();
+    };
+    return !render(prepared_->world(), *scene_, job).cancelled;
+}
+
+void Session::show_picture(const Wishes& wishes, Image image, int scale, int samples) {
+    auto picture = std::make_shared<Picture>();
+    picture->linear = std::move(image);
+    picture->scale = scale;
+    picture->samples = samples;
+    picture->camera = scene_->camera;
+    picture->viewed = viewed_;
+    picture->prepared = prepared_;
+    picture->exposure_ev = viewed_->scene.settings.exposure_ev;
+    {
+        const std::lock_guard lock(mutex_);
+        picture->exposure_ev = wishes_.exposure_ev.value_or(picture->exposure_ev);
+    }
+    picture->pixels = on_display(picture->linear, viewed_->display(picture->exposure_ev));
+    const bool is_first = std::exchange(drawn_for_, wishes.number()) != wishes.number();
+    const double seconds = std::chrono::duration<double>(Clock::now() - wishes.since).count();
+    show([&](Shown& shown) {
+        picture->number = shown.picture ? shown.picture->number + 1 : 1;
+        shown.picture = picture;
+        shown.exposure_ev = picture->exposure_ev;
+        if (is_first) shown.seconds_to_picture = seconds;
+    });
+    expose();
+}
+
+// Shows the last picture with the exposure that is wished, if it has another.
+void Session::expose() {
+    std::optional<float> wished;
+    std::shared_ptr<const Picture> last;
+    {
+        const std::lock_guard lock(mutex_);
+        wished = wishes_.exposure_ev;
+        last = shown_->picture;
+    }
+    if (!wished || !last || last->exposure_ev == *wished) return;
+    auto picture = std::make_shared<Picture>(*last);
+    picture->exposure_ev = *wished;
+    picture->pixels = on_display(picture->linear, picture->viewed->display(*wished));
+    show([&](Shown& shown) {
+        // A later picture looks after its exposure itself.
+        if (shown.picture != last) return;
+        ++picture->number;
+        shown.picture = picture;
+        shown.exposure_ev = *wished;
+    });
+}
+
+void Session::fail(const std::string& error) {
+    options_.tell(error + "\n");
+    show([&](Shown& shown) {
+        shown.error = error;
+        shown.doing = "Stopped by an error";
+    });
+}
+
+}  // namespace phasetree::tracer::view

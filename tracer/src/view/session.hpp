@@ -1,0 +1,141 @@
+// A scene that is viewed: what the page wishes, what it shows, and the thread that follows the one with the other.
+//
+// The thread reads the scene, builds its cells, and takes pictures, coarse ones first. Every step is given up as soon
+// as a later wish makes it useless, so a scene that would take forever is left by the next change. What goes wrong is
+// shown over the last picture that there was, and the thread waits for the next wish.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "render/render.hpp"
+#include "view/ladder.hpp"
+#include "view/shown.hpp"
+#include "view/viewed_scene.hpp"
+
+namespace phasetree::tracer::view {
+
+struct SessionOptions {
+    std::string name;  ///< of the scene, for people
+    int threads = 0;
+    BuildQuality quality = BuildQuality::medium;  ///< of the cells that the picture is refined with
+    std::size_t most_bytes = 0;
+    std::optional<int> samples;  ///< in place of the scene's
+    std::optional<int> width;    ///< of the picture, likewise; the height follows
+    /// Puts a camera into the scene's file. Throws SceneError and OutputError.
+    std::function<void(const std::string& camera)> write_camera = [](const std::string&) {};
+    /// Is told errors and warnings, each with its line's end.
+    std::function<void(std::string_view)> tell = [](std::string_view) {};
+};
+
+/// What the page wishes to be otherwise; what is not said stays.
+struct Change {
+    bool has_camera = false;
+    std::optional<AnyCameraParameters> camera;  ///< without one the scene's
+    std::optional<std::vector<std::string>> hidden;
+    std::optional<float> exposure_ev;
+};
+
+class Session {
+  public:
+    /// Begins at once.
+    Session(ReadScene read, SessionOptions options);
+    ~Session();
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    /// Returns the version of what is shown at which the change counts.
+    std::uint64_t change(const Change& change);
+    /// To be called now and then: reads the scene again if a file of it has been saved.
+    void look_at_files();
+
+    /// Puts the camera that is shown into the scene's file. Throws as SessionOptions::write_camera does.
+    void write_camera() const { options_.write_camera(shown()->camera_text); }
+
+    std::shared_ptr<const Shown> shown() const;
+    /// What is shown once its version is more than `version`, or when the time is over.
+    std::shared_ptr<const Shown> shown_after(std::uint64_t version, std::chrono::milliseconds most) const;
+    /// Ends all waiting and working, for good.
+    void stop();
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    // What is wished. Each number grows with a wish of its kind.
+    struct Wishes {
+        std::uint64_t reading = 1, object = 0, view = 0;
+        std::vector<std::string> hidden;
+        std::optional<AnyCameraParameters> camera;
+        std::optional<float> exposure_ev;  // needs no new picture and so has no number
+        Clock::time_point since = Clock::now();
+
+        std::uint64_t number() const { return reading + object + view; }
+        std::uint64_t number_of_object() const { return reading + object; }
+    };
+
+    // Which scene, and which wish of what is hidden of it.
+    struct ObjectNumber {
+        std::uint64_t reading = 0, object = 0;
+        bool operator==(const ObjectNumber&) const = default;
+    };
+    struct PictureNumber {
+        ObjectNumber object;
+        std::uint64_t view = 0;
+        bool operator==(const PictureNumber&) const = default;
+    };
+
+    void work();
+    void follow(Wishes wishes);
+    void read(Wishes& wishes);
+    void build(const Wishes& wishes);
+    bool draw(const Wishes& wishes);
+    bool draw_coarser(const Wishes& wishes, int scale);
+    bool draw_whole(const Wishes& wishes, int samples);
+    std::string warning_of_camera() const;
+    void show_picture(const Wishes& wishes, Image image, int scale, int samples);
+    void expose();
+    void fail(const std::string& error);
+    bool is_stale(const Wishes& wishes) const { return stopped_ || number_ != wishes.number(); }
+    bool is_of_another_object(const Wishes& wishes) const {
+        return stopped_ || number_of_object_ != wishes.number_of_object();
+    }
+
+    // Changes what is shown, by `edit(Shown&)`, under the lock.
+    template <class Edit>
+    void show(Edit&& edit);
+
+    const ReadScene read_;
+    const SessionOptions options_;
+
+    mutable std::mutex mutex_;
+    mutable std::condition_variable told_;  // of new wishes, of what is newly shown, and of the end
+    Wishes wishes_;
+    std::shared_ptr<const Shown> shown_ = std::make_shared<Shown>();
+    WatchedFiles files_;
+    std::optional<WatchedFiles> changed_files_;  // as they were when they were last seen to be others
+    bool is_to_be_read_ = true;
+    std::atomic<std::uint64_t> number_{1}, number_of_object_{1};
+    std::atomic<bool> stopped_{false};
+
+    // The thread's own.
+    std::shared_ptr<const ViewedScene> viewed_;
+    std::shared_ptr<Scene> scene_;  // without what is hidden
+    std::shared_ptr<const Prepared> prepared_;
+    std::uint64_t last_reading_ = 0, last_good_reading_ = 0;
+    std::string warning_;          // of the object
+    ObjectNumber built_for_;       // whether in vain or not
+    PictureNumber finished_for_;   // of the picture that has all samples
+    std::uint64_t drawn_for_ = 0;  // the number of the wishes whose first picture has been shown
+    Ladder ladder_;
+
+    std::thread thread_;  // last, because it uses all the others
+};
+
+}  // namespace phasetree::tracer::view

@@ -1,0 +1,54 @@
+// What the page shows at a time: a picture and what is to be said of it. A value that is never changed, so that any
+// number of threads may hold the last one.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "camera/camera.hpp"
+#include "film/image.hpp"
+#include "view/prepared.hpp"
+#include "view/viewed_scene.hpp"
+
+namespace phasetree::tracer::view {
+
+struct Picture {
+    std::uint64_t number = 0;  ///< grows from one to the next
+    Image linear;
+    std::vector<std::uint8_t> pixels;  ///< as the display shows them: red, green and blue, row by row
+    int scale = 1;                     ///< of the whole picture's pixels along a side of one of these
+    int samples = 0;                   ///< in each pixel
+    AnyCameraParameters camera;
+    std::shared_ptr<const ViewedScene> viewed;  ///< what it was taken of …
+    std::shared_ptr<const Prepared> prepared;   ///< … ready for rays
+    float exposure_ev = 0;                      ///< with which the display shows it
+};
+
+struct ShownPhase {
+    std::string name;
+    bool is_hidden = false;
+};
+
+struct Shown {
+    std::uint64_t version = 0;  ///< grows whenever anything here changes
+    std::shared_ptr<const Picture> picture;
+    std::string doing;         ///< what is worked on: a sentence for people
+    std::string error;         ///< as a terminal shows it; empty if all is well
+    std::string warning;       ///< likewise
+    std::string scene;         ///< what it is called
+    glm::ivec2 resolution{0};  ///< of the whole picture
+    int samples = 0;           ///< that a pixel is to have in the end
+    std::vector<ShownPhase> phases;
+    AnyCameraParameters camera;
+    std::string camera_text;  ///< as the scene's file would say it
+    glm::vec3 centre{0.0f};   ///< of the object
+    float radius = 1;         ///< of a ball around it
+    float exposure_ev = 0;
+    double seconds_to_picture = 0;  ///< from the last change to the first picture of it
+};
+
+}  // namespace phasetree::tracer::view

@@ -1,0 +1,42 @@
+// Files that a scene is read from, as they were when they were read, to see when one of them is saved.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace phasetree::tracer::view {
+
+class WatchedFiles {
+  public:
+    /// To be called before the file is opened: what is saved while it is read must count as a change. The file need
+    /// not be there; then its coming is the change. Beyond `most` files nothing is added.
+    void add(const std::filesystem::path& file);
+
+    /// The same files as they are now.
+    WatchedFiles now() const;
+    /// Whether both are the same files in the same state.
+    bool operator==(const WatchedFiles&) const = default;
+
+    static constexpr std::size_t most = 1024;
+
+  private:
+    /// What changes when a file is written in place, or replaced by another.
+    struct Stamp {
+        bool is_there = false;
+        std::uint64_t inode = 0, size = 0;
+        std::int64_t seconds = 0, nanoseconds = 0;
+
+        static Stamp of(const std::filesystem::path& file);
+        bool operator==(const Stamp&) const = default;
+    };
+    struct Entry {
+        std::filesystem::path file;
+        Stamp stamp;
+        bool operator==(const Entry&) const = default;
+    };
+
+    std::vector<Entry> entries_;
+};
+
+}  // namespace phasetree::tracer::view
