@@ -2389,16 +2389,25 @@ def distort(of: Object, amplitude: float, scale: float, octaves: float | None = 
 
 class materials:
     @staticmethod
-    def clear(ior: float, absorption: Sequence[float] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
-        r"""Vacuum, air, water, glass: light travels inside.
+    def clear(ior: float, absorption: Sequence[float] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., emission: Sequence[float] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
+        r"""Vacuum, air, water, glass, milk, wax, fog: light travels inside, and may be absorbed and scattered there.
 
-            exp(−a d)
+            exp(−(a + s) d)
 
         ior: Refractive index against vacuum. (number; at least 0.1 and at most 10)
         absorption: Absorption of red, green and blue, a; nothing is absorbed without it. ([r, g, b] in 1/m; zero or more; default none)
         color: In place of the absorption: what is left of white light after a distance. (colour; more than 0 and at most 1; default none)
         color_distance: The distance after which the colour is left. (number in m; positive; default 1)
         roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
+        scattering: Scattering of red, green and blue, s; nothing is scattered without it. ([r, g, b] in 1/m; zero or more; default none)
+        albedo: In place of absorption and scattering: the part of the light that is scattered where it meets the medium, s/(a + s). ([r, g, b]; at least 0 and at most 1; default none)
+        mean_free_path: With the albedo: how far light goes on average, 1/(a + s). ([r, g, b] in m; positive; default none)
+        medium: In place of absorption and scattering: a measured medium (Jensen et al. 2001). (`"apple"`, `"chicken1"`, `"chicken2"`, `"cream"`, `"ketchup"`, `"marble"`, `"potato"`, `"skim_milk"`, `"skin1"`, `"skin2"`, `"spectralon"`, `"whole_milk"`; default none)
+        scale: With a measured medium: how long the scene's unit of length is. (number in mm; positive; default none)
+        anisotropy: The mean cosine g of Henyey and Greenstein's phase function: positive goes on forwards. Measured media scatter as much more as makes their reduced scattering, (1 − g) s, what was measured. 0 without it. (number; at least -0.99 and at most 0.99; default none)
+        emission: Radiance that the medium itself adds along a ray. ([r, g, b] in 1/m; zero or more; default none)
+        density: Where the medium is how dense: not at all at the field's surface and outside, and rising evenly to all of absorption, scattering and emission inside. (field; default none)
+        density_depth: How deep inside of the density's field the medium is as dense as it gets. (number in m; positive; default none)
         film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
         """
@@ -2430,16 +2439,25 @@ class materials:
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
         """
 
-def clear(ior: float, absorption: Sequence[float] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
-    r"""Vacuum, air, water, glass: light travels inside.
+def clear(ior: float, absorption: Sequence[float] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., emission: Sequence[float] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
+    r"""Vacuum, air, water, glass, milk, wax, fog: light travels inside, and may be absorbed and scattered there.
 
-        exp(−a d)
+        exp(−(a + s) d)
 
     ior: Refractive index against vacuum. (number; at least 0.1 and at most 10)
     absorption: Absorption of red, green and blue, a; nothing is absorbed without it. ([r, g, b] in 1/m; zero or more; default none)
     color: In place of the absorption: what is left of white light after a distance. (colour; more than 0 and at most 1; default none)
     color_distance: The distance after which the colour is left. (number in m; positive; default 1)
     roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
+    scattering: Scattering of red, green and blue, s; nothing is scattered without it. ([r, g, b] in 1/m; zero or more; default none)
+    albedo: In place of absorption and scattering: the part of the light that is scattered where it meets the medium, s/(a + s). ([r, g, b]; at least 0 and at most 1; default none)
+    mean_free_path: With the albedo: how far light goes on average, 1/(a + s). ([r, g, b] in m; positive; default none)
+    medium: In place of absorption and scattering: a measured medium (Jensen et al. 2001). (`"apple"`, `"chicken1"`, `"chicken2"`, `"cream"`, `"ketchup"`, `"marble"`, `"potato"`, `"skim_milk"`, `"skin1"`, `"skin2"`, `"spectralon"`, `"whole_milk"`; default none)
+    scale: With a measured medium: how long the scene's unit of length is. (number in mm; positive; default none)
+    anisotropy: The mean cosine g of Henyey and Greenstein's phase function: positive goes on forwards. Measured media scatter as much more as makes their reduced scattering, (1 − g) s, what was measured. 0 without it. (number; at least -0.99 and at most 0.99; default none)
+    emission: Radiance that the medium itself adds along a ray. ([r, g, b] in 1/m; zero or more; default none)
+    density: Where the medium is how dense: not at all at the field's surface and outside, and rising evenly to all of absorption, scattering and emission inside. (field; default none)
+    density_depth: How deep inside of the density's field the medium is as dense as it gets. (number in m; positive; default none)
     film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
     """
