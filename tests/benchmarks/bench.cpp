@@ -47,6 +47,9 @@ TEST_CASE("phasetree-bench all: every subcommand's numbers are finite and positi
                                                    {"mesh", "scenes", 16, 3, 4},
                                                    {"simd", "instruction_sets", 0, 2, 1},
                                                    {"host", "scenes", 4, 2, 0},
+                                                   {"carve", "objects", 8, 0, 16},
+                                                   {"march", "ways", 3, 0, 1},
+                                                   {"proxies", "objects", 3, 0, 1},
                                                    {"light", "pictures", 6, 0, 0}}) {
         CAPTURE(e.command);
         const nlohmann::json& report = all.at(e.command);
@@ -56,7 +59,7 @@ TEST_CASE("phasetree-bench all: every subcommand's numbers are finite and positi
         CHECK(table.size() == rows);
         CHECK(table.size() > 0);
         CHECK(report.at("notes").size() > 0);
-        CHECK(report.at("targets").size() == e.targets);
+        CHECK(report.value("targets", nlohmann::json::array()).size() == e.targets);
         CHECK(report.value("checks", nlohmann::json::array()).size() == e.checks);
         if (report.contains("checks")) {
             for (const auto& check : report["checks"]) {
@@ -73,7 +76,7 @@ TEST_CASE("phasetree-bench all: every subcommand's numbers are finite and positi
             if (path.find("overhead") == std::string::npos && path.find("disagreements") == std::string::npos)
                 CHECK(v > 0);
         });
-        CHECK(numbers > 4 * table.size());
+        CHECK(numbers > (e.command == "march" ? 1 : 4) * table.size());
     }
 }
 

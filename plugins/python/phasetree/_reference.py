@@ -120,30 +120,14 @@ def chapters():
     return [(c["title"], [Kind(c["title"], page) for page in c["kinds"]]) for c in _phasetree.chapters()]
 
 
-def _in_one_piece(field):
-    """A field as JSON has it, with the shapes that it shares in each of their places."""
-    shapes = field["shapes"] if "shapes" in field else {}
-
-    def put_in(value):
-        if isinstance(value, str) and value in shapes:
-            return put_in(shapes[value])
-        if isinstance(value, list):
-            return [put_in(item) for item in value]
-        return {key: put_in(item) for key, item in value.items()} if isinstance(value, dict) else value
-
-    return put_in(field["of"] if shapes else field)
-
-
 def written(value, what):
     """A value as JSON has it. Arrays of NumPy become lists."""
     if isinstance(value, (str, bool)) or value is None:
         return value
+    if hasattr(value, "text") and hasattr(value, "within"):
+        return value.text  # a formula, which has what a field has, too
     if hasattr(value, "written"):
         return value.written()
-    if hasattr(value, "text") and hasattr(value, "within"):
-        return value.text  # a formula
-    if hasattr(value, "to_json"):
-        return _in_one_piece(json.loads(value.to_json()))  # a field
     if hasattr(value, "tolist"):
         value = value.tolist()
     if isinstance(value, int):
