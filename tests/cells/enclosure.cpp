@@ -10,9 +10,9 @@
 #include "phasetree/model/concepts.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/nodes/copies/endless_grid.hpp"
+#include "support/random_tree.hpp"
 #include "tree/node.hpp"
 #include "tree/walk.hpp"
-#include "support/random_tree.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;

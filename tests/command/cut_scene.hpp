@@ -14,7 +14,8 @@ inline std::string cut_scene(int samples) {
     scene.lights = R"([{"constant": {"intensity": 0.4, "group": "sky"}},
         {"sphere": {"centre": [2, -2, 3], "radius": 0.5, "intensity": 20, "group": "lamp"}}],
 "meshes": [{"floor": {"height": -1.2, "material": {"diffuse": {"color": "#808080"}}}}])";
-    scene.rest = R"("render": {"width": 28, "height": 21, "caustics": true, "samples": )" + std::to_string(samples) + "}";
+    scene.rest =
+        R"("render": {"width": 28, "height": 21, "caustics": true, "samples": )" + std::to_string(samples) + "}";
     return scene.text();
 }
 

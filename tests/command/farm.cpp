@@ -48,8 +48,8 @@ TEST_CASE("the script for Slurm is one that bash reads, and submits what the opt
     REQUIRE_MESSAGE(o.code == 0, o.err);
     write_text(shell.directory / "farm.sh", o.out);
     CHECK(run_by_shell(shell, "bash -n farm.sh") == 0);
-    for (const char* words : {"--array=0-7", "--requeue", "--time=60", "--dependency=\"afterok:$array\"", "--size 100x80",
-                              "SLURM_ARRAY_TASK_ID * 64 / 8", "scene.56-64.part -o 'a b.exr'"})
+    for (const char* words : {"--array=0-7", "--requeue", "--time=60", "--dependency=\"afterok:$array\"",
+                              "--size 100x80", "SLURM_ARRAY_TASK_ID * 64 / 8", "scene.56-64.part -o 'a b.exr'"})
         CHECK_MESSAGE(o.out.find(words) != std::string::npos, words);
     // Scripts of a task and of the merge, as sbatch would be given them.
     write_text(shell.directory / "sbatch", "#!/bin/sh\ncat >>scripts; echo 1\n");

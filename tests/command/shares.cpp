@@ -40,7 +40,8 @@ TEST_CASE("any partition of the samples, rendered with any threads and merged in
             const std::string range = std::to_string(cuts[i - 1]) + ":" + std::to_string(cuts[i]);
             parts.push_back(range + ".part");
             const std::string threads = std::to_string(1 + below(random, 4));
-            REQUIRE(shell.run(joined(render, {"--samples", range, "-o", parts.back(), "--threads", threads})).code == 0);
+            REQUIRE(shell.run(joined(render, {"--samples", range, "-o", parts.back(), "--threads", threads})).code ==
+                    0);
         }
         CAPTURE(parts);
         // The first two become one, which is merged with the others.
@@ -71,7 +72,7 @@ TEST_CASE("a crop and a picture as people see it are merged, too") {
     CHECK(o.err.find("a.exr (17x17, 4 samples a pixel, of 2 parts)") != std::string::npos);
     for (const char* kind : {".exr", ".png"}) {
         const bool same = bytes_of(shell.directory / (std::string("a") + kind)) ==
-            bytes_of(shell.directory / (std::string("whole") + kind));
+                          bytes_of(shell.directory / (std::string("whole") + kind));
         CHECK(same);
     }
 }

@@ -6,8 +6,8 @@
 #include "phasetree/io/write.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/program/program.hpp"
-#include "tree/node.hpp"
 #include "support/random_node.hpp"
+#include "tree/node.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "tree/node.hpp"
 #include "support/set_algebra.hpp"
 #include "support/set_algebra/transforms.hpp"
+#include "tree/node.hpp"
 
 namespace phasetree::tests::analytic {
 

@@ -3,9 +3,9 @@
 /// How a node of a given type is drawn, and what the tests over all nodes ask of its type. The drawing itself is
 /// compiled once, in random_tree.cpp.
 
-#include "tree/node.hpp"
 #include "support/random_tree.hpp"
 #include "support/random_value.hpp"
+#include "tree/node.hpp"
 
 namespace phasetree::tests {
 

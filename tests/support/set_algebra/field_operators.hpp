@@ -2,8 +2,8 @@
 
 /// Operators of plain fields.
 
-#include "tree/node.hpp"
 #include "support/set_algebra.hpp"
+#include "tree/node.hpp"
 
 namespace phasetree::tests::oracle {
 

@@ -2,8 +2,8 @@
 
 /// Fields that are numbers by their meaning: periodic walls and noise.
 
-#include "tree/node.hpp"
 #include "support/set_algebra.hpp"
+#include "tree/node.hpp"
 
 namespace phasetree::tests::oracle {
 

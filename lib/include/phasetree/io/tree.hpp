@@ -62,8 +62,8 @@ struct KnownShapes {
 Field read_field(const Document&, const PhaseNames&, KnownShapes, const FileReaders& = {});
 Phased read_object(const Document&, const PhaseNames&, KnownShapes, const FileReaders& = {});
 
-/// Reads a plain field that stands elsewhere in a scene document: a node, or the name of one of the document's shapes. A
-/// document that is but a part of a scene has neither shapes nor phases. Throws SceneError as read_tree() does.
+/// Reads a plain field that stands elsewhere in a scene document: a node, or the name of one of the document's shapes.
+/// A document that is but a part of a scene has neither shapes nor phases. Throws SceneError as read_tree() does.
 Field read_field(const Document&, Value, const FileReaders& = {});
 
 }  // namespace phasetree
