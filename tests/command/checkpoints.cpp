@@ -132,7 +132,7 @@ TEST_CASE("more samples than a checkpoint was to have are added to it") {
     const Outcome o = shell.run(joined(render, {"--resume", "a.part", "--spp", "2"}));
     CHECK(o.code == 2);
     CHECK(o.err.find("a.part") != std::string::npos);
-    CHECK(o.err.find("it is to have the samples 0:3, not 0:2") != std::string::npos);
+    CHECK(o.err.find("it is of the samples 0:3, and this render is of 0:2") != std::string::npos);
 }
 
 TEST_CASE("a checkpoint that is of something else is refused before any work, and stays as it is") {
@@ -152,7 +152,7 @@ TEST_CASE("a checkpoint that is of something else is refused before any work, an
     };
     refused({"--seed", "4"}, "it has seed 0, not 4");
     refused({"--planes", "all"}, "planes");
-    refused({"--samples", "1:3"}, "it is to have the samples 0:3, not 1:3");
+    refused({"--samples", "1:3"}, "it is of the samples 0:3, and this render is of 1:3");
     std::string scene = cut_scene(3);
     scene.replace(scene.find("-1.2"), 4, "-1.3");
     write_text(shell.directory / "scene.json", scene);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "glsl/loops.hpp"
 #include "glsl/readings.hpp"
@@ -15,19 +16,20 @@ namespace {
 constexpr std::size_t longest_expression = 100;
 const char* const input_names[] = {"x", "y", "z"};
 
-// An expression is short and is read in one place only, or it is the name of a variable.
+// The GLSL text of a value.
 struct Expression {
     std::string text;
     bool has_gradient = false;
-    bool is_stable = true;  // whether it may be evaluated later: it reads no variable that a loop changes
+    bool is_stable = true;  // The text has the same value anywhere later in the same iteration.
 };
 
-// Writes one form of a function: over floats, or over numbers with gradients.
+// Writes one body of a function, which computes with floats or with dual numbers. In the text v is the variable of a
+// leaf, c a carried variable, g an array that leaves fill, and i the counter of a loop.
 class FunctionWriter {
   public:
-    FunctionWriter(const Nest& nest, const Readings& readings, bool with_gradients, FunctionText& text)
-        : nest_(nest), readings_(readings), with_gradients_(with_gradients), text_(text) {
-        count_uses();
+    FunctionWriter(const Nest& nest, const Readings& readings, bool is_dual, FunctionText& text)
+        : nest_(nest), readings_(readings), is_dual_(is_dual), text_(text) {
+        find_what_needs_a_variable();
         find_gradients();
         expressions_.resize(nest.leaves().size());
     }
@@ -40,14 +42,12 @@ class FunctionWriter {
         const auto& results = readings_.results;
         std::vector<std::string> texts;
         for (const Reading& r : results) {
-            Expression e = expression(r, {});
-            texts.push_back(with_gradients_ && !e.has_gradient ? fmt::format("vec4(0.0, 0.0, 0.0, {})", e.text)
-                                                               : e.text);
+            texts.push_back(fitted(expression(r, {}), is_dual_));
         }
         if (results.size() == 1)
             line("return {};", texts[0]);
         else
-            line("return {}({}, {}, {});", with_gradients_ ? "mat3x4" : "vec3", texts[0], texts[1], texts[2]);
+            line("return {}({}, {}, {});", is_dual_ ? "mat3x4" : "vec3", texts[0], texts[1], texts[2]);
         return std::move(out_);
     }
 
@@ -59,7 +59,9 @@ class FunctionWriter {
         out_ += '\n';
     }
 
-    void count_uses() {
+    // Counts the readers of each leaf. A leaf that is carried or stored counts twice for that, so that it is never put
+    // into its reader's expression but gets a variable.
+    void find_what_needs_a_variable() {
         uses_.assign(nest_.leaves().size(), 0);
         const auto use = [&](const Reading& r) {
             if (r.kind == Reading::Kind::leaf) ++uses_[r.index];
@@ -74,12 +76,13 @@ class FunctionWriter {
         for (std::size_t i = 0; i < uses_.size(); ++i) uses_[i] += 2 * static_cast<int>(readings_.writes[i].size());
     }
 
-    // Whether leaves, carried variables and arrays have gradients, by what goes into them, until nothing changes.
+    // Finds which leaves, carried variables and arrays depend on the inputs and so have gradients. What goes into a
+    // loop may come out of it, so this is repeated until nothing changes.
     void find_gradients() {
         leaf_gradient_.assign(nest_.leaves().size(), 0);
         carried_gradient_.assign(readings_.carried.size(), 0);
         array_gradient_.assign(readings_.arrays.size(), 0);
-        if (!with_gradients_) return;
+        if (!is_dual_) return;
         for (const auto& writes : readings_.inputs)
             for (const ElementWrite& w : writes) array_gradient_[w.array] = 1;
         for (bool changes = true; changes;) {
@@ -91,8 +94,9 @@ class FunctionWriter {
                 const TraceStep& s = step(i);
                 const auto& in = readings_.of[i];
                 const std::size_t first = s.op == TraceOp::select ? 1 : 0;
-                const bool flat = s.op == TraceOp::floor || s.op == TraceOp::less || s.op == TraceOp::lookup;
-                for (std::size_t k = first; k < in.size() && !flat; ++k) set(leaf_gradient_[i], has_gradient(in[k]));
+                const bool has_no_slope = s.op == TraceOp::floor || s.op == TraceOp::less || s.op == TraceOp::lookup;
+                for (std::size_t k = first; k < in.size() && !has_no_slope; ++k)
+                    set(leaf_gradient_[i], has_gradient(in[k]));
                 for (const ElementWrite& w : readings_.writes[i]) set(array_gradient_[w.array], leaf_gradient_[i]);
             }
             for (std::size_t c = 0; c < carried_gradient_.size(); ++c) {
@@ -104,7 +108,7 @@ class FunctionWriter {
     bool has_gradient(const Reading& r) const {
         switch (r.kind) {
             case Reading::Kind::input:
-                return with_gradients_;
+                return is_dual_;
             case Reading::Kind::leaf:
                 return leaf_gradient_[r.index];
             case Reading::Kind::carried:
@@ -132,7 +136,7 @@ class FunctionWriter {
         for (std::size_t i = 0; i < readings_.inputs.size(); ++i)
             for (const ElementWrite& w : readings_.inputs[i])
                 line("g{}[{}] = {};", w.array, w.first - readings_.arrays[w.array].lowest,
-                     fitted({input_names[i], with_gradients_}, array_gradient_[w.array]));
+                     fitted({input_names[i], is_dual_}, array_gradient_[w.array]));
     }
 
     void write_items(const std::vector<NestItem>& items, std::size_t& leaf, std::vector<const NestItem*>& loops) {
@@ -159,14 +163,14 @@ class FunctionWriter {
     void write_leaf(std::size_t i) {
         const std::vector<const NestItem*>& loops = nest_.leaves()[i].loops;
         Expression e = computed(i, loops);
-        const bool is_short =
-            uses_[i] == 1 && !readings_.escapes[i] && e.is_stable && e.text.size() < longest_expression;
-        const bool is_same_depth = is_short && is_read_beside(i);
-        if (!is_same_depth) {
+        const bool is_inlined = uses_[i] == 1 && !readings_.escapes[i] && e.is_stable &&
+                                e.text.size() < longest_expression && is_read_in_same_iteration(i);
+        if (!is_inlined) {
             if (uses_[i] > 0) line("{}v{} = {};", readings_.escapes[i] ? "" : std::string(type(i)) + " ", i, e.text);
             e.text = fmt::format("v{}", i);
             e.is_stable = !readings_.escapes[i];
         }
+        // What is read as carried is always the latest value (readings.cpp), so nothing later wants the one before.
         for (std::size_t c = 0; c < readings_.carried.size(); ++c)
             if (readings_.carried[c].leaf == i) line("c{} = {};", c, fitted(e, carried_gradient_[c]));
         for (const ElementWrite& w : readings_.writes[i]) {
@@ -178,7 +182,7 @@ class FunctionWriter {
         expressions_[i] = std::move(e);
     }
     // Whether the one reader of a leaf is in the same iteration, and not in a loop further inside.
-    bool is_read_beside(std::size_t i) const {
+    bool is_read_in_same_iteration(std::size_t i) const {
         const auto reads = [&](const Reading& r) { return r.kind == Reading::Kind::leaf && r.index == i; };
         for (std::size_t k = 0; k < readings_.of.size(); ++k)
             if (std::ranges::any_of(readings_.of[k], reads)) return nest_.leaves()[k].loops == nest_.leaves()[i].loops;
@@ -188,13 +192,14 @@ class FunctionWriter {
     Expression expression(const Reading& r, const std::vector<const NestItem*>& loops) {
         switch (r.kind) {
             case Reading::Kind::input:
-                return {input_names[r.index], with_gradients_};
+                return {input_names[r.index], is_dual_};
             case Reading::Kind::leaf:
                 return expressions_[r.index];
             case Reading::Kind::carried:
                 return {fmt::format("c{}", r.index), carried_gradient_[r.index] != 0, false};
             case Reading::Kind::element:
-                return {fmt::format("g{}[{}{}]", r.index, index(r, loops), after(readings_.arrays[r.index].lowest)),
+                return {fmt::format("g{}[{}{}]", r.index, index_text(r, loops),
+                                    offset_from(readings_.arrays[r.index].lowest)),
                         array_gradient_[r.index] != 0, false};
             case Reading::Kind::number:
             case Reading::Kind::table:
@@ -203,10 +208,10 @@ class FunctionWriter {
         const bool is_table = r.kind == Reading::Kind::table;
         text_.slots.push_back({r.numbers, is_table});
         const std::string slot = fmt::format("\x01{}\x02", text_.slots.size() - 1);
-        return {is_table ? fmt::format("pt_number(at + {} + {})", slot, index(r, loops)) : slot};
+        return {is_table ? fmt::format("pt_number(at + {} + {})", slot, index_text(r, loops)) : slot};
     }
-    // The index of a table or an array, by the counters that matter.
-    static std::string index(const Reading& r, const std::vector<const NestItem*>& loops) {
+    // Writes the index into a table or an array in row-major order: the last of the counters varies fastest.
+    static std::string index_text(const Reading& r, const std::vector<const NestItem*>& loops) {
         std::string text;
         std::size_t stride = 1;
         for (std::size_t k = r.counters.size(); k-- > 0;) {
@@ -217,9 +222,10 @@ class FunctionWriter {
         }
         return text.empty() ? "0" : text;
     }
-    static std::string after(std::int64_t lowest) { return lowest < 0 ? fmt::format(" + {}", -lowest) : ""; }
-    static std::string fitted(const Expression& e, bool with_gradient) {
-        return with_gradient && !e.has_gradient ? fmt::format("vec4(0.0, 0.0, 0.0, {})", e.text) : e.text;
+    // The first element of an array is that of its lowest place, which is never above 0.
+    static std::string offset_from(std::int64_t lowest) { return lowest < 0 ? fmt::format(" + {}", -lowest) : ""; }
+    static std::string fitted(const Expression& e, bool to_dual) {
+        return to_dual && !e.has_gradient ? fmt::format("vec4(0.0, 0.0, 0.0, {})", e.text) : e.text;
     }
 
     Expression computed(std::size_t i, const std::vector<const NestItem*>& loops) {
@@ -229,13 +235,13 @@ class FunctionWriter {
         Expression result;
         result.has_gradient = leaf_gradient_[i];
         for (const Expression& e : in) result.is_stable = result.is_stable && e.is_stable;
-        result.text = result.has_gradient ? with_gradient(s, in) : plain(s, in);
+        result.text = result.has_gradient ? dual_expression(s, in) : float_expression(s, in);
         return result;
     }
     // Comparisons and the like look at values alone.
     static std::string value(const Expression& e) { return e.has_gradient ? e.text + ".w" : e.text; }
 
-    std::string plain(const TraceStep& s, const std::vector<Expression>& in) {
+    std::string float_expression(const TraceStep& s, const std::vector<Expression>& in) {
         const auto a = [&](std::size_t k) { return value(in[k]); };
         switch (s.op) {
             case TraceOp::negate:
@@ -270,9 +276,9 @@ class FunctionWriter {
         }
         return call(s, in, false);
     }
-    std::string with_gradient(const TraceStep& s, const std::vector<Expression>& in) {
+    std::string dual_expression(const TraceStep& s, const std::vector<Expression>& in) {
         const auto a = [&](std::size_t k) { return in[k].text; };
-        const auto four = [&](std::size_t k) { return fitted(in[k], true); };
+        const auto dual = [&](std::size_t k) { return fitted(in[k], true); };
         switch (s.op) {
             case TraceOp::negate:
                 return fmt::format("(-{})", a(0));
@@ -283,13 +289,13 @@ class FunctionWriter {
             case TraceOp::multiply:
                 return fmt::format("pt_d_mul({}, {})", a(0), a(1));
             case TraceOp::divide:
-                return fmt::format("pt_d_div({}, {})", four(0), four(1));
+                return fmt::format("pt_d_div({}, {})", dual(0), dual(1));
             case TraceOp::select:
-                return fmt::format("({} ? {} : {})", in[0].text, four(1), four(2));
+                return fmt::format("({} ? {} : {})", in[0].text, dual(1), dual(2));
             case TraceOp::minimum:
-                return fmt::format("pt_d_min({}, {})", four(0), four(1));
+                return fmt::format("pt_d_min({}, {})", dual(0), dual(1));
             case TraceOp::maximum:
-                return fmt::format("pt_d_max({}, {})", four(0), four(1));
+                return fmt::format("pt_d_max({}, {})", dual(0), dual(1));
             case TraceOp::absolute:
                 return fmt::format("pt_d_abs({})", a(0));
             case TraceOp::root:
@@ -302,17 +308,19 @@ class FunctionWriter {
         }
         return call(s, in, true);
     }
-    std::string call(const TraceStep& s, const std::vector<Expression>& in, bool with_gradients) {
+    std::string call(const TraceStep& s, const std::vector<Expression>& in, bool to_dual) {
+        if (s.op != TraceOp::call || s.function == SharedFunction::none)
+            throw std::logic_error("GLSL: a step has no form with gradients");
         if (std::ranges::find(text_.calls, s.function) == text_.calls.end()) text_.calls.push_back(s.function);
         std::string arguments;
         for (const Expression& e : in)
-            arguments += (arguments.empty() ? "" : ", ") + (with_gradients ? fitted(e, true) : value(e));
-        return fmt::format("{}{}({})", with_gradients ? "pt_d_" : "pt_", name_of(s.function), arguments);
+            arguments += (arguments.empty() ? "" : ", ") + (to_dual ? fitted(e, true) : value(e));
+        return fmt::format("{}{}({})", to_dual ? "pt_d_" : "pt_", name_of(s.function), arguments);
     }
 
     const Nest& nest_;
     const Readings& readings_;
-    bool with_gradients_;
+    bool is_dual_;
     FunctionText& text_;
     std::string out_;
     std::size_t depth_ = 0;
@@ -327,14 +335,16 @@ FunctionText text_of(const Trace& trace) {
     Nest nest(trace, find_loops(trace));
     auto readings = readings_of(nest);
     if (!readings) {
-        std::vector<NestItem> flat;
-        for (std::uint32_t i = 0; i < trace.steps.size(); ++i) flat.push_back({i, 1, 1, {}});
-        nest = Nest(trace, std::move(flat));
+        // Where the loops that were found cannot be written, the function is written without any.
+        std::vector<NestItem> steps;
+        for (std::uint32_t i = 0; i < trace.steps.size(); ++i) steps.push_back({i, 1, 1, {}});
+        nest = Nest(trace, std::move(steps));
         readings = readings_of(nest);
+        if (!readings) throw std::logic_error("GLSL: a function cannot be written without loops");
     }
     FunctionText text;
-    text.values = FunctionWriter(nest, *readings, false, text).write();
-    text.slopes = FunctionWriter(nest, *readings, true, text).write();
+    text.float_body = FunctionWriter(nest, *readings, false, text).write();
+    text.dual_body = FunctionWriter(nest, *readings, true, text).write();
     return text;
 }
 

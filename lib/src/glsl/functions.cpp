@@ -92,7 +92,7 @@ std::uint32_t Functions::add(Op op, std::span<const float> constants) {
     instance.slots = text.slots;
     if (text.has_lookup) instance.data.assign(constants.begin(), constants.end());
     const auto [shape, is_new] =
-        shapes_.try_emplace({op, text.values + text.slopes}, static_cast<std::uint32_t>(functions_.size()));
+        shapes_.try_emplace({op, text.float_body + text.dual_body}, static_cast<std::uint32_t>(functions_.size()));
     if (is_new) {
         std::string name = "pt_" + name_of(op);
         if (const std::uint32_t others = names_[name]++; others > 0) name += fmt::format("_{}", others + 1);
@@ -186,7 +186,7 @@ std::string Functions::call(std::uint32_t instruction, std::span<const std::stri
 std::string Functions::call_at(std::uint32_t number, std::span<const std::string> arguments, const std::string& at,
                                bool with_gradients) const {
     const Function& function = functions_[number];
-    const std::string body = filled(function, with_gradients ? function.text.slopes : function.text.values);
+    const std::string body = filled(function, with_gradients ? function.text.dual_body : function.text.float_body);
     if (!takes_point(function.op) && is_expression(body) && !function.takes_place)
         return with_arguments(body.substr(returned.size(), body.size() - returned.size() - 2), arguments);
     std::string list;
@@ -215,7 +215,7 @@ std::string Functions::text(bool with_gradients) const {
         std::string parameters;
         for (std::uint32_t k = 0; k < trace.inputs; ++k)
             parameters += fmt::format("{}{} {}", k > 0 ? ", " : "", number, static_cast<char>('x' + k));
-        std::string body = filled(function, with_gradients ? function.text.slopes : function.text.values);
+        std::string body = filled(function, with_gradients ? function.text.dual_body : function.text.float_body);
         if (with_gradients && f == SharedFunction::angle)
             body =
                 "    float s = x.w * x.w + y.w * y.w;\n"
@@ -226,7 +226,7 @@ std::string Functions::text(bool with_gradients) const {
     }
     result += shared;
     for (const Function& f : functions_) {
-        const std::string body = filled(f, with_gradients ? f.text.slopes : f.text.values);
+        const std::string body = filled(f, with_gradients ? f.text.dual_body : f.text.float_body);
         if (!takes_point(f.op) && is_expression(body) && !f.takes_place) continue;
         const int inputs = takes_point(f.op) ? 3 : operands(f.op);
         std::string parameters;

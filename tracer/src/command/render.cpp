@@ -52,8 +52,8 @@ void write_stats(const std::string& path, const RenderOptions& options, const Wo
     write_file(json.dump(2) + "\n", path);
 }
 
-// Makes sure that they can be written, before hours of work.
-std::vector<std::string> outputs_of(const RenderOptions& options, const SampleRange& samples) {
+// Returns the names of the outputs, after making sure that all files can be written, before hours of work.
+std::vector<std::string> checked_outputs(const RenderOptions& options, const SampleRange& samples) {
     std::vector<std::string> outputs = options.outputs;
     if (outputs.empty()) {
         const std::string stem =
@@ -68,23 +68,24 @@ std::vector<std::string> outputs_of(const RenderOptions& options, const SampleRa
         return is_film_file(output) || format_of(output) == Format::exr;
     };
     if (options.planes && std::ranges::none_of(outputs, keeps_planes))
-        throw OutputError("--planes needs an output that can hold them: name a .exr file with -o");
+        throw OutputError("--planes needs an output that can hold them: name a .exr or .part file with -o");
     if (options.stats) check_file_writable(*options.stats);
     if (options.checkpoint) check_file_writable(*options.checkpoint);
     return outputs;
 }
 
-// What there is already, if that can be gone on with. Throws FilmFileError.
-std::optional<FilmFile> found_to_resume(const RenderOptions& options, const FilmFileHeader& header) {
+// Reads the file that is to be resumed. Returns nothing if none is, or if there is none and the render may start.
+// Throws FilmFileError.
+std::optional<FilmFile> film_to_resume(const RenderOptions& options, const FilmFileHeader& header) {
     if (!options.resume) return std::nullopt;
     try {
         FilmFile file(*options.resume);
         file.check_picture(header);
         const SampleRange &wanted = header.samples, &found = file.header().samples;
-        // The whole may have become more: samples are numbered, and the first of them are the same.
+        // More samples may be wanted than before: they are numbered, and those that were taken stay the same.
         if (found.first != wanted.first || found.last > wanted.last)
-            throw file.error(fmt::format("it is to have the samples {}:{}, not {}:{}", found.first, found.last,
-                                         wanted.first, wanted.last));
+            throw file.error(fmt::format("it is of the samples {}:{}, and this render is of {}:{}", found.first,
+                                         found.last, wanted.first, wanted.last));
         return file;
     } catch (const FilmFileMissing&) {
         if (!options.may_start) throw;
@@ -102,8 +103,8 @@ struct Everything {
     const Film& film;
 };
 
-// Returns whether all could be written, and sets whether the render can be resumed.
-bool write_all(const Everything& e, const Rendering& rendering, bool& can_resume) {
+// Returns whether all could be written.
+bool write_all(const Everything& e, const Rendering& rendering) {
     Metadata metadata;
     metadata.scene = e.header.scene;
     metadata.samples_per_pixel = rendering.samples;
@@ -111,11 +112,9 @@ bool write_all(const Everything& e, const Rendering& rendering, bool& can_resume
     Writing writing;
     std::string written;
     const auto write_film_file = [&](const std::string& path) {
-        const bool is_written = writing([&] { write_film(path, e.header, e.film); });
-        can_resume = can_resume || is_written;
-        return is_written;
+        return writing([&] { write_film(path, e.header, e.film); });
     };
-    // First of all, should there be no time for the rest.
+    // The checkpoint is written first, should there be no time for the rest; one that is an output, too, in its turn.
     const bool is_output = e.options.checkpoint && std::ranges::count(e.outputs, *e.options.checkpoint) > 0;
     if (e.options.checkpoint && !is_output) write_film_file(*e.options.checkpoint);
     for (const std::string& output : e.outputs) {
@@ -132,13 +131,13 @@ bool write_all(const Everything& e, const Rendering& rendering, bool& can_resume
     return writing.all_is_well();
 }
 
-// What a run that a signal ended comes to.
+// Returns the exit code of a run that a signal ended.
 int code_of_interruption(bool can_resume) {
     if (interrupting_signal() == SIGINT) return interrupted_by_person;
     return can_resume ? resume_me : 1;
 }
 
-// Whether the world is there; it is not if that was interrupted.
+// Builds the world. Returns whether it is there; it is not if a signal came.
 bool prepare(std::optional<World>& world, const RenderOptions& options, const Scene& scene, const RenderJob& job) {
     try {
         CellProgress progress(ProgressOutput::standard_error(options.quiet));
@@ -156,7 +155,7 @@ bool prepare(std::optional<World>& world, const RenderOptions& options, const Sc
     }
 }
 
-Rendering rendered(const RenderOptions& options, const World& world, const Scene& scene, RenderJob& job,
+Rendering rendered(const RenderOptions& options, const World& world, const Scene& scene, RenderJob job,
                    const FilmFileHeader& header, Film& film) {
     std::uint64_t total = 0;
     for (int y = job.pixels.y0; y < job.pixels.y1; ++y)
@@ -164,6 +163,7 @@ Rendering rendered(const RenderOptions& options, const World& world, const Scene
             total += static_cast<std::uint64_t>(job.samples->size()) - film.pixels().samples(x, y);
     Progress progress(total, ProgressOutput::standard_error(options.quiet));
     job.advance = [&](std::uint64_t n) { progress.advance(n); };
+    // While this lives, another thread saves the film, which has a lock.
     std::optional<Checkpoints> checkpoints;
     if (options.checkpoint) checkpoints.emplace(*options.checkpoint, options.checkpoint_seconds, header, film);
     return render(world, scene, job, film);
@@ -181,21 +181,23 @@ int render_scene(const RenderOptions& options) {
     job.samples = samples_of(options, scene);
     job.threads = threads.count();
     job.cancelled = [] { return interrupted(); };
-    const std::vector<std::string> outputs = outputs_of(options, *job.samples);
+    const std::vector<std::string> outputs = checked_outputs(options, *job.samples);
     const DisplayTransform display =
         display_of(document, scene.settings, options.display, options.view, options.exposure);
     if (threads.count() < threads.wanted())
         say("phasetree: only {} of {} threads can be started\n", threads.count(), threads.wanted());
     FilmFileHeader header = header_of(options, document, scene, job);
-    const std::optional<FilmFile> found = found_to_resume(options, header);
+    const std::optional<FilmFile> found = film_to_resume(options, header);
 
     const InterruptGuard guard;
     std::optional<World> world;
-    if (!prepare(world, options, scene, job)) return code_of_interruption(options.checkpoint || options.resume);
+    // What there was to resume is still there; and the same line starts anew if it may.
+    if (!prepare(world, options, scene, job)) return code_of_interruption(found || options.may_start);
     if (world->geometry().object().size() == 0) say("{}\n", empty_object_warning(document));
     if (!options.quiet && world->geometry().object().statistics().is_coarser)
         say("phasetree: the object would take more memory than --max-memory allows: rays are slower\n");
     if (!options.quiet) print_warning(document.name(), world->geometry().object().warning());
+    // The header now says of the cells, too, whether they were made coarser, so what is resumed is compared again.
     add_cells(header, options, world->geometry().object().statistics());
     Film film = film_of(scene, job);
     if (found) {
@@ -204,13 +206,13 @@ int render_scene(const RenderOptions& options) {
     }
     const Rendering rendering = rendered(options, *world, scene, job, header, film);
 
-    bool can_resume = false;
-    const bool all_is_well = write_all({options, scene, *world, display, outputs, header, film}, rendering, can_resume);
+    const bool all_is_well = write_all({options, scene, *world, display, outputs, header, film}, rendering);
     if (rendering.cancelled)
         say("phasetree: interrupted; the image has {} of {} samples a pixel{}\n", rendering.samples,
             job.samples->size(), job.samples->size() == 1 ? ", in part" : "");
     if (!all_is_well) return 1;
-    return rendering.cancelled ? code_of_interruption(can_resume) : 0;
+    if (!rendering.cancelled) return 0;
+    return code_of_interruption(options.checkpoint || std::ranges::any_of(outputs, is_film_file));
 }
 
 }  // namespace

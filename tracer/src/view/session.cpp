@@ -15,14 +15,14 @@ namespace phasetree::tracer::view {
 
 namespace {
 
-// While the camera is turned each wish comes before the picture of the last is there. A coarse one is finished all the
-// same, unless it takes longer than this.
-constexpr std::chrono::milliseconds patience{250};
+// While the camera is turned each wish comes before the picture of the last is there. A first coarse picture is
+// finished all the same, until so long after its wish.
+constexpr std::chrono::milliseconds first_picture_deadline{250};
 // Pictures that follow each other faster than this are not shown one by one.
 constexpr std::chrono::milliseconds between_pictures{100};
 
 // What a terminal would show.
-std::string told(std::exception_ptr failure) {
+std::string error_text(std::exception_ptr failure) {
     try {
         std::rethrow_exception(failure);
     } catch (const SceneError& e) {
@@ -41,7 +41,7 @@ std::vector<std::uint8_t> on_display(const Image& image, const DisplayTransform&
 }
 
 void set_width(FilmSettings& film, int width) {
-    constexpr double highest = 32768;  // as of scene files
+    constexpr double highest = 32768;  // Scene files have the same limit.
     film.height =
         static_cast<int>(std::clamp(std::round(static_cast<double>(width) * film.height / film.width), 1.0, highest));
     film.width = width;
@@ -60,7 +60,7 @@ Session::~Session() {
 void Session::stop() {
     const std::lock_guard lock(mutex_);
     stopped_ = true;
-    told_.notify_all();
+    changed_.notify_all();
 }
 
 template <class Edit>
@@ -70,7 +70,7 @@ void Session::show(Edit&& edit) {
     edit(*next);
     ++next->version;
     shown_ = std::move(next);
-    told_.notify_all();
+    changed_.notify_all();
 }
 
 std::shared_ptr<const Shown> Session::shown() const {
@@ -80,8 +80,15 @@ std::shared_ptr<const Shown> Session::shown() const {
 
 std::shared_ptr<const Shown> Session::shown_after(std::uint64_t version, std::chrono::milliseconds most) const {
     std::unique_lock lock(mutex_);
-    told_.wait_for(lock, most, [&] { return stopped_ || shown_->version > version; });
+    changed_.wait_for(lock, most, [&] { return stopped_ || shown_->version > version; });
     return shown_;
+}
+
+void Session::write_camera() const {
+    const std::string camera = shown()->camera_text;
+    if (camera.empty()) throw ModelError("there is no picture yet");
+    const std::lock_guard lock(writing_);
+    options_.write_camera(camera);
 }
 
 std::uint64_t Session::change(const Change& change) {
@@ -95,7 +102,7 @@ std::uint64_t Session::change(const Change& change) {
         if (change.has_camera || change.hidden) wishes_.since = Clock::now();
         number_ = wishes_.number();
         number_of_object_ = wishes_.number_of_object();
-        told_.notify_all();
+        changed_.notify_all();
     }
     if (change.exposure_ev) expose();
     return shown()->version;
@@ -120,7 +127,7 @@ void Session::look_at_files() {
     wishes_.since = Clock::now();
     number_ = wishes_.number();
     number_of_object_ = wishes_.number_of_object();
-    told_.notify_all();
+    changed_.notify_all();
 }
 
 void Session::work() {
@@ -129,7 +136,7 @@ void Session::work() {
         Wishes wishes;
         {
             std::unique_lock lock(mutex_);
-            told_.wait(lock, [&] { return stopped_ || wishes_.number() != followed; });
+            changed_.wait(lock, [&] { return stopped_ || wishes_.number() != followed; });
             if (stopped_) return;
             wishes = wishes_;
         }
@@ -139,7 +146,7 @@ void Session::work() {
         } catch (const BuildCancelled&) {
             // Another wish has come, which the next turn follows.
         } catch (...) {
-            fail(told(std::current_exception()));
+            fail(error_text(std::current_exception()));
         }
     }
 }
@@ -173,7 +180,7 @@ void Session::read(Wishes& wishes) {
         if (options_.width) set_width(scene.scene.film, *options_.width);
         viewed = std::make_shared<const ViewedScene>(std::move(scene));
     } catch (...) {
-        error = told(std::current_exception());
+        error = error_text(std::current_exception());
     }
     {
         const std::lock_guard lock(mutex_);
@@ -181,8 +188,9 @@ void Session::read(Wishes& wishes) {
         is_to_be_read_ = false;
         // Who edits the camera in the file wants to see that, and not where the mouse has turned it.
         const auto text = [](const Scene& scene) { return camera_text(scene.camera, scene.film.filter); };
+        // A camera that has been wished for meanwhile came later and stays.
         if (viewed && viewed_ && text(viewed->scene) != text(viewed_->scene)) {
-            wishes_.camera.reset();
+            if (wishes_.view == wishes.view) wishes_.camera.reset();
             wishes.camera.reset();
         }
     }
@@ -201,6 +209,9 @@ void Session::build(const Wishes& wishes) {
         prepared_ = std::make_shared<const Prepared>(scene, options);
     } catch (const BuildCancelled&) {
         built_for_ = {};
+        throw;
+    } catch (...) {
+        prepared_.reset();  // It is of another scene than viewed_, and its picture would be wrong.
         throw;
     }
     scene_ = scene;
@@ -236,6 +247,8 @@ bool Session::draw(const Wishes& wishes) {
     show([&](Shown& shown) {
         shown.camera = scene_->camera;
         shown.camera_text = camera_text(scene_->camera, file.film.filter);
+        // What went wrong with an earlier picture is over; that the file cannot be read is not.
+        if (last_good_reading_ == last_reading_) shown.error.clear();
         shown.warning = warning_ + warning_of_camera();
         shown.doing = "Taking the first picture";
     });
@@ -253,7 +266,7 @@ bool Session::draw(const Wishes& wishes) {
     return true;
 }
 
-// That it can stand where it sees nothing.
+// Warns if the camera is inside an opaque phase, where it sees nothing.
 std::string Session::warning_of_camera() const {
     const Phase phase = prepared_->world().geometry().label(position_of(scene_->camera));
     if (is_clear(scene_->materials[phase.index])) return {};
@@ -261,7 +274,7 @@ std::string Session::warning_of_camera() const {
                        scene_->phases[phase]);
 }
 
-// Returns whether it was finished, as draw_whole() does.
+// Returns whether the picture was finished and is still wished for.
 bool Session::draw_coarser(const Wishes& wishes, int scale) {
     const glm::ivec2 size = coarser(viewed_->scene.film.resolution(), scale);
     scene_->film.width = size.x;
@@ -272,7 +285,7 @@ bool Session::draw_coarser(const Wishes& wishes, int scale) {
     job.pixels = scene_->film.whole();
     job.threads = options_.threads;
     job.cancelled = [&, is_first] {
-        const bool is_over = !is_first || Clock::now() - wishes.since > patience;
+        const bool is_over = !is_first || Clock::now() - wishes.since > first_picture_deadline;
         return is_of_another_object(wishes) || (is_over && is_stale(wishes));
     };
     Rendering rendering = render(prepared_->world(), *scene_, job);
@@ -325,26 +338,28 @@ void Session::show_picture(const Wishes& wishes, Image image, int scale, int sam
     expose();
 }
 
-// Shows the last picture with the exposure that is wished, if it has another.
+// Shows the last picture with the exposure that is wished, if it has another. Meanwhile another picture may come, or
+// another wish, so this is repeated until both agree.
 void Session::expose() {
-    std::optional<float> wished;
-    std::shared_ptr<const Picture> last;
-    {
-        const std::lock_guard lock(mutex_);
-        wished = wishes_.exposure_ev;
-        last = shown_->picture;
+    while (true) {
+        std::optional<float> wished;
+        std::shared_ptr<const Picture> last;
+        {
+            const std::lock_guard lock(mutex_);
+            wished = wishes_.exposure_ev;
+            last = shown_->picture;
+        }
+        if (!wished || !last || last->exposure_ev == *wished) return;
+        auto picture = std::make_shared<Picture>(*last);
+        picture->exposure_ev = *wished;
+        picture->pixels = on_display(picture->linear, picture->viewed->display(*wished));
+        show([&](Shown& shown) {
+            if (shown.picture != last) return;
+            ++picture->number;
+            shown.picture = picture;
+            shown.exposure_ev = *wished;
+        });
     }
-    if (!wished || !last || last->exposure_ev == *wished) return;
-    auto picture = std::make_shared<Picture>(*last);
-    picture->exposure_ev = *wished;
-    picture->pixels = on_display(picture->linear, picture->viewed->display(*wished));
-    show([&](Shown& shown) {
-        // A later picture looks after its exposure itself.
-        if (shown.picture != last) return;
-        ++picture->number;
-        shown.picture = picture;
-        shown.exposure_ev = *wished;
-    });
 }
 
 void Session::fail(const std::string& error) {

@@ -1,4 +1,5 @@
-// A scene that is viewed: what the page wishes, what it shows, and the thread that follows the one with the other.
+// A Session shows one scene. The page says what it wishes to see (Wishes), and a thread changes what is shown (Shown)
+// accordingly.
 //
 // The thread reads the scene, builds its cells, and takes pictures, coarse ones first. Every step is given up as soon
 // as a later wish makes it useless, so a scene that would take forever is left by the next change. What goes wrong is
@@ -35,10 +36,10 @@ struct SessionOptions {
     std::function<void(std::string_view)> tell = [](std::string_view) {};
 };
 
-/// What the page wishes to be otherwise; what is not said stays.
+/// A change that the page asks for. A member without a value changes nothing.
 struct Change {
-    bool has_camera = false;
-    std::optional<AnyCameraParameters> camera;  ///< without one the scene's
+    bool has_camera = false;                    ///< Whether the camera changes: to this one,
+    std::optional<AnyCameraParameters> camera;  ///< or without a value back to the scene's.
     std::optional<std::vector<std::string>> hidden;
     std::optional<float> exposure_ev;
 };
@@ -51,16 +52,18 @@ class Session {
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
-    /// Returns the version of what is shown at which the change counts.
+    /// Returns the version of what is shown just after the change was taken down: shown_after() of it waits for what
+    /// comes of the change.
     std::uint64_t change(const Change& change);
     /// To be called now and then: reads the scene again if a file of it has been saved.
     void look_at_files();
 
-    /// Puts the camera that is shown into the scene's file. Throws as SessionOptions::write_camera does.
-    void write_camera() const { options_.write_camera(shown()->camera_text); }
+    /// Puts the camera that is shown into the scene's file, one call after the other. Throws as
+    /// SessionOptions::write_camera does, and ModelError while none is shown.
+    void write_camera() const;
 
     std::shared_ptr<const Shown> shown() const;
-    /// What is shown once its version is more than `version`, or when the time is over.
+    /// What is shown once its version is more than `version`, or when the time is over, or after stop() at once.
     std::shared_ptr<const Shown> shown_after(std::uint64_t version, std::chrono::milliseconds most) const;
     /// Ends all waiting and working, for good.
     void stop();
@@ -115,11 +118,12 @@ class Session {
     const SessionOptions options_;
 
     mutable std::mutex mutex_;
-    mutable std::condition_variable told_;  // of new wishes, of what is newly shown, and of the end
+    mutable std::condition_variable changed_;  // It is notified of new wishes, of what is newly shown, and of the end.
+    mutable std::mutex writing_;               // while the scene's file is written
     Wishes wishes_;
     std::shared_ptr<const Shown> shown_ = std::make_shared<Shown>();
     WatchedFiles files_;
-    std::optional<WatchedFiles> changed_files_;  // as they were when they were last seen to be others
+    std::optional<WatchedFiles> changed_files_;  // These are the files as they were when a change was last seen.
     bool is_to_be_read_ = true;
     std::atomic<std::uint64_t> number_{1}, number_of_object_{1};
     std::atomic<bool> stopped_{false};
@@ -129,10 +133,10 @@ class Session {
     std::shared_ptr<Scene> scene_;  // without what is hidden
     std::shared_ptr<const Prepared> prepared_;
     std::uint64_t last_reading_ = 0, last_good_reading_ = 0;
-    std::string warning_;          // of the object
-    ObjectNumber built_for_;       // whether in vain or not
-    PictureNumber finished_for_;   // of the picture that has all samples
-    std::uint64_t drawn_for_ = 0;  // the number of the wishes whose first picture has been shown
+    std::string warning_;          // The object's.
+    ObjectNumber built_for_;       // The last object whose build was tried, with success or without.
+    PictureNumber finished_for_;   // The last picture that has all samples.
+    std::uint64_t drawn_for_ = 0;  // The number of the wishes whose first picture has been shown.
     Ladder ladder_;
 
     std::thread thread_;  // last, because it uses all the others
