@@ -4,9 +4,12 @@
 
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "paths.hpp"
+#include "shading/texture/ramp.hpp"
 
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::tests;
@@ -51,6 +54,22 @@ std::filesystem::path four_pixels() {
 }
 
 }  // namespace
+
+TEST_CASE("where a ramp jumps it has the later value") {
+    struct Stop {
+        float at;
+    };
+    const std::vector<Stop> stops{{0}, {1}, {1}, {3}};
+    const auto between = [&](float value) { return between_stops(std::span<const Stop>(stops), value); };
+    CHECK(between(-1).above == 0);
+    CHECK(between(0.5f).below == 0);
+    CHECK(between(0.5f).part == 0.5f);
+    CHECK(between(1).below == 2);
+    CHECK(between(1).part == 0);
+    CHECK(between(2).part == 0.5f);
+    CHECK(between(3).below == 3);
+    CHECK(between(4).above == 3);
+}
 
 TEST_CASE("textures by the tree: colours follow the distance to another phase, along a ramp") {
     const Scene scene = sand_of(R"({"diffuse": {"color": {"field": {"of": )" + ball_of_water +
