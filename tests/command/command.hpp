@@ -23,6 +23,10 @@ using support::bytes_of;
 using support::TemporaryDirectory;
 using support::write_text;
 
+// How long an error may take, in seconds of processor time. The promise is one; a machine that runs other things too
+// gets a few more.
+inline constexpr double at_once = 5;
+
 struct Outcome {
     int code = -1;   // exit code; −1 if a signal ended it
     int signal = 0;  // that signal; SIGKILL also for a run that was given up

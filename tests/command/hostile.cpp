@@ -1,5 +1,5 @@
-// Input that is wrong, by mistake or on purpose: one error that says where and what, exit code 2, at once, and nothing
-// left behind. Never a crash, never a hang.
+// Scene files that are wrong, by mistake or on purpose: one error that says where and what, exit code 2, at once, and
+// nothing left behind. Never a crash, never a hang. What else a person gives is in wrong_arguments.cpp.
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -13,9 +13,6 @@
 using namespace phasetree::tests;
 
 namespace {
-
-// The promise is a second; a machine that runs other things too gets a few more.
-constexpr double at_once = 5;
 
 std::string nested(const std::string& open, const std::string& middle, const std::string& close, int n) {
     std::string text;
@@ -374,115 +371,5 @@ TEST_CASE("numbers at the ends of their ranges neither crash nor hang") {
         CHECK((o.code == 0 || o.code == 2));
         CHECK((o.code == 0) == o.err.empty());
         CHECK(o.processor_seconds < 2 * at_once);
-    }
-}
-
-TEST_CASE("wrong arguments: one error, exit code 2, nothing left behind") {
-    struct Arguments {
-        std::vector<std::string> words;
-        std::string message;
-    };
-    const std::vector<Arguments> wrong{
-        {{"--size", "0x10"}, "--size"},
-        {{"--size", "10"}, "--size"},
-        {{"--size", "10x"}, "--size"},
-        {{"--size", "axb"}, "--size"},
-        {{"--size", "10x10x10"}, "--size"},
-        {{"--size", "99999x1"}, "--size"},
-        {{"--size", "99999999999999x1"}, "--size"},
-        {{"--crop", "0,0,0,0"}, "--crop"},
-        {{"--crop", "0,0,25,16"}, "--crop"},
-        {{"--crop", "5,5,4,6"}, "--crop"},
-        {{"--crop", "-1,0,5,5"}, "--crop"},
-        {{"--crop", "1,2,3"}, "--crop"},
-        {{"--crop", "1,2,3,4,5"}, "--crop"},
-        {{"--crop", "a"}, "--crop"},
-        {{"--threads", "0"}, "--threads"},
-        {{"--threads", "-3"}, "--threads"},
-        {{"--threads", "many"}, "--threads"},
-        {{"--threads", "1000000000"}, "--threads"},
-        {{"--build-quality", "best"}, "--build-quality: must be low or medium, but is \"best\""},
-        {{"--build-quality", "0"}, "--build-quality: must be low or medium"},
-        {{"--build-quality", ""}, "--build-quality"},
-        {{"--spp", "0"}, "--spp"},
-        {{"--spp", "1e3x"}, "--spp"},
-        {{"--seed", "-1"}, "--seed"},
-        {{"--exposure", "nan"}, "exposure"},
-        {{"--exposure", "1000"}, "--exposure"},
-        {{"--view", "Nowhere"}, "Nowhere"},
-        {{"--display", "Nowhere"}, "Nowhere"},
-        {{"-o", "picture"}, "picture"},
-        {{"-o", "picture.gif"}, ".gif"},
-        {{"-o", "nowhere/picture.exr"}, "nowhere/picture.exr"},
-        {{"-o", "."}, ""},
-        {{"-o", ""}, ""},
-        {{"-o", "/proc/picture.exr"}, "/proc/picture.exr"},
-        {{"--stats", "nowhere/stats.json"}, "nowhere/stats.json"},
-        {{"--stats", "."}, "cannot write \".\": it is a directory"},
-        {{"--stats", "/dev/null"}, "it is not a regular file"},
-        {{"--nonsense"}, "--nonsense"},
-        {{"another.json"}, "another.json"}};
-    const Shell shell;
-    write_text(shell.directory / "scene.json", SceneText().text());
-    for (const Arguments& a : wrong) {
-        CAPTURE(a.words);
-        std::vector<std::string> words{"render", "scene.json"};
-        words.insert(words.end(), a.words.begin(), a.words.end());
-        const Outcome o = shell.run(words);
-        CAPTURE(o.err);
-        CHECK(o.code == 2);
-        CHECK(o.out == "");
-        CHECK(o.err.find(a.message) != std::string::npos);
-        CHECK(o.err.find("Progress") == std::string::npos);  // before an hour of rendering, not after
-        CHECK(o.processor_seconds < at_once);
-        CHECK(shell.directory.size() == 1);
-    }
-    for (const std::vector<std::string>& words : {std::vector<std::string>{},
-                                                  {"rendre", "scene.json"},
-                                                  {"render"},
-                                                  {"check"},
-                                                  {"check", "scene.json", "more"}}) {
-        const Outcome o = shell.run(words);
-        CHECK(o.code == 2);
-        CHECK(o.err != "");
-    }
-    CHECK(shell.run({"rendre", "scene.json"}).err ==
-          "phasetree: unknown subcommand \"rendre\"; did you mean \"render\"?\n");
-    CHECK(
-        shell.run({"nothing"}).err ==
-        "phasetree: unknown subcommand \"nothing\"; the subcommands are render, view, merge, farm, check, info, eval, "
-        "trace, nodes, export\n");
-    CHECK(shell.run({"--help"}).code == 0);
-    CHECK(shell.run({"render", "--help"}).code == 0);
-    CHECK(shell.run({"--version"}).out.find("phasetree") == 0);
-    CHECK(shell.directory.size() == 1);
-}
-
-TEST_CASE("$OCIO that leads nowhere is an error") {
-    Shell shell;
-    shell.environment = {{"OCIO", "/nowhere/config.ocio"}};
-    write_text(shell.directory / "scene.json", SceneText().text());
-    const Outcome o = shell.run({"render", "scene.json", "-o", "a.png"});
-    CHECK(o.code == 2);
-    CHECK(o.err.find("/nowhere/config.ocio") != std::string::npos);
-    CHECK(shell.directory.size() == 1);
-}
-
-TEST_CASE("lines of numbers that are none") {
-    const Shell shell;
-    write_text(shell.directory / "scene.json", SceneText().text());
-    struct Input {
-        const char *command, *text, *place;
-    };
-    for (const Input& i :
-         {Input{"eval", "1 2\n", "<stdin>:1:"}, Input{"eval", "0 0 0\n\n# so\n1 2 x\n", "<stdin>:4:5:"},
-          Input{"eval", "1 2 3 4\n", "<stdin>:1:7:"}, Input{"eval", "nan 0 0\n", "<stdin>:1:1:"},
-          Input{"eval", "1e99 0 0\n", "<stdin>:1:1:"}, Input{"trace", "0 0 0 1 0\n", "<stdin>:1:"},
-          Input{"trace", "0 0 0 0 0 0\n", "<stdin>:1:"}, Input{"trace", "0 0 0 inf 0 0\n", "<stdin>:1:7:"}}) {
-        CAPTURE(i.text);
-        const Outcome o = shell.run({i.command, "scene.json"}, i.text);
-        CAPTURE(o.err);
-        CHECK(o.code == 2);
-        CHECK(o.err.find(i.place) == 0);
     }
 }
