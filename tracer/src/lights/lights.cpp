@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <memory_resource>
 
@@ -31,6 +32,24 @@ class Scratch {
     std::pmr::vector<float> values_;
 };
 
+// Where a point light is from p, and the irradiance that it gives there.
+struct FromPoint {
+    glm::vec3 direction;
+    float distance;
+    glm::vec3 irradiance;
+};
+FromPoint seen_from(const glm::vec3& p, const AnyPointLight& any) {
+    return std::visit(
+        [&](const auto& light) {
+            const glm::dvec3 way = glm::dvec3(light.position()) - glm::dvec3(p);
+            const double squared = glm::dot(way, way);
+            const glm::vec3 direction(way / std::sqrt(squared));
+            return FromPoint{direction, static_cast<float>(std::sqrt(squared)),
+                             glm::vec3(glm::dvec3(light.intensity(-direction)) / squared)};
+        },
+        any);
+}
+
 }  // namespace
 
 std::size_t Lights::group_of(std::string_view name) {
@@ -49,12 +68,19 @@ void Lights::add(AreaLight light, std::string_view group) {
     area_group_.push_back(group_of(group));
 }
 
+void Lights::add(AnyPointLight light, std::string_view group) {
+    points_.push_back(std::move(light));
+    point_group_.push_back(group_of(group));
+}
+
 void Lights::add_to_groups(const glm::vec3& radiance, const Emission& emission, const glm::vec3& direction,
                            std::span<glm::vec3> groups) const {
     const std::int32_t source = emission.source.area_light;
     const auto is_like_first = [&](std::size_t group) { return group == infinite_group_.front(); };
     if (source >= 0) {
         groups[area_group_[static_cast<std::size_t>(source)]] += radiance;
+    } else if (source <= LightSource::first_point) {
+        groups[point_group_[static_cast<std::size_t>(LightSource::first_point - source)]] += radiance;
     } else if (source == LightSource::background || infinite_.empty()) {
         groups[0] += radiance;
     } else if (std::ranges::all_of(infinite_group_, is_like_first)) {
@@ -92,7 +118,41 @@ float Lights::fluences(const glm::vec3& p, std::span<float> fluence) const {
             any);
         total += fluence[index++];
     }
+    for (const AnyPointLight& point : points_) {
+        fluence[index] = luminance(seen_from(p, point).irradiance);
+        total += fluence[index++];
+    }
+    if (!portals_.empty()) share_with_portals(p, fluence);
     return total;
+}
+
+// Moves a part of what lights at infinity that are all around are chosen by to the portals that p sees.
+void Lights::share_with_portals(const glm::vec3& p, std::span<float> fluence) const {
+    constexpr float part = 0.75f;
+    const std::span<float> portals = fluence.last(portals_.size());
+    float seen = 0.0f;
+    for (std::size_t i = 0; i < portals_.size(); ++i) {
+        portals[i] = static_cast<float>(portals_[i].approximate_solid_angle(p));
+        seen += portals[i];
+    }
+    if (!(seen > 0.0f)) return;
+    float moved = 0.0f;
+    for (std::size_t i = 0; i < infinite_.size(); ++i) {
+        if (std::visit([](const auto& light) { return light.centre_direction(); }, infinite_[i])) continue;
+        moved += part * fluence[i];
+        fluence[i] *= 1.0f - part;
+    }
+    for (float& portal : portals) portal *= moved / seen;
+}
+
+// What the portals add to the density of a direction, times the sum of `fluence`; but for one of them, if it is one.
+float Lights::portals_pdf(const glm::vec3& p, const glm::vec3& direction, std::span<const float> fluence,
+                          std::size_t except) const {
+    const std::size_t first = fluence.size() - portals_.size();
+    float sum = 0.0f;
+    for (std::size_t i = 0; i < portals_.size(); ++i)
+        if (first + i != except && fluence[first + i] > 0.0f) sum += fluence[first + i] * portals_[i].pdf(p, direction);
+    return sum;
 }
 
 float Lights::pdf(const glm::vec3& p, const glm::vec3& direction) const {
@@ -116,7 +176,7 @@ float Lights::pdf(const glm::vec3& p, const glm::vec3& direction) const {
             },
             any);
     }
-    return sum;
+    return sum + portals_pdf(p, direction, fluence, size()) / total;
 }
 
 std::optional<LightSample> Lights::sample(const glm::vec3& p, glm::vec2 u) const {
@@ -136,9 +196,17 @@ std::optional<LightSample> Lights::sample(const glm::vec3& p, glm::vec2 u) const
     }
     u.x = std::clamp((u.x * total - (below - fluence[chosen])) / fluence[chosen], 0.0f, 0x1.fffffep-1f);
 
+    const std::size_t first_point = infinite_.size() + area_.size(), first_portal = first_point + points_.size();
+    if (chosen >= first_point && chosen < first_portal) {
+        const FromPoint point = seen_from(p, points_[chosen - first_point]);
+        const LightSource source{LightSource::first_point - static_cast<std::int32_t>(chosen - first_point)};
+        return LightSample{point.direction, point.distance, point.irradiance, fluence[chosen] / total, source, true};
+    }
     std::optional<DirectionSample> sampled;
     if (chosen < infinite_.size())
         sampled = std::visit([&](const auto& light) { return light.sample(u); }, infinite_[chosen]);
+    else if (chosen >= first_portal)
+        sampled = portals_[chosen - first_portal].sample(p, u);
     else
         sampled = std::visit([&](const auto& light) { return light.sample(p, u); }, area_[chosen - infinite_.size()]);
     if (!sampled) return std::nullopt;
@@ -152,8 +220,9 @@ std::optional<LightSample> Lights::sample(const glm::vec3& p, glm::vec2 u) const
         if (i != chosen && fluence[i] > 0.0f)
             density += fluence[i] / total * std::visit([&](const auto& light) { return light.pdf(wi); }, any);
     }
+    density += portals_pdf(p, wi, fluence, chosen) / total;
     std::optional<Emission> nearest;  // of the area lights, which are numbered after the infinite ones
-    bool is_met = chosen < infinite_.size();
+    bool is_met = chosen < infinite_.size() || chosen >= first_portal;
     for (const AreaLight& any : area_) {
         const std::size_t i = index++;
         std::visit(
@@ -196,6 +265,7 @@ std::optional<glm::vec3> Lights::towards_brightest(const glm::vec3& p, const glm
             const glm::vec2 middle(0.5f);
             return std::optional(std::visit([&](const auto& light) { return light.sample(p, middle).direction; }, any));
         });
+    for (const AnyPointLight& point : points_) consider([&] { return std::optional(seen_from(p, point).direction); });
     return brightest;
 }
 
