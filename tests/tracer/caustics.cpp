@@ -94,6 +94,43 @@ TEST_CASE("the sun through a pane, and at the ground of a pool: closed forms") {
     }
 }
 
+TEST_CASE("a point above a pane, and above a pool: closed forms") {
+    // Straight below it, a point at the height h above a plane of index n shines as from h n, if it is seen within.
+    const double significance = sidak(1e-4, 2);
+    const double r = reflectance(1, 1.5), intensity = 20;
+    const auto check_radiance = [&](const Scene& scene, const glm::vec3& from, double irradiance) {
+        const double expected = irradiance / std::numbers::pi * albedo;
+        const Moments m = with_photons(scene, from, -from);
+        CAPTURE(m.mean() / expected);
+        CHECK(mean_p_value(m, expected, 1e-3 * expected) > significance);
+        CHECK(mean_p_value(m, planted * expected, 1e-3 * expected) < significance);
+        // It is photons alone that find it.
+        CHECK(radiance_along(World(scene), scene, from, -from, 1000)[0].mean() == 0);
+    };
+    const std::string point = R"("lights": [{"point": {"position": [0, 0, 2], "intensity": 20}}])";
+    SUBCASE("a pane over the floor") {
+        // What passes straight, and what is reflected twice within, which comes from further away; more is nothing.
+        const double once = 2 - 0.2 * (1 - 1 / 1.5), twice = once + 0.4 / 1.5;
+        const double passed = (1 - r) * (1 - r) * (1 / (once * once) + r * r / (twice * twice));
+        check_radiance(
+            scene_of(
+                R"("glass": {"clear": {"ior": 1.5}})",
+                R"({"set": {"phase": "glass", "of": {"translate": {"by": [0, 0, 0.5], "of": {"box": {"size": [3, 3, 0.2]}}}}}})",
+                R"("meshes": [{"floor": {"material": )" + floor_material + "}}], " + point + few_wide_photons),
+            {-1, -1, 0.2f}, intensity * passed);
+    }
+    SUBCASE("the ground of a pool, where the index is not 1") {
+        const double away = 1 + 1 / 1.5;
+        check_radiance(
+            scene_of(
+                R"("water": {"clear": {"ior": 1.5}}, "ground": )" + floor_material,
+                R"({"over": [{"set": {"phase": "ground", "of": {"translate": {"by": [0, 0, -0.5], "of": {"box": {"size": [3, 3, 1]}}}}}},
+                                  {"set": {"phase": "water", "of": {"box": {"size": [3, 3, 2]}}}}]})",
+                point + few_wide_photons),
+            {-0.5f, -0.5f, 0.7f}, intensity * (1 - r) / (away * away));
+    }
+}
+
 TEST_CASE("behind a ball of coloured glass, or of what scatters, it is as bright as by paths alone") {
     const std::string sun = R"({"sun": {"direction": [0.2, 0.3, 1], "irradiance": [4, 4, 4], "diameter": 90}})";
     const std::string rectangle = R"({"rectangle": {"centre": [1, 1, 4], "target": [0, 0, 0], "width": 6, "height": 6,

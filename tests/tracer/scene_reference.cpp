@@ -50,6 +50,7 @@ const TemporaryDirectory& folder() {
         for (int i = 0; i < 32; ++i) image += std::string(1, static_cast<char>(0x20 + 2 * i)) + "\x40\x60\x80";
         write_text(made / "sky.hdr", image);
         write_text(made / "mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+        write_text(made / "lamp.ies", "TILT=NONE\n1 1 1 3 2 1 2 0 0 0\n1 1 0\n0 90 180\n0 90\n5 2 1\n3 2 1\n");
         return true;
     }();
     REQUIRE(is_filled);
@@ -264,6 +265,11 @@ std::vector<Case> cases() {
     light("sun", R"("direction": [1, 1, 1])");
     light("rectangle", R"("centre": [0, 0, 3], "target": [0, 0, 0], "width": 9, "height": 4)");
     light("sphere", R"("centre": [0, 0, 3], "radius": 2)");
+    light("point", R"("position": [0, 0, 3])");
+    light("spot", R"("position": [0, 0, 3], "target": [1, 0, 1])");
+    light("ies", R"("file": "lamp.ies", "position": [0, 0, 3], "target": [1, 0.5, 0])");
+    all.push_back({"Lights", "portal", R"("centre": [0, 0, 3], "target": [0, 0, 0], "width": 9, "height": 4)",
+                   R"({"lights": [{"constant": {}}, {"portal": )", "}]}", tell_lights});
     const auto mesh = [&](const std::string& name, const std::string& needed) {
         all.push_back({"Meshes", name, R"("material": {"diffuse": {"color": [0.5, 0.5, 0.5]}})" + needed,
                        "[{\"" + name + "\": ", "}]", tell_meshes});

@@ -77,8 +77,10 @@ void Caustics::learn() {
             if (!photon) continue;
             const float ior = clear_at(scene_, photon->phase).ior, cosine = 0.5f;
             const float by_photons = expected * photon->line_density * ior * ior * cosine;
-            const float weight = power_heuristic(by_photons, cosine_hemisphere_pdf(cosine),
-                                                 scene_.lights.pdf(photon->position, photon->direction));
+            const float weight = photon->of_point_light
+                                     ? 1.0f
+                                     : power_heuristic(by_photons, cosine_hemisphere_pdf(cosine),
+                                                       scene_.lights.pdf(photon->position, photon->direction));
             found[i] = {emitted->light, emitted->cell, static_cast<double>(luminance(photon->power) * weight)};
         }
     });

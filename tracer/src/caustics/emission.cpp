@@ -39,15 +39,26 @@ PhotonEmission::PhotonEmission(const World& world, const Scene& scene) : world_(
     const std::span<const InfiniteLight> infinite = scene.lights.infinite();
     for (std::size_t i = 0; i < infinite.size(); ++i) {
         const auto middle = std::visit([](const auto& light) { return light.centre_direction(); }, infinite[i]);
-        if (middle) sources_.push_back({i, {}, 1.0, {centre_, -*middle, target_of_infinite * radius_}});
+        if (middle) sources_.push_back({i, {}, {}, 1.0, {centre_, -*middle, target_of_infinite * radius_}});
     }
-    const std::span<const AreaLight> area = scene.lights.area();
-    for (std::size_t i = 0; i < area.size(); ++i) {
-        const glm::vec3 towards = centre_ - std::visit([](const auto& light) { return light.centre(); }, area[i]);
+    const auto target_from = [&](const glm::vec3& light) {
+        const glm::vec3 towards = centre_ - light;
         const float distance = glm::length(towards);
         const glm::vec3 normal = distance > 0.0f ? towards / distance : glm::vec3(0.0f, 0.0f, 1.0f);
-        sources_.push_back({{}, i, 1.0, {centre_, normal, target_of_area * radius_}});
-    }
+        return PhotonTarget(centre_, normal, target_of_area * radius_);
+    };
+    const std::span<const AreaLight> area = scene.lights.area();
+    for (std::size_t i = 0; i < area.size(); ++i)
+        sources_.push_back(
+            {{}, i, {}, 1.0, target_from(std::visit([](const auto& light) { return light.centre(); }, area[i]))});
+    const std::span<const AnyPointLight> points = scene.lights.points();
+    for (std::size_t i = 0; i < points.size(); ++i)
+        sources_.push_back(
+            {{},
+             {},
+             i,
+             1.0,
+             target_from(std::visit([](const auto& light) { return glm::vec3(light.position()); }, points[i]))});
     for (Source& source : sources_) source.share = 1.0 / static_cast<double>(sources_.size());
 }
 
@@ -84,6 +95,7 @@ std::optional<EmittedPhoton> PhotonEmission::sample(Sampler& sampler) const {
     const glm::vec2 u_light = sampler.next2();
     const float u_cell = sampler.next();
     const PhotonTarget::Aim aim = source.target.sample(u_cell, sampler.next2());
+    if (source.point) return of_point_light(number, aim);
 
     glm::vec3 direction;
     float back = infinity;  // from the target to the light
@@ -100,18 +112,39 @@ std::optional<EmittedPhoton> PhotonEmission::sample(Sampler& sampler) const {
         direction = (aim.point - from.position) / back;
         if (!(glm::dot(direction, from.normal) > 0.0f)) return std::nullopt;
     }
-    glm::vec3 origin = outside_of_object(aim.point, direction);
+    const std::optional<Ray> ray = start(aim.point, direction, back);
+    if (!ray) return std::nullopt;
+    const float density = line_density(ray->origin, -direction, ray->phase);
+    const auto seen = scene_.lights.seen(ray->origin, -direction, infinity, false);
+    if (!(density > 0.0f) || !seen) return std::nullopt;
+    const float line = density * squared_ior(scene_, ray->phase);
+    return EmittedPhoton{*ray, *seen, seen->radiance / line, density, number, aim.cell};
+}
+
+std::optional<Ray> PhotonEmission::start(const glm::vec3& target, const glm::vec3& direction, float back) const {
+    glm::vec3 origin = outside_of_object(target, direction);
     // A light within the sphere about the object: the photon starts at the light, but for a hair.
-    if (glm::dot(aim.point - origin, direction) > back) origin = aim.point - direction * (back * (1 - 1e-5f));
+    if (glm::dot(target - origin, direction) > back) origin = target - direction * (back * (1 - 1e-5f));
     const bool is_outside = !world_.geometry().object().bounds().contains(origin);
     const Phase phase = is_outside ? phasetree::vacuum : world_.geometry().label(origin);
     if (!is_clear(scene_.materials[phase.index])) return std::nullopt;
+    return Ray{origin, direction, phase, {}};
+}
 
-    const float density = line_density(origin, -direction, phase);
-    const auto seen = scene_.lights.seen(origin, -direction, infinity, false);
-    if (!(density > 0.0f) || !seen) return std::nullopt;
-    const float line = density * squared_ior(scene_, phase);
-    return EmittedPhoton{{origin, direction, phase, {}}, *seen, seen->radiance / line, density, number, aim.cell};
+std::optional<EmittedPhoton> PhotonEmission::of_point_light(std::size_t number, const PhotonTarget::Aim& aim) const {
+    const Source& source = sources_[number];
+    const auto& light = scene_.lights.points()[*source.point];
+    const glm::vec3 from = std::visit([](const auto& any) { return glm::vec3(any.position()); }, light);
+    const float back = glm::length(aim.point - from);
+    if (!(back > 0.0f)) return std::nullopt;
+    const glm::vec3 direction = (aim.point - from) / back;
+    const glm::vec3 intensity = std::visit([&](const auto& any) { return any.intensity(direction); }, light);
+    const float density =
+        static_cast<float>(source.share) * source.target.crossing(from, direction).density * back * back;
+    const std::optional<Ray> ray = start(aim.point, direction, back);
+    if (!ray || !(density > 0.0f) || intensity == glm::vec3(0.0f)) return std::nullopt;
+    const Lights::Emission emission{glm::length(ray->origin - from), intensity, Lights::point_source(*source.point)};
+    return EmittedPhoton{*ray, emission, intensity / density, density, number, aim.cell, true};
 }
 
 float PhotonEmission::line_density(const glm::vec3& origin, const glm::vec3& towards_light, Phase phase) const {
@@ -122,6 +155,7 @@ float PhotonEmission::line_density(const glm::vec3& origin, const glm::vec3& tow
 }
 
 float PhotonEmission::density_of(const Source& source, const glm::vec3& origin, const glm::vec3& towards_light) const {
+    if (source.point) return 0.0f;
     const PhotonTarget::Crossing crossing = source.target.crossing(origin, -towards_light);
     if (!(crossing.density > 0.0f)) return 0.0f;
     if (source.infinite)

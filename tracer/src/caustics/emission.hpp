@@ -8,6 +8,9 @@
 // the distance d from there to the target. What a photon carries is what is seen along its line, whichever light
 // proposed it. Lights that are all around, which have no middle, send none, and lines that no light proposes are left
 // to the other techniques of path.hpp.
+//
+// The lines of a point light all pass through it, and have no such density. They have one of directions, cᵢ t d², and
+// with the intensity I of the light in place of a radiance a photon carries I/(cᵢ t d²). No other technique finds them.
 #pragma once
 
 #include <cstddef>
@@ -25,9 +28,10 @@ struct EmittedPhoton {
     Ray ray;                    ///< its origin is outside of the object, or at the light if that is nearer
     Lights::Emission emission;  ///< what is seen from the origin backwards if nothing is in the way
     glm::vec3 power;            ///< radiance of the light over the density
-    float line_density;         ///< p(line) over the square of the refractive index at the origin
-    std::size_t light;          ///< the number of the light that proposed it: less than PhotonEmission::lights()
-    std::size_t cell;           ///< of that light's target
+    float line_density;  ///< p(line) over the square of the refractive index at the origin; of a point, cᵢ t d²
+    std::size_t light;   ///< the number of the light that proposed it: less than PhotonEmission::lights()
+    std::size_t cell;    ///< of that light's target
+    bool of_point_light = false;
 };
 
 class PhotonEmission {
@@ -47,14 +51,17 @@ class PhotonEmission {
 
   private:
     struct Source {
-        std::optional<std::size_t> infinite,
-            area;      ///< the light's number among those of its sort; one of them is there
-        double share;  ///< cᵢ
+        std::optional<std::size_t> infinite, area, point;  ///< the light's number among those of its sort; one is there
+        double share;                                      ///< cᵢ
         PhotonTarget target;
     };
     /// A point of a line that is sure to be before everything that it meets of the object.
     glm::vec3 outside_of_object(const glm::vec3& point, const glm::vec3& direction) const;
     float density_of(const Source& source, const glm::vec3& origin, const glm::vec3& towards_light) const;
+    /// Where a photon starts that flies to this point of a target in this direction, and comes from this far behind it;
+    /// none in an opaque phase.
+    std::optional<Ray> start(const glm::vec3& target, const glm::vec3& direction, float back) const;
+    std::optional<EmittedPhoton> of_point_light(std::size_t number, const PhotonTarget::Aim& aim) const;
 
     const World& world_;
     const Scene& scene_;

@@ -14,11 +14,12 @@ struct Photon {
     glm::vec3 direction;  ///< of unit length, from there to where it came from
     glm::vec3 power;      ///< radiance of the light over line_density, less what was absorbed on the way
     /// How densely the photon's line was sampled at the light, per area perpendicular to it and steradian, over the
-    /// square of the refractive index around the light.
+    /// square of the refractive index around the light. Of a point light, per steradian alone.
     float line_density;
-    Phase phase;                ///< in which it travelled when it fell
-    Lights::Emission emission;  ///< of the light, and
-    glm::vec3 towards_light;    ///< the direction in which it is seen from where the photon met the first interface
+    Phase phase;                  ///< in which it travelled when it fell
+    Lights::Emission emission;    ///< of the light, and
+    glm::vec3 towards_light;      ///< the direction in which it is seen from where the photon met the first interface
+    bool of_point_light = false;  ///< no other technique finds such light
 };
 
 }  // namespace phasetree::tracer

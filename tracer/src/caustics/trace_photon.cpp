@@ -30,8 +30,14 @@ std::optional<Photon> trace_photon(const World& world, const Scene& scene, const
             const Ray back{emitted.ray.origin, -emitted.ray.direction, emitted.ray.phase, {}};
             const Visibility light = world.geometry().visibility(back, emitted.emission.distance, counters);
             if (!std::holds_alternative<Escaped>(light)) return std::nullopt;
-            return Photon{surface->near_side.origin, -ray.direction, power, emitted.line_density, ray.phase,
-                          emitted.emission,          back.direction};
+            return Photon{surface->near_side.origin,
+                          -ray.direction,
+                          power,
+                          emitted.line_density,
+                          ray.phase,
+                          emitted.emission,
+                          back.direction,
+                          emitted.of_point_light};
         }
         if (++length > longest_chain) return std::nullopt;
         const Frame frame(surface->normal);

@@ -108,6 +108,11 @@ std::optional<LightSample> LightProposal::sample(const Lights& lights, glm::vec2
     u.x = std::min(scaled - static_cast<float>(by), 1 - 0x1p-24f);
     std::optional<LightSample> sample = lights.sample(at_, u);
     if (!sample) return std::nullopt;
+    if (sample->is_point) {
+        // Bent by a plane, the way to a point is another one, which no direction to it tells.
+        sample->pdf /= static_cast<float>(1 + planes_);
+        return by == 0 ? sample : std::nullopt;
+    }
     if (by == 0) {
         sample->pdf = pdf(lights, sample->wi, sample->pdf);
         return sample;

@@ -58,23 +58,26 @@ float line_density(const Photons& photons, const Ray& ray) {
 // One random sample of E (path.hpp) along a shadow ray: the emission at the end of a chain of smooth clear interfaces,
 // each of which reflects or refracts the ray at random, times the transmittance of the media and the weights of the
 // interfaces; none if there is no light. Up to its first interface the ray goes straight to the light that was sampled,
-// which is known; after that it is asked what light it sees.
+// which is known; after that it is asked what light it sees. A point light is seen by the straight ray alone: what it
+// sends through an interface that bends light is left to photons, because no direction that is sampled here leads
+// through the interface to a point.
 std::optional<Arrival> emission_through_chain(const World& world, const Scene& scene, Ray ray,
                                               const LightSample& sampled, const Photons& photons, Sampler& sampler,
                                               PathCounters& counters) {
     glm::vec3 throughput(1.0f);
+    float to_point = sampled.distance;  // of the way to a point light, what is still before the ray
     for (int length = 0, segment = 0;; ++segment) {
-        const float far = segment == 0 ? sampled.distance : infinity;
+        const bool is_straight = segment == 0 || (sampled.is_point && length == 0);
+        const float far = is_straight ? to_point : infinity;
         const Visibility met = world.geometry().visibility(ray, far, counters);
         const Surface* surface = std::get_if<Surface>(&met);
         const Blocked* blocked = std::get_if<Blocked>(&met);
         const bool escaped = !surface && !blocked;
         const float distance = surface ? surface->distance : blocked ? blocked->distance : infinity;
         const Medium& medium = clear_at(scene, ray.phase).interior;
-        const auto light = segment > 0 ? scene.lights.seen(ray.origin, ray.direction, distance, false)
-                           : escaped
-                               ? std::optional(Lights::Emission{sampled.distance, sampled.radiance, sampled.source})
-                               : std::nullopt;
+        const auto light = !is_straight ? scene.lights.seen(ray.origin, ray.direction, distance, false)
+                           : escaped    ? std::optional(Lights::Emission{to_point, sampled.radiance, sampled.source})
+                                        : std::nullopt;
         if (!light && !surface) return std::nullopt;
         throughput *= transmittance(medium, {ray.origin, ray.direction, light ? light->distance : distance}, sampler);
         if (light)
@@ -83,10 +86,11 @@ std::optional<Arrival> emission_through_chain(const World& world, const Scene& s
         if (phase_function(medium) && !passes_roulette(throughput, sampler)) return std::nullopt;
         const Bsdf bsdf = surface->bsdf();
         if (bsdf.passes_through()) {
+            to_point = std::max(to_point - distance, 0.0f);
             ray = surface->transmitted(ray.direction);
             continue;
         }
-        if (!is_link(bsdf, *surface) || ++length > longest_chain) return std::nullopt;
+        if (sampled.is_point || !is_link(bsdf, *surface) || ++length > longest_chain) return std::nullopt;
         const Frame frame(surface->normal);
         const auto next = bsdf.sample(frame.to_local(-ray.direction), sampler.next(), glm::vec2(0.0f));
         if (!next) return std::nullopt;
@@ -268,8 +272,9 @@ class Path {
         if (scene_.settings.techniques == Techniques::directions_alone) return;
         const auto arrival = emission_through_chain(world_, scene_, shadow, light, photons_, sampler_, counters_);
         if (!arrival) return;
-        const float weight =
-            technique_weight(scene_, Techniques::shadow_rays_alone, light.pdf, pdf, by_photons * arrival->line_density);
+        const float weight = light.is_point ? 1.0f
+                                            : technique_weight(scene_, Techniques::shadow_rays_alone, light.pdf, pdf,
+                                                               by_photons * arrival->line_density);
         add_light(throughput_ * f * arrival->radiance * (weight / light.pdf), arrival->emission, arrival->direction,
                   true);
     }
@@ -291,7 +296,9 @@ class Path {
                 const float by_photons = density_by_photons(surface, bsdf, wi.z) * photon.line_density;
                 if (!(by_photons > 0.0f)) return;
                 const float weight =
-                    power_heuristic(by_photons, bsdf.pdf(wo, wi), proposal.pdf(scene_.lights, photon.direction));
+                    photon.of_point_light
+                        ? 1.0f
+                        : power_heuristic(by_photons, bsdf.pdf(wo, wi), proposal.pdf(scene_.lights, photon.direction));
                 const glm::vec3 irradiance = photon.power / photons_.map->expected();
                 add_light(throughput_ * bsdf.evaluate(wo, wi) * irradiance * (weight / wi.z), photon.emission,
                           photon.towards_light, true);

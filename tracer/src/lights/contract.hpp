@@ -1,10 +1,12 @@
-// What a light must provide. There are two sorts: infinite lights, which are the same from everywhere, and area lights,
-// which have a place and hide what is behind them. kinds.hpp has the list of all kinds.
+// What a light must provide. There are three sorts: infinite lights, which are the same from everywhere, area lights,
+// which have a place and hide what is behind them, and lights without an extent, which no ray meets. kinds.hpp has the
+// list of all kinds.
 //
-// Of both sorts: radiance is linear Rec.709 in W/(sr m²), up to one factor that is the same for a whole scene.
+// Radiance is linear Rec.709 in W/(sr m²), and intensity in W/sr, up to one factor that is the same for a whole scene.
 // Directions are of unit length and point from the place that is lit towards the light. Densities are per steradian,
-// and those of a light over all directions integrate to 1. `u` is in [0, 1)²; points that are stratified in the square
-// should give stratified directions.
+// and those of an
+// infinite or area light over all directions integrate to 1. `u` is in [0, 1)²; points that are stratified in the
+// square should give stratified directions.
 #pragma once
 
 #include <concepts>
@@ -58,6 +60,18 @@ concept AreaLightKind = std::copyable<L> &&
     { light.surface_point(u) } -> std::same_as<SurfacePoint>;
     { light.normal_at(p) } -> std::same_as<glm::vec3>;
     { light.area() } -> std::same_as<float>;
+};
+
+/// * position(): where it is.
+/// * intensity(w): the radiant intensity in the direction w away from the light, in the unit of radiance times m²: a
+///   surface that faces the light at the distance d gets the irradiance intensity/d².
+///
+/// Such a light is a delta function of direction. It is only found by a ray that goes straight to it, or by the photons
+/// that it sends: paths that refract never meet it.
+template <class L>
+concept PointLightKind = std::copyable<L> && requires(const L& light, const glm::vec3& w) {
+    { light.position() } -> std::convertible_to<glm::vec3>;
+    { light.intensity(w) } -> std::same_as<glm::vec3>;
 };
 
 }  // namespace phasetree::tracer

@@ -6,9 +6,12 @@
 #include "lights/constant_environment.hpp"
 #include "lights/contract.hpp"
 #include "lights/gradient_environment.hpp"
+#include "lights/ies_light.hpp"
 #include "lights/image_environment.hpp"
+#include "lights/point_light.hpp"
 #include "lights/rectangle_light.hpp"
 #include "lights/sphere_light.hpp"
+#include "lights/spot_light.hpp"
 #include "lights/sun.hpp"
 
 namespace phasetree::tracer {
@@ -28,6 +31,16 @@ struct CheckedAreaLight {
     using Type = Kind;
 };
 
+/// The same of a light without an extent.
+template <class Kind>
+struct CheckedPointLight {
+    static_assert(PointLightKind<Kind>);
+    using Type = Kind;
+};
+
+template <class... Kinds>
+using PointLightOf = std::variant<typename CheckedPointLight<Kinds>::Type...>;
+
 template <class... Kinds>
 using InfiniteLightOf = std::variant<typename CheckedInfiniteLight<Kinds>::Type...>;
 
@@ -39,5 +52,8 @@ using InfiniteLight = InfiniteLightOf<ConstantEnvironment, GradientEnvironment, 
 
 /// Every kind of area light.
 using AreaLight = AreaLightOf<RectangleLight, SphereLight>;
+
+/// Every kind of light without an extent.
+using AnyPointLight = PointLightOf<PointLight, SpotLight, IesLight>;
 
 }  // namespace phasetree::tracer

@@ -8,17 +8,18 @@
 #include "lights/environment_images.hpp"
 #include "lights/grouped.hpp"
 #include "lights/lights.hpp"
+#include "lights/portal.hpp"
 #include "lights/sky.hpp"
 #include "phasetree/model/concepts.hpp"
 
 namespace phasetree::tracer {
 
 template <class... Kinds>
-using GroupedKinds = TypeList<Grouped<Kinds>...>;
+using GroupedKinds = TypeList<Grouped<Kinds>..., PortalParameters>;
 
-using LightKinds =
-    GroupedKinds<ConstantEnvironmentParameters, GradientEnvironmentParameters, ImageEnvironmentParameters,
-                 SkyParameters, SunParameters, RectangleLightParameters, SphereLightParameters>;
+using LightKinds = GroupedKinds<ConstantEnvironmentParameters, GradientEnvironmentParameters,
+                                ImageEnvironmentParameters, SkyParameters, SunParameters, RectangleLightParameters,
+                                SphereLightParameters, PointLightParameters, SpotLightParameters, IesLightParameters>;
 
 template <class Kind>
 auto made_light(const Kind& kind, EnvironmentImages& images) {
@@ -39,5 +40,6 @@ constexpr bool all_are_made(const std::variant<Lights...>*) {
 }
 static_assert(all_are_made(static_cast<InfiniteLight*>(nullptr)), "every infinite light has a kind in the list");
 static_assert(all_are_made(static_cast<AreaLight*>(nullptr)), "every area light has a kind in the list");
+static_assert(all_are_made(static_cast<AnyPointLight*>(nullptr)), "every point light has a kind in the list");
 
 }  // namespace phasetree::tracer

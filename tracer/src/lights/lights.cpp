@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <memory_resource>
 
@@ -46,6 +47,24 @@ double mean_cosine(const BoundingSphere& sphere, const glm::vec3& p, const glm::
     return c > -s ? (c + s) * (c + s) / (4 * s) : 0.0;
 }
 
+// Where a point light is from p, and the irradiance that it gives there.
+struct FromPoint {
+    glm::vec3 direction;
+    float distance;
+    glm::vec3 irradiance;
+};
+FromPoint seen_from(const glm::vec3& p, const AnyPointLight& any) {
+    return std::visit(
+        [&](const auto& light) {
+            const glm::dvec3 way = glm::dvec3(light.position()) - glm::dvec3(p);
+            const double squared = glm::dot(way, way);
+            const glm::vec3 direction(way / std::sqrt(squared));
+            return FromPoint{direction, static_cast<float>(std::sqrt(squared)),
+                             glm::vec3(glm::dvec3(light.intensity(-direction)) / squared)};
+        },
+        any);
+}
+
 }  // namespace
 
 std::size_t Lights::group_of(std::string_view name) {
@@ -65,12 +84,19 @@ void Lights::add(AreaLight light, std::string_view group) {
     area_group_.push_back(group_of(group));
 }
 
+void Lights::add(AnyPointLight light, std::string_view group) {
+    points_.push_back(std::move(light));
+    point_group_.push_back(group_of(group));
+}
+
 void Lights::add_to_groups(const glm::vec3& radiance, const Emission& emission, const glm::vec3& direction,
                            std::span<glm::vec3> groups) const {
     const std::int32_t source = emission.source.area_light;
     const auto is_like_first = [&](std::size_t group) { return group == infinite_group_.front(); };
     if (source >= 0) {
         groups[area_group_[static_cast<std::size_t>(source)]] += radiance;
+    } else if (source <= LightSource::first_point) {
+        groups[point_group_[static_cast<std::size_t>(LightSource::first_point - source)]] += radiance;
     } else if (source == LightSource::background || infinite_.empty()) {
         groups[0] += radiance;
     } else if (std::ranges::all_of(infinite_group_, is_like_first)) {
@@ -117,7 +143,43 @@ float Lights::shares(const LightReceiver& at, std::span<float> shares) const {
             any);
         total += shares[index++];
     }
+    for (const AnyPointLight& point : points_) {
+        const FromPoint seen = seen_from(at.p, point);
+        const float cosine = at.normal ? std::max(glm::dot(seen.direction, *at.normal), 0.0f) : 1.0f;
+        shares[index] = cosine > 0.0f ? luminance(seen.irradiance) * cosine : 0.0f;
+        total += shares[index++];
+    }
+    if (!portals_.empty()) share_with_portals(at.p, shares);
     return total;
+}
+
+// Moves a part of what lights at infinity that are all around are chosen by to the portals that p sees.
+void Lights::share_with_portals(const glm::vec3& p, std::span<float> shares) const {
+    constexpr float part = 0.75f;
+    const std::span<float> portals = shares.last(portals_.size());
+    float seen = 0.0f;
+    for (std::size_t i = 0; i < portals_.size(); ++i) {
+        portals[i] = static_cast<float>(portals_[i].approximate_solid_angle(p));
+        seen += portals[i];
+    }
+    if (!(seen > 0.0f)) return;
+    float moved = 0.0f;
+    for (std::size_t i = 0; i < infinite_.size(); ++i) {
+        if (std::visit([](const auto& light) { return light.centre_direction(); }, infinite_[i])) continue;
+        moved += part * shares[i];
+        shares[i] *= 1.0f - part;
+    }
+    for (float& portal : portals) portal *= moved / seen;
+}
+
+// What the portals add to the density of a direction, times the sum of `shares`; but for one of them, if it is one.
+float Lights::portals_pdf(const glm::vec3& p, const glm::vec3& direction, std::span<const float> shares,
+                          std::size_t except) const {
+    const std::size_t first = shares.size() - portals_.size();
+    float sum = 0.0f;
+    for (std::size_t i = 0; i < portals_.size(); ++i)
+        if (first + i != except && shares[first + i] > 0.0f) sum += shares[first + i] * portals_[i].pdf(p, direction);
+    return sum;
 }
 
 float Lights::pdf(const LightReceiver& at, const glm::vec3& direction) const {
@@ -142,7 +204,7 @@ float Lights::pdf(const LightReceiver& at, const glm::vec3& direction) const {
             },
             any);
     }
-    return sum;
+    return sum + portals_pdf(p, direction, share_of, size()) / total;
 }
 
 std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u) const {
@@ -163,9 +225,21 @@ std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u) 
     }
     u.x = std::clamp((u.x * total - (below - share_of[chosen])) / share_of[chosen], 0.0f, 0x1.fffffep-1f);
 
+    const std::size_t first_point = infinite_.size() + area_.size(), first_portal = first_point + points_.size();
+    if (chosen >= first_point && chosen < first_portal) {
+        const FromPoint point = seen_from(p, points_[chosen - first_point]);
+        return LightSample{point.direction,
+                           point.distance,
+                           point.irradiance,
+                           share_of[chosen] / total,
+                           point_source(chosen - first_point),
+                           true};
+    }
     std::optional<DirectionSample> sampled;
     if (chosen < infinite_.size())
         sampled = std::visit([&](const auto& light) { return light.sample(u); }, infinite_[chosen]);
+    else if (chosen >= first_portal)
+        sampled = portals_[chosen - first_portal].sample(p, u);
     else
         sampled = std::visit([&](const auto& light) { return light.sample(p, u); }, area_[chosen - infinite_.size()]);
     if (!sampled) return std::nullopt;
@@ -179,8 +253,9 @@ std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u) 
         if (i != chosen && share_of[i] > 0.0f)
             density += share_of[i] / total * std::visit([&](const auto& light) { return light.pdf(wi); }, any);
     }
+    density += portals_pdf(p, wi, share_of, chosen) / total;
     std::optional<Emission> nearest;  // of the area lights, which are numbered after the infinite ones
-    bool is_met = chosen < infinite_.size();
+    bool is_met = chosen < infinite_.size() || chosen >= first_portal;
     for (const AreaLight& any : area_) {
         const std::size_t i = index++;
         std::visit(
@@ -223,6 +298,7 @@ std::optional<glm::vec3> Lights::towards_brightest(const glm::vec3& p, const glm
             const glm::vec2 middle(0.5f);
             return std::optional(std::visit([&](const auto& light) { return light.sample(p, middle).direction; }, any));
         });
+    for (const AnyPointLight& point : points_) consider([&] { return std::optional(seen_from(p, point).direction); });
     return brightest;
 }
 

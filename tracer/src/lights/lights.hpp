@@ -15,6 +15,13 @@
 // lamp, and a lamp that is far away or turned away, or below the surface, takes no samples.
 //
 // Area lights hide what is behind them, and nothing else: rectangles from their emitting side, spheres from everywhere.
+//
+// A point light is chosen by its fluence as the others are, but it is a delta function beside their mixture: a sample
+// of it is its own alone, with the probability of the choice in place of a density, and no other technique can find it.
+//
+// Through portals, the lights at infinity that are all around are sampled as well: from a point that sees portals,
+// three quarters of what those lights would be chosen by goes to the portals, in proportion to their solid angles. A
+// portal is one more density in the mixture and emits nothing.
 #pragma once
 
 #include <cstddef>
@@ -28,6 +35,7 @@
 
 #include "lights/diffuse_irradiance.hpp"
 #include "lights/kinds.hpp"
+#include "lights/portal.hpp"
 
 namespace phasetree::tracer {
 
@@ -41,18 +49,21 @@ struct LightReceiver {
     LightReceiver(const glm::vec3& point, const glm::vec3& up) : p(point), normal(up) {}
 };
 
-/// What shines in some direction: the area light of that number, all infinite lights together, or the background.
+/// What shines in some direction: the area light of that number, all infinite lights together, the background, or a
+/// point light.
 struct LightSource {
-    static constexpr std::int32_t infinite = -1, background = -2;
-    std::int32_t area_light = infinite;  ///< or one of the constants
+    static constexpr std::int32_t infinite = -1, background = -2, first_point = -3;
+    std::int32_t area_light = infinite;  ///< or one of the constants; first_point − i is point light i
 };
 
 struct LightSample {
     glm::vec3 wi;        ///< unit, from the point towards the light
     float distance;      ///< to the light; infinity for infinite lights
     glm::vec3 radiance;  ///< that arrives from there if no geometry is in between
-    float pdf;           ///< per steradian, of the whole mixture
+    float pdf;           ///< per steradian, of the whole mixture; of a point light, the probability that it was chosen
     LightSource source;  ///< what the radiance is of
+    /// A point light: `radiance` is its irradiance on a surface that faces it, and no other technique finds it.
+    bool is_point = false;
 };
 
 inline constexpr std::string_view default_group = "default";
@@ -69,6 +80,9 @@ class Lights {
     /// and lights that name no group are of the group `default_group`.
     void add(InfiniteLight light, std::string_view group = default_group);
     void add(AreaLight light, std::string_view group = default_group);
+    void add(AnyPointLight light, std::string_view group = default_group);
+    /// A portal is of no group: it has no light of its own.
+    void add(const Portal& portal) { portals_.push_back(portal); }
     /// What camera rays see instead of the infinite lights.
     void set_background(const std::optional<glm::vec3>& radiance);
 
@@ -80,9 +94,13 @@ class Lights {
     void add_to_groups(const glm::vec3& radiance, const Emission& emission, const glm::vec3& direction,
                        std::span<glm::vec3> groups) const;
 
-    bool empty() const { return infinite_.empty() && area_.empty(); }
+    bool empty() const { return infinite_.empty() && area_.empty() && points_.empty(); }
     std::span<const InfiniteLight> infinite() const { return infinite_; }
     std::span<const AreaLight> area() const { return area_; }
+    std::span<const AnyPointLight> points() const { return points_; }
+    static LightSource point_source(std::size_t index) {
+        return {LightSource::first_point - static_cast<std::int32_t>(index)};
+    }
 
     /// `u` in [0, 1)². Its x chooses the light, and what is left of it, stretched to [0, 1) again, is the x that the
     /// light's own sampling gets: points that are stratified in the square are so for each light. Nothing when no light
@@ -102,16 +120,21 @@ class Lights {
     std::optional<glm::vec3> towards_brightest(const glm::vec3& p, const glm::vec3& normal) const;
 
   private:
-    std::size_t size() const { return infinite_.size() + area_.size(); }
+    std::size_t size() const { return infinite_.size() + area_.size() + points_.size() + portals_.size(); }
     float shares(const LightReceiver& at, std::span<float> shares) const;
+    void share_with_portals(const glm::vec3& p, std::span<float> shares) const;
+    float portals_pdf(const glm::vec3& p, const glm::vec3& direction, std::span<const float> shares,
+                      std::size_t except) const;
     glm::vec3 infinite_radiance(const glm::vec3& direction) const;
     std::size_t group_of(std::string_view name);
 
     std::vector<InfiniteLight> infinite_;
     std::vector<DiffuseIrradiance> irradiance_;  ///< of each of these
     std::vector<AreaLight> area_;
+    std::vector<AnyPointLight> points_;
+    std::vector<Portal> portals_;
     std::vector<std::string> groups_{std::string(default_group)};
-    std::vector<std::size_t> infinite_group_, area_group_;  ///< of each light
+    std::vector<std::size_t> infinite_group_, area_group_, point_group_;  ///< of each light
     std::optional<glm::vec3> background_;
 };
 

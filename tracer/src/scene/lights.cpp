@@ -14,6 +14,9 @@ void add(Lights& lights, InfiniteLight light, const std::string& group) {
 void add(Lights& lights, AreaLight light, const std::string& group) {
     lights.add(std::move(light), group);
 }
+void add(Lights& lights, AnyPointLight light, const std::string& group) {
+    lights.add(std::move(light), group);
+}
 void add(Lights& lights, std::vector<InfiniteLight> several, const std::string& group) {
     for (InfiniteLight& light : several) lights.add(std::move(light), group);
 }
@@ -29,7 +32,10 @@ Lights read_lights(const Document& document, Value root) {
         for (const Value light : *list) {
             with_kind(LightKinds(), document, light, "a light", [&]<class Kind>(Value member) {
                 read_kind<Kind>(document, member, fmt::format("the {} light", Kind::info.name), [&](const Kind& kind) {
-                    add(lights, made_light(kind, images), kind.checked_group());
+                    if constexpr (std::is_same_v<Kind, PortalParameters>)
+                        lights.add(kind.made());
+                    else
+                        add(lights, made_light(kind, images), kind.checked_group());
                     return true;
                 });
             });

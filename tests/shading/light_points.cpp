@@ -1,0 +1,231 @@
+// Lights without an extent, photometric files, and portals.
+#include <doctest/doctest.h>
+
+#include <random>
+#include <stdexcept>
+#include <string>
+
+#include "light_checks.hpp"
+#include "lights/lights.hpp"
+
+using namespace phasetree::tracer;
+using namespace phasetree::tests;
+
+namespace {
+
+// A profile whose candelas are c(θ) = 100 − θ/2, in two planes of which the second has twice as much.
+const std::string file =
+    "IESNA:LM-63-2002\n[TEST] none\nTILT=NONE\n"
+    "1 1000 2.0 3 3 1 2 0 0 0\n0.5 1 60\n0 45 90\n0 90 180\n"
+    "100 77.5 55\n200, 155, 110\n100 77.5 55\n";
+
+std::string problem_of(const std::string& text) {
+    try {
+        (void)IesProfile(text);
+    } catch (const std::runtime_error& e) {
+        return e.what();
+    }
+    return "";
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+    return text.replace(text.find(what), what.size(), by);
+}
+
+// The irradiance on a surface at p with this normal, by samples of the lights; `factor` plants a defect.
+double irradiance(const Lights& lights, const glm::vec3& p, const glm::vec3& normal, float factor = 1.0f) {
+    Moments moments;
+    Uniform random(3);
+    for (int i = 0; i < 2000; ++i) {
+        const auto sample = lights.sample(p, random.two());
+        if (sample)
+            moments.add(static_cast<double>(factor * sample->radiance.x * std::max(0.0f, glm::dot(sample->wi, normal)) /
+                                            sample->pdf));
+        else
+            moments.add(0.0);
+    }
+    return moments.mean();
+}
+
+}  // namespace
+
+TEST_CASE("point light: the irradiance of the inverse square, alone and among others") {
+    Lights lights;
+    lights.add(AnyPointLight(PointLight({0, 0, 3}, glm::vec3(20.0f))));
+    const double expected = 20.0 * 3.0 / std::pow(9.0 + 16.0, 1.5);  // I cos θ/d²
+    CHECK(irradiance(lights, {4, 0, 0}, {0, 0, 1}) == doctest::Approx(expected).epsilon(1e-5));
+    CHECK_FALSE(irradiance(lights, {4, 0, 0}, {0, 0, 1}, 1.01f) == doctest::Approx(expected).epsilon(1e-3));
+    CHECK_FALSE(lights.empty());
+    CHECK(lights.pdf(glm::vec3(4, 0, 0), {0, 0, 1}) == 0.0f);  // no other technique finds it
+    CHECK_FALSE(lights.seen({0, 0, 0}, {0, 0, 1}, 10.0f, true));
+    lights.add(AnyPointLight(PointLight({0, 0, 3}, glm::vec3(40.0f))));
+    const auto sample = lights.sample(glm::vec3(4, 0, 0), {0.1f, 0.5f});
+    REQUIRE(sample);
+    CHECK(sample->is_point);
+    CHECK(sample->distance == 5.0f);
+    CHECK(irradiance(lights, {4, 0, 0}, {0, 0, 1}) == doctest::Approx(3 * expected).epsilon(1e-4));
+}
+
+TEST_CASE("point light: what it brings belongs to its group") {
+    Lights lights;
+    lights.add(AnyPointLight(PointLight({0, 0, 3}, glm::vec3(20.0f))), "left");
+    lights.add(AnyPointLight(PointLight({0, 0, 3}, glm::vec3(60.0f))), "right");
+    std::vector<glm::vec3> groups(lights.groups().size());
+    for (const float u : {0.1f, 0.9f}) {
+        const auto sample = lights.sample(glm::vec3(0, 0, 0), {u, 0.5f});
+        REQUIRE(sample);
+        lights.add_to_groups(glm::vec3(1.0f), {sample->distance, sample->radiance, sample->source}, sample->wi, groups);
+    }
+    CHECK(groups == std::vector<glm::vec3>{glm::vec3(0.0f), glm::vec3(1.0f), glm::vec3(1.0f)});
+}
+
+TEST_CASE("spot light: its flux, its edge and its dark side") {
+    const SpotLight spot({0, 0, 0}, {0, 0, -2}, 60.0f, 10.0f, glm::vec3(5.0f));
+    CHECK(spot.intensity({0, 0, -1}).x == 5.0f);
+    CHECK(spot.intensity({0, 0, 1}).x == 0.0f);
+    const auto at = [&](double degrees) {
+        const double a = degrees * std::numbers::pi / 180.0;
+        return static_cast<double>(
+            spot.intensity({static_cast<float>(std::sin(a)), 0.0f, static_cast<float>(-std::cos(a))}).x);
+    };
+    CHECK(at(19.9) == doctest::Approx(5.0).epsilon(1e-5));
+    CHECK(at(30.1) == 0.0);
+    CHECK(at(25.0) > 1.0);
+    CHECK(at(25.0) < 4.0);
+    // ∫ I dω = 2π I ((1 − c₂) + (c₂ − c₁)/2), with the cosines of where the edge begins and ends.
+    double flux = 0.0;
+    constexpr int steps = 20000;
+    for (int i = 0; i < steps; ++i) {
+        const double a = (i + 0.5) * 40.0 / steps;
+        flux += at(a) * 2 * std::numbers::pi * std::sin(a * std::numbers::pi / 180.0) * 40.0 / steps *
+                std::numbers::pi / 180.0;
+    }
+    const double c1 = std::cos(std::numbers::pi / 6), c2 = std::cos(std::numbers::pi / 9);
+    const double expected = 2 * std::numbers::pi * 5.0 * ((1 - c2) + 0.5 * (c2 - c1));
+    CHECK(flux == doctest::Approx(expected).epsilon(1e-4));
+    CHECK_FALSE(1.01 * flux == doctest::Approx(expected).epsilon(1e-3));
+}
+
+TEST_CASE("photometric files: between their angles candelas are linear, and planes are repeated") {
+    const IesProfile profile(file);
+    CHECK(profile.greatest_candelas() == 200.0);  // 200 · 2.0 · 0.5
+    CHECK(profile.relative_intensity(0, 0) == doctest::Approx(0.5));
+    CHECK(profile.relative_intensity(45, 90) == doctest::Approx(0.775));
+    CHECK(profile.relative_intensity(20, 0) == doctest::Approx(0.45));
+    CHECK(profile.relative_intensity(0, 45) == doctest::Approx(0.75));
+    CHECK(profile.relative_intensity(0, 315) == doctest::Approx(0.75));  // the other half is its mirror image
+    CHECK(profile.relative_intensity(0, -45) == doctest::Approx(0.75));
+    CHECK(profile.relative_intensity(90.5, 0) == 0.0f);
+    // On a floor below, straight down and at 45°.
+    Lights lights;
+    lights.add(
+        AnyPointLight(IesLight({0, 0, 2}, {0, 0, 0}, 0.0f, std::make_shared<const IesProfile>(file), glm::vec3(8.0f))));
+    CHECK(irradiance(lights, {0, 0, 0}, {0, 0, 1}) == doctest::Approx(8.0 * 0.5 / 4).epsilon(1e-5));
+    const double slant = std::sqrt(0.5) / 8;
+    CHECK(irradiance(lights, {2, 0, 0}, {0, 0, 1}) == doctest::Approx(8.0 * 0.3875 * slant).epsilon(1e-4));
+    CHECK(irradiance(lights, {0, 2, 0}, {0, 0, 1}) == doctest::Approx(8.0 * 0.775 * slant).epsilon(1e-4));
+    CHECK_FALSE(irradiance(lights, {0, 2, 0}, {0, 0, 1}, 1.01f) == doctest::Approx(8.0 * 0.775 * slant).epsilon(1e-3));
+}
+
+TEST_CASE("photometric files: what is wrong is said with its line") {
+    const auto says = [](const std::string& text, const std::string& part) {
+        const std::string problem = problem_of(text);
+        CAPTURE(problem);
+        return problem.find(part) != std::string::npos;
+    };
+    CHECK(says("", "no line TILT"));
+    CHECK(says(std::string(100000, 'x'), "no line TILT"));
+    CHECK(says(replaced(file, "TILT=NONE", "TILT=lamp.tlt"), "line 3: TILT should be NONE or INCLUDE"));
+    CHECK(says(replaced(file, "2.0", "two"), "line 4: the multiplier of candelas should be a number"));
+    CHECK(says(replaced(file, "3 3 1 2", "3 3 2 2"), "which is B"));
+    CHECK(says(replaced(file, "3 3 1 2", "3 1e9 1 2"), "whole number from 1 to 1441"));
+    CHECK(says(replaced(file, "0 45 90", "0 45 45"), "should increase, but 45 follows 45"));
+    CHECK(says(replaced(file, "0 90 180", "0 90 270"), "0, 90, 180 or 360"));
+    CHECK(says(replaced(file, "200, 155", "-200, 155"), "should not be negative"));
+    CHECK(says(replaced(file, "55\n200", "nan\n200"), "should be a number"));
+    CHECK(says(file.substr(0, file.size() - 20), "the file ends where the candelas should be"));
+    CHECK(says(replaced(file, "2.0 3", "0 3"), "should be positive"));
+    CHECK(problem_of(file).empty());
+    // Tilts of the lamp are read over.
+    CHECK(problem_of(replaced(file, "TILT=NONE", "TILT=INCLUDE\n1\n2\n0 90\n1 0.9")).empty());
+}
+
+TEST_CASE("photometric files: random changes give a light or a reason") {
+    std::mt19937 random(4);
+    const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
+    const std::string bytes = "0123456789.,-+eE \n\r\t=TILTNOEinfa\xff";
+    int read = 0, refused = 0;
+    for (int i = 0; i < 20000; ++i) {
+        std::string text = file;
+        for (std::size_t changes = 1 + below(6); changes > 0 && !text.empty(); --changes) {
+            const std::size_t at = below(text.size());
+            switch (below(4)) {
+                case 0:
+                    text[at] = bytes[below(bytes.size())];
+                    break;
+                case 1:
+                    text.insert(at, 1, bytes[below(bytes.size())]);
+                    break;
+                case 2:
+                    text.erase(at, 1 + below(8));
+                    break;
+                default:
+                    text.insert(at, text.substr(below(text.size()), 12));
+            }
+        }
+        try {
+            const IesProfile profile(text);
+            for (const double vertical : {0.0, 33.0, 90.0, 180.0})
+                for (const double horizontal : {-180.0, 0.0, 77.0, 180.0, 360.0}) {
+                    const float relative = profile.relative_intensity(vertical, horizontal);
+                    REQUIRE((relative >= 0.0f && relative <= 1.0f));
+                }
+            ++read;
+        } catch (const std::runtime_error& e) {
+            REQUIRE(*e.what() != '\0');
+            ++refused;
+        }
+    }
+    CHECK(read > 1000);
+    CHECK(refused > 1000);
+}
+
+TEST_CASE("portals: directions follow the density of the whole mixture, and an error of 1 % is seen") {
+    Lights lights;
+    lights.add(InfiniteLight(ConstantEnvironment(glm::vec3(1.0f))));
+    lights.add(Portal(RectangleLight::facing({0, 0, 2}, {0, 0, 0}, 2.0f, 1.0f, glm::vec3(0.0f), false)));
+    const glm::vec3 p(0.3f, -0.2f, 0.0f);
+    constexpr int columns = 16, rows = 8;
+    const auto probability = lat_long_probabilities(
+        columns, rows, 64, [&](const glm::vec3& w) { return static_cast<double>(lights.pdf(p, w)); });
+    CHECK(sum_of(probability) == doctest::Approx(1.0).epsilon(2e-3));
+    const auto sample = [&](const glm::vec2& u) -> std::optional<glm::vec3> {
+        const auto s = lights.sample(p, u);
+        if (!s) return std::nullopt;
+        return s->wi;
+    };
+    // The edge of the portal is not on the lattice, so cells that it crosses are left to the estimator below.
+    int through = 0;
+    Uniform random(9);
+    for (int i = 0; i < 40000; ++i) {
+        const auto w = sample(random.two());
+        REQUIRE(w);
+        through += w->z > 0 && std::abs(p.x + 2 * w->x / w->z) < 1 && std::abs(p.y + 2 * w->y / w->z) < 0.5f;
+    }
+    const double solid_angle = RectangleLight::facing({0, 0, 2}, {0, 0, 0}, 2.0f, 1.0f, glm::vec3(0.0f)).solid_angle(p);
+    const double expected = 0.75 + 0.25 * solid_angle / (4 * std::numbers::pi);
+    CHECK(through / 40000.0 == doctest::Approx(expected).epsilon(0.02));
+    // Irradiance of a white sky is π, whatever proposes the directions.
+    check(estimator_test(std::numbers::pi, 2000000, [&](Uniform& uniform) {
+        const auto s = lights.sample(p, uniform.two());
+        return s ? static_cast<double>(s->radiance.x * std::max(0.0f, s->wi.z) / s->pdf) : 0.0;
+    }));
+    // What sample() says of a direction is what pdf() does.
+    for (int i = 0; i < 1000; ++i) {
+        const auto s = lights.sample(p, random.two());
+        REQUIRE(s);
+        CHECK(s->pdf == doctest::Approx(lights.pdf(p, s->wi)).epsilon(1e-4));
+    }
+    // From behind it is not there.
+    CHECK(lights.pdf(glm::vec3(0, 0, 5), {0, 0, -1}) == doctest::Approx(1 / (4 * std::numbers::pi)));
+}

@@ -1,0 +1,70 @@
+// A luminaire as a point: its light is spread as a photometric file tells it (ies_profile.hpp), and its greatest
+// radiant intensity is I.
+//
+// The file's straight down is towards the target. Of a luminaire that shines straight down, the file's plane of 0° is
+// towards +x, and angles about the vertical grow anticlockwise seen from above; one that shines elsewhere is turned
+// from there about y first.
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <memory>
+#include <utility>
+
+#include "lights/ies_profile.hpp"
+#include "lights/point_light.hpp"
+
+namespace phasetree::tracer {
+
+class IesLight {
+  public:
+    /// `turn_degrees` is by how much it is turned about its axis, anticlockwise as seen from behind it.
+    IesLight(const glm::vec3& position, const glm::vec3& target, float turn_degrees,
+             std::shared_ptr<const IesProfile> profile, const glm::vec3& intensity);
+
+    /// As PointLightKind has it.
+    const glm::vec3& position() const { return position_; }
+    glm::vec3 intensity(const glm::vec3& away) const;
+
+  private:
+    glm::vec3 position_;
+    glm::vec3 intensity_;
+    glm::dvec3 down_, first_, second_;  ///< the file's straight down, its planes of 0° and of 90°
+    std::shared_ptr<const IesProfile> profile_;
+};
+
+// As a scene file says it.
+struct IesLightParameters {
+    static constexpr KindInfo info{
+        "ies",
+        "A point that shines as a photometric file of the IES tells it (LM-63, type C). It is "
+        "a point light else."};
+
+    std::filesystem::path file{};
+    glm::vec3 position{0.0f};
+    glm::vec3 target{0.0f};
+    float turn_degrees = 0.0f;
+    glm::vec3 color{1.0f};
+    float intensity = 1.0f;
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = IesLightParameters;
+        v(&P::file, Parameter{"file", "", "The file, of at most 1 MiB."});
+        v(&P::position, Parameter{"position", "m", "Where it is.", coordinate});
+        v(&P::target,
+          Parameter{"target", "m", "A point towards which goes what the file has as straight down.", coordinate});
+        v(&P::turn_degrees,
+          Parameter{"turn", "degrees",
+                    "Angle by which it is turned about that direction, anticlockwise as seen from behind it. At 0 the "
+                    "file's plane of 0° of a light that shines down is towards +x.",
+                    limits::any, true});
+        v(&P::color, colour_of_a_point);
+        v(&P::intensity,
+          Parameter{"intensity", "", "Radiant intensity where the file has the most candelas; see the point light.",
+                    limits::non_negative, true});
+    }
+    IesLight made() const;
+};
+
+}  // namespace phasetree::tracer

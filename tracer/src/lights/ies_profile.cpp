@@ -1,0 +1,175 @@
+#include "lights/ies_profile.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+namespace phasetree::tracer {
+
+namespace {
+
+// More than any instrument measures; a file cannot claim more memory than that.
+constexpr int most_angles = 1441;  // a quarter of a degree all around
+
+// Reads numbers one by one, and knows in which line it is. They are set apart by blanks, commas and ends of lines.
+class Numbers {
+  public:
+    Numbers(std::string_view text, int line) : text_(text), line_(line) {}
+
+    double next(std::string_view what) {
+        skip_blanks();
+        if (text_.empty()) throw error(fmt::format("the file ends where {} should be", what));
+        const auto end = std::find_if(text_.begin(), text_.end(), is_blank);
+        std::string_view word(text_.begin(), end);
+        text_.remove_prefix(word.size());
+        if (word.starts_with('+')) word.remove_prefix(1);
+        double value = 0.0;
+        const auto [rest, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
+        if (problem != std::errc() || rest != word.data() + word.size() || !std::isfinite(value))
+            throw error(fmt::format("{} should be a number", what));
+        return value;
+    }
+    int whole(std::string_view what, int low, int high) {
+        const double value = next(what);
+        if (value != std::floor(value) || value < low || value > high)
+            throw error(fmt::format("{} should be a whole number from {} to {}, but is {}", what, low, high, value));
+        return static_cast<int>(value);
+    }
+    std::vector<double> list(std::string_view what, int count) {
+        std::vector<double> values;
+        for (int i = 0; i < count; ++i) values.push_back(next(what));
+        return values;
+    }
+    std::runtime_error error(const std::string& message) const {
+        return std::runtime_error(fmt::format("line {}: {}", line_, message));
+    }
+
+  private:
+    static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == ','; }
+
+    void skip_blanks() {
+        while (!text_.empty() && is_blank(text_.front())) {
+            line_ += text_.front() == '\n';
+            text_.remove_prefix(1);
+        }
+    }
+
+    std::string_view text_;
+    int line_;
+};
+
+// What stands before the numbers: everything up to the line that says TILT. Gives what it says of it.
+struct Heading {
+    std::string_view tilt, rest;
+    int lines;
+};
+
+Heading heading_of(std::string_view text) {
+    for (int line = 1; !text.empty(); ++line) {
+        const std::size_t end = text.find('\n');
+        std::string_view here = text.substr(0, end);
+        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+        if (here.ends_with('\r')) here.remove_suffix(1);
+        if (here.starts_with("TILT=")) return {here.substr(5), text, line};
+    }
+    throw std::runtime_error("there is no line TILT=…, so it is no photometric file of the IES");
+}
+
+void check_increasing(const Numbers& numbers, std::span<const double> angles, std::string_view what) {
+    for (std::size_t i = 1; i < angles.size(); ++i)
+        if (!(angles[i] > angles[i - 1]))
+            throw numbers.error(fmt::format("{} should increase, but {} follows {}", what, angles[i], angles[i - 1]));
+}
+
+// Linear between the values at the two neighbouring angles: which is below, and how far towards the next.
+std::pair<std::size_t, double> place_among(std::span<const double> angles, double angle) {
+    if (angles.size() == 1) return {0, 0.0};
+    const auto above = std::upper_bound(angles.begin() + 1, angles.end() - 1, angle);
+    const auto below = static_cast<std::size_t>(above - angles.begin()) - 1;
+    return {below, std::clamp((angle - angles[below]) / (angles[below + 1] - angles[below]), 0.0, 1.0)};
+}
+
+}  // namespace
+
+IesProfile::IesProfile(std::string_view text) {
+    const Heading heading = heading_of(text);
+    Numbers numbers(heading.rest, heading.lines + 1);
+    if (heading.tilt == "INCLUDE") {
+        // How lamps dim when the luminaire is tilted, which we take to hang as it was measured.
+        (void)numbers.whole("the lamp's position", 1, 3);
+        const int pairs = numbers.whole("the number of tilts", 1, most_angles);
+        (void)numbers.list("a tilt", pairs);
+        (void)numbers.list("the factor of a tilt", pairs);
+    } else if (heading.tilt != "NONE") {
+        throw std::runtime_error(
+            fmt::format("line {}: TILT should be NONE or INCLUDE; tilts in a file of their own are "
+                        "not read",
+                        heading.lines));
+    }
+    (void)numbers.next("the number of lamps");
+    (void)numbers.next("the lumens of a lamp");
+    const double multiplier = numbers.next("the multiplier of candelas");
+    const int verticals = numbers.whole("the number of vertical angles", 1, most_angles);
+    const int horizontals = numbers.whole("the number of horizontal angles", 1, most_angles);
+    const int type = numbers.whole("the photometric type", 1, 3);
+    if (type != 1)
+        throw numbers.error(fmt::format("the photometric type should be 1, which is C, but is {}, which is {}", type,
+                                        type == 2 ? 'B' : 'A'));
+    (void)numbers.whole("the unit of lengths", 1, 2);
+    (void)numbers.list("a length of the luminous opening", 3);
+    const double ballast = numbers.next("the factor of the ballast");
+    (void)numbers.list("the input power", 2);
+    vertical_ = numbers.list("a vertical angle", verticals);
+    check_increasing(numbers, vertical_, "the vertical angles");
+    if (vertical_.front() < 0.0 || vertical_.back() > 180.0)
+        throw numbers.error("the vertical angles should be from 0 to 180");
+    horizontal_ = numbers.list("a horizontal angle", horizontals);
+    check_increasing(numbers, horizontal_, "the horizontal angles");
+    const double last = horizontal_.back();
+    if (horizontal_.front() != 0.0 || (last != 0.0 && last != 90.0 && last != 180.0 && last != 360.0))
+        throw numbers.error(
+            fmt::format("the horizontal angles should go from 0 to 0, 90, 180 or 360, but go from {} to {}",
+                        horizontal_.front(), last));
+    const double scale = multiplier * ballast;
+    if (!(scale > 0.0))
+        throw numbers.error("the multiplier of candelas and the factor of the ballast should be positive");
+    candelas_ = numbers.list("the candelas", verticals * horizontals);
+    for (double& candelas : candelas_) {
+        candelas *= scale;
+        if (!(candelas >= 0.0) || !std::isfinite(candelas)) throw numbers.error("candelas should not be negative");
+    }
+    greatest_ = *std::ranges::max_element(candelas_);
+    if (!(greatest_ > 0.0)) throw numbers.error("all candelas are 0");
+}
+
+// The plane of the file that stands for this one.
+double IesProfile::symmetric(double horizontal_degrees) const {
+    double angle = std::fmod(horizontal_degrees, 360.0);
+    if (angle < 0.0) angle += 360.0;
+    const double last = horizontal_.back();
+    if (last <= 180.0 && angle > 180.0) angle = 360.0 - angle;
+    if (last <= 90.0 && angle > 90.0) angle = 180.0 - angle;
+    return angle;
+}
+
+float IesProfile::relative_intensity(double vertical_degrees, double horizontal_degrees) const {
+    // A tenth of a second of arc, for rounding at the ends.
+    constexpr double slack = 3e-5;
+    if (vertical_degrees < vertical_.front() - slack || vertical_degrees > vertical_.back() + slack) return 0.0f;
+    const auto [row, down] = place_among(vertical_, vertical_degrees);
+    const auto [plane, around] = place_among(horizontal_, symmetric(horizontal_degrees));
+    const auto at = [&](std::size_t p, std::size_t r) {
+        return candelas_[std::min(p, horizontal_.size() - 1) * vertical_.size() + std::min(r, vertical_.size() - 1)];
+    };
+    const double here = (1.0 - down) * at(plane, row) + down * at(plane, row + 1);
+    const double beside = (1.0 - down) * at(plane + 1, row) + down * at(plane + 1, row + 1);
+    return static_cast<float>(((1.0 - around) * here + around * beside) / greatest_);
+}
+
+}  // namespace phasetree::tracer

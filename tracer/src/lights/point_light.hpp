@@ -1,0 +1,60 @@
+// A point that shines alike in all directions, with the radiant intensity I.
+//
+// At the distance d a surface that faces it gets the irradiance E = I/d². A light of no size is only found by rays that
+// are sent to it: no ray meets it, and no camera sees it.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "lights/check.hpp"
+#include "parameters/world_limits.hpp"
+#include "phasetree/io/kind.hpp"
+
+namespace phasetree::tracer {
+
+class PointLight {
+  public:
+    PointLight(const glm::vec3& position, const glm::vec3& intensity) : position_(position), intensity_(intensity) {
+        check_point(position, "the point light's position");
+        check_colour(intensity, "the point light's intensity");
+    }
+
+    /// As PointLightKind has it.
+    const glm::vec3& position() const { return position_; }
+    glm::vec3 intensity(const glm::vec3& /*away*/) const { return intensity_; }
+
+  private:
+    glm::vec3 position_;
+    glm::vec3 intensity_;
+};
+
+inline constexpr Parameter intensity_of_a_point{
+    "intensity", "",
+    "Radiant intensity, in the unit of radiance times m²: a surface that faces the light at the distance d gets the "
+    "irradiance intensity/d².",
+    limits::non_negative, true};
+inline constexpr ColourParameter colour_of_a_point{
+    {"color", "", "A factor of the intensity of each colour.", limits::non_negative, true}};
+
+// As a scene file says it.
+struct PointLightParameters {
+    static constexpr KindInfo info{
+        "point",
+        "A point that shines alike in all directions. It is never seen itself, and through glass or water its light is "
+        "found by photons alone: without \"caustics\" it stays dark behind them. A small sphere has neither fault."};
+
+    glm::vec3 position{0.0f};
+    glm::vec3 color{1.0f};
+    float intensity = 1.0f;
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = PointLightParameters;
+        v(&P::position, Parameter{"position", "m", "Where it is.", coordinate});
+        v(&P::color, colour_of_a_point);
+        v(&P::intensity, intensity_of_a_point);
+    }
+    PointLight made() const { return PointLight(position, color * intensity); }
+};
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,64 @@
+// A rectangle through which lights at infinity come in, such as a window: directions are sampled through it instead of
+// all around. It shines by nothing of its own, hides nothing, and changes no picture but its noise.
+//
+// From a point on its inner side directions are uniform in the solid angle that it fills (rectangle_light.hpp), with
+// exactly that density; from its other side it is not there.
+//
+// Reference: Bitterli, Novák & Jarosz, Portal-Masked Environment Map Sampling, EGSR 2015, of which this is the plain
+// form without the image's own distribution.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+
+#include "lights/rectangle_light.hpp"
+
+namespace phasetree::tracer {
+
+class Portal {
+  public:
+    /// The rectangle's emitting side is the inner one.
+    explicit Portal(const RectangleLight& opening) : opening_(opening) {}
+
+    /// Roughly, in steradians; 0 where the portal is not there.
+    double approximate_solid_angle(const glm::vec3& p) const { return opening_.approximate_solid_angle(p); }
+    /// A direction out of it; asked only where the solid angle is not 0.
+    DirectionSample sample(const glm::vec3& p, const glm::vec2& u) const { return opening_.sample(p, u); }
+    /// The density of sample(), 0 for a direction that does not lead out of it.
+    float pdf(const glm::vec3& p, const glm::vec3& direction) const {
+        const std::optional<float> distance = opening_.intersect(p, direction);
+        return distance ? opening_.pdf_at(p, direction, *distance) : 0.0f;
+    }
+
+  private:
+    RectangleLight opening_;
+};
+
+// As a scene file says it.
+struct PortalParameters {
+    static constexpr KindInfo info{
+        "portal",
+        "An opening through which the lights at infinity are looked for, such as a window of "
+        "a room: it makes less noise, and no light."};
+
+    glm::vec3 centre{0.0f};
+    glm::vec3 target{0.0f};
+    float width = 1.0f;
+    float height = 1.0f;
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = PortalParameters;
+        v(&P::centre, Parameter{"centre", "m", "Its centre.", coordinate});
+        v(&P::target, Parameter{"target", "m", "A point inside, straight away from it.", coordinate});
+        v(&P::width, Parameter{"width", "m", "Length of its horizontal edge; along x if it faces up or down.", extent});
+        v(&P::height, Parameter{"height", "m", "Length of its other edge.", extent});
+    }
+    Portal made() const {
+        if (!(glm::length(target - centre) > 0))
+            throw ParameterError("target", "\"target\" is where the portal itself is");
+        return Portal(RectangleLight::facing(centre, target, width, height, glm::vec3(0.0f), false));
+    }
+};
+
+}  // namespace phasetree::tracer
