@@ -102,11 +102,13 @@ TEST_CASE("a point above a pane, and above a pool: closed forms") {
         const double expected = irradiance / std::numbers::pi * albedo;
         const Moments m = with_photons(scene, from, -from);
         CAPTURE(m.mean() / expected);
-        CHECK(mean_p_value(m, expected, 1e-3 * expected) > significance);
-        CHECK(mean_p_value(m, planted * expected, 1e-3 * expected) < significance);
+        CHECK(mean_p_value(m, expected, 2e-3 * expected) > significance);
+        CHECK(mean_p_value(m, planted * expected, 2e-3 * expected) < significance);
         // It is photons alone that find it.
-        CHECK(radiance_along(World(scene), scene, from, -from, 1000)[0].mean() == 0);
+        CHECK(radiance_along(World(scene), scene, from, -from, 1000)[0].mean() < 1e-4 * expected);
     };
+    // Around that place it is darker by 3/4 of (radius/distance)², for which 0.2 % are allowed.
+    const std::string near_photons = R"(, "render": {"width": 32, "height": 32, "photons": 8, "photon_radius": 1.5})";
     const std::string point = R"("lights": [{"point": {"position": [0, 0, 2], "intensity": 20}}])";
     SUBCASE("a pane over the floor") {
         // What passes straight, and what is reflected twice within, which comes from further away; more is nothing.
@@ -116,7 +118,7 @@ TEST_CASE("a point above a pane, and above a pool: closed forms") {
             scene_of(
                 R"("glass": {"clear": {"ior": 1.5}})",
                 R"({"set": {"phase": "glass", "of": {"translate": {"by": [0, 0, 0.5], "of": {"box": {"size": [3, 3, 0.2]}}}}}})",
-                R"("meshes": [{"floor": {"material": )" + floor_material + "}}], " + point + few_wide_photons),
+                R"("meshes": [{"floor": {"material": )" + floor_material + "}}], " + point + near_photons),
             {-1, -1, 0.2f}, intensity * passed);
     }
     SUBCASE("the ground of a pool, where the index is not 1") {
@@ -126,7 +128,7 @@ TEST_CASE("a point above a pane, and above a pool: closed forms") {
                 R"("water": {"clear": {"ior": 1.5}}, "ground": )" + floor_material,
                 R"({"over": [{"set": {"phase": "ground", "of": {"translate": {"by": [0, 0, -0.5], "of": {"box": {"size": [3, 3, 1]}}}}}},
                                   {"set": {"phase": "water", "of": {"box": {"size": [3, 3, 2]}}}}]})",
-                point + few_wide_photons),
+                point + near_photons),
             {-0.5f, -0.5f, 0.7f}, intensity * (1 - r) / (away * away));
     }
 }

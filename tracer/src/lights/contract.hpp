@@ -4,9 +4,9 @@
 //
 // Radiance is linear Rec.709 in W/(sr m²), and intensity in W/sr, up to one factor that is the same for a whole scene.
 // Directions are of unit length and point from the place that is lit towards the light. Densities are per steradian,
-// and those of an
-// infinite or area light over all directions integrate to 1. `u` is in [0, 1)²; points that are stratified in the
-// square should give stratified directions.
+// and those of an infinite or area light over all directions integrate to 1.
+//
+// `u` is in [0, 1)²; points that are stratified in the square should give stratified directions.
 #pragma once
 
 #include <concepts>

@@ -71,16 +71,19 @@ struct SpotLightParameters {
         v(&P::target, Parameter{"target", "m", "A point in the middle of its cone.", coordinate});
         v(&P::cone_degrees, Parameter{"cone", "degrees", "Angle across the whole cone, beyond which it is dark.",
                                       Limits{.low = 0, .high = 360, .low_open = true}, true});
-        v(&P::edge_degrees, Parameter{"edge", "degrees", "Angle within the cone's edge over which it grows dark.",
-                                      Limits{.low = 0, .high = 180}, true});
+        v(&P::edge_degrees,
+          Parameter{
+              "edge", "degrees",
+              "Angle within the cone's edge over which it grows dark; of a narrow cone, at most half of it counts.",
+              Limits{.low = 0, .high = 180}, true});
         v(&P::color, colour_of_a_point);
         v(&P::intensity, intensity_of_a_point);
     }
     SpotLight made() const {
         if (!(glm::length(target - position) > 0))
             throw ParameterError("target", "\"target\" is where the light itself is");
-        if (edge_degrees > 0.5f * cone_degrees) throw ParameterError("edge", "the edge is wider than half of the cone");
-        return SpotLight(position, target, cone_degrees, edge_degrees, color * intensity);
+        return SpotLight(position, target, cone_degrees, std::min(edge_degrees, 0.5f * cone_degrees),
+                         color * intensity);
     }
 };
 
