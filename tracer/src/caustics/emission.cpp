@@ -32,7 +32,7 @@ float squared_ior(const Scene& scene, Phase phase) {
 }  // namespace
 
 PhotonEmission::PhotonEmission(const World& world, const Scene& scene) : world_(world), scene_(scene) {
-    const Bounds& bounds = world.geometry().object().bounds();
+    const Bounds& bounds = world.geometry().bounds();
     if (bounds.empty() || !bounds.finite() || std::ranges::none_of(scene.materials, bends_light)) return;
     centre_ = bounds.centre();
     radius_ = 0.5005f * bounds.diagonal();
@@ -125,10 +125,9 @@ std::optional<Ray> PhotonEmission::start(const glm::vec3& target, const glm::vec
     glm::vec3 origin = outside_of_object(target, direction);
     // A light within the sphere about the object: the photon starts at the light, but for a hair.
     if (glm::dot(target - origin, direction) > back) origin = target - direction * (back * (1 - 1e-5f));
-    const bool is_outside = !world_.geometry().object().bounds().contains(origin);
-    const Phase phase = is_outside ? phasetree::vacuum : world_.geometry().label(origin);
-    if (!is_clear(scene_.materials[phase.index])) return std::nullopt;
-    return Ray{origin, direction, phase, {}};
+    const TracedGeometry::Inside inside = world_.geometry().inside(origin);
+    if (!is_clear(scene_.materials[inside.phase.index])) return std::nullopt;
+    return Ray{origin, direction, inside.phase, {}, inside.in};
 }
 
 std::optional<EmittedPhoton> PhotonEmission::of_point_light(std::size_t number, const PhotonTarget::Aim& aim) const {
