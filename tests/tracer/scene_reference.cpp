@@ -22,6 +22,7 @@
 #include "scene/material_kinds.hpp"
 #include "scene/mesh_kinds.hpp"
 #include "scene/read_parts.hpp"
+#include "scene/read_transform.hpp"
 #include "source_directory.hpp"
 #include "support/json_schema.hpp"
 
@@ -205,6 +206,12 @@ void tell_camera(const Document& document, std::vector<float>& told) {
     }
 }
 
+void tell_transform(const Document& document, std::vector<float>& told) {
+    const tracer::Transform t = tracer::read_transform(document, document.root());
+    for (int i = 0; i < 3; ++i) tell(told, glm::vec3(t.matrix[i]));
+    tell(told, glm::vec3(t.by));
+}
+
 void tell_settings(const Document& document, std::vector<float>& told) {
     tracer::FilmSettings film;
     const tracer::RenderSettings s = tracer::read_settings(document, document.root(), film);
@@ -288,6 +295,14 @@ std::vector<Case> cases() {
     for (const char* const name : {"panorama", "dome"})
         all.push_back({"Cameras", name, camera, fmt::format("{{\"{}\": ", name), "}", tell_camera});
     all.push_back({"Cameras", "orthographic", camera + R"(, "height": 3)", "{\"orthographic\": ", "}", tell_camera});
+    const auto transform = [&](const std::string& name, const std::string& needed) {
+        all.push_back({"Transforms", name, needed, "{\"" + name + "\": ", "}", tell_transform});
+    };
+    transform("translate", R"("by": [1, 2, 3])");
+    transform("rotate", R"("angle": 30)");
+    transform("scale", R"("factor": 2)");
+    transform("stretch", R"("factors": [1, 2, 3])");
+    transform("affine", "");
     all.push_back({"Image", "render", "", "", "", tell_settings});
     return all;
 }
@@ -321,10 +336,11 @@ std::string vector_of(Value property, const std::string& first, const std::strin
 
 Value properties_of(const Case& c) {
     const std::map<std::string, std::string> definitions{
-        {"Materials", "material"}, {"Textures", "texture"}, {"Numbers", "number_texture"},
-        {"Lights", "light"},       {"Meshes", "mesh"},      {"Cameras", "camera"}};
+        {"Materials", "material"}, {"Textures", "texture"}, {"Numbers", "number_texture"}, {"Lights", "light"},
+        {"Meshes", "mesh"},        {"Cameras", "camera"},   {"Transforms", "transform"}};
     if (c.chapter == "Image") return *schema().definition(c.name).find("properties");
     Value kinds = schema().definition(definitions.at(c.chapter));
+    if (c.chapter == "Transforms") kinds = (*kinds.find("anyOf"))[0];
     if (c.chapter == "Textures" || c.chapter == "Cameras") kinds = (*kinds.find("anyOf"))[1];
     return *kinds.find("properties")->find(c.name)->find("properties");
 }
@@ -357,7 +373,7 @@ TEST_CASE("every kind is in the page, in the schema and in these tests, with the
     for (const Case& c : cases()) tested[c.chapter].insert(c.name);
     for (const Chapter& chapter : tracer::scene_chapters()) {
         if (chapter.title == "Scene file" || chapter.title == "Fields" || chapter.title == "Objects" ||
-            chapter.title == "Warps")
+            chapter.title == "Warps" || chapter.title == "Objects and instances")
             continue;
         CAPTURE(chapter.title);
         CHECK(!chapter.text.empty());

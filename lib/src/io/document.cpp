@@ -152,6 +152,12 @@ std::filesystem::path Document::file(Value named) const {
     return real;
 }
 
+Document Document::beside(Value named) const {
+    Document other = from_file(file(named));
+    other.files_within_ = files_within_;
+    return other;
+}
+
 Document Document::with_files_within(const std::filesystem::path& folder) const {
     std::error_code problem;
     std::filesystem::path real = std::filesystem::canonical(folder, problem);

@@ -383,6 +383,20 @@ SceneTree read_tree(const Document& document, const FileReaders& files) {
     return result;
 }
 
+PhaseNames read_phase_names(const Document& document) {
+    const Value root = document.root();
+    return root.is_object() && root.find("phases") ? read_phases(document, root) : PhaseNames();
+}
+
+std::vector<Phased> read_objects(const Document& document, const PhaseNames& names, std::span<const Value> objects,
+                                 const FileReaders& files) {
+    Reader reader(document, names, shapes_of(document), files);
+    std::vector<Phased> result;
+    for (const Value object : objects) result.push_back(reader.read<Phased>(object));
+    reader.read_unused();
+    return result;
+}
+
 Field read_field(const Document& document, const PhaseNames& names, KnownShapes known, const FileReaders& files) {
     return Reader(document, names, std::nullopt, files, std::move(known)).read<Field>(document.root());
 }
@@ -392,10 +406,7 @@ Phased read_object(const Document& document, const PhaseNames& names, KnownShape
 }
 
 Field read_field(const Document& document, Value value, const FileReaders& files) {
-    const Value root = document.root();
-    PhaseNames names;
-    if (root.is_object() && root.find("phases")) names = read_phases(document, root);
-    return Reader(document, std::move(names), shapes_of(document), files).read<Field>(value);
+    return Reader(document, read_phase_names(document), shapes_of(document), files).read<Field>(value);
 }
 
 }  // namespace phasetree

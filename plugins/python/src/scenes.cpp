@@ -59,11 +59,14 @@ py::object as_python(Value value, const Document* document = nullptr) {
 py::tuple parts_of(const Document& document) {
     SceneTree tree;
     const Value root = document.root();
+    if (const auto objects = root.find("objects"))
+        throw document.error(*objects, "scenes of several objects cannot be read here; those of one \"tree\" can");
     if (root.find("camera")) {
         tracer::Scene scene = tracer::read_scene(document);
         tree = {scene.phases, scene.object};
     } else {
-        tree = tracer::read_scene_without_camera(document);
+        tracer::SceneModel model = tracer::read_scene_without_camera(document);
+        tree = {std::move(model.phases), std::move(model.object)};
     }
     py::dict rest;
     for (const Value part : root)

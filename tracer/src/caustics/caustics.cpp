@@ -38,7 +38,7 @@ float pixel_size(const Scene& scene, float distance) {
 float distance_to_object(const World& world, const Scene& scene) {
     const Camera camera(scene.camera, scene.film.resolution());
     const CameraRay ray = camera.generate(0.5 * glm::dvec2(scene.film.resolution()), glm::vec2(0.5f));
-    return glm::length(world.geometry().object().bounds().centre() - ray.origin);
+    return glm::length(world.geometry().bounds().centre() - ray.origin);
 }
 
 }  // namespace

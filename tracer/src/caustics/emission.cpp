@@ -32,7 +32,7 @@ float squared_ior(const Scene& scene, Phase phase) {
 }  // namespace
 
 PhotonEmission::PhotonEmission(const World& world, const Scene& scene) : world_(world), scene_(scene) {
-    const Bounds& bounds = world.geometry().object().bounds();
+    const Bounds& bounds = world.geometry().bounds();
     if (bounds.empty() || !bounds.finite() || std::ranges::none_of(scene.materials, bends_light)) return;
     centre_ = bounds.centre();
     radius_ = 0.5005f * bounds.diagonal();
@@ -103,15 +103,16 @@ std::optional<EmittedPhoton> PhotonEmission::sample(Sampler& sampler) const {
     glm::vec3 origin = outside_of_object(aim.point, direction);
     // A light within the sphere about the object: the photon starts at the light, but for a hair.
     if (glm::dot(aim.point - origin, direction) > back) origin = aim.point - direction * (back * (1 - 1e-5f));
-    const bool is_outside = !world_.geometry().object().bounds().contains(origin);
-    const Phase phase = is_outside ? phasetree::vacuum : world_.geometry().label(origin);
+    const TracedGeometry::Inside inside = world_.geometry().inside(origin);
+    const Phase phase = inside.phase;
     if (!is_clear(scene_.materials[phase.index])) return std::nullopt;
 
     const float density = line_density(origin, -direction, phase);
     const auto seen = scene_.lights.seen(origin, -direction, infinity, false);
     if (!(density > 0.0f) || !seen) return std::nullopt;
     const float line = density * squared_ior(scene_, phase);
-    return EmittedPhoton{{origin, direction, phase, {}}, *seen, seen->radiance / line, density, number, aim.cell};
+    return EmittedPhoton{
+        {origin, direction, phase, {}, inside.in}, *seen, seen->radiance / line, density, number, aim.cell};
 }
 
 float PhotonEmission::line_density(const glm::vec3& origin, const glm::vec3& towards_light, Phase phase) const {

@@ -27,7 +27,7 @@ std::optional<Photon> trace_photon(const World& world, const Scene& scene, const
         }
         if (!is_link(bsdf, *surface)) {
             if (length == 0 || !is_lit_by_photons(*surface, bsdf)) return std::nullopt;
-            const Ray back{emitted.ray.origin, -emitted.ray.direction, emitted.ray.phase, {}};
+            const Ray back{emitted.ray.origin, -emitted.ray.direction, emitted.ray.phase, {}, emitted.ray.in};
             const Visibility light = world.geometry().visibility(back, emitted.emission.distance, counters);
             if (!std::holds_alternative<Escaped>(light)) return std::nullopt;
             return Photon{surface->near_side.origin, -ray.direction, power, emitted.line_density, ray.phase,

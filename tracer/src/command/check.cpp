@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include "command/empty_object.hpp"
 #include "command/load.hpp"
+#include "command/overlap_report.hpp"
 #include "command/streams.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/model/handle.hpp"
@@ -15,7 +16,15 @@ namespace {
 
 // A scene without a camera is a tree for all that does not render. Says what it is good for.
 int check_without_camera(const Document& document, const std::string& shown) {
-    const SceneTree tree = read_scene_without_camera(document);
+    const SceneModel model = read_scene_without_camera(document);
+    if (!model.placed.empty()) {
+        warn_of_overlaps(document, model.placed);
+        put("{}: the objects are sound, for eval, info and trace; the scene has no \"camera\", so it cannot be "
+            "rendered\n",
+            shown);
+        return only_a_tree;
+    }
+    const SceneTree tree{model.phases, model.object};
     const Evaluator evaluator(record_tree(document, tree.object));
     std::string rays = "eval, info, trace and programs that trace rays";
     const Bounds b = bounds(tree.object);
@@ -34,6 +43,10 @@ int check(const SceneFile& file) {
     if (document.root().is_object() && !document.root().find("camera"))
         return check_without_camera(document, file.shown());
     const Scene scene = load_scene(document);
+    if (!scene.placed.empty()) {
+        warn_of_overlaps(document, scene.placed);
+        return 0;
+    }
     if (is_empty(scene.object, Evaluator(record_tree(document, scene.object))))
         say("{}\n", empty_object_warning(document));
     print_warning(file.shown(), prepare_to_trace(scene.object).warning);

@@ -1,5 +1,7 @@
 #include "command/empty_object.hpp"
 
+#include "command/load.hpp"
+
 #include "phasetree/evaluation/evaluator.hpp"
 
 namespace phasetree::tracer {
@@ -25,8 +27,7 @@ bool is_empty(const Phased& object, const Evaluator& evaluator) {
 }
 
 std::string empty_object_warning(const Document& document) {
-    return document
-        .error(*document.root().find("tree"), "warning: the object is empty: nothing of it is left, so no ray meets it")
+    return document.error(model_in(document), "warning: the object is empty: nothing of it is left, so no ray meets it")
         .what();
 }
 

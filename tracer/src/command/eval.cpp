@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "command/commands.hpp"
+#include "command/copies_at.hpp"
 #include "command/load.hpp"
 #include "command/numbers.hpp"
 #include "command/streams.hpp"
@@ -16,19 +17,23 @@ namespace {
 constexpr std::string_view columns[] = {"x", "y", "z"};
 
 // Phases that the object never has are left empty.
-int eval(const SceneFile& file) {
+int eval(const SceneFile& file, const std::optional<std::string>& object) {
     const Document document = read_document_beside_input(file);
-    const SceneTree tree = read_model(document);
+    const SceneModel model = read_scene_model(document);
+    const SceneTree tree = tree_of_model(document, model, object);
+    std::optional<CopiesAt> copies;
+    if (!object && !model.placed.empty()) copies.emplace(model.placed);
     const Evaluator evaluator(record_tree(document, tree.object));
     Evaluator::Workspace workspace;
     const FlushSubnormals flush;
-    std::string header = "x,y,z,phase";
+    std::string header = copies ? "x,y,z,phase,object,copy" : "x,y,z,phase";
     for (const std::string& name : tree.phases.names) header += "," + csv_cell("phi." + name);
     put("{}\n", header);
     for_each_line_of_numbers(std::cin, columns, [&](const std::array<float, 6>& v, std::size_t) {
         const Phases<float> phi = evaluator.distances({v[0], v[1], v[2]}, workspace);
         std::string line = fmt::format("{},{},{},{}", unsigned_zero(v[0]), unsigned_zero(v[1]), unsigned_zero(v[2]),
                                        csv_cell(tree.phases[label(phi)]));
+        if (copies) line += copies->columns({v[0], v[1], v[2]});
         for (std::size_t i = 0; i < tree.phases.names.size(); ++i)
             line += phi.has(static_cast<int>(i)) ? fmt::format(",{}", unsigned_zero(phi[static_cast<int>(i)])) : ",";
         put("{}\n", line);
@@ -46,9 +51,13 @@ void add_eval(CLI::App& app, Run& run) {
         "comment. Or CSV with a header that names the columns x, y and z, such as this command's\n"
         "own output.\n"
         "Standard output: x,y,z,phase,phi.vacuum,phi.NAME…, a line a point. phi is the signed\n"
-        "distance to a phase, negative in it; empty for phases that the object never has.");
+        "distance to a phase, negative in it; empty for phases that the object never has. Of a\n"
+        "scene of several objects object,copy come behind phase: the name of the object that holds\n"
+        "the point, and the number of its copy.");
     const auto file = add_scene_file(*command);
-    command->callback([file, &run] { run = [file] { return eval(*file); }; });
+    auto object = std::make_shared<std::optional<std::string>>();
+    add_object(*command, *object);
+    command->callback([=, &run] { run = [=] { return eval(*file, *object); }; });
 }
 
 }  // namespace phasetree::tracer

@@ -25,6 +25,7 @@ constexpr float finest_of_diagonal = 1e-5f;
 struct Options {
     std::string output;
     int grid = 0;
+    std::optional<std::string> object;
 };
 
 std::string numbers_as_bytes(const std::vector<float>& numbers) {
@@ -62,12 +63,11 @@ int export_page(const SceneFile& file, const Options& chosen) {
     const bool is_whole = document.root().find("camera").has_value();
     std::optional<Scene> scene;
     SceneTree tree;
-    if (is_whole) {
+    if (is_whole)
         scene = load_scene(document);
-        tree = {scene->phases, scene->object};
-    } else {
-        tree = read_scene_without_camera(document);
-    }
+    else
+        (void)read_scene_without_camera(document);
+    tree = read_model(document, chosen.object);
     const TraceableObject traceable = made_of_tree(document, [&] { return prepare_to_trace(tree.object); });
     print_warning(file.shown(), traceable.warning);
     const Bounds& bounds = traceable.bounds;
@@ -116,7 +116,7 @@ int export_shader(const SceneFile& file, const Options& chosen) {
     numbers_path.replace_extension(".f32");
     check_file_writable(path);
     const Document document = read_document(file);
-    const SceneTree tree = read_model(document);
+    const SceneTree tree = read_model(document, chosen.object);
     const TraceableObject traceable = made_of_tree(document, [&] { return prepare_to_trace(tree.object); });
     print_warning(file.shown(), traceable.warning);
     const Program program = record_tree(document, tree.object);
@@ -154,6 +154,7 @@ void add_export(CLI::App& app, Run& run) {
         "arrows, +, - and 0 do the same; phases can be hidden, and a plane cuts the object open.");
     const auto file = add_scene_file(*command);
     auto options = std::make_shared<Options>();
+    add_object(*command, options->object);
     command->add_option("-o,--output", options->output, "The file to write")->required()->option_text("FILE");
     command
         ->add_option(

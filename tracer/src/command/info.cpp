@@ -9,6 +9,7 @@
 #include "command/load.hpp"
 #include "command/max_memory.hpp"
 #include "command/numbers.hpp"
+#include "command/objects_report.hpp"
 #include "command/streams.hpp"
 #include "output/cell_progress.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
@@ -28,14 +29,37 @@ glm::vec3 unsigned_zeroes(const glm::vec3& v) {
 
 struct Options {
     bool as_json = false, with_cells = false, with_carving = false;
+    std::optional<std::string> object;
     int most_planes = CarveOptions().most_planes;
     CellOptions cells;
 };
 
+// Of a scene of several objects, if none is chosen.
+int info_of_objects(const SceneFile& file, const Options& chosen, const SceneModel& model) {
+    if (chosen.with_cells || chosen.with_carving)
+        throw InputError(
+            fmt::format("{} is for one object: choose it with --object", chosen.with_cells ? "--cells" : "--carve"));
+    if (chosen.as_json) {
+        nlohmann::ordered_json json;
+        json["scene"] = file.shown();
+        json["copies"] = model.placed.copies();
+        json["groups"] = model.placed.groups.size();
+        json["places"] = model.placed.places.size();
+        json["objects"] = objects_as_json(model);
+        put("{}\n", json.dump(2));
+        return 0;
+    }
+    put("{:<14}{}\n", "scene", file.shown());
+    print_objects(model);
+    return 0;
+}
+
 int info(const SceneFile& file, const Options& chosen) {
     const AvailableThreads threads;
     const Document document = read_document(file);
-    const SceneTree tree = read_model(document);
+    const SceneModel model = read_scene_model(document);
+    if (!model.placed.empty() && !chosen.object) return info_of_objects(file, chosen, model);
+    const SceneTree tree = tree_of_model(document, model, chosen.object);
     const TreeStatistics s = statistics(tree.object);
     Bounds b = bounds(tree.object);
     b = {unsigned_zeroes(b.low), unsigned_zeroes(b.high)};
@@ -111,6 +135,8 @@ void add_info(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand("info", "Print a scene's nodes, phases, bytes, bounds and instructions");
     const auto file = add_scene_file(*command);
     auto options = std::make_shared<Options>();
+    command->footer("Of a scene of several objects it lists these; with --object it tells of one.");
+    add_object(*command, options->object);
     command->add_flag("--json", options->as_json, "As JSON");
     auto* const with_cells = command->add_flag(
         "--cells", options->with_cells, "Also build the cells in which a render traces rays, and say what they are");

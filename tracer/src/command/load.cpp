@@ -1,12 +1,16 @@
 #include "command/load.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <map>
 
 #include "command/numbers.hpp"
 #include "command/streams.hpp"
 #include "output/error.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/trace/tracer.hpp"
+#include "scene/one_tree.hpp"
 #include "scene/read_parts.hpp"
 
 namespace phasetree::tracer {
@@ -21,8 +25,31 @@ Document read_document_beside_input(const SceneFile& file) {
     return read_document(file);
 }
 
-SceneTree read_model(const Document& document) {
-    return read_tree(document, {.height_grid = read_height_grid});
+Value model_in(const Document& document) {
+    return document.root().find(has_objects(document) ? "objects" : "tree").value();
+}
+
+SceneTree read_model(const Document& document, const std::optional<std::string>& object) {
+    return tree_of_model(document, read_scene_model(document), object);
+}
+
+SceneTree tree_of_model(const Document& document, const SceneModel& model, const std::optional<std::string>& object) {
+    if (!object && model.placed.empty()) return {model.phases, model.object};
+    if (!object) return {model.phases, made_of_tree(document, [&] { return as_one_tree(model.placed); })};
+    std::vector<std::string> names;
+    for (const PlacedObject& one : model.placed.objects) {
+        if (one.name == *object) return {model.phases, one.tree};
+        names.push_back(one.name);
+    }
+    throw InputError(names.empty() ? "--object: the scene has one tree, and no \"objects\""
+                                   : fmt::format("--object: there is no object \"{}\"; the objects are {}", *object,
+                                                 fmt::join(names, ", ")));
+}
+
+void make_one_tree(const Document& document, Scene& scene) {
+    if (scene.placed.empty()) return;
+    scene.object = made_of_tree(document, [&] { return as_one_tree(scene.placed); });
+    scene.placed = {};
 }
 
 DisplayTransform display_of(const Document& document, const RenderSettings& settings,
@@ -40,15 +67,36 @@ void print_warning(const std::string& file, const std::string& warning) {
     if (!warning.empty()) say("{}: warning: {}\n", file, warning);
 }
 
+namespace {
+
+// The phase at a point of the scene; of several objects that of the first that holds it.
+Phase phase_at(const Document& document, const Scene& scene, const glm::vec3& point) {
+    // By the program, in which a shared shape counts once a place: a walk through the tree might never end.
+    const auto of_tree = [&](const Phased& tree, const Bounds& box, const glm::vec3& p) {
+        const Evaluator evaluator(record_tree(document, tree));
+        return box.contains(p) ? evaluator.label(p, Evaluator::thread_workspace()) : phasetree::vacuum;
+    };
+    if (scene.placed.empty()) {
+        (void)made_of_tree(document, [&] { return prepare_to_trace(scene.object); });
+        return of_tree(scene.object, bounds(scene.object), point);
+    }
+    std::map<const PhasedNode*, Bounds> boxes;
+    for (const PlacedObject& object : scene.placed.objects) boxes.emplace(object.tree.node(), bounds(object.tree));
+    Phase found = phasetree::vacuum;
+    scene.placed.each_copy([&](std::uint32_t, const PlacedObject& object, const Transform& to_scene) {
+        const Bounds& box = boxes.at(object.tree.node());
+        if (to_scene.image(box).contains(point))
+            found = of_tree(object.tree, box, glm::vec3(to_scene.inverse()(point)));
+        return found == phasetree::vacuum;
+    });
+    return found;
+}
+
+}  // namespace
+
 Scene load_scene(const Document& document) {
     Scene scene = read_scene(document);
-    (void)made_of_tree(document, [&] { return prepare_to_trace(scene.object); });
-    // By the program, in which a shared shape counts once a place: a walk through the tree might never end.
-    const Evaluator evaluator(record_tree(document, scene.object));
-    const glm::vec3 position = position_of(scene.camera);
-    const Phase phase = bounds(scene.object).contains(position)
-                            ? evaluator.label(position, Evaluator::thread_workspace())
-                            : phasetree::vacuum;
+    const Phase phase = phase_at(document, scene, position_of(scene.camera));
     if (!is_clear(scene.materials[phase.index]))
         throw document.error(*document.root().find("camera"),
                              fmt::format("the camera is inside \"{}\", which is opaque", scene.phases[phase]));

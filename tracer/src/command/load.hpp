@@ -24,8 +24,17 @@ DisplayTransform display_of(const Document&, const RenderSettings&, const std::o
 // Throws InputError.
 Document read_document_beside_input(const SceneFile&);
 
-// The tree alone of a scene that need not have anything else.
-SceneTree read_model(const Document&);
+// The tree alone of a scene that need not have anything else: of several objects one that is all of them, or the one of
+// this name.
+SceneTree read_model(const Document&, const std::optional<std::string>& object = {});
+
+// The same of a model that was read.
+SceneTree tree_of_model(const Document&, const SceneModel&, const std::optional<std::string>& object = {});
+
+// Makes of a scene of several objects one of one tree. Throws SceneError if there are too many.
+void make_one_tree(const Document&, Scene&);
+// What errors of the scene's object point to: "tree", or "objects".
+Value model_in(const Document&);
 
 // What `make` makes of the document's tree; where the object allows of none (unbounded, too large), that is an error at
 // "tree".
@@ -34,7 +43,7 @@ auto made_of_tree(const Document& document, F&& make) {
     try {
         return make();
     } catch (const ModelError& e) {
-        throw document.error(*document.root().find("tree"), e.what());
+        throw document.error(model_in(document), e.what());
     }
 }
 

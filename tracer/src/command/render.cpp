@@ -14,6 +14,7 @@
 #include "command/empty_object.hpp"
 #include "command/film_header.hpp"
 #include "command/load.hpp"
+#include "command/overlap_report.hpp"
 #include "command/pictures.hpp"
 #include "command/render_options.hpp"
 #include "film_file/read.hpp"
@@ -46,8 +47,10 @@ void write_stats(const std::string& path, const RenderOptions& options, const Wo
     json["batches_per_ray"] = per_ray(r.counters.trace.batches);
     json["samples_per_ray"] = static_cast<double>(batch_size) * per_ray(r.counters.trace.batches);
     json["phantom_steps_per_ray"] = per_ray(r.counters.trace.phantoms);
-    const CellStatistics cells = world.geometry().object().statistics();
-    json["instructions"] = world.geometry().object().whole().program().instructions.size();
+    const CellStatistics cells = world.geometry().statistics();
+    std::size_t instructions = 0;
+    for (const auto& object : world.geometry().objects()) instructions += object->whole().program().instructions.size();
+    json["instructions"] = instructions;
     add_cells(json, cells);
     write_file(json.dump(2) + "\n", path);
 }
@@ -175,6 +178,9 @@ int render_scene(const RenderOptions& options) {
     const Document document = read_document(*options.scene);
     Scene scene = load_scene(document);
     apply(options, scene);
+    if (!scene.placed.empty() && (options.detail || options.cells))
+        throw OutputError(fmt::format("{} is for scenes of one tree, and this one has \"objects\"",
+                                      options.detail ? "--detail" : "--cells"));
     if (options.detail) made_of_tree(document, [&] { choose_levels_of_detail(scene, *options.detail); });
     RenderJob job;
     job.pixels = pixels_of(options, scene);
@@ -193,12 +199,15 @@ int render_scene(const RenderOptions& options) {
     std::optional<World> world;
     // What there was to resume is still there; and the same line starts anew if it may.
     if (!prepare(world, options, scene, job)) return code_of_interruption(found || options.may_start);
-    if (world->geometry().object().size() == 0) say("{}\n", empty_object_warning(document));
-    if (!options.quiet && world->geometry().object().statistics().is_coarser)
+    if (world->geometry().statistics().cells == 0) say("{}\n", empty_object_warning(document));
+    if (!options.quiet && world->geometry().statistics().is_coarser)
         say("phasetree: the object would take more memory than --max-memory allows: rays are slower\n");
-    if (!options.quiet) print_warning(document.name(), world->geometry().object().warning());
+    if (!options.quiet) {
+        for (const auto& object : world->geometry().objects()) print_warning(document.name(), object->warning());
+        warn_of_overlaps(document, scene.placed);
+    }
     // The header now says of the cells, too, whether they were made coarser, so what is resumed is compared again.
-    add_cells(header, options, world->geometry().object().statistics());
+    add_cells(header, options, world->geometry().statistics());
     Film film = film_of(scene, job);
     if (found) {
         found->check_picture(header);

@@ -39,6 +39,14 @@ std::shared_ptr<SceneFile> add_scene_file(CLI::App& command) {
     return file;
 }
 
+void add_object(CLI::App& command, std::optional<std::string>& object) {
+    command
+        .add_option("--object", object,
+                    "Of a scene of several objects this one alone, in its own space (default: all of them, in their "
+                    "places)")
+        ->option_text("NAME");
+}
+
 Document read_document(const SceneFile& file) {
     const Document document = file.is_standard_input() ? Document::from_text(standard_input(file.shown()), file.shown())
                                                        : Document::from_file(file.name);

@@ -26,6 +26,9 @@ struct SceneFile {
 // Adds the argument SCENE and the option --assets-within.
 std::shared_ptr<SceneFile> add_scene_file(CLI::App& command);
 
+// Adds the option --object, which names one of several objects.
+void add_object(CLI::App& command, std::optional<std::string>& object);
+
 // Throws SceneError.
 Document read_document(const SceneFile&);
 

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "command/commands.hpp"
+#include "command/copies_at.hpp"
 #include "command/load.hpp"
 #include "command/numbers.hpp"
 #include "command/streams.hpp"
@@ -18,15 +19,19 @@ namespace {
 constexpr std::string_view columns[] = {"ox", "oy", "oz", "dx", "dy", "dz"};
 
 // t counts in units of the direction as it was given, so that origin + t·direction is the place.
-int trace(const SceneFile& file) {
+int trace(const SceneFile& file, const std::optional<std::string>& object) {
     const Document document = read_document_beside_input(file);
-    const SceneTree tree = read_model(document);
+    const SceneModel model = read_scene_model(document);
+    const SceneTree tree = tree_of_model(document, model, object);
+    std::optional<CopiesAt> copies;
+    if (!object && !model.placed.empty()) copies.emplace(model.placed);
+    const auto copy_at = [&](const glm::vec3& p) { return copies ? copies->columns(p) : std::string(); };
     (void)record_tree(document, tree.object);
     const InterfaceTracer tracer = made_of_tree(document, [&] { return InterfaceTracer(tree.object); });
     print_warning(file.shown(), tracer.warning());
     Evaluator::Workspace workspace;
     const FlushSubnormals flush;
-    put("ray,t,from,to,nx,ny,nz\n");
+    put("ray,t,from,to,nx,ny,nz{}\n", copies ? ",to_object,to_copy" : "");
     std::size_t ray = 0;
     for_each_line_of_numbers(std::cin, columns, [&](const std::array<float, 6>& v, std::size_t line) {
         const glm::vec3 origin(v[0], v[1], v[2]), given(v[3], v[4], v[5]);
@@ -35,13 +40,14 @@ int trace(const SceneFile& file) {
         const glm::vec3 direction(glm::dvec3(given) / length);
         glm::vec3 start = origin;
         Phase phase = tracer.label(origin, workspace);
-        put("{},0,,{},,,\n", ray, csv_cell(tree.phases[phase]));
+        put("{},0,,{},,,{}\n", ray, csv_cell(tree.phases[phase]), copy_at(origin));
         while (const auto c =
                    tracer.first_crossing(start, direction, 0, std::numeric_limits<float>::max(), phase, workspace)) {
             const double t = glm::dot(glm::dvec3(c->p_in) - glm::dvec3(origin), glm::dvec3(direction)) / length;
             const glm::vec3 n = tracer.normal(*c, direction);
-            put("{},{},{},{},{},{},{}\n", ray, unsigned_zero(static_cast<float>(t)), csv_cell(tree.phases[c->from]),
-                csv_cell(tree.phases[c->to]), unsigned_zero(n.x), unsigned_zero(n.y), unsigned_zero(n.z));
+            put("{},{},{},{},{},{},{}{}\n", ray, unsigned_zero(static_cast<float>(t)), csv_cell(tree.phases[c->from]),
+                csv_cell(tree.phases[c->to]), unsigned_zero(n.x), unsigned_zero(n.y), unsigned_zero(n.z),
+                copy_at(c->p_out));
             start = c->p_out;
             phase = c->to;
         }
@@ -64,9 +70,13 @@ void add_trace(CLI::App& app, Run& run) {
         "its origin. Then comes a line for each interface in its order. The interface is at origin\n"
         "+ t·direction, where t is the near end of the bracket that was found, which is still in\n"
         "\"from\"; the far end, in \"to\", is within the resolution behind it. The normal is of unit\n"
-        "length and points out of \"from\" into \"to\", which is along the ray: normal·direction ≥ 0.");
+        "length and points out of \"from\" into \"to\", which is along the ray: normal·direction ≥ 0.\n"
+        "Of a scene of several objects to_object,to_copy come last: the object in which \"to\" is, and\n"
+        "the number of its copy.");
     const auto file = add_scene_file(*command);
-    command->callback([file, &run] { run = [file] { return trace(*file); }; });
+    auto object = std::make_shared<std::optional<std::string>>();
+    add_object(*command, *object);
+    command->callback([=, &run] { run = [=] { return trace(*file, *object); }; });
 }
 
 }  // namespace phasetree::tracer

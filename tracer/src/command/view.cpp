@@ -48,6 +48,7 @@ view::ViewedScene read_viewed(const Options& options, view::WatchedFiles& files)
     const Document document = read_document(*options.scene);
     add_named_files(document, document.root(), files);
     Scene scene = load_scene(document);
+    make_one_tree(document, scene);
     // A name that is wrong is said now.
     (void)display_of(document, scene.settings, options.display, options.view, {});
     const RenderSettings settings = scene.settings;

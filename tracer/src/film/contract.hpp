@@ -33,7 +33,7 @@ struct FilmSample {
 struct PlaneSubjects {
     std::vector<std::string> phases;   ///< in order, the vacuum first
     std::vector<std::string> groups;   ///< of lights, in the order of Lights::groups
-    std::vector<std::string> objects;  ///< the object of phases, then the meshes
+    std::vector<std::string> objects;  ///< the object of phases, or several, then the meshes
 
     bool operator==(const PlaneSubjects&) const = default;
 };

@@ -69,7 +69,7 @@ struct MattePhase {
         return r.entered ? std::optional<std::size_t>(r.entered->index) : std::nullopt;
     }
 };
-/// The object of phases, and each mesh.
+/// Each object of phases, and each mesh.
 struct MatteObject {
     static constexpr std::string_view name = "crypto_object";
     static constexpr std::string_view layer = "CryptoObject";

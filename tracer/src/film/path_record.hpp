@@ -27,8 +27,8 @@ struct RecordedSurface {
     /// (η/η')²: the mean over paths is the share of light that is scattered on. It is the colour of what is diffuse
     /// and 1 of smooth glass.
     glm::vec3 albedo;
-    std::uint32_t object;          ///< 0 is the object of phases, i + 1 mesh i of the scene
-    std::uint32_t instance;        ///< of the object: 0, as long as each is there once
+    std::uint32_t object;          ///< the objects of phases come first, then the meshes
+    std::uint32_t instance;        ///< the number of the copy of an object; 0 of one that is there once
     Phase left;                    ///< the phase on the side from which it was met
     std::optional<Phase> entered;  ///< the one behind; none behind a mesh
 };

@@ -174,7 +174,7 @@ class Path {
     // As scatter_and_continue(), at that distance along the ray in a medium, where a path always goes on.
     void scatter_in_medium(float distance) {
         const HenyeyGreenstein& phase = *phase_function(medium());
-        scatter_and_continue({ray_.origin + distance * ray_.direction, ray_.phase, phase});
+        scatter_and_continue({ray_.origin + distance * ray_.direction, ray_.phase, phase, ray_.in});
     }
 
     // What a medium shines by itself is of no lamp, and goes with the background.

@@ -25,7 +25,7 @@ void PathRecorder::scattered(const Surface& surface, bool is_delta, bool is_link
                         .distance = distance_,
                         .albedo = weight,
                         .object = surface.object,
-                        .instance = 0,
+                        .instance = surface.copy,
                         .left = surface.near_side.phase,
                         .entered = surface.entered};
     if (!record_->first) record_->first = met;

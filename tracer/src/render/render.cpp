@@ -25,16 +25,13 @@ constexpr int tile_side = 8;  // in pixels
 class StartingPhases {
   public:
     StartingPhases(const TracedGeometry& geometry, const Camera& camera) : geometry_(geometry) {
-        if (const auto origin = camera.single_origin()) single_ = geometry.label(*origin);
+        if (const auto origin = camera.single_origin()) single_ = geometry.inside(*origin);
     }
-    Phase at(const glm::vec3& origin) const {
-        if (single_) return *single_;
-        return geometry_.object().bounds().contains(origin) ? geometry_.label(origin) : phasetree::vacuum;
-    }
+    TracedGeometry::Inside at(const glm::vec3& origin) const { return single_ ? *single_ : geometry_.inside(origin); }
 
   private:
     const TracedGeometry& geometry_;
-    std::optional<Phase> single_;  // of a camera whose rays all start at one point, asked for once
+    std::optional<TracedGeometry::Inside> single_;  // of a camera whose rays all start at one point, asked for once
 };
 
 // How many of a job's samples each pixel has when a pass over the picture is done, from how many it had.
@@ -127,7 +124,8 @@ class Renderer {
                         static_cast<std::uint32_t>(number), scene_.settings.seed);
         const glm::dvec2 on_film = film_.sample_position(x, y, sampler.next2());
         const CameraRay ray = camera_.generate(on_film, sampler.next2());
-        const Ray first{ray.origin, ray.direction, phases_.at(ray.origin), {}};
+        const TracedGeometry::Inside start = phases_.at(ray.origin);
+        const Ray first{ray.origin, ray.direction, start.phase, {}, start.in};
         FilmSample result{.number = static_cast<std::uint32_t>(number)};
         PathRecord* record = recording_ ? &records_.local() : nullptr;
         const Photons photons = photons_ ? Photons{&caustics_->emission(), &*photons_} : Photons{};
@@ -156,9 +154,7 @@ class Renderer {
 }  // namespace
 
 PlaneSubjects subjects_of(const Scene& scene) {
-    PlaneSubjects subjects{.phases = scene.phases.names, .groups = scene.lights.groups(), .objects = {"object"}};
-    for (const Mesh& mesh : scene.meshes) subjects.objects.push_back(mesh.name);
-    return subjects;
+    return {.phases = scene.phases.names, .groups = scene.lights.groups(), .objects = object_names(scene)};
 }
 
 Film film_of(const Scene& scene, const RenderJob& job) {

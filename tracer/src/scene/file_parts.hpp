@@ -16,6 +16,9 @@ struct FileParts {
     std::optional<Value> phases{};
     std::optional<Value> shapes{};
     std::optional<Value> tree{};
+    std::optional<Value> objects{};
+    std::optional<Value> groups{};
+    std::optional<Value> instances{};
     std::optional<Value> meshes{};
     std::optional<Value> lights{};
     std::optional<Value> background{};
@@ -26,9 +29,10 @@ struct FileParts {
     static void parameters(V&& v) {
         using P = FileParts;
         v(&P::version, PartParameter{{"version", "", "The version of this format."}, "1", R"({"const": 1})"});
-        v(&P::phases, PartParameter{{"phases", "", "The phases by their names, and the material of each."},
-                                    "object of materials",
-                                    R"({"type": "object", "minProperties": 1, "maxProperties": 63,
+        v(&P::phases,
+          PartParameter{{"phases", "", "The phases by their names, and the material of each.", limits::any, true},
+                        "object of materials",
+                        R"({"type": "object", "minProperties": 1, "maxProperties": 63,
                                         "additionalProperties": {"$ref": "#/definitions/material"}})"});
         v(&P::shapes,
           PartParameter{{"shapes", "", "Named parts of the tree, to be used in many places.", limits::any, true},
@@ -36,7 +40,27 @@ struct FileParts {
                         R"({"type": "object", "additionalProperties": {"anyOf": [
                                         {"$ref": "#/definitions/field"}, {"$ref": "#/definitions/object"}]}})"});
         v(&P::tree,
-          PartParameter{{"tree", "", "The object that is shown."}, "object", R"({"$ref": "#/definitions/object"})"});
+          PartParameter{
+              {"tree", "",
+               "The object that is shown. It needs \"phases\". Beside \"objects\" it is one more, which comes "
+               "first and is called \"tree\".",
+               limits::any, true},
+              "object",
+              R"({"$ref": "#/definitions/object"})"});
+        v(&P::objects, PartParameter{{"objects", "", "Several objects, in place of a tree.", limits::any, true},
+                                     "list of objects",
+                                     R"({"type": "array", "minItems": 1,
+                                         "items": {"$ref": "#/definitions/placed_object"}})"});
+        v(&P::groups,
+          PartParameter{{"groups", "", "Places of objects and of other groups, to be placed together by instances.",
+                         limits::any, true},
+                        "object of lists of instances",
+                        R"({"type": "object", "additionalProperties": {"type": "array", "minItems": 1,
+                                        "items": {"$ref": "#/definitions/instance"}}})"});
+        v(&P::instances,
+          PartParameter{{"instances", "", "Where objects and groups stand, as often as wanted.", limits::any, true},
+                        "list of instances",
+                        R"({"type": "array", "minItems": 1, "items": {"$ref": "#/definitions/instance"}})"});
         v(&P::meshes, PartParameter{{"meshes", "", "What stands beside the object.", limits::any, true},
                                     "list of meshes",
                                     R"({"type": "array", "items": {"$ref": "#/definitions/mesh"}})"});

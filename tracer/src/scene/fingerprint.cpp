@@ -10,6 +10,7 @@
 
 #include "phasetree_support/checksum.hpp"
 #include "scene/image_parameters.hpp"
+#include "scene/placed.hpp"
 
 namespace phasetree::tracer {
 
@@ -75,6 +76,13 @@ std::uint64_t fingerprint(const Document& document) {
     Checksum sum;
     for (const Value part : document.root())
         if (part.key() != "render") put_value(sum, document, part);
+    // Of objects from other scene files, the files that those name.
+    if (const auto objects = has_objects(document) ? document.root().find("objects") : std::nullopt)
+        for (const Value object : *objects)
+            if (const auto file = object.find("file"); file && file->is_string()) {
+                const Document other = document.beside(*file);
+                put_value(sum, other, other.root());
+            }
     return sum.get();
 }
 

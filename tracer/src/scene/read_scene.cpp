@@ -43,6 +43,71 @@ Material read_phase_material(const Document& document, Value phase) {
 
 }  // namespace
 
+namespace {
+
+// A field of densities stands still in the scene, so an object that has one must, too.
+void refuse_moved_densities(const Document& document, const Scene& scene) {
+    PhaseSet dense;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const Clear* clear = std::get_if<Clear>(&scene.materials[i]);
+        if (clear && std::holds_alternative<VaryingMedium>(clear->interior))
+            dense = dense | PhaseSet::of(Phase{static_cast<std::uint8_t>(i)});
+    }
+    if (dense.empty()) return;
+    scene.placed.each_copy([&](std::uint32_t, const PlacedObject& object, const Transform& to_scene) {
+        if (!(phases(object.tree) & dense).empty() && to_scene != Transform())
+            throw document.error(*document.root().find("objects"),
+                                 fmt::format("\"{}\" has a phase with a \"density\", which is of the scene's space, so "
+                                             "it can have no transform and no instances",
+                                             object.name));
+        return true;
+    });
+}
+
+void refuse_places_of_nothing(const Document& document) {
+    for (const char* const part : {"instances", "groups"})
+        if (const auto value = document.root().find(part))
+            throw document.error(value->key_offset(), fmt::format("\"{}\" is of no use without \"objects\"", part));
+}
+
+void read_model_into(const Document& document, const FileParts& parts, Scene& scene) {
+    scene.materials.push_back(vacuum());
+    if (parts.objects) {
+        ObjectsModel model = read_placed_objects(document);
+        scene.phases = std::move(model.phases);
+        scene.placed = std::move(model.placed);
+        for (const auto& source : model.materials)
+            scene.materials.push_back(read_phase_material(source.document, source.material));
+        refuse_moved_densities(document, scene);
+        return;
+    }
+    refuse_places_of_nothing(document);
+    SceneTree tree = read_tree(document, {.height_grid = read_height_grid});
+    scene.phases = std::move(tree.phases);
+    scene.object = std::move(tree.object);
+    for (const Value phase : *parts.phases) scene.materials.push_back(read_phase_material(document, phase));
+}
+
+}  // namespace
+
+std::vector<std::string> object_names(const Scene& scene) {
+    std::vector<std::string> names;
+    if (scene.placed.empty()) names.emplace_back("object");
+    for (const PlacedObject& object : scene.placed.objects) names.push_back(object.name);
+    for (const Mesh& mesh : scene.meshes) names.push_back(mesh.name);
+    return names;
+}
+
+SceneModel read_scene_model(const Document& document) {
+    if (has_objects(document)) {
+        ObjectsModel model = read_placed_objects(document);
+        return {std::move(model.phases), {}, std::move(model.placed)};
+    }
+    refuse_places_of_nothing(document);
+    SceneTree tree = read_tree(document, {.height_grid = read_height_grid});
+    return {std::move(tree.phases), std::move(tree.object), {}};
+}
+
 Scene read_scene(const Document& document) {
     ObjectReader root(document, document.root(), "the scene");
     const FileParts parts = parts_of(root);
@@ -50,37 +115,32 @@ Scene read_scene(const Document& document) {
 
     Scene scene;
     scene.file = document.name();
-    SceneTree tree = read_tree(document, {.height_grid = read_height_grid});
-    scene.phases = std::move(tree.phases);
-    scene.object = std::move(tree.object);
-    scene.materials.push_back(vacuum());
-    for (const Value phase : needed(root, &FileParts::phases))
-        scene.materials.push_back(read_phase_material(document, phase));
+    read_model_into(document, parts, scene);
     scene.lights = read_lights(document, document.root());
     if (parts.meshes) scene.meshes = read_meshes(document, *parts.meshes);
     scene.camera = read_camera(document, needed(root, &FileParts::camera), scene.film);
     if (parts.render) scene.settings = read_settings(document, *parts.render, scene.film);
 
     // An object that cannot be traced is found here, and not after the meshes are in memory.
-    try {
-        (void)prepare_to_trace(scene.object);
-    } catch (const ModelError& e) {
-        throw document.error(*parts.tree, e.what());
-    }
+    if (scene.object) try {
+            (void)prepare_to_trace(scene.object);
+        } catch (const ModelError& e) {
+            throw document.error(*parts.tree, e.what());
+        }
     return scene;
 }
 
-SceneTree read_scene_without_camera(const Document& document) {
+SceneModel read_scene_without_camera(const Document& document) {
     ObjectReader root(document, document.root(), "the scene");
     const FileParts parts = parts_of(root);
     if (parts.version) check_version(document, *parts.version);
-    SceneTree tree = read_tree(document, {.height_grid = read_height_grid});
+    SceneModel model = read_scene_model(document);
     (void)opaque_phases(document);
     (void)read_lights(document, document.root());
     if (parts.meshes) (void)read_meshes(document, *parts.meshes);
     FilmSettings unused;
     if (parts.render) (void)read_settings(document, *parts.render, unused);
-    return tree;
+    return model;
 }
 
 PhaseSet opaque_phases(const std::vector<Material>& materials) {
@@ -92,9 +152,15 @@ PhaseSet opaque_phases(const std::vector<Material>& materials) {
 
 PhaseSet opaque_phases(const Document& document) {
     std::vector<Material> materials{vacuum()};
-    ObjectReader root(document, document.root(), "the scene");
-    for (const Value phase : needed(root, &FileParts::phases))
-        materials.push_back(phase.is_object() ? read_phase_material(document, phase) : vacuum());
+    const auto add = [&](const Document& source, Value phase) {
+        materials.push_back(phase.is_object() ? read_phase_material(source, phase) : vacuum());
+    };
+    if (has_objects(document)) {
+        for (const auto& source : read_placed_objects(document).materials) add(source.document, source.material);
+    } else {
+        ObjectReader root(document, document.root(), "the scene");
+        for (const Value phase : needed(root, &FileParts::phases)) add(document, phase);
+    }
     return opaque_phases(materials);
 }
 

@@ -6,6 +6,7 @@
 #include "scene/image_parameters.hpp"
 #include "scene/material_kinds.hpp"
 #include "scene/mesh_kinds.hpp"
+#include "scene/object_kinds.hpp"
 
 namespace phasetree::tracer {
 
@@ -22,6 +23,10 @@ std::vector<KindPage> pages_of_opaque(TypeList<Kinds...>) {
     return pages;
 }
 
+std::string schema_of_one_or_list(const std::string& one) {
+    return schema_of_either(one, R"({"type": "array", "minItems": 1, "items": )" + one + "}");
+}
+
 }  // namespace
 
 std::vector<Chapter> scene_chapters() {
@@ -30,6 +35,13 @@ std::vector<Chapter> scene_chapters() {
          "A scene is JSON with comments. z is up; lengths are in any one unit, which is called m here; colours are "
          "linear `[r, g, b]` or sRGB `\"#rrggbb\"`.",
          {page_of<FileParts>()}}};
+    chapters.push_back({"Objects and instances",
+                        "A scene of several objects has \"objects\", and places them by \"instances\" and \"groups\".",
+                        {page_of<ObjectParameters>(), page_of<InstanceParameters>()}});
+    chapters.push_back({"Transforms",
+                        "Where an object or an instance stands: one of these nodes' maps, or a list of them, of which "
+                        "the first comes first.",
+                        pages_of(TransformKinds())});
     for (Chapter& chapter : node_chapters()) chapters.push_back(std::move(chapter));
     chapters.push_back(
         {"Materials", "A phase or a mesh is of one material, `{\"kind\": {parameters}}`.", pages_of(MaterialKinds())});
@@ -71,6 +83,9 @@ std::string scene_json_schema() {
         {"opaque_material", schema_of_one(pages_of_opaque(MaterialKinds()))},
         {"light", schema_of_one(pages_of(LightKinds()))},
         {"mesh", schema_of_one(pages_of(MeshKinds()))},
+        {"transform", schema_of_one_or_list(schema_of_one(pages_of(TransformKinds())))},
+        {"placed_object", schema_of(page_of<ObjectParameters>())},
+        {"instance", schema_of(page_of<InstanceParameters>())},
         {"camera", schema_of_either(schema_of(page_of<ThinLensKind>()), schema_of_one(pages_of(CameraKinds())))},
         {"render", schema_of(page_of<ImageParameters>())}};
     return scene_schema(page_of<FileParts>(), definitions);

@@ -12,6 +12,7 @@
 #include "film/film.hpp"
 #include "lights/lights.hpp"
 #include "phasetree/io/tree.hpp"
+#include "scene/placed.hpp"
 #include "shading/material.hpp"
 
 namespace phasetree::tracer {
@@ -48,10 +49,18 @@ struct RenderSettings {
     std::optional<std::string> view;  // of the display transform
 };
 
+// What a scene shows, without materials and all that surrounds it.
+struct SceneModel {
+    PhaseNames phases;
+    Phased object;         // of a scene of one tree; empty otherwise
+    PlacedObjects placed;  // of a scene of several objects; empty otherwise
+};
+
 struct Scene {
     std::filesystem::path file;
     PhaseNames phases;
-    Phased object;
+    Phased object;                    // of a scene of one tree; empty otherwise
+    PlacedObjects placed;             // of a scene of several objects; empty otherwise
     std::vector<Material> materials;  // by phase; [0] is the vacuum
     std::vector<Mesh> meshes;
     Lights lights;
@@ -63,9 +72,15 @@ struct Scene {
 // Reads a whole scene. Files it names are relative to it. Throws SceneError with the place in the text.
 Scene read_scene(const Document& document);
 
-// Of a scene that has no camera: its tree, and that all else that it has is sound. It needs no materials either: phases
-// may have anything in their place that is no object. Throws SceneError.
-SceneTree read_scene_without_camera(const Document& document);
+// What objects and meshes are called, in the order of their numbers (Surface::object).
+std::vector<std::string> object_names(const Scene& scene);
+
+// Of a scene that has no camera: its model, and that all else that it has is sound. It needs no materials either:
+// phases may have anything in their place that is no object. Throws SceneError.
+SceneModel read_scene_without_camera(const Document& document);
+
+// Of a file that need not be more than a tree or objects: these.
+SceneModel read_scene_model(const Document& document);
 
 // The phases that light does not travel in.
 PhaseSet opaque_phases(const std::vector<Material>& materials);

@@ -86,7 +86,7 @@ glm::vec2 spread_over_square(int i) {
 }  // namespace
 
 std::vector<FlatBoundary> flat_boundaries(const TracedGeometry& geometry, const Scene& scene) {
-    const Bounds& bounds = geometry.object().bounds();
+    const Bounds& bounds = geometry.bounds();
     bool any_bends_light = false;
     for (std::uint8_t i = 0; i < scene.materials.size(); ++i) any_bends_light |= bends_light(scene, Phase{i});
     if (!any_bends_light || bounds.empty() || !bounds.finite()) return {};

@@ -22,6 +22,8 @@ struct Surface {
     struct Side {
         glm::vec3 origin;
         Phase phase;
+        RayObjects in{};
+        std::optional<StartInCopy> start{};
     };
 
     float distance;                ///< from the ray's origin
@@ -30,11 +32,12 @@ struct Surface {
     std::optional<Side> far_side;  ///< the other; none where light does not travel there: opaque phases and meshes
     std::reference_wrapper<const Interface> optics;  ///< seen from the near side
     StartHint hint;                                  ///< for a ray from either side
-    std::uint32_t object;                            ///< 0 is the object of phases, i + 1 mesh i of the scene
+    std::uint32_t object;                            ///< the objects of phases come first, then the meshes
     std::optional<Phase> entered;                    ///< the phase behind, clear or opaque; none behind a mesh
-    std::optional<glm::vec2> uv{};                   ///< texture coordinates of a mesh that has any
+    TexturePoint place;                              ///< in the space of what was met
+    std::uint32_t copy = 0;                          ///< of the object (scene/placed.hpp); 0 of one that is there once
 
-    Bsdf bsdf() const { return optics.get().at({near_side.origin, normal, uv}); }
+    Bsdf bsdf() const { return optics.get().at(place); }
     /// A ray that leaves the surface to the side from which it was met.
     Ray reflected(const glm::vec3& direction) const { return leaving(near_side, direction); }
     /// A ray that leaves the surface to its far side. Throws std::bad_optional_access if light does not travel there.
@@ -42,7 +45,7 @@ struct Surface {
 
   private:
     Ray leaving(const Side& side, const glm::vec3& direction) const {
-        return {side.origin, direction, side.phase, hint};
+        return {side.origin, direction, side.phase, hint, side.in, side.start};
     }
 };
 
@@ -53,9 +56,10 @@ struct MediumPoint {
     glm::vec3 position;
     Phase phase;
     std::reference_wrapper<const HenyeyGreenstein> phase_function;
+    RayObjects in{};
 
     /// A ray on which it goes on.
-    Ray leaving(const glm::vec3& direction) const { return {position, direction, phase, {}}; }
+    Ray leaving(const glm::vec3& direction) const { return {position, direction, phase, {}, in}; }
 };
 
 /// The ray met something that light does not pass: a mesh or an opaque phase. Of that only the distance is known.

@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 
 #include "embree_core/query.hpp"
+#include "world/ray_objects.hpp"
 
 namespace phasetree::tracer {
 
@@ -17,6 +18,8 @@ struct Ray {
     glm::vec3 direction{0};  ///< of unit length
     Phase phase{};           ///< in which the ray starts
     StartHint hint{};
+    RayObjects in{};                     ///< of a scene of several objects, with `phase` that of the first
+    std::optional<StartInCopy> start{};  ///< of a ray that leaves an interface of one of several objects
 };
 
 }  // namespace phasetree::tracer

@@ -14,7 +14,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// The geometries of the Embree scene: the object, then the meshes in their order, as Surface::object numbers them.
+// The geometries of the Embree scene: the object or the places of several, then the meshes in their order.
 constexpr unsigned object_id = 0;
 constexpr unsigned first_mesh_id = object_id + 1;
 
@@ -22,15 +22,39 @@ constexpr unsigned first_mesh_id = object_id + 1;
 // coordinate (which counts as 1 m at least), whichever is more.
 constexpr float relative_surface_epsilon = 1e-5f;
 
-std::shared_ptr<const InterfaceCells> prepared(const Scene& scene, const WorldOptions& wanted) {
+CellOptions cell_options(const Scene& scene, const WorldOptions& wanted) {
     CellOptions options;
     options.quality = wanted.quality;
     options.cancelled = wanted.cancelled;
     options.progress = wanted.progress;
     options.most_bytes = wanted.most_bytes;
     options.opaque = opaque_phases(scene.materials);
-    return wanted.kept_cells ? kept_cells(*wanted.kept_cells, scene.object, options)
-                             : std::make_shared<const InterfaceCells>(scene.object, options);
+    return options;
+}
+
+std::vector<std::shared_ptr<const InterfaceCells>> prepared(const Scene& scene, const WorldOptions& wanted) {
+    CellOptions options = cell_options(scene, wanted);
+    if (scene.placed.empty())
+        return {wanted.kept_cells ? kept_cells(*wanted.kept_cells, scene.object, options)
+                                  : std::make_shared<const InterfaceCells>(scene.object, options)};
+    const auto& objects = scene.placed.objects;
+    const std::size_t most_bytes = wanted.most_bytes > 0 ? wanted.most_bytes : default_cell_bytes();
+    options.most_bytes = std::max<std::size_t>(most_bytes / objects.size(), 1);
+    std::vector<std::shared_ptr<const InterfaceCells>> cells;
+    for (const PlacedObject& object : objects) {
+        if (wanted.progress)
+            options.progress = [&, before = static_cast<float>(cells.size())](float done) {
+                wanted.progress((before + done) / static_cast<float>(objects.size()));
+            };
+        cells.push_back(std::make_shared<const InterfaceCells>(object.tree, options));
+    }
+    return cells;
+}
+
+DeviceHandle started_embree() {
+    DeviceHandle device(rtcNewDevice(nullptr));
+    if (!device) throw std::runtime_error("Embree cannot be started");
+    return device;
 }
 
 void attach(RTCScene embree, RTCDevice device, const Mesh& mesh, unsigned id) {
@@ -64,37 +88,31 @@ std::optional<glm::vec2> uv_at(const Mesh& mesh, const RTCRayHit& hit) {
 
 }  // namespace
 
-TracedGeometry::DeviceHandle TracedGeometry::start_embree() {
-    DeviceHandle device(rtcNewDevice(nullptr));
-    if (!device) throw std::runtime_error("Embree cannot be started");
-    return device;
-}
-
-TracedGeometry::SceneHandle TracedGeometry::embree_scene(RTCDevice device, const embree::CellGeometry& tree,
-                                                         const std::vector<Mesh>& meshes) {
-    SceneHandle scene(rtcNewScene(device));
-    // Without this flag Embree may miss a triangle that is met near its edge: exactness comes before speed.
-    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
-    rtcCommitGeometry(tree.handle());
-    rtcAttachGeometryByID(scene.get(), tree.handle(), object_id);
-    unsigned id = first_mesh_id;
-    for (const Mesh& mesh : meshes) attach(scene.get(), device, mesh, id++);
-    rtcCommitScene(scene.get());
-    return scene;
-}
-
 TracedGeometry::TracedGeometry(const Scene& scene, const WorldOptions& options)
     : TracedGeometry(scene, options, SharedSurfaces()) {}
 
 TracedGeometry::TracedGeometry(const Scene& scene, const WorldOptions& options, SharedSurfaces&& shared)
     : scene_(scene),
-      object_(prepared(scene, options)),
-      device_(start_embree()),
-      tree_(device_.get(), object_, embree::CellGeometry::Options{.rays_carry_phases = true}),
-      embree_(embree_scene(device_.get(), tree_, scene.meshes)),
+      cells_(prepared(scene, options)),
+      device_(started_embree()),
+      embree_(rtcNewScene(device_.get())),
+      first_mesh_(static_cast<std::uint32_t>(std::max<std::size_t>(scene.placed.objects.size(), 1))),
       interfaces_(scene.materials, shared),
-      mesh_interfaces_(interfaces_of(scene.meshes, scene.materials, shared)),
-      surface_epsilon_(relative_surface_epsilon * object_->bounds().diagonal()) {}
+      mesh_interfaces_(interfaces_of(scene.meshes, scene.materials, shared)) {
+    // Without this flag Embree may miss a triangle that is met near its edge: exactness comes before speed.
+    rtcSetSceneFlags(embree_.get(), RTC_SCENE_FLAG_ROBUST);
+    if (scene.placed.empty()) {
+        tree_.emplace(device_.get(), cells_.front(), embree::CellGeometry::Options{.rays_carry_phases = true});
+        rtcCommitGeometry(tree_->handle());
+    } else {
+        placed_.emplace(device_.get(), scene.placed, cells_);
+    }
+    rtcAttachGeometryByID(embree_.get(), placed_ ? placed_->handle() : tree_->handle(), object_id);
+    unsigned id = first_mesh_id;
+    for (const Mesh& mesh : scene.meshes) attach(embree_.get(), device_.get(), mesh, id++);
+    rtcCommitScene(embree_.get());
+    surface_epsilon_ = relative_surface_epsilon * bounds().diagonal();
+}
 
 // Whether the ray meets anything.
 bool TracedGeometry::trace(const Ray& ray, float far, embree::Query& query, RTCRayHit& hit,
@@ -112,6 +130,7 @@ bool TracedGeometry::trace(const Ray& ray, float far, embree::Query& query, RTCR
 }
 
 Hit TracedGeometry::intersect(const Ray& ray, PathCounters& counters) const {
+    if (placed_) return intersect_several(ray, std::numeric_limits<float>::infinity(), counters);
     embree::Query query;
     RTCRayHit hit;
     if (!trace(ray, std::numeric_limits<float>::infinity(), query, hit, counters)) return Escaped{};
@@ -120,6 +139,13 @@ Hit TracedGeometry::intersect(const Ray& ray, PathCounters& counters) const {
 }
 
 Visibility TracedGeometry::visibility(const Ray& ray, float far, PathCounters& counters) const {
+    if (placed_) {
+        const Hit hit = intersect_several(ray, far, counters);
+        const Surface* surface = std::get_if<Surface>(&hit);
+        if (!surface) return Escaped{};
+        if (!surface->far_side) return Blocked{surface->distance};
+        return *surface;
+    }
     embree::Query query;
     RTCRayHit hit;
     if (!trace(ray, far, query, hit, counters)) return Escaped{};
@@ -130,15 +156,16 @@ Visibility TracedGeometry::visibility(const Ray& ray, float far, PathCounters& c
 
 Surface TracedGeometry::surface_of_object(const Ray& ray, const embree::Query& query, const RTCRayHit& hit) const {
     const Crossing& c = query.crossing;
-    const CrossingNormal normal = object_->normal(hit.hit.primID, c, ray.direction);
+    const CrossingNormal normal = object().normal(hit.hit.primID, c, ray.direction);
     Surface surface{.distance = c.t_in,
                     .normal = -normal.unit,
                     .near_side = {c.p_in, c.from},
                     .far_side = std::nullopt,
                     .optics = interfaces_.between(c.from.index, c.to.index),
                     .hint = {embree::ObjectInstance::of(hit.hit), hit.hit.primID, c.from, normal.gradient},
-                    .object = object_id,
-                    .entered = c.to};
+                    .object = 0,
+                    .entered = c.to,
+                    .place = {c.p_in, -normal.unit, std::nullopt}};
     if (is_clear(scene_.materials[c.to.index])) surface.far_side = {c.p_out, c.to};
     return surface;
 }
@@ -160,19 +187,38 @@ Surface TracedGeometry::surface_of_mesh(const Ray& ray, const RTCRayHit& hit) co
         if (glm::dot(n, ray.direction) < 0) shading = n;
     }
     const float largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), 1.0f});
+    const glm::vec3 origin = p + flat * std::max(surface_epsilon_, relative_surface_epsilon * largest);
     return {.distance = hit.ray.tfar,
             .normal = shading,
-            .near_side = {p + flat * std::max(surface_epsilon_, relative_surface_epsilon * largest), ray.phase},
+            .near_side = {origin, ray.phase, ray.in},
             .far_side = std::nullopt,
             .optics = mesh_interfaces_[index * scene_.materials.size() + ray.phase.index],
             .hint = {},
-            .object = hit.hit.geomID,
+            .object = first_mesh_ + static_cast<std::uint32_t>(index),
             .entered = std::nullopt,
-            .uv = uv_at(mesh, hit)};
+            .place = {origin, shading, uv_at(mesh, hit)}};
 }
 
-Phase TracedGeometry::label(const glm::vec3& p) const {
-    return object_->label(p, Evaluator::thread_workspace());
+CellStatistics TracedGeometry::statistics() const {
+    CellStatistics all = object().statistics();
+    for (std::size_t i = 1; i < cells_.size(); ++i) {
+        const CellStatistics one = cells_[i]->statistics();
+        all.cells += one.cells;
+        all.routines += one.routines;
+        all.bytes += one.bytes;
+        all.median_instructions = std::max(all.median_instructions, one.median_instructions);
+        all.percentile90_instructions = std::max(all.percentile90_instructions, one.percentile90_instructions);
+        all.most_instructions = std::max(all.most_instructions, one.most_instructions);
+        all.build_seconds += one.build_seconds;
+        all.is_coarser |= one.is_coarser;
+    }
+    return all;
+}
+
+TracedGeometry::Inside TracedGeometry::inside(const glm::vec3& p) const {
+    if (!placed_) return {object().label(p, Evaluator::thread_workspace()), {}};
+    const RayObjects in = placed_->objects_at(embree_.get(), p);
+    return {in.phase(), in};
 }
 
 }  // namespace phasetree::tracer

@@ -1,8 +1,10 @@
-// The scene in Embree: the object as user geometry, the meshes beside it, and the optics of all their surfaces.
+// The scene in Embree: the object as user geometry, or several in their places, the meshes beside it, and the optics of
+// all their surfaces.
 #pragma once
 
 #include <memory>
-#include <type_traits>
+#include <optional>
+#include <variant>
 #include <vector>
 
 #include "embree_core/cell_geometry.hpp"
@@ -10,6 +12,7 @@
 #include "shading/interface.hpp"
 #include "world/counters.hpp"
 #include "world/hit.hpp"
+#include "world/placed_geometry.hpp"
 #include "world/ray.hpp"
 #include "world/world_options.hpp"
 
@@ -27,33 +30,69 @@ class TracedGeometry {
     Visibility visibility(const Ray& ray, float far, PathCounters& counters) const;
 
     /// The phase at a point.
-    Phase label(const glm::vec3& p) const;
-    const InterfaceCells& object() const { return *object_; }
+    Phase label(const glm::vec3& p) const { return inside(p).phase; }
+    /// The phase at a point, and the objects that it is in if the scene has several: as a ray has them that starts
+    /// there.
+    struct Inside {
+        Phase phase{};
+        RayObjects in{};
+    };
+    Inside inside(const glm::vec3& p) const;
+
+    /// The object of a scene of one tree.
+    const InterfaceCells& object() const { return *cells_.front(); }
+    /// Every object, in the order of PlacedObjects::objects.
+    const std::vector<std::shared_ptr<const InterfaceCells>>& objects() const { return cells_; }
+    /// Of all objects together: of numbers for each cell the greatest.
+    CellStatistics statistics() const;
+    /// A box around all objects.
+    const Bounds& bounds() const { return placed_ ? placed_->bounds() : object().bounds(); }
 
   private:
     /// `shared` is used while the interfaces are made.
     TracedGeometry(const Scene& scene, const WorldOptions& options, SharedSurfaces&& shared);
 
-    struct Release {
-        void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-        void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+    /// A change of phase in one of several objects, as it lies in the scene.
+    struct CrossingInScene {
+        Crossing crossing;  ///< in the object's space
+        Copy copy;
+        StartHint hint;
+        double distance = 0;            ///< along the ray
+        glm::vec3 p_in{0}, p_out{0};    ///< the ends of the bracket
+        glm::vec3 normal{0};            ///< of unit length, on the side the ray comes from
+        glm::vec3 normal_in_object{0};  ///< the same in the object's space
+        double tolerance = 0;           ///< PlacedGeometry::tolerance
     };
-    using DeviceHandle = std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release>;
-    using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, Release>;
+    /// Two such within their tolerances, or one.
+    struct Met {
+        CrossingInScene first;
+        std::optional<CrossingInScene> joined;  ///< another object begins where the one ends
+        RayObjects behind;
 
-    static DeviceHandle start_embree();
-    static SceneHandle embree_scene(RTCDevice device, const embree::CellGeometry& tree,
-                                    const std::vector<Mesh>& meshes);
+        double distance_behind() const { return joined ? joined->distance : first.distance; }
+        double apart() const { return joined ? first.tolerance + joined->tolerance : 0.0; }
+    };
+    using NextOfSeveral = std::variant<Escaped, RTCRayHit, CrossingInScene>;
 
+    void attach_meshes();
     bool trace(const Ray& ray, float far, embree::Query& query, RTCRayHit& hit, PathCounters& counters) const;
     Surface surface_of_object(const Ray& ray, const embree::Query& query, const RTCRayHit& hit) const;
     Surface surface_of_mesh(const Ray& ray, const RTCRayHit& hit) const;
 
+    Hit intersect_several(const Ray& ray, float far, PathCounters& counters) const;
+    NextOfSeveral next_of_several(const Ray& ray, float far, PathCounters& counters) const;
+    CrossingInScene crossing_in_scene(const PlacedQuery& query, const RTCRayHit& hit) const;
+    Met with_what_touches(const Ray& ray, const CrossingInScene& first, PathCounters& counters) const;
+    Surface surface_of_several(const Ray& ray, const Met& met, double distance) const;
+    static Ray behind(const Ray& ray, const Met& met);
+
     const Scene& scene_;
-    std::shared_ptr<const InterfaceCells> object_;
+    std::vector<std::shared_ptr<const InterfaceCells>> cells_;  ///< of each object
     DeviceHandle device_;
-    embree::CellGeometry tree_;
+    std::optional<embree::CellGeometry> tree_;  ///< of a scene of one tree
+    std::optional<PlacedGeometry> placed_;      ///< of a scene of several objects
     SceneHandle embree_;
+    std::uint32_t first_mesh_;  ///< the number of the first mesh, as Surface::object has it
     InterfaceTable interfaces_;
     std::vector<Interface> mesh_interfaces_;  ///< [mesh · phases + phase the ray is in]
     float surface_epsilon_;                   ///< least distance by which rays that leave a mesh are moved off it

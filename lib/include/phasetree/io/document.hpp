@@ -122,6 +122,8 @@ class Document {
     /// The file that a string of the text names, relative to the text's own file. SceneError at the value if it leaves
     /// the folder that the files must lie in; then nothing is said of the file, not even whether there is one.
     std::filesystem::path file(Value named) const;
+    /// Another document, whose file a string of the text names. Its own files must lie in the same folder, if any.
+    Document beside(Value named) const;
     /// The same text, whose files must lie in this folder or below it, symbolic links followed: for who reads the
     /// scenes of strangers. SceneError if there is no such folder.
     Document with_files_within(const std::filesystem::path& folder) const;

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -50,6 +51,14 @@ SirenNetwork read_siren(const std::filesystem::path&);
 /// is a named shape. Names of phases are strings, sets of phases lists of them. Throws SceneError, at the place in the
 /// text. Files are sought from the scene file's folder.
 SceneTree read_tree(const Document&, const FileReaders& = {});
+
+/// The names of a document's "phases". A document without any has the vacuum alone.
+PhaseNames read_phase_names(const Document&);
+
+/// Reads objects that stand anywhere in a document, which share its phases and shapes; of each the node or the name of
+/// a shape. Throws SceneError as read_tree() does, also for a shape that none of them uses.
+std::vector<Phased> read_objects(const Document&, const PhaseNames&, std::span<const Value> objects,
+                                 const FileReaders& = {});
 
 /// What a node's text may name that stands nowhere in it: handles that a program has, by names that it gives them.
 struct KnownShapes {

@@ -1,0 +1,34 @@
+#include "command/overlap_report.hpp"
+
+#include <fmt/format.h>
+
+#include "command/load.hpp"
+#include "command/streams.hpp"
+#include "scene/overlaps.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+std::string named(const PlacedObjects& placed, const OverlappingCopy& copy) {
+    const std::string& name = placed.objects[copy.object].name;
+    return placed.copies() == placed.objects.size() ? fmt::format("\"{}\"", name)
+                                                    : fmt::format("\"{}\" (copy {})", name, copy.number);
+}
+
+}  // namespace
+
+void warn_of_overlaps(const Document& document, const PlacedObjects& placed) {
+    if (placed.empty()) return;
+    const Overlaps overlaps = find_overlaps(placed);
+    const auto warn = [&](const std::string& what) {
+        say("{}\n", document.error(model_in(document), "warning: " + what).what());
+    };
+    for (const Overlap& o : overlaps.found)
+        warn(fmt::format("{} and {} overlap, at [{}, {}, {}] for example; the first of them is there",
+                         named(placed, o.first), named(placed, o.second), o.at.x, o.at.y, o.at.z));
+    if (overlaps.is_cut_short)
+        warn("there are too many objects to look at all that are near each other; others may overlap");
+}
+
+}  // namespace phasetree::tracer

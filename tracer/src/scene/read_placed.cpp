@@ -1,0 +1,297 @@
+// The objects of a scene file and their places. Phases are numbered as they are found: those of the file itself, then
+// of each other file that is taken, and those to which an object gives a material of its own.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <span>
+
+#include "media/medium.hpp"
+#include "phasetree/io/read_kind.hpp"
+#include "phasetree/io/suggest.hpp"
+#include "phasetree/model/renumber.hpp"
+#include "phasetree/trace/tracer.hpp"
+#include "scene/object_kinds.hpp"
+#include "scene/placed.hpp"
+#include "scene/read_parts.hpp"
+#include "scene/read_transform.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+constexpr std::string_view name_of_tree = "tree";
+
+/// An object as the file has it, before its phases have their numbers in the scene.
+struct Found {
+    Document document;  ///< that has its tree
+    Value at;           ///< its place in the scene's file, for errors
+    PhaseNames names;   ///< of its tree's phases
+    std::optional<Value> own_phases;
+    std::string from;  ///< the file that it is taken from; empty for the scene's own
+    PlacedObject object;
+};
+
+class ObjectsReader {
+  public:
+    explicit ObjectsReader(const Document& document) : document_(document), root_(document.root()) {
+        model_.phases = read_phase_names(document);
+        if (const auto phases = root_.find("phases"))
+            for (const Value phase : *phases) model_.materials.push_back({document, phase});
+    }
+
+    ObjectsModel read() && {
+        find_objects();
+        for (Found& found : found_) add(found);
+        read_groups();
+        if (const auto list = root_.find("instances")) read_places(*list, "\"instances\"", model_.placed.places);
+        place_what_no_instance_names();
+        if (model_.placed.copies() > most_copies)
+            throw document_.error(root_, fmt::format("the groups and instances make {} objects; at most {} can be",
+                                                     model_.placed.copies(), most_copies));
+        return std::move(model_);
+    }
+
+  private:
+    // Reads the trees, those of the scene's own file together, because they share its shapes.
+    void find_objects() {
+        std::vector<Value> trees;
+        std::vector<std::size_t> of;
+        if (const auto tree = root_.find("tree")) {
+            found_.push_back({document_, *tree, model_.phases, {}, "", {std::string(name_of_tree), {}, {}}});
+            trees.push_back(*tree);
+            of.push_back(0);
+        }
+        const Value list = root_.find("objects").value();
+        if (!list.is_array() || list.size() == 0)
+            throw document_.error(list, "\"objects\" must be a list of at least one object");
+        for (const Value value : list) {
+            ObjectReader reader(document_, value, "the object");
+            ObjectParameters p;
+            read_parameters(reader, p);
+            reader.finish();
+            check_name(reader.required_value("name"), p.name);
+            if (p.tree.has_value() == p.file.has_value())
+                throw document_.error(value, "an object has either \"tree\" or \"file\"");
+            found_.push_back({document_, value, model_.phases, p.phases, "", {p.name, {}, {}}});
+            if (p.transform) found_.back().object.first = read_transform(document_, *p.transform);
+            if (p.tree) {
+                trees.push_back(*p.tree);
+                of.push_back(found_.size() - 1);
+            } else {
+                take(*p.file, found_.back());
+            }
+        }
+        const std::vector<Phased> read =
+            phasetree::read_objects(document_, model_.phases, trees, {.height_grid = read_height_grid});
+        for (std::size_t i = 0; i < read.size(); ++i) found_[of[i]].object.tree = read[i];
+    }
+
+    // The tree of another file, each file once.
+    void take(Value named, Found& found) {
+        const std::string name = as<std::string>(document_, named, "\"file\"");
+        auto known = files_.find(name);
+        if (known == files_.end()) {
+            const Document other = document_.beside(named);
+            const Value root = other.root();
+            if (has_objects(other))
+                throw document_.error(named, fmt::format("\"{}\" is a scene of several objects; one of its files can "
+                                                         "be taken, or a scene of one tree",
+                                                         name));
+            if (!root.is_object() || !root.find("tree"))
+                throw document_.error(named, fmt::format("\"{}\" has no \"tree\"", name));
+            known = files_.emplace(name, TakenFile{other, read_tree(other, {.height_grid = read_height_grid})}).first;
+        }
+        found.document = known->second.document;
+        found.names = known->second.tree.phases;
+        found.object.tree = known->second.tree.object;
+        found.from = name;
+    }
+
+    void check_name(Value at, const std::string& name) const {
+        if (name.empty()) throw document_.error(at, "\"name\" must not be empty");
+        const bool is_there = std::ranges::any_of(found_, [&](const Found& f) { return f.object.name == name; });
+        if (is_there) throw document_.error(at, fmt::format("there is another object \"{}\"", name));
+    }
+
+    // The number of a phase that the scene did not have.
+    Phase new_phase(std::string name, const Document& document, Value material, Value at) {
+        std::vector<std::string>& names = model_.phases.names;
+        if (names.size() == Phase::capacity)
+            throw document_.error(
+                at, fmt::format("the objects of the scene have more than {} phases in all", Phase::capacity - 1));
+        const std::string wanted = name;
+        for (int i = 2; std::ranges::find(names, name) != names.end(); ++i) name = fmt::format("{} {}", wanted, i);
+        names.push_back(std::move(name));
+        model_.materials.push_back({document, material});
+        return Phase{static_cast<std::uint8_t>(names.size() - 1)};
+    }
+
+    // The material that the object itself gives to a phase of this name.
+    std::optional<Value> own_material(const Found& found, const std::string& phase) const {
+        return found.own_phases ? found.own_phases->find(phase) : std::nullopt;
+    }
+
+    void check_own_phases(const Found& found) const {
+        if (!found.own_phases) return;
+        if (!found.own_phases->is_object())
+            throw document_.error(*found.own_phases, "\"phases\" must be an object of materials");
+        for (const Value own : *found.own_phases)
+            if (own.key() == found.names.names[0] ||
+                std::ranges::find(found.names.names, own.key()) == found.names.names.end())
+                throw document_.error(own.key_offset(), fmt::format("the object has no phase \"{}\"", own.key()),
+                                      closest(own.key(), std::span(found.names.names).subspan(1)));
+    }
+
+    void add(Found& found) {
+        check_own_phases(found);
+        std::array<Phase, Phase::capacity> numbers{};
+        bool is_changed = false;
+        for (std::size_t i = 1; i < found.names.names.size(); ++i) {
+            const std::string& phase = found.names.names[i];
+            const std::string name = fmt::format("{}.{}", found.object.name, phase);
+            Phase& number = numbers[i];
+            number = Phase{static_cast<std::uint8_t>(i)};
+            if (const auto own = own_material(found, phase)) {
+                number = new_phase(name, document_, *own, found.at);
+            } else if (!found.from.empty()) {
+                Phase& of_file = files_.find(found.from)->second.numbers[i];
+                if (of_file == phasetree::vacuum)
+                    of_file = new_phase(name, found.document, found.document.root().find("phases")->find(phase).value(),
+                                        found.at);
+                number = of_file;
+            }
+            is_changed = is_changed || number.index != i;
+        }
+        try {
+            if (is_changed)
+                found.object.tree = renumbered(found.object.tree, std::span(numbers).first(found.names.names.size()));
+            (void)prepare_to_trace(found.object.tree);
+        } catch (const ModelError& e) {
+            throw document_.error(found.at, fmt::format("\"{}\": {}", found.object.name, e.what()));
+        }
+        model_.placed.objects.push_back(found.object);
+    }
+
+    void read_groups() {
+        groups_ = root_.find("groups");
+        if (!groups_) return;
+        if (!groups_->is_object())
+            throw document_.error(*groups_, "\"groups\" must be an object, a list of places under each name");
+        for (const Value group : *groups_) (void)group_number(group);
+    }
+
+    // Groups that it needs are read before it, so that they have smaller numbers.
+    std::uint32_t group_number(Value group) {
+        const std::string name(group.key());
+        for (std::size_t i = 0; i < model_.placed.groups.size(); ++i)
+            if (model_.placed.groups[i].name == name) return static_cast<std::uint32_t>(i);
+        if (object_number(name))
+            throw document_.error(group.key_offset(), fmt::format("there is an object \"{}\", too", name));
+        if (std::ranges::find(open_, name) != open_.end())
+            throw document_.error(group.key_offset(), fmt::format("the group \"{}\" is made of itself", name));
+        if (open_.size() == deepest) throw document_.error(group.key_offset(), "groups are nested too deeply");
+        open_.push_back(name);
+        PlacedGroup made{name, {}, 0};
+        read_places(group, fmt::format("the group \"{}\"", name), made.places);
+        made.copies = model_.placed.copies_of(made.places);
+        if (made.copies > most_copies)
+            throw document_.error(group.key_offset(), fmt::format("the group \"{}\" has {} objects; at most {} can be",
+                                                                  name, made.copies, most_copies));
+        open_.pop_back();
+        model_.placed.groups.push_back(std::move(made));
+        return static_cast<std::uint32_t>(model_.placed.groups.size() - 1);
+    }
+
+    std::optional<std::uint32_t> object_number(std::string_view name) const {
+        const auto& objects = model_.placed.objects;
+        const auto found = std::ranges::find(objects, name, &PlacedObject::name);
+        if (found == objects.end()) return std::nullopt;
+        return static_cast<std::uint32_t>(found - objects.begin());
+    }
+
+    void read_places(Value list, const std::string& what, std::vector<Place>& places) {
+        if (!list.is_array() || list.size() == 0)
+            throw document_.error(list, what + " must be a list of at least one place");
+        for (const Value value : list) {
+            ObjectReader reader(document_, value, "the instance");
+            InstanceParameters p;
+            read_parameters(reader, p);
+            reader.finish();
+            if (p.transforms && p.file)
+                throw document_.error(value, "an instance has either \"transforms\" or \"file\"");
+            Place place = place_of(reader.required_value("of"), p.of);
+            const Transform outer = p.transform ? read_transform(document_, *p.transform) : Transform();
+            std::vector<Transform> many;
+            if (p.transforms) many = read_transforms(document_, *p.transforms);
+            if (p.file) many = read_transforms_file(document_, *p.file);
+            if (!p.transforms && !p.file) many.emplace_back();
+            places_read_ += many.size();
+            if (places_read_ > most_places)
+                throw document_.error(value, fmt::format("there are more than {} places in all", most_places));
+            places.reserve(places.size() + many.size());
+            for (const Transform& one : many) {
+                place.transform = outer * one;
+                places.push_back(place);
+            }
+        }
+    }
+
+    Place place_of(Value at, const std::string& name) {
+        if (const auto object = object_number(name)) {
+            is_named_.resize(model_.placed.objects.size());
+            is_named_[*object] = true;
+            return {{}, *object, false};
+        }
+        if (const auto group = groups_ ? groups_->find(name) : std::nullopt) return {{}, group_number(*group), true};
+        std::vector<std::string> names;
+        for (const PlacedObject& object : model_.placed.objects) names.push_back(object.name);
+        if (groups_)
+            for (const Value group : *groups_) names.emplace_back(group.key());
+        throw document_.error(at, fmt::format("there is no object or group \"{}\"", name), closest(name, names));
+    }
+
+    // Those come first, in their order.
+    void place_what_no_instance_names() {
+        is_named_.resize(model_.placed.objects.size());
+        std::vector<Place> alone;
+        for (std::uint32_t i = 0; i < is_named_.size(); ++i)
+            if (!is_named_[i]) alone.push_back({{}, i, false});
+        auto& places = model_.placed.places;
+        places.insert(places.begin(), alone.begin(), alone.end());
+        if (places.empty())
+            throw document_.error(root_,
+                                  "no object stands anywhere: all are in groups, and there are no \"instances\"");
+    }
+
+    static constexpr std::size_t deepest = 32;  // groups in groups
+
+    struct TakenFile {
+        Document document;
+        SceneTree tree;
+        std::array<Phase, Phase::capacity> numbers{};  // in the scene; the vacuum's for those that it has not yet
+    };
+
+    const Document& document_;
+    Value root_;
+    ObjectsModel model_;
+    std::vector<Found> found_;
+    std::map<std::string, TakenFile, std::less<>> files_;
+    std::optional<Value> groups_;
+    std::vector<std::string> open_;  // groups being read, to find cycles
+    std::vector<bool> is_named_;
+    std::uint64_t places_read_ = 0;
+};
+
+}  // namespace
+
+bool has_objects(const Document& document) {
+    return document.root().is_object() && document.root().find("objects");
+}
+
+ObjectsModel read_placed_objects(const Document& document) {
+    return ObjectsReader(document).read();
+}
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,212 @@
+#include "world/placed_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "embree_core/cell_callbacks.hpp"
+#include "parameters/world_limits.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+using Places = PlacedGeometry::Places;
+using PlaceInEmbree = PlacedGeometry::PlaceInEmbree;
+using Target = PlacedGeometry::Target;
+
+void bounds_of_place(const RTCBoundsFunctionArguments* arguments) {
+    embree::write_bounds(*arguments->bounds_o,
+                         static_cast<const Places*>(arguments->geometryUserPtr)->list[arguments->primID].bounds);
+}
+
+// The ray in the space of what stands at a place, for as long as this lives.
+class InwardRay {
+  public:
+    InwardRay(RTCRay& ray, PlacedQuery& query, const PlaceInEmbree& place, const Target& target)
+        : ray_(ray), query_(query), outer_ray_(ray), outer_(query.here), outer_first_copy_(query.first_copy) {
+        query.here = place.inward * outer_;
+        query.first_copy = outer_first_copy_ + place.first_copy;
+        glm::vec3 origin(query.here(query.origin));
+        if (target.cells) {
+            query.query.context.instID[0] = query.first_copy;
+            if (query.start && query.start->copy == query.first_copy) origin = query.start->origin;
+        }
+        const glm::vec3 direction(query.here.matrix * query.direction);
+        embree::set_ray(ray, origin, direction, ray.tnear, ray.tfar);
+        ray.time = outer_ray_.time;
+    }
+    ~InwardRay() {
+        const float far = ray_.tfar;
+        ray_ = outer_ray_;
+        ray_.tfar = far;
+        query_.here = outer_;
+        query_.first_copy = outer_first_copy_;
+        query_.query.context.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    }
+    InwardRay(const InwardRay&) = delete;
+    InwardRay& operator=(const InwardRay&) = delete;
+
+  private:
+    RTCRay& ray_;
+    PlacedQuery& query_;
+    RTCRay outer_ray_;
+    Transform outer_;
+    std::uint32_t outer_first_copy_;
+};
+
+// What was found before is kept where nothing nearer is found. Of hits at the same distance that of the lower copy
+// counts, in whatever order Embree asks for them.
+void intersect_place(const RTCIntersectFunctionNArguments* arguments) noexcept {
+    if (arguments->valid[0] != -1) return;
+    const Places& places = *static_cast<const Places*>(arguments->geometryUserPtr);
+    const PlaceInEmbree& place = places.list[arguments->primID];
+    const Target& target = (*places.targets)[place.target];
+    auto& query = *reinterpret_cast<PlacedQuery*>(arguments->context);
+    auto& rayhit = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
+
+    const RTCHit hit_before = rayhit.hit;
+    const Crossing crossing_before = query.query.crossing;
+    const Copy copy_before = query.hit;
+    const float far_before = rayhit.ray.tfar;
+    rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    {
+        const InwardRay inward(rayhit.ray, query, place, target);
+        embree::intersect(target.scene, query.query.context, rayhit);
+        if (target.cells && embree::is_hit(rayhit)) query.hit = {query.first_copy, target.object, query.here};
+    }
+    const bool is_tie = embree::is_hit(rayhit) && hit_before.geomID != RTC_INVALID_GEOMETRY_ID &&
+                        hit_before.instID[0] != RTC_INVALID_GEOMETRY_ID && !(rayhit.ray.tfar < far_before);
+    if (embree::is_hit(rayhit) && !(is_tie && copy_before.number < query.hit.number)) return;
+    rayhit.hit = hit_before;
+    rayhit.ray.tfar = far_before;
+    query.query.crossing = crossing_before;
+    query.hit = copy_before;
+}
+
+// A point on its way through places.
+struct PointOnItsWay {
+    const Places* places = nullptr;
+    glm::dvec3 point{0};
+    Transform here{};
+    std::uint32_t first_copy = 0;
+    RayObjects found{};
+};
+
+bool ask_place(RTCPointQueryFunctionArguments* arguments);
+
+// Asks the places whose boxes hold the point; the first geometry of the scene has them.
+void ask(RTCScene scene, PointOnItsWay& on_its_way) {
+    const glm::vec3 p(on_its_way.here(on_its_way.point));
+    RTCPointQuery query{};
+    query.x = p.x;
+    query.y = p.y;
+    query.z = p.z;
+    query.radius = 1e-6f * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(scene, &query, &context, ask_place, &on_its_way);
+}
+
+bool ask_place(RTCPointQueryFunctionArguments* arguments) {
+    if (arguments->geomID != 0) return false;
+    auto& on_its_way = *static_cast<PointOnItsWay*>(arguments->userPtr);
+    const PointOnItsWay before = on_its_way;
+    const PlaceInEmbree& place = before.places->list[arguments->primID];
+    const Target& target = (*before.places->targets)[place.target];
+    on_its_way.here = place.inward * before.here;
+    on_its_way.first_copy = before.first_copy + place.first_copy;
+    if (target.cells) {
+        const glm::vec3 p(on_its_way.here(on_its_way.point));
+        on_its_way.found.set(on_its_way.first_copy, target.cells->label(p, Evaluator::thread_workspace()));
+    } else {
+        on_its_way.places = target.places;
+        ask(target.scene, on_its_way);
+    }
+    on_its_way.places = before.places;
+    on_its_way.here = before.here;
+    on_its_way.first_copy = before.first_copy;
+    return false;
+}
+
+constexpr double resolutions_apart = 2, relative_rounding = 4e-7;
+
+double rounded_at(const glm::vec3& p) {
+    return relative_rounding * static_cast<double>(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}));
+}
+
+}  // namespace
+
+PlacedGeometry::PlacedGeometry(RTCDevice device, const PlacedObjects& placed,
+                               std::vector<std::shared_ptr<const InterfaceCells>> cells)
+    : cells_(std::move(cells)) {
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        geometries_.emplace_back(device, cells_[i], embree::CellGeometry::Options{.rays_carry_phases = true});
+        SceneHandle scene(rtcNewScene(device));
+        rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+        rtcCommitGeometry(geometries_.back().handle());
+        rtcAttachGeometryByID(scene.get(), geometries_.back().handle(), 0);
+        rtcCommitScene(scene.get());
+        targets_.push_back({.scene = scene.get(),
+                            .bounds = cells_[i]->bounds(),
+                            .cells = cells_[i].get(),
+                            .object = static_cast<std::uint32_t>(i),
+                            .resolution = static_cast<double>(cells_[i]->resolution())});
+        scenes_.push_back(std::move(scene));
+    }
+    targets_.reserve(placed.objects.size() + placed.groups.size());
+    for (const PlacedGroup& group : placed.groups) {
+        auto places = made(device, placed, group.places);
+        places->scene.reset(rtcNewScene(device));
+        rtcSetSceneFlags(places->scene.get(), RTC_SCENE_FLAG_ROBUST);
+        rtcAttachGeometryByID(places->scene.get(), places->geometry.get(), 0);
+        rtcCommitScene(places->scene.get());
+        targets_.push_back({.scene = places->scene.get(),
+                            .bounds = places->bounds,
+                            .places = places.get(),
+                            .resolution = places->resolution});
+        groups_.push_back(std::move(places));
+    }
+    root_ = made(device, placed, placed.places);
+    const glm::vec3 far = glm::max(glm::abs(root_->bounds.low), glm::abs(root_->bounds.high));
+    most_tolerance_ = resolutions_apart * root_->resolution + rounded_at(far);
+}
+
+std::unique_ptr<Places> PlacedGeometry::made(RTCDevice device, const PlacedObjects& placed,
+                                             const std::vector<Place>& list) {
+    auto places = std::make_unique<Places>();
+    places->targets = &targets_;
+    places->list.reserve(list.size());
+    std::uint64_t copies = 0;
+    for (const Place& place : list) {
+        const std::uint32_t target =
+            place.of + (place.is_group ? static_cast<std::uint32_t>(placed.objects.size()) : 0);
+        const Transform outward = place.is_group ? place.transform : place.transform * placed.objects[place.of].first;
+        const Bounds bounds = outward.image(targets_[target].bounds);
+        for (int i = 0; i < 3 && !bounds.empty(); ++i)
+            if (!(bounds.low[i] >= -farthest) || !(bounds.high[i] <= farthest))
+                throw ModelError("what instances place is too large or too far away");
+        places->list.push_back({outward.inverse(), bounds, target, static_cast<std::uint32_t>(copies)});
+        places->bounds = unite(places->bounds, bounds);
+        places->resolution = std::max(places->resolution, outward.stretch() * targets_[target].resolution);
+        copies += placed.copies_at(place);
+    }
+    places->geometry.reset(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
+    rtcSetGeometryUserPrimitiveCount(places->geometry.get(), static_cast<unsigned>(list.size()));
+    rtcSetGeometryUserData(places->geometry.get(), places.get());
+    rtcSetGeometryBoundsFunction(places->geometry.get(), bounds_of_place, nullptr);
+    rtcSetGeometryIntersectFunction(places->geometry.get(), intersect_place);
+    rtcCommitGeometry(places->geometry.get());
+    return places;
+}
+
+RayObjects PlacedGeometry::objects_at(RTCScene scene, const glm::vec3& p) const {
+    PointOnItsWay on_its_way{.places = root_.get(), .point = glm::dvec3(p)};
+    ask(scene, on_its_way);
+    return on_its_way.found;
+}
+
+double PlacedGeometry::tolerance(std::uint32_t object, const Transform& to_scene, const glm::vec3& p) const {
+    return resolutions_apart * static_cast<double>(cells_[object]->resolution()) * to_scene.stretch() + rounded_at(p);
+}
+
+}  // namespace phasetree::tracer

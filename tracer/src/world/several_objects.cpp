@@ -1,0 +1,162 @@
+// Rays through several objects.
+//
+// Each object has an interface to the vacuum around it. Where two touch, a ray that leaves the one enters the other,
+// and what it should see is one interface between the phases of both. Cells know where their interfaces are to a
+// resolution, and coordinates are rounded, so the two are found a little apart, and in either order. They count as one
+// if they lie apart, across the interface, by no more than the sum of the two objects' tolerances
+// (PlacedGeometry::tolerance). A ray that leaves such an interface starts by as much off it, so that neither object is
+// in doubt of where it is.
+//
+// Objects should not overlap. Where they do, the first of those that a point is in is there, and the others' interfaces
+// are not seen.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+
+#include "world/traced_geometry.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+// Interfaces are looked for along the ray, so at most so much farther apart than across them.
+constexpr double least_cosine = 1.0 / 64;
+
+// More interfaces that are not seen, one behind the other, are only where copies without number overlap.
+constexpr int most_unseen = 1000;
+
+std::array<embree::CarriedPhase, RayObjects::most> carried(const RayObjects& in) {
+    std::array<embree::CarriedPhase, RayObjects::most> all;
+    for (std::size_t i = 0; i < in.size(); ++i) {
+        all[i].object.geometry = 0;
+        all[i].object.instances[0] = in.copy(i);
+        all[i].phase = in.phase(i);
+    }
+    return all;
+}
+
+}  // namespace
+
+TracedGeometry::NextOfSeveral TracedGeometry::next_of_several(const Ray& ray, float far, PathCounters& counters) const {
+    const auto phases = carried(ray.in);
+    PlacedQuery q;
+    q.query.carried = std::span(phases).first(ray.in.size());
+    q.query.elsewhere = phasetree::vacuum;
+    q.query.start = ray.hint;
+    q.start = ray.start;
+    q.origin = glm::dvec3(ray.origin);
+    q.direction = glm::dvec3(ray.direction);
+    RTCRayHit hit = embree::rayhit_of(ray.origin, ray.direction, 0, far);
+    embree::intersect(embree_.get(), q.query.context, hit);
+    if (q.query.is_out_of_memory) throw std::bad_alloc();
+    ++counters.rays;
+    counters.trace.visits += q.query.counters.visits;
+    counters.trace.batches += q.query.counters.batches;
+    counters.trace.phantoms += q.query.counters.phantoms;
+    if (!embree::is_hit(hit)) return Escaped{};
+    if (hit.hit.instID[0] == RTC_INVALID_GEOMETRY_ID) return hit;
+    return crossing_in_scene(q, hit);
+}
+
+TracedGeometry::CrossingInScene TracedGeometry::crossing_in_scene(const PlacedQuery& query,
+                                                                  const RTCRayHit& hit) const {
+    const Crossing& c = query.query.crossing;
+    const Transform& to_object = query.hit.to_object;
+    const Transform to_scene = to_object.inverse();
+    const glm::vec3 direction(glm::normalize(to_object.matrix * query.direction));
+    const CrossingNormal normal = cells_[query.hit.object]->normal(hit.hit.primID, c, direction);
+    const glm::vec3 p_in(to_scene(c.p_in));
+    return {.crossing = c,
+            .copy = query.hit,
+            .hint = {embree::ObjectInstance::of(hit.hit), hit.hit.primID, c.from, normal.gradient},
+            .distance = static_cast<double>(hit.ray.tfar),
+            .p_in = p_in,
+            .p_out = glm::vec3(to_scene(c.p_out)),
+            .normal = glm::vec3(glm::normalize(-glm::dvec3(normal.unit) * to_object.matrix)),
+            .normal_in_object = -normal.unit,
+            .tolerance = placed_->tolerance(query.hit.object, to_scene, p_in)};
+}
+
+// What lies behind a crossing, and what of it belongs to it: the beginning of another object where the ray leaves the
+// last that it was in, and the end of one that it was in where it enters another.
+TracedGeometry::Met TracedGeometry::with_what_touches(const Ray& ray, const CrossingInScene& first,
+                                                      PathCounters& counters) const {
+    Met met{first, std::nullopt, ray.in};
+    met.behind.set(first.copy.number, first.crossing.to);
+    const bool leaves = met.behind.size() == 0;
+    const bool enters = met.behind.size() > ray.in.size();
+    if (ray.in.size() == 0 || !(leaves || enters)) return met;
+    const double cosine = std::max(std::abs(static_cast<double>(glm::dot(first.normal, ray.direction))), least_cosine);
+    const auto far = static_cast<float>((first.tolerance + placed_->most_tolerance()) / cosine);
+    const NextOfSeveral next = next_of_several(behind(ray, met), far, counters);
+    const auto* second = std::get_if<CrossingInScene>(&next);
+    if (!second || second->copy.number == first.copy.number) return met;
+    if (second->distance * cosine > first.tolerance + second->tolerance) return met;
+    if (leaves ? second->crossing.from != phasetree::vacuum : second->crossing.to != phasetree::vacuum) return met;
+    met.behind.set(second->copy.number, second->crossing.to);
+    met.joined = *second;
+    met.joined->distance += first.distance;
+    return met;
+}
+
+Ray TracedGeometry::behind(const Ray& ray, const Met& met) {
+    const CrossingInScene& last = met.joined ? *met.joined : met.first;
+    Ray on{last.p_out, ray.direction, met.behind.phase(), {}, met.behind, std::nullopt};
+    if (met.joined) {
+        on.origin -= static_cast<float>(met.apart()) * met.first.normal;
+    } else {
+        on.hint = last.hint;
+        on.start = StartInCopy{last.copy.number, last.crossing.p_out};
+    }
+    return on;
+}
+
+Surface TracedGeometry::surface_of_several(const Ray& ray, const Met& met, double distance) const {
+    const CrossingInScene& first = met.first;
+    const Phase from = ray.in.phase(), to = met.behind.phase();
+    // The object that the ray enters counts as the one that is met; of one that it leaves into vacuum, that.
+    const CrossingInScene& shown = met.joined && to != phasetree::vacuum ? *met.joined : first;
+    Surface surface{.distance = static_cast<float>(distance),
+                    .normal = first.normal,
+                    .near_side = {first.p_in, from, ray.in, std::nullopt},
+                    .far_side = std::nullopt,
+                    .optics = interfaces_.between(from.index, to.index),
+                    .hint = {},
+                    .object = shown.copy.object,
+                    .entered = to,
+                    .place = {shown.crossing.p_in, shown.normal_in_object, std::nullopt},
+                    .copy = shown.copy.number};
+    const Ray on = behind(ray, met);
+    if (met.joined) {
+        surface.near_side.origin += static_cast<float>(met.apart()) * first.normal;
+    } else {
+        surface.hint = first.hint;
+        surface.near_side.start = StartInCopy{first.copy.number, first.crossing.p_in};
+    }
+    if (is_clear(scene_.materials[to.index])) surface.far_side = {on.origin, to, on.in, on.start};
+    return surface;
+}
+
+Hit TracedGeometry::intersect_several(const Ray& ray, float far, PathCounters& counters) const {
+    Ray rest = ray;
+    double travelled = 0;
+    for (int unseen = 0; unseen < most_unseen; ++unseen) {
+        const float left = std::isfinite(far) ? static_cast<float>(static_cast<double>(far) - travelled) : far;
+        if (!(left > 0)) break;
+        const NextOfSeveral next = next_of_several(rest, left, counters);
+        if (std::holds_alternative<Escaped>(next)) break;
+        if (const auto* hit = std::get_if<RTCRayHit>(&next)) {
+            Surface surface = surface_of_mesh(rest, *hit);
+            surface.distance = static_cast<float>(travelled + static_cast<double>(surface.distance));
+            return surface;
+        }
+        const Met met = with_what_touches(rest, std::get<CrossingInScene>(next), counters);
+        if (rest.in.phase() != met.behind.phase()) return surface_of_several(rest, met, travelled + met.first.distance);
+        travelled += met.distance_behind();
+        rest = behind(rest, met);
+    }
+    return Escaped{};
+}
+
+}  // namespace phasetree::tracer
