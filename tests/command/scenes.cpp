@@ -49,6 +49,17 @@ TEST_CASE("every scene is sound, has a picture, and is quoted in the gallery wit
     }
 }
 
+TEST_CASE("every scene of several objects is sound, and no object overlaps another") {
+    const Shell shell;
+    CHECK(!scenes(root / "scenes" / "objects").empty());
+    for (const std::filesystem::path& scene : scenes(root / "scenes" / "objects")) {
+        CAPTURE(scene.string());
+        const Outcome check = shell.run({"check", scene.string()});
+        CHECK(check.code == 0);
+        CHECK(check.err == "");
+    }
+}
+
 TEST_CASE("every scene that only the benchmarks need is sound") {
     const Shell shell;
     CHECK(scenes(root / "scenes" / "benchmark").size() == 8);

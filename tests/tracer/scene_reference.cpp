@@ -553,7 +553,7 @@ TEST_CASE("a value of the wrong type, a misspelt key, a key twice: each has its 
 
 TEST_CASE("every scene of the gallery is as the schema says") {
     int count = 0;
-    for (const char* const where : {"/scenes", "/scenes/benchmark"}) {
+    for (const char* const where : {"/scenes", "/scenes/benchmark", "/scenes/objects"}) {
         for (const auto& entry : std::filesystem::directory_iterator(source_directory() + where)) {
             if (entry.path().extension() != ".json" || entry.path().filename() == "scene.schema.json") continue;
             CAPTURE(entry.path());
