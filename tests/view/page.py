@@ -17,7 +17,7 @@ LARGER = SCENE.replace('"width": 96, "height": 64', '"width": 240, "height": 160
 READY = "document.getElementById('status')?.textContent.startsWith('Ready')"
 SEEN = "document.getElementById('picture').toDataURL()"
 CAMERA = "document.getElementById('camera').value"
-SHIFT = 8
+SHIFT, CONTROL = 8, 2
 
 
 class Page(unittest.TestCase):
@@ -36,7 +36,7 @@ class Page(unittest.TestCase):
 
     def setUp(self):
         self.view.file.write_text(LARGER, encoding="utf-8")
-        self.view.post("change", {"camera": None, "hidden": [], "exposure": 0})
+        self.view.post("change", {"camera": None, "hidden": [], "looks": {}, "cut": None, "exposure": 0})
         self.browser.events.clear()
         self.browser.open(self.view.url)
         self.browser.wait_for(READY)
@@ -144,13 +144,16 @@ class Page(unittest.TestCase):
         self.wait_for_another(hidden)
 
     def test_a_screen_reader_is_told_names(self):
+        self.browser.run("document.querySelectorAll('details').forEach((d) => { d.open = true; })")
         nodes = self.browser.call("Accessibility.getFullAXTree")["nodes"]
         told = {(n["role"]["value"], n["name"]["value"]) for n in nodes if n.get("name", {}).get("value")}
         for role, name in (("checkbox", "glass"), ("checkbox", "wood"), ("group", "Phases"), ("button", "Turn left"),
                            ("application", "Picture of the scene"), ("link", "Save the picture"),
-                           ("textbox", "Text of the camera")):
+                           ("textbox", "Text of the camera"), ("button", "glass as in the file"), ("link", "Save it as EXR"),
+                           ("group", "Cut"), ("combobox", "Cut away what lies towards"), ("spinbutton", "x of the normal")):
             self.assertIn((role, name), told)
-        self.assertTrue(any(role == "slider" and name.startswith("Exposure") for role, name in told))
+        for slider in ("Exposure", "Place", "Index", "Roughness"):
+            self.assertTrue(any(role == "slider" and name.startswith(slider) for role, name in told), slider)
 
     def test_the_file_is_followed_and_its_errors_are_shown(self):
         self.view.file.write_text(LARGER.replace('"radius": 0.5', '"raduis": 0.5'), encoding="utf-8")
@@ -163,6 +166,48 @@ class Page(unittest.TestCase):
         self.view.file.write_text(LARGER.replace('"radius": 0.5', '"radius": 0.4'), encoding="utf-8")
         self.browser.wait_for("document.getElementById('error').hidden")
         self.wait_for_another(self.before)
+
+    def set_input(self, selector, value, event="input"):
+        self.browser.run(f"""(() => {{ const e = document.querySelector({json.dumps(selector)}); e.value = {json.dumps(value)};
+            e.dispatchEvent(new Event({json.dumps(event)}, {{bubbles: true}})); }})()""")
+
+    def test_a_phase_is_given_another_look_and_its_own_again(self):
+        self.browser.run("document.querySelectorAll('#phases details').forEach((d) => { d.open = true; })")
+        wood = "#phases > div:nth-of-type(2)"
+        self.set_input(f"{wood} input[type=color]", "#2040c0")
+        blue = self.wait_for_another(self.before)
+        # By keyboard: made clear, then rougher. A clear phase has an index, and the focus stays at the phase.
+        self.browser.run(f"document.querySelector('{wood} details input[type=checkbox]').focus()")
+        self.browser.press(" ", "Space", " ")
+        clear = self.wait_for_another(blue)
+        self.assertEqual(self.browser.run("document.activeElement.closest('#phases > div').querySelector('input').value"), "wood")
+        self.browser.press("Tab")
+        self.browser.press("Tab")
+        self.browser.press("ArrowRight")
+        self.wait_for_another(clear)
+        self.assertEqual(self.browser.run("document.activeElement.getAttribute('aria-valuetext')"), "1.51")
+        self.shoot("looks")
+        self.browser.run(f"document.querySelector('{wood} button').click()")
+        self.browser.wait_for(f"{READY} && {SEEN} === {json.dumps(self.before)}")
+
+    def test_a_plane_cuts_and_is_dragged(self):
+        self.set_input("#cut-direction", "0 0 1", "change")
+        half = self.wait_for_another(self.before)
+        self.assertIn("0 %", self.text("cut-said"))
+        self.shoot("cut")
+        # Up by a tenth of the picture's height, which is 2.68 where the balls are: 0.268 of the object's radius of 1.3.
+        self.browser.drag(self.at(0.5, 0.5), self.at(0.5, 0.4), CONTROL)
+        higher = self.wait_for_another(half)
+        share = float(self.browser.run("document.getElementById('cut-offset').value"))
+        radius = json.loads(self.view.get("picture").body.split(b"\n", 1)[0])["radius"]
+        self.assertAlmostEqual(share * radius, 0.268, delta=0.02)
+        self.browser.run("document.getElementById('picture').focus()")
+        self.browser.press("[", "BracketLeft", "[")
+        self.wait_for_another(higher)
+        self.browser.run("document.getElementById('cut-facing').click()")
+        self.browser.wait_for(f"{READY} && document.querySelector('[data-normal][aria-label^=y]').value === '-1'")
+        self.set_input("#cut-direction", "", "change")
+        self.browser.wait_for(f"{READY} && {SEEN} === {json.dumps(self.before)}")
 
     def test_the_exposure_brightens(self):
         self.browser.run("(() => { const e = document.getElementById('exposure'); e.value = 2; e.dispatchEvent(new Event('input')); })()")

@@ -78,6 +78,77 @@ class Pictures(unittest.TestCase):
             back = view.wait_for(lambda s: is_ready(s) and not any(p["hidden"] for p in s["phases"]))
             self.assertEqual(back.pixels, before.pixels)
 
+    def rendered(self, view, text, name="scene.png"):
+        """The file that `render` makes of a text beside the view's scene."""
+        with tempfile.TemporaryDirectory() as folder:
+            file, out = pathlib.Path(folder) / view.file.name, pathlib.Path(folder) / name
+            file.write_text(text, encoding="utf-8")
+            subprocess.run([COMMAND, "render", str(file), "-o", str(out), "--quiet"], check=True)
+            return out.read_bytes()
+
+    def test_what_is_edited_looks_as_if_the_file_said_so(self):
+        color, glass = '{"diffuse": {"color": [0.6, 0.3, 0.1]}}', '{"clear": {"ior": 1.5}}'
+        tree = SCENE[SCENE.index('"tree": ') + 8:SCENE.index(',\n"lights"')]
+        cut = '{"intersect_shape": {"shape": {"plane": {"normal": [0, -1, 0.5], "offset": 0.125}}, "of": ' + tree + "}}"
+        removed = '{"remove": {"phases": "wood", "of": ' + tree + "}}"
+        cases = [({"looks": {"wood": {"color": [0.125, 0.25, 0.5]}}}, color, '{"diffuse": {"color": [0.125, 0.25, 0.5]}}'),
+                 ({"looks": {"glass": {"ior": 1.25, "roughness": 0.25}}}, glass, '{"clear": {"ior": 1.25, "roughness": 0.25}}'),
+                 ({"looks": {"wood": {"clear": True}}}, color, glass),
+                 ({"cut": {"normal": [0, -1, 0.5], "offset": 0.125}}, tree, cut),
+                 ({"hidden": ["wood"]}, tree, removed)]
+        undone = {"hidden": [], "looks": {}, "cut": None}
+        with View() as view:
+            before = view.ready()
+            for change, old, new in cases:
+                version = json.loads(view.post("change", {**undone, **change}).body)["version"]
+                after = view.wait_for(lambda s, v=version: is_ready(s) and s["version"] > v)
+                self.assertNotEqual(after.pixels, before.pixels, change)
+                self.assertEqual(view.get("picture.png").body, self.rendered(view, changed(SCENE, old, new)), change)
+            version = json.loads(view.post("change", undone).body)["version"]
+            back = view.wait_for(lambda s: is_ready(s) and s["version"] > version)
+            self.assertEqual(back.pixels, before.pixels)
+            self.assertEqual(view.file.read_text(encoding="utf-8"), SCENE)
+
+    def test_a_clear_phase_has_its_colour_after_half_the_diagonal_of_the_object(self):
+        with View() as view:
+            view.ready()
+            view.post("change", {"looks": {"glass": {"color": [0.25, 0.5, 1]}}})
+            after = view.wait_for(lambda s: is_ready(s) and s["phases"][0]["look"])
+            text = changed(SCENE, '"ior": 1.5', '"ior": 1.5, "color": [0.25, 0.5, 1], "color_distance": '
+                           + repr(after.state["radius"]))
+            self.assertEqual(view.get("picture.png").body, self.rendered(view, text))
+            for told, wanted in zip(after.state["phases"][0]["color"], (0.25, 0.5, 1)):
+                self.assertAlmostEqual(told, wanted, places=5)
+
+    def test_what_is_edited_outlives_a_saved_file(self):
+        with View() as view:
+            view.ready()
+            view.post("change", {"looks": {"wood": {"clear": True}, "brass": {"ior": 2}}, "cut": {"normal": [0, 0, 2], "offset": 0}})
+            view.wait_for(lambda s: is_ready(s) and s["cut"])
+            view.file.write_text(changed(SCENE, '"radius": 0.5', '"radius": 0.4'), encoding="utf-8")
+            view.wait_for(lambda s: s["doing"] == "Reading the scene" or "cells" in s["doing"])
+            state = view.wait_for(lambda s: is_ready(s) and s["radius"] < 1.2).state
+            self.assertEqual([p["kind"] for p in state["phases"]], ["clear", "clear"])
+            self.assertEqual(state["cut"], {"normal": [0, 0, 2], "offset": 0})
+
+    def test_while_a_slider_is_drawn_pictures_come(self):
+        # Cells that take longer than it takes from one wish to the next.
+        with View(changed(SCENE, '"sphere": {"radius": 0.5}', '"displace": {"amplitude": 0.01, "scale": 0.1, "of": {"sphere": {"radius": 0.5}}}')) as view:
+            before = view.ready().state["picture"]["number"]
+            end = time.monotonic() + 4
+            for i in range(10000):
+                if time.monotonic() > end:
+                    break
+                view.post("change", {"cut": {"normal": [1, 0, 0], "offset": 0.0001 * i}})
+            self.assertGreater(view.get("picture").state["picture"]["number"], before)
+
+    def test_the_picture_is_saved_as_exr_too(self):
+        with View() as view:
+            view.ready()
+            picture = view.get("picture.exr")
+            self.assertEqual(picture.headers["Content-Type"], "image/x-exr")
+            self.assertEqual(picture.body, self.rendered(view, SCENE, "scene.exr"))
+
     def test_a_point_tells_what_trace_and_eval_tell(self):
         with View() as view:
             view.ready()
@@ -232,6 +303,9 @@ class Refusals(unittest.TestCase):
         before = view.get("picture").state["version"]
         for wish in ("", "{", "[]", "{}x", "1e999", '{"camera": 5}', '{"camera": {"position": [0, 0, 0]}}', '{"exposure": 99}',
                      '{"camera": {"position": [0, 0, 0], "look_at": [0, 0, 0]}}', '{"hidden": "glass"}', '{"hiden": []}',
+                     '{"looks": []}', '{"looks": {"wood": 1}}', '{"looks": {"wood": {"ior": 0}}}', '{"looks": {"wood": {"color": "brown"}}}',
+                     '{"looks": {"wood": {"roughness": 2}}}', '{"looks": {"wood": {"clear": 1}}}', '{"cut": {"normal": [0, 0, 1]}}',
+                     '{"cut": {"normal": [0, 0, 0], "offset": 1}}', '{"cut": {"normal": [0, 0, 1], "offset": 1e30}}',
                      "[" * 60000, b'{"hidden": ["\xff"]}'):
             answer = view.post("change", wish)
             self.assertEqual(answer.status, 400, wish[:60])

@@ -1,22 +1,15 @@
-// A scene that is ready for rays, some of whose phases may be hidden.
+// A scene that is ready for rays.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "phasetree/trace/tracer.hpp"
 #include "scene/scene.hpp"
 #include "world/world.hpp"
 
 namespace phasetree::tracer::view {
-
-/// The scene without these phases: vacuum takes their place, as by the node `remove`. Names that it does not have count
-/// for nothing.
-Scene without_phases(const Scene& scene, const std::vector<std::string>& hidden);
 
 class Prepared {
   public:

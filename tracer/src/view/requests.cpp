@@ -12,10 +12,56 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* name_of_request = "<request>";
-constexpr Range exposures{-50, 50};
+constexpr Range exposures{-50, 50}, fractions{0, 1}, indices{1, 4}, lengths{-1e6, 1e6};
 
 Json list(const glm::vec3& v) {
     return Json::array({v.x, v.y, v.z});
+}
+
+Json maybe(const std::optional<float>& value) {
+    return value ? Json(*value) : Json();
+}
+
+Json maybe(const std::optional<glm::vec3>& value) {
+    return value ? list(*value) : Json();
+}
+
+Look read_look(const Document& document, Value value) {
+    ObjectReader reader(document, value, "the look");
+    Look look;
+    look.is_clear = reader.optional<bool>("clear", false);
+    if (const auto color = reader.value("color")) look.color = as_colour(document, *color, "\"color\"", fractions);
+    look.ior = reader.maybe<float>("ior", indices);
+    look.roughness = reader.maybe<float>("roughness", fractions);
+    reader.finish();
+    return look;
+}
+
+CutPlane read_cut(const Document& document, Value value) {
+    ObjectReader reader(document, value, "the cut");
+    CutPlane cut;
+    cut.normal = reader.required<glm::vec3>("normal", lengths);
+    cut.offset = reader.required<float>("offset", lengths);
+    reader.finish();
+    if (!(glm::length(cut.normal) > 1e-6f)) throw document.error(value, "the cut's normal has no direction");
+    return cut;
+}
+
+Json written(const ShownPhase& phase) {
+    const Optics seen = looking(phase.optics, phase.look);
+    Json look = Json::object();
+    if (phase.look.is_clear) look["clear"] = true;
+    if (phase.look.color) look["color"] = list(*phase.look.color);
+    if (phase.look.ior) look["ior"] = *phase.look.ior;
+    if (phase.look.roughness) look["roughness"] = *phase.look.roughness;
+    return {{"name", phase.name},
+            {"hidden", phase.is_hidden},
+            {"kind_in_file", phase.optics.kind},
+            {"kind", seen.kind},
+            {"color", maybe(seen.color)},
+            {"ior", maybe(seen.ior)},
+            {"roughness", maybe(seen.roughness)},
+            {"look", look}};
 }
 
 // Names of a scene may hold any bytes that JSON texts may; what a terminal or a system says may hold others.
@@ -37,6 +83,15 @@ Change read_change(const std::string& text, const Shown& shown) {
         if (!camera->is_null()) change.camera = read_camera(document, *camera, film);
     }
     change.hidden = reader.maybe<std::vector<std::string>>("hidden");
+    if (const auto looks = reader.value("looks")) {
+        if (!looks->is_object()) throw document.error(*looks, "\"looks\" must be an object");
+        change.looks.emplace();
+        for (const Value look : *looks) change.looks->emplace(look.key(), read_look(document, look));
+    }
+    if (const auto cut = reader.value("cut")) {
+        change.has_cut = true;
+        if (!cut->is_null()) change.cut = read_cut(document, *cut);
+    }
     change.exposure_ev = reader.maybe<float>("exposure", exposures);
     reader.finish();
     return change;
@@ -62,8 +117,9 @@ std::string written(const Shown& shown) {
     json["height"] = shown.resolution.y;
     json["wanted_samples"] = shown.samples;
     json["phases"] = Json::array();
-    for (const ShownPhase& phase : shown.phases)
-        json["phases"].push_back({{"name", phase.name}, {"hidden", phase.is_hidden}});
+    for (const ShownPhase& phase : shown.phases) json["phases"].push_back(written(phase));
+    json["cut"] = Json();
+    if (shown.cut) json["cut"] = {{"normal", list(shown.cut->normal)}, {"offset", shown.cut->offset}};
     json["camera"] = shown.camera_text;
     json["centre"] = list(shown.centre);
     json["radius"] = shown.radius;

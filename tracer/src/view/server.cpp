@@ -149,7 +149,8 @@ class Answers {
     }
     bool get(std::string_view name, const httplib::Request& request, httplib::Response& response) const {
         if (name == "picture") return picture(request, response);
-        if (name == "picture.png") return file(response);
+        if (name == "picture.png") return file(response, Format::png, "image/png");
+        if (name == "picture.exr") return file(response, Format::exr, "image/x-exr");
         for (const PageFile& f : page_files())
             if (f.name == (name.empty() ? "index.html" : name)) {
                 response.set_content(std::string(f.text), type_of(f.name));
@@ -170,14 +171,13 @@ class Answers {
         response.set_content(std::move(body), "application/octet-stream");
         return true;
     }
-    bool file(httplib::Response& response) const {
+    bool file(httplib::Response& response, Format format, const char* type) const {
         const std::shared_ptr<const Shown> shown = session_.shown();
         if (!shown->picture) return refuse(response, 409, "there is no picture yet");
         const Picture& p = *shown->picture;
         const Metadata metadata{shown->scene, p.samples, p.viewed->scene.settings.seed};
-        const std::vector<unsigned char> bytes =
-            encode(p.linear, Format::png, metadata, p.viewed->display(p.exposure_ev));
-        response.set_content(std::string(bytes.begin(), bytes.end()), "image/png");
+        const std::vector<unsigned char> bytes = encode(p.linear, format, metadata, p.viewed->display(p.exposure_ev));
+        response.set_content(std::string(bytes.begin(), bytes.end()), type);
         return true;
     }
 

@@ -15,9 +15,10 @@ namespace phasetree::tracer::view {
 
 namespace {
 
-// While the camera is turned each wish comes before the picture of the last is there. A first coarse picture is
-// finished all the same, until so long after its wish.
+// While the camera is turned, or a slider is drawn, each wish comes before the picture of the last is there. A first
+// coarse picture is finished all the same, until so long after it was begun, and so are its cells.
 constexpr std::chrono::milliseconds first_picture_deadline{250};
+constexpr std::chrono::milliseconds first_cells_deadline{1000};
 // Pictures that follow each other faster than this are not shown one by one.
 constexpr std::chrono::milliseconds between_pictures{100};
 
@@ -38,6 +39,24 @@ std::vector<std::uint8_t> on_display(const Image& image, const DisplayTransform&
     std::vector<glm::vec3> pixels = image.pixels;
     display.apply(pixels);
     return quantise8(pixels, image.width, 0, 0);
+}
+
+std::vector<ShownPhase> shown_phases(const Scene& scene) {
+    const float depth = half_diagonal(scene.object);
+    std::vector<ShownPhase> phases;
+    for (std::size_t i = 1; i < scene.phases.names.size(); ++i)
+        phases.push_back({scene.phases.names[i], false, optics_of(scene.materials[i], depth), {}});
+    return phases;
+}
+
+// What the page's controls say must not go back to what was wished before.
+void show_wishes(const Edits& edits, Shown& shown) {
+    shown.cut = edits.cut;
+    for (ShownPhase& phase : shown.phases) {
+        phase.is_hidden = std::ranges::find(edits.hidden, phase.name) != edits.hidden.end();
+        const auto look = edits.looks.find(phase.name);
+        phase.look = look == edits.looks.end() ? Look{} : look->second;
+    }
 }
 
 void set_width(FilmSettings& film, int width) {
@@ -68,6 +87,7 @@ void Session::show(Edit&& edit) {
     const std::lock_guard lock(mutex_);
     auto next = std::make_shared<Shown>(*shown_);
     edit(*next);
+    show_wishes(wishes_.edits, *next);
     ++next->version;
     shown_ = std::move(next);
     changed_.notify_all();
@@ -97,13 +117,14 @@ std::uint64_t Session::change(const Change& change) {
         if (change.exposure_ev) wishes_.exposure_ev = change.exposure_ev;
         if (change.has_camera) wishes_.camera = change.camera;
         if (change.has_camera) ++wishes_.view;
-        if (change.hidden) wishes_.hidden = *change.hidden;
-        if (change.hidden) ++wishes_.object;
-        if (change.has_camera || change.hidden) wishes_.since = Clock::now();
-        number_ = wishes_.number();
-        number_of_object_ = wishes_.number_of_object();
-        changed_.notify_all();
+        if (change.hidden) wishes_.edits.hidden = *change.hidden;
+        if (change.looks) wishes_.edits.looks = *change.looks;
+        if (change.has_cut) wishes_.edits.cut = change.cut;
+        if (change.is_of_object()) ++wishes_.object;
+        if (change.has_camera || change.is_of_object()) wishes_.since = Clock::now();
+        announce_wishes();
     }
+    if (change.is_of_object()) show([](Shown& shown) { shown.doing = "Building cells"; });
     if (change.exposure_ev) expose();
     return shown()->version;
 }
@@ -125,8 +146,13 @@ void Session::look_at_files() {
     is_to_be_read_ = true;
     ++wishes_.reading;
     wishes_.since = Clock::now();
+    announce_wishes();
+}
+
+void Session::announce_wishes() {
     number_ = wishes_.number();
     number_of_object_ = wishes_.number_of_object();
+    number_of_reading_ = wishes_.reading;
     changed_.notify_all();
 }
 
@@ -201,11 +227,18 @@ void Session::read(Wishes& wishes) {
 
 void Session::build(const Wishes& wishes) {
     show([](Shown& shown) { shown.doing = "Building cells"; });
-    const auto scene = std::make_shared<Scene>(without_phases(viewed_->scene, wishes.hidden));
+    const Clock::time_point begun = Clock::now();
     const WorldOptions options{.quality = BuildQuality::low,
-                               .cancelled = [&] { return is_of_another_object(wishes); },
+                               .cancelled =
+                                   [&] {
+                                       const bool is_over = Clock::now() - begun > first_cells_deadline;
+                                       return is_of_another_reading(wishes) ||
+                                              (is_over && is_of_another_object(wishes));
+                                   },
                                .most_bytes = options_.most_bytes};
+    std::shared_ptr<Scene> scene;
     try {
+        scene = std::make_shared<Scene>(edited(viewed_->scene, wishes.edits));
         prepared_ = std::make_shared<const Prepared>(scene, options);
     } catch (const BuildCancelled&) {
         built_for_ = {};
@@ -227,11 +260,7 @@ void Session::build(const Wishes& wishes) {
         shown.scene = options_.name;
         shown.resolution = scene->film.resolution();
         shown.samples = scene->settings.samples;
-        shown.phases.clear();
-        for (std::size_t i = 1; i < scene->phases.names.size(); ++i) {
-            const std::string& name = scene->phases.names[i];
-            shown.phases.push_back({name, std::ranges::find(wishes.hidden, name) != wishes.hidden.end()});
-        }
+        shown.phases = shown_phases(viewed_->scene);
         // Hiding a part must not move what the camera turns around.
         const Bounds bounds = phasetree::bounds(viewed_->scene.object);
         if (bounds.empty() || !bounds.finite()) return;
@@ -243,6 +272,7 @@ void Session::build(const Wishes& wishes) {
 // Returns whether the picture has all its samples.
 bool Session::draw(const Wishes& wishes) {
     const Scene& file = viewed_->scene;
+    drawing_since_ = Clock::now();
     scene_->camera = wishes.camera.value_or(file.camera);
     show([&](Shown& shown) {
         shown.camera = scene_->camera;
@@ -262,7 +292,9 @@ bool Session::draw(const Wishes& wishes) {
                                                                           .most_bytes = options_.most_bytes});
     }
     if (!draw_whole(wishes, file.settings.samples)) return false;
-    show([](Shown& shown) { shown.doing = "Ready"; });
+    show([&](Shown& shown) {
+        if (!is_stale(wishes)) shown.doing = "Ready";
+    });
     return true;
 }
 
@@ -274,20 +306,23 @@ std::string Session::warning_of_camera() const {
                        scene_->phases[phase]);
 }
 
+// Whether a picture is to be left unfinished, for later wishes.
+bool Session::is_given_up(const Wishes& wishes, bool is_first) const {
+    const bool is_over = !is_first || Clock::now() - drawing_since_ > first_picture_deadline;
+    return is_of_another_reading(wishes) || (is_over && is_stale(wishes));
+}
+
 // Returns whether the picture was finished and is still wished for.
 bool Session::draw_coarser(const Wishes& wishes, int scale) {
     const glm::ivec2 size = coarser(viewed_->scene.film.resolution(), scale);
     scene_->film.width = size.x;
     scene_->film.height = size.y;
     scene_->settings.samples = 1;
-    const bool is_first = drawn_for_ != wishes.number();
+    const bool is_first = is_first_of(wishes);
     RenderJob job;
     job.pixels = scene_->film.whole();
     job.threads = options_.threads;
-    job.cancelled = [&, is_first] {
-        const bool is_over = !is_first || Clock::now() - wishes.since > first_picture_deadline;
-        return is_of_another_object(wishes) || (is_over && is_stale(wishes));
-    };
+    job.cancelled = [&, is_first] { return is_given_up(wishes, is_first); };
     Rendering rendering = render(prepared_->world(), *scene_, job);
     if (rendering.cancelled) return false;
     ladder_.learn(rendering.image.pixels.size(), rendering.seconds);
@@ -302,7 +337,7 @@ bool Session::draw_whole(const Wishes& wishes, int samples) {
     RenderJob job;
     job.pixels = scene_->film.whole();
     job.threads = options_.threads;
-    job.cancelled = [&] { return is_stale(wishes); };
+    job.cancelled = [&] { return is_given_up(wishes, is_first_of(wishes)); };
     Clock::time_point last;
     job.passed = [&](const Film& film, int done) {
         if (done < samples && Clock::now() - last < between_pictures) return;
@@ -310,7 +345,7 @@ bool Session::draw_whole(const Wishes& wishes, int samples) {
         show([&](Shown& shown) { shown.doing = fmt::format("{} of {} samples", done, shown.samples); });
         last = Clock::now();
     };
-    return !render(prepared_->world(), *scene_, job).cancelled;
+    return !render(prepared_->world(), *scene_, job).cancelled && !is_stale(wishes);
 }
 
 void Session::show_picture(const Wishes& wishes, Image image, int scale, int samples) {
@@ -327,7 +362,7 @@ void Session::show_picture(const Wishes& wishes, Image image, int scale, int sam
         picture->exposure_ev = wishes_.exposure_ev.value_or(picture->exposure_ev);
     }
     picture->pixels = on_display(picture->linear, viewed_->display(picture->exposure_ev));
-    const bool is_first = std::exchange(drawn_for_, wishes.number()) != wishes.number();
+    const bool is_first = drawn_for_.exchange(wishes.number()) != wishes.number();
     const double seconds = std::chrono::duration<double>(Clock::now() - wishes.since).count();
     show([&](Shown& shown) {
         picture->number = shown.picture ? shown.picture->number + 1 : 1;

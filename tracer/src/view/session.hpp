@@ -10,6 +10,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -41,7 +42,12 @@ struct Change {
     bool has_camera = false;                    ///< Whether the camera changes: to this one,
     std::optional<AnyCameraParameters> camera;  ///< or without a value back to the scene's.
     std::optional<std::vector<std::string>> hidden;
+    std::optional<std::map<std::string, Look>> looks;  ///< all of them
+    bool has_cut = false;                              ///< Whether the cut changes: to this one,
+    std::optional<CutPlane> cut;                       ///< or without a value to none.
     std::optional<float> exposure_ev;
+
+    bool is_of_object() const { return hidden || looks || has_cut; }
 };
 
 class Session {
@@ -74,7 +80,7 @@ class Session {
     // What is wished. Each number grows with a wish of its kind.
     struct Wishes {
         std::uint64_t reading = 1, object = 0, view = 0;
-        std::vector<std::string> hidden;
+        Edits edits;
         std::optional<AnyCameraParameters> camera;
         std::optional<float> exposure_ev;  // needs no new picture and so has no number
         Clock::time_point since = Clock::now();
@@ -83,7 +89,7 @@ class Session {
         std::uint64_t number_of_object() const { return reading + object; }
     };
 
-    // Which scene, and which wish of what is hidden of it.
+    // Which scene, and which wish of how it is edited.
     struct ObjectNumber {
         std::uint64_t reading = 0, object = 0;
         bool operator==(const ObjectNumber&) const = default;
@@ -109,6 +115,11 @@ class Session {
     bool is_of_another_object(const Wishes& wishes) const {
         return stopped_ || number_of_object_ != wishes.number_of_object();
     }
+    bool is_of_another_reading(const Wishes& wishes) const { return stopped_ || number_of_reading_ != wishes.reading; }
+    bool is_first_of(const Wishes& wishes) const { return drawn_for_ != wishes.number(); }
+    bool is_given_up(const Wishes& wishes, bool is_first) const;
+    // To be called under the lock when the wishes have changed.
+    void announce_wishes();
 
     // Changes what is shown, by `edit(Shown&)`, under the lock.
     template <class Edit>
@@ -125,18 +136,19 @@ class Session {
     WatchedFiles files_;
     std::optional<WatchedFiles> changed_files_;  // These are the files as they were when a change was last seen.
     bool is_to_be_read_ = true;
-    std::atomic<std::uint64_t> number_{1}, number_of_object_{1};
+    std::atomic<std::uint64_t> number_{1}, number_of_object_{1}, number_of_reading_{1};
     std::atomic<bool> stopped_{false};
 
     // The thread's own.
     std::shared_ptr<const ViewedScene> viewed_;
-    std::shared_ptr<Scene> scene_;  // without what is hidden
+    std::shared_ptr<Scene> scene_;  // as it is edited
     std::shared_ptr<const Prepared> prepared_;
     std::uint64_t last_reading_ = 0, last_good_reading_ = 0;
-    std::string warning_;          // The object's.
-    ObjectNumber built_for_;       // The last object whose build was tried, with success or without.
-    PictureNumber finished_for_;   // The last picture that has all samples.
-    std::uint64_t drawn_for_ = 0;  // The number of the wishes whose first picture has been shown.
+    std::string warning_;                      // The object's.
+    ObjectNumber built_for_;                   // The last object whose build was tried, with success or without.
+    PictureNumber finished_for_;               // The last picture that has all samples.
+    std::atomic<std::uint64_t> drawn_for_{0};  // The number of the wishes whose first picture has been shown.
+    Clock::time_point drawing_since_;
     Ladder ladder_;
 
     std::thread thread_;  // last, because it uses all the others

@@ -6,11 +6,13 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "camera/camera.hpp"
 #include "film/image.hpp"
+#include "view/edits.hpp"
 #include "view/prepared.hpp"
 #include "view/viewed_scene.hpp"
 
@@ -30,7 +32,9 @@ struct Picture {
 
 struct ShownPhase {
     std::string name;
-    bool is_hidden = false;
+    bool is_hidden = false;  ///< as it is wished, before there is a picture of that
+    Optics optics;           ///< as the file says it
+    Look look;               ///< what is wished to be changed of that
 };
 
 struct Shown {
@@ -43,6 +47,7 @@ struct Shown {
     glm::ivec2 resolution{0};  ///< of the whole picture
     int samples = 0;           ///< that a pixel is to have in the end
     std::vector<ShownPhase> phases;
+    std::optional<CutPlane> cut;  ///< likewise
     AnyCameraParameters camera;
     std::string camera_text;  ///< as the scene's file would say it
     glm::vec3 centre{0.0f};   ///< of the object

@@ -62,6 +62,18 @@ export function moved(camera, centre, right, up) {
   return withMembers(camera, {position: add(members.position, by), look_at: add(members.look_at, by)});
 }
 
+// How far a plane goes along its normal so that it follows the pointer, which moved by shares of the picture's height. One
+// that faces the camera goes by what the pointer moves up.
+export function followed(camera, centre, normal, right, up) {
+  const members = membersOf(camera);
+  const axes = frame(members);
+  const height = heightAt(camera, length(sub(centre, members.position)));
+  const along = unit(normal);
+  const seen = [dot(along, axes.right), dot(along, axes.up)];
+  const square = dot(seen, seen);
+  return square < 0.05 ? up * height : height * dot(seen, [right, up]) / square;
+}
+
 // Goes nearer to the centre (factor below 1) or farther from it. A parallel view shows less or more instead.
 export function zoomed(camera, centre, radius, factor) {
   const members = membersOf(camera);

@@ -1,5 +1,5 @@
 // Mouse, touch and keys on the picture. `act` has turn(right, up) in radians, move(right, up) in shares of the
-// picture's height, zoom(factor), ask(event), askMiddle() and reset().
+// picture's height, zoom(factor), cut(right, up) likewise, stepCut(direction), ask(event), askMiddle() and reset().
 
 const radiansAcross = Math.PI; // for a drag over the picture's height
 const step = Math.PI / 24;     // for a key
@@ -33,6 +33,8 @@ export function listen(canvas, act) {
       if (spread > 0 && now > 0) act.zoom(spread / now);
       spread = now;
       act.move(right / 2, -down / 2);
+    } else if (event.ctrlKey) {
+      act.cut(right, -down);
     } else if (event.shiftKey || event.buttons & 2) {
       act.move(right, -down);
     } else {
@@ -60,6 +62,8 @@ export function listen(canvas, act) {
     else if (arrow) act.turn(step * arrow[0], step * arrow[1]);
     else if (event.key === "+" || event.key === "=") act.zoom(0.9);
     else if (event.key === "-") act.zoom(1 / 0.9);
+    else if (event.key === "]") act.stepCut(1);
+    else if (event.key === "[") act.stepCut(-1);
     else if (event.key === "0") act.reset();
     else if (event.key === "Enter") act.askMiddle();
     else return;

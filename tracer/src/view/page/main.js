@@ -1,7 +1,8 @@
 // The page: what the server shows goes to the elements, what is done with those goes to the server.
-import {moved, turned, zoomed} from "./camera.js";
+import {followed, membersOf, moved, turned, zoomed} from "./camera.js";
+import {Cut} from "./cut.js";
 import {listen} from "./input.js";
-import {showPhases} from "./phases.js";
+import {PhaseList} from "./phases.js";
 import {draw, place} from "./picture.js";
 import {showPoint} from "./point.js";
 import {Changes, ask, follow, writeCamera} from "./server.js";
@@ -11,6 +12,14 @@ const canvas = element("picture"), exposure = element("exposure");
 
 let state = null, camera = null;
 const changes = new Changes((error) => showText("error", error.message));
+
+const phases = new PhaseList(element("phases"), (change) => changes.make(change));
+const cut = new Cut({
+  direction: element("cut-direction"),
+  normal: [...document.querySelectorAll("[data-normal]")],
+  offset: element("cut-offset"),
+  said: element("cut-said"),
+}, (change) => changes.make(change));
 
 function showText(id, text) {
   const place = element(id);
@@ -38,7 +47,8 @@ function told(next, pixels) {
   if (pixels) draw(canvas, state, pixels);
   // What was changed here a moment ago is newer than what the server knows.
   if (changes.arePending || state.version < changes.version) return;
-  showPhases(element("phases"), state.phases, (hidden) => changes.make({hidden}));
+  phases.show(state.phases);
+  cut.show(state);
   if (document.activeElement !== exposure) showExposure(state.exposure);
   if (state.camera) {
     camera = JSON.parse(state.camera);
@@ -70,6 +80,8 @@ const act = {
   move: (right, up) => camera && look(moved(camera, state.centre, right, up)),
   zoom: (factor) => camera && look(zoomed(camera, state.centre, state.radius, factor)),
   reset: () => changes.make({camera: null}),
+  cut: (right, up) => camera && cut.isOn && cut.move(followed(camera, state.centre, cut.normal, right, up)),
+  stepCut: (direction) => cut.move(0.02 * direction * state.radius),
   ask: (event) => askAt(...place(canvas, event)),
   askMiddle: () => askAt(canvas.width / 2, canvas.height / 2),
 };
@@ -101,8 +113,15 @@ element("write").addEventListener("click", async () => {
     showText("error", error.message);
   }
 });
-element("save").addEventListener("click", () => {
-  element("save").download = `${(state?.scene ?? "picture").replace(/^.*\//, "").replace(/\.[^.]*$/, "")}.png`;
+for (const [id, extension] of [["save", "png"], ["save-exr", "exr"]])
+  element(id).addEventListener("click", () => {
+    const name = (state?.scene ?? "picture").replace(/^.*\//, "").replace(/\.[^.]*$/, "");
+    element(id).download = `${name}.${extension}`;
+  });
+element("cut-facing").addEventListener("click", () => {
+  if (!camera) return;
+  const {position, look_at} = membersOf(camera);
+  cut.face(position.map((x, i) => x - look_at[i]));
 });
 
 follow(told, () => { element("status").textContent = "The server does not answer."; });

@@ -1,21 +1,119 @@
-// The list of phases, a checkbox each. They are made anew only if their names change, so that the focus stays.
+// The list of phases: a checkbox each, and what of its material can be changed. The elements are made anew only if the
+// phases or their materials' kinds change, so that the focus stays.
+import {hexOf} from "./colour.js";
 
-export function showPhases(fieldset, phases, changed) {
-  const boxes = [...fieldset.querySelectorAll("input")];
-  const isSame = boxes.length === phases.length && boxes.every((box, i) => box.value === phases[i].name);
-  if (!isSame) {
-    fieldset.querySelectorAll("label").forEach((label) => label.remove());
-    for (const phase of phases) {
-      const label = document.createElement("label"), box = document.createElement("input");
-      box.type = "checkbox";
-      box.value = phase.name;
-      box.addEventListener("change", () => {
-        const hidden = [...fieldset.querySelectorAll("input")].filter((b) => !b.checked).map((b) => b.value);
-        changed(hidden);
-      });
-      label.append(box, phase.name);
-      fieldset.append(label);
+const usualIor = 1.5, usualRoughness = 0;
+
+// {name: look} of the phases that look otherwise than in the file.
+function looksOf(phases) {
+  const changed = phases.filter((phase) => Object.keys(phase.look).length > 0);
+  return Object.fromEntries(changed.map((phase) => [phase.name, {...phase.look}]));
+}
+
+function labelled(text, type, members) {
+  const label = document.createElement("label"), input = document.createElement("input");
+  Object.assign(input, {type, ...members});
+  label.append(text, input);
+  return {label, input};
+}
+
+const valuesOf = {
+  color: (phase) => phase.look.color ? hexOf(phase.look.color) : hexOf(phase.color ?? [0.5, 0.5, 0.5]),
+  ior: (phase) => phase.ior ?? usualIor,
+  roughness: (phase) => phase.roughness ?? usualRoughness,
+};
+
+class Row {
+  #phase;
+  #inputs = {};
+
+  constructor(phase, wish) {
+    this.element = document.createElement("div");
+    const shown = labelled("", "checkbox", {value: phase.name});
+    shown.label.append(phase.name);
+    this.box = shown.input;
+    this.box.addEventListener("change", () => wish.hide());
+    const details = document.createElement("details"), summary = document.createElement("summary");
+    summary.textContent = `Material of ${phase.name}`;
+    details.append(summary, ...this.#editors(phase, wish));
+    this.element.append(shown.label, details);
+  }
+  #editors(phase, wish) {
+    const edit = (member) => wish.look(phase.name, member);
+    const clear = labelled("", "checkbox", {});
+    clear.label.append("Clear");
+    clear.input.addEventListener("change", () => edit({clear: clear.input.checked}));
+    this.#inputs.clear = clear.input;
+    const parts = [clear.label];
+    const add = (member, text, type, members) => {
+      const {label, input} = labelled(text, type, members);
+      input.addEventListener("input", () => edit({[member]: type === "color" ? input.value : Number(input.value)}));
+      this.#inputs[member] = input;
+      parts.push(label);
+    };
+    if (phase.kind !== "conductor") add("color", "Colour", "color", {});
+    if (phase.kind === "clear" || phase.kind === "coated") add("ior", "Index", "range", {min: 1, max: 2.5, step: 0.01});
+    if (phase.kind !== "diffuse") add("roughness", "Roughness", "range", {min: 0, max: 1, step: 0.01});
+    const reset = document.createElement("button");
+    Object.assign(reset, {type: "button", textContent: "As in the file"});
+    reset.setAttribute("aria-label", `${phase.name} as in the file`);
+    reset.addEventListener("click", () => wish.look(phase.name, null));
+    parts.push(reset);
+    return parts;
+  }
+  isOf(phase) {
+    return this.#phase.name === phase.name && this.#phase.kind === phase.kind;
+  }
+  show(phase) {
+    this.#phase = phase;
+    this.box.checked = !phase.hidden;
+    this.#inputs.clear.checked = phase.kind === "clear";
+    // What is clear by itself stays so.
+    this.#inputs.clear.disabled = phase.kind_in_file === "clear";
+    for (const [member, value] of Object.entries(valuesOf)) {
+      const input = this.#inputs[member];
+      if (!input) continue;
+      if (input !== document.activeElement) input.value = value(phase);
+      if (input.type === "range") input.setAttribute("aria-valuetext", Number(input.value).toFixed(2));
     }
   }
-  fieldset.querySelectorAll("input").forEach((box, i) => { box.checked = !phases[i].hidden; });
+}
+
+export class PhaseList {
+  #fieldset;
+  #changed;
+  #rows = [];
+  #looks = {};
+
+  constructor(fieldset, changed) {
+    this.#fieldset = fieldset;
+    this.#changed = changed;
+  }
+  show(phases) {
+    this.#looks = looksOf(phases);
+    const isSame = this.#rows.length === phases.length && this.#rows.every((row, i) => row.isOf(phases[i]));
+    if (!isSame) this.#make(phases);
+    this.#rows.forEach((row, i) => row.show(phases[i]));
+  }
+  #make(phases) {
+    const wish = {
+      hide: () => this.#changed({hidden: this.#rows.filter((row) => !row.box.checked).map((row) => row.box.value)}),
+      look: (name, member) => {
+        if (member === null) delete this.#looks[name];
+        else this.#looks[name] = {...this.#looks[name], ...member};
+        this.#changed({looks: {...this.#looks}});
+      },
+    };
+    const open = new Set(this.#rows.filter((row) => row.element.querySelector("details").open).map((row) => row.box.value));
+    const focused = document.activeElement?.closest?.("#phases > div")?.querySelector("input")?.value;
+    this.#rows.forEach((row) => row.element.remove());
+    this.#rows = phases.map((phase) => new Row(phase, wish));
+    this.#rows.forEach((row, i) => {
+      row.element.querySelector("details").open = open.has(phases[i].name);
+      this.#fieldset.append(row.element);
+      // A material of another kind has other sliders; who is at the keyboard is left at the phase.
+      if (focused === phases[i].name) row.element.querySelector("details input").focus();
+    });
+    this.#rows.forEach((row, i) => row.show(phases[i]));
+  }
 }

@@ -1,0 +1,83 @@
+// A plane that cuts the object open: its direction by axis or as three numbers, its place by a slider, by dragging with
+// Ctrl on the picture, or by keys.
+
+const length = (v) => Math.hypot(...v);
+const dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
+
+export class Cut {
+  #elements;
+  #changed;
+  #place = {centre: [0, 0, 0], radius: 1};
+
+  // `elements` are the section's: direction, normal (three inputs), offset, said.
+  constructor(elements, changed) {
+    this.#elements = elements;
+    this.#changed = changed;
+    elements.direction.addEventListener("change", () => {
+      const axis = elements.direction.value;
+      if (axis !== "" && axis !== "free") this.#setNormal(axis.split(" ").map(Number));
+      this.#wish();
+    });
+    elements.offset.addEventListener("input", () => this.#wish());
+    elements.normal.forEach((input) => input.addEventListener("change", () => {
+      elements.direction.value = "free";
+      this.#wish();
+    }));
+  }
+  get isOn() {
+    return this.#elements.direction.value !== "";
+  }
+  get normal() {
+    return this.#elements.normal.map((input) => Number(input.value));
+  }
+  #setNormal(normal) {
+    this.#elements.normal.forEach((input, i) => { input.value = normal[i]; });
+  }
+  #wish() {
+    const normal = this.normal;
+    this.#say();
+    if (this.isOn && !(length(normal) > 1e-6)) return;
+    this.#changed({cut: this.isOn ? this.#plane(normal) : null});
+  }
+  // The slider is in shares of the object's radius from its centre; the server's offset is from the scene's origin.
+  #plane(normal) {
+    const unit = normal.map((x) => x / length(normal));
+    return {normal: unit, offset: dot(unit, this.#place.centre) + Number(this.#elements.offset.value) * this.#place.radius};
+  }
+  // Cuts away what lies in a direction.
+  face(direction) {
+    this.#elements.direction.value = "free";
+    this.#setNormal(direction.map((x) => Number((x / length(direction)).toPrecision(4))));
+    this.#wish();
+  }
+  // Moves the plane along its normal, in the scene's unit of length.
+  move(by) {
+    if (!this.isOn) return;
+    const {offset} = this.#elements;
+    offset.value = Number(offset.value) + by / this.#place.radius;
+    this.#wish();
+  }
+  #say() {
+    const {offset, said} = this.#elements;
+    const text = this.isOn ? `${Math.round(100 * Number(offset.value))} % of the radius from the centre` : "none";
+    offset.setAttribute("aria-valuetext", text);
+    said.value = text;
+    offset.disabled = !this.isOn;
+    this.#elements.normal.forEach((input) => { input.disabled = !this.isOn; });
+  }
+  show(state) {
+    this.#place = {centre: state.centre, radius: state.radius};
+    const {direction, offset, normal} = this.#elements;
+    const used = [direction, offset, ...normal].includes(document.activeElement);
+    if (!used) {
+      if (state.cut === null) direction.value = "";
+      else {
+        const axis = [...direction.options].find((o) => o.value === state.cut.normal.join(" "));
+        direction.value = axis ? axis.value : "free";
+        this.#setNormal(state.cut.normal.map((x) => Number(x.toPrecision(4))));
+        offset.value = (state.cut.offset - dot(state.cut.normal, state.centre)) / state.radius;
+      }
+    }
+    this.#say();
+  }
+}
