@@ -22,8 +22,8 @@
 #include <vector>
 
 #include "commands/commands.hpp"
+#include "image/luminance.hpp"
 #include "image/read_image.hpp"
-#include "lights/luminance.hpp"
 #include "measure/clock.hpp"
 #include "objects/scene_file.hpp"
 #include "render/render.hpp"

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "image/luminance.hpp"
 #include "light_checks.hpp"
 #include "lights/daylight.hpp"
 #include "lights/lights.hpp"
-#include "lights/luminance.hpp"
 #include "sampling/warps.hpp"
 #include "shading/frame.hpp"
 

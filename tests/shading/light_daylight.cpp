@@ -5,9 +5,9 @@
 #include <limits>
 #include <numbers>
 
+#include "image/luminance.hpp"
 #include "light_checks.hpp"
 #include "lights/daylight.hpp"
-#include "lights/luminance.hpp"
 #include "lights/sun.hpp"
 
 using namespace phasetree::tracer;

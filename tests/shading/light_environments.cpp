@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "image/luminance.hpp"
 #include "light_checks.hpp"
 #include "lights/constant_environment.hpp"
 #include "lights/gradient_environment.hpp"
 #include "lights/image_environment.hpp"
 #include "lights/load_environment.hpp"
-#include "lights/luminance.hpp"
 
 using namespace phasetree::tracer;
 using namespace phasetree::tests;

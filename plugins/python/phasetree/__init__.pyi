@@ -2754,12 +2754,13 @@ def camera(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np
     focus_at: In place of the distance: a point of the plane of focus. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
     """
 
-def image(width: int | None = ..., height: int | None = ..., samples: int | None = ..., seed: int | None = ..., max_depth: int | None = ..., caustics: bool | None = ..., photons: float | None = ..., photon_radius: float | None = ..., exposure: float | None = ..., view: str | Expression | None = ...) -> ImageSettings:
+def image(width: int | None = ..., height: int | None = ..., samples: int | None = ..., noise: float | None = ..., seed: int | None = ..., max_depth: int | None = ..., caustics: bool | None = ..., photons: float | None = ..., photon_radius: float | None = ..., exposure: float | None = ..., view: str | Expression | None = ...) -> ImageSettings:
     r"""How large the image is, and how it is made.
 
     width: Width of the image. (whole number in pixels; at least 1 and at most 32768; default 1024)
     height: Height of the image. (whole number in pixels; at least 1 and at most 32768; default 768)
     samples: Paths of each pixel. (whole number; at least 1 and at most 16777216; default 64)
+    noise: Pixels stop before that where their relative error is estimated to be at most this, after 32 samples at the earliest; 0 if none is to stop. (number; at least 0 and at most 1; default 0)
     seed: Another whole number gives other noise. (whole number; zero or more; default 0)
     max_depth: The most surfaces that a path meets. One between equal indices counts, too. (whole number; at least 1 and at most 1048576; default 65536)
     caustics: Whether photons look for the light that lamps throw through curved clear surfaces. They blur it by a pixel or two, less with more samples. (true or false; default false)

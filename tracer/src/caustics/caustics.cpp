@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "caustics/trace_photon.hpp"
-#include "lights/luminance.hpp"
+#include "image/luminance.hpp"
 #include "phasetree/math/float_mode.hpp"
 #include "sampling/heuristic.hpp"
 #include "sampling/warps.hpp"

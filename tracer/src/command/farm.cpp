@@ -37,6 +37,7 @@ RenderOptions render_options(const Options& options) {
     if (!render.outputs.empty() || render.share || render.checkpoint || render.resume || render.stats)
         throw OutputError(
             "what follows -- is for every share: --output, --samples, --checkpoint, --resume and --stats are not");
+    if (render.time_seconds > 0) throw OutputError("--time is not for shares, which have all of their samples");
     return render;
 }
 
@@ -53,6 +54,10 @@ int write_farm(const Options& options) {
     Scene scene = load_scene(read_document(*options.scene));
     apply(render, scene);
     (void)pixels_of(render, scene);
+    if (scene.settings.noise > 0)
+        throw OutputError(
+            "a farm and --noise: where a pixel may stop is decided by all of its samples, of which a share has only "
+            "some; -- --noise 0 turns off what the scene says");
     Farm farm;
     farm.program = options.program;
     farm.scene = as_file(options.scene->name);

@@ -14,9 +14,10 @@ namespace {
 // What the picture depends on, by the names that people know; what the object's cells are like comes last.
 std::vector<std::pair<std::string, std::string>> settings_of(const RenderOptions& options, const Document& document,
                                                              const Scene& scene, const PixelRange& pixels) {
+    const Planes::Choice chosen = film_settings(scene).planes;
     std::vector<std::string_view> planes;
     for (std::size_t i = 0; i < Planes::size; ++i)
-        if (scene.film.planes[i]) planes.push_back(Planes::names[i]);
+        if (chosen[i]) planes.push_back(Planes::names[i]);
     std::vector<std::pair<std::string, std::string>> settings{
         {"version", fmt::format("{} with Embree {}", version(), PHASETREE_EMBREE_MAJOR)},
         {"scene", fmt::format("{:016x}", fingerprint(document))},
@@ -35,9 +36,9 @@ FilmFileHeader header_of(const RenderOptions& options, const Document& document,
                          const RenderJob& job) {
     FilmFileHeader h;
     h.settings = settings_of(options, document, scene, job.pixels);
-    h.film = scene.film;
+    h.film = film_settings(scene);
     h.subjects = subjects_of(scene);
-    h.area = job.pixels;
+    h.area = film_area(scene, job);
     h.samples = *job.samples;
     h.samples_in_all = scene.settings.samples;
     h.scene = std::filesystem::path(options.scene->shown()).filename().string();

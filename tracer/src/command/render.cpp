@@ -85,8 +85,11 @@ std::optional<FilmFile> film_to_resume(const RenderOptions& options, const FilmF
         FilmFile file(*options.resume);
         file.check_picture(header);
         const SampleRange &wanted = header.samples, &found = file.header().samples;
-        // More samples may be wanted than before: they are numbered, and those that were taken stay the same.
-        if (found.first != wanted.first || found.last > wanted.last)
+        // More samples may be wanted than before, or fewer than that was to have: they are numbered, and those that
+        // were taken stay the same.
+        const bool has_too_many =
+            found.last > wanted.last && file.most_samples_of_pixel() > static_cast<std::uint32_t>(wanted.size());
+        if (found.first != wanted.first || has_too_many)
             throw file.error(fmt::format("it is of the samples {}:{}, and this render is of {}:{}", found.first,
                                          found.last, wanted.first, wanted.last));
         return file;
@@ -104,6 +107,7 @@ struct Everything {
     const std::vector<std::string>& outputs;
     const FilmFileHeader& header;
     const Film& film;
+    bool is_finished;
 };
 
 // Returns whether all could be written.
@@ -115,7 +119,7 @@ bool write_all(const Everything& e, const Rendering& rendering) {
     Writing writing;
     std::string written;
     const auto write_film_file = [&](const std::string& path) {
-        return writing([&] { write_film(path, e.header, e.film); });
+        return writing([&] { write_film(path, e.header, e.film, e.is_finished); });
     };
     // The checkpoint is written first, should there be no time for the rest; one that is an output, too, in its turn.
     const bool is_output = e.options.checkpoint && std::ranges::count(e.outputs, *e.options.checkpoint) > 0;
@@ -161,18 +165,40 @@ bool prepare(std::optional<World>& world, const RenderOptions& options, const Sc
 Rendering rendered(const RenderOptions& options, const World& world, const Scene& scene, RenderJob job,
                    const FilmFileHeader& header, Film& film) {
     std::uint64_t total = 0;
-    for (int y = job.pixels.y0; y < job.pixels.y1; ++y)
-        for (int x = job.pixels.x0; x < job.pixels.x1; ++x)
+    for (int y = film.area().y0; y < film.area().y1; ++y)
+        for (int x = film.area().x0; x < film.area().x1; ++x)
             total += static_cast<std::uint64_t>(job.samples->size()) - film.pixels().samples(x, y);
-    Progress progress(total, ProgressOutput::standard_error(options.quiet));
-    job.advance = [&](std::uint64_t n) { progress.advance(n); };
+    const ProgressOutput output = ProgressOutput::standard_error(options.quiet);
+    std::optional<Progress> progress;
+    std::optional<TimeProgress> time_progress;
+    if (job.deadline) {
+        time_progress.emplace(*job.deadline, output, "rendering");
+        job.advance = [&](std::uint64_t) { time_progress->tell(); };
+    } else {
+        progress.emplace(total, output);
+        job.advance = [&](std::uint64_t n) { progress->advance(n); };
+    }
     // While this lives, another thread saves the film, which has a lock.
     std::optional<Checkpoints> checkpoints;
     if (options.checkpoint) checkpoints.emplace(*options.checkpoint, options.checkpoint_seconds, header, film);
     return render(world, scene, job, film);
 }
 
+// What is said of a render that ended before all pixels had all samples.
+void say_what_is_missing(const RenderOptions& options, const Scene& scene, const Rendering& r, int wanted) {
+    if (r.cancelled) {
+        say("phasetree: interrupted; the image has {} of {} samples a pixel{}\n", r.samples, wanted,
+            wanted == 1 ? ", in part" : "");
+    } else if (r.noisy_blocks > 0 && !options.quiet) {
+        say("phasetree: {:.1f} % of the picture is noisier than {} {}\n",
+            100.0 * static_cast<double>(r.noisy_blocks) / static_cast<double>(r.blocks), scene.settings.noise,
+            r.is_out_of_time ? "after the time that --time allows"
+                             : fmt::format("with {} samples a pixel; --spp allows more", wanted));
+    }
+}
+
 int render_scene(const RenderOptions& options) {
+    const auto start = std::chrono::steady_clock::now();
     expect_checkpoint_requests();
     const AvailableThreads threads(options.threads);
     const Document document = read_document(*options.scene);
@@ -185,6 +211,9 @@ int render_scene(const RenderOptions& options) {
     RenderJob job;
     job.pixels = pixels_of(options, scene);
     job.samples = samples_of(options, scene);
+    if (options.time_seconds > 0)
+        job.deadline = start + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                                   std::chrono::duration<double>(options.time_seconds));
     job.threads = threads.count();
     job.cancelled = [] { return interrupted(); };
     const std::vector<std::string> outputs = checked_outputs(options, *job.samples);
@@ -215,10 +244,13 @@ int render_scene(const RenderOptions& options) {
     }
     const Rendering rendering = rendered(options, *world, scene, job, header, film);
 
-    const bool all_is_well = write_all({options, scene, *world, display, outputs, header, film}, rendering);
-    if (rendering.cancelled)
-        say("phasetree: interrupted; the image has {} of {} samples a pixel{}\n", rendering.samples,
-            job.samples->size(), job.samples->size() == 1 ? ", in part" : "");
+    // A render that ends with its time is one of as many samples as it had by then.
+    if (rendering.is_out_of_time && scene.settings.noise == 0)
+        header.samples.last = header.samples_in_all = header.samples.first + rendering.samples;
+    const bool is_finished = !rendering.cancelled && scene.settings.noise > 0;
+    const bool all_is_well =
+        write_all({options, scene, *world, display, outputs, header, film, is_finished}, rendering);
+    say_what_is_missing(options, scene, rendering, job.samples->size());
     if (!all_is_well) return 1;
     if (!rendering.cancelled) return 0;
     return code_of_interruption(options.checkpoint || std::ranges::any_of(outputs, is_film_file));

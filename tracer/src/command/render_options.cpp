@@ -33,6 +33,8 @@ std::vector<int> integers(const std::string& text, char separator, std::size_t c
 
 namespace {
 
+constexpr int most_samples = 1 << 24;
+
 Planes::Choice planes_of(const std::string& list) {
     if (list == "all") return Planes::all();
     Planes::Choice choice = Planes::by_default();
@@ -53,7 +55,12 @@ Planes::Choice planes_of(const std::string& list) {
 
 void apply(const RenderOptions& options, Scene& scene) {
     if (options.planes) scene.film.planes = planes_of(*options.planes);
+    // Who says how long it may take, and not how many samples, wants as many as fit.
+    if (options.time_seconds > 0) scene.settings.samples = most_samples;
     if (options.samples_in_all) scene.settings.samples = *options.samples_in_all;
+    // CLI11's range lets pass what is no number.
+    if (options.noise && !(*options.noise >= 0)) throw OutputError("--noise must be a number from 0 to 1");
+    if (options.noise) scene.settings.noise = *options.noise;
     if (options.seed) scene.settings.seed = *options.seed;
     if (options.size) {
         const std::vector<int> size = integers(*options.size, 'x', 2, "--size", "WIDTHxHEIGHT in pixels");
@@ -80,6 +87,12 @@ PixelRange pixels_of(const RenderOptions& options, const Scene& scene) {
 SampleRange samples_of(const RenderOptions& options, const Scene& scene) {
     SampleRange range{0, scene.settings.samples};
     if (!options.share) return range;
+    if (options.time_seconds > 0)
+        throw OutputError("--samples and --time: a share has to have all of its samples, however long that takes");
+    if (scene.settings.noise > 0)
+        throw OutputError(
+            "--samples and --noise: where a pixel may stop is decided by all of its samples, of which a share has only "
+            "some; --noise 0 turns off what the scene says");
     const std::vector<int> ends = integers(*options.share, ':', 2, "--samples", "FIRST:LAST, the last excluded");
     range = {ends[0], ends[1]};
     if (range.first < 0 || range.first >= range.last || range.last > scene.settings.samples)
@@ -110,7 +123,16 @@ void add_display_options(CLI::App& command, std::optional<float>& exposure, std:
 void add_render_options(CLI::App& command, RenderOptions& o) {
     o.scene = add_scene_file(command);
     add_outputs(command, o.outputs, "the scene's name, .exr and .png");
-    command.add_option("--spp", o.samples_in_all, "Samples a pixel")->check(CLI::Range(1, 1 << 24));
+    command.add_option("--spp", o.samples_in_all, "Samples a pixel")->check(CLI::Range(1, most_samples));
+    add_duration(command, "--time", o.time_seconds,
+                 "Stop at the last whole pass that ends within such a time as 90s, 5m or 1h from the start of the "
+                 "command, preparing included; without --spp no number of samples ends it");
+    command
+        .add_option("--noise", o.noise,
+                    "Blocks of 8x8 pixels stop before they have all samples where their estimated relative error is "
+                    "at most this, 0.02 for example; adds the planes noise and samples. 0: none stops")
+        ->check(CLI::Range(0.0, 1.0))
+        ->option_text("ERROR");
     command
         .add_option("--samples", o.share,
                     "Only those of the samples a pixel that have these numbers, from 0, the last excluded: a share of "

@@ -16,6 +16,8 @@ struct RenderOptions {
     std::shared_ptr<SceneFile> scene;
     std::vector<std::string> outputs;
     std::optional<int> samples_in_all;
+    double time_seconds = 0;  // from the start of the command; 0 if it may take what it takes
+    std::optional<float> noise;
     std::optional<std::string> share;  // of the samples, by their numbers
     std::optional<std::string> size;
     std::optional<std::string> crop;

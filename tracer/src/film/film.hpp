@@ -43,6 +43,11 @@ class FilmTile {
     const PixelRange& area() const { return area_; }
     /// How many samples have been added to a pixel of the area.
     std::uint32_t samples(int x, int y) const { return samples_[area_.index(x, y)]; }
+    /// What a plane keeps of a pixel; it must be one of those that are kept.
+    template <class Plane>
+    std::span<const typename Plane::Sum> sums_of(int x, int y) const {
+        return sums_.of<Plane>(area_.index(x, y));
+    }
     FilmFaults faults() const {
         FilmFaults sum;
         for (const FilmFaults& row : faults_) sum += row;

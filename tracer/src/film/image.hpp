@@ -35,6 +35,9 @@ struct Image {
     std::vector<std::pair<std::string, std::string>> attributes{};
 };
 
+/// A part of an image, of pixels from its own top left corner.
+Image part_of(const Image& image, int x0, int y0, int width, int height);
+
 /// The number of pixels with a NaN or an infinity in any channel.
 std::size_t count_non_finite(const Image& image);
 

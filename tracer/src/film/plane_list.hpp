@@ -1,6 +1,7 @@
 // Several planes as one: what they keep of the pixels of a rectangle, and the image that is made of that.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bitset>
 #include <cstddef>
@@ -41,6 +42,11 @@ struct PlaneList {
         return choice;
     }
     static Choice all() { return Choice().set(); }
+    /// The place of a plane in the list.
+    template <class Plane>
+    static constexpr std::size_t place() {
+        return static_cast<std::size_t>(std::ranges::find(names, Plane::name) - names.begin());
+    }
 
     class Sums;
 
@@ -88,6 +94,12 @@ class PlaneList<Picture, Others...>::Sums {
             const auto to = kept->at(pixel);
             for (std::size_t i = 0; i < to.size(); ++i) to[i] += from[i];
         });
+    }
+
+    /// What a plane keeps of one pixel, which must be one of those that are kept.
+    template <class Plane>
+    std::span<const typename Plane::Sum> of(std::size_t pixel) const {
+        return std::get<std::optional<Kept<Plane>>>(kept_).value().at(pixel);
     }
 
     /// Of one pixel, plane after plane.

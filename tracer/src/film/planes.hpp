@@ -4,6 +4,7 @@
 #include "film/cryptomatte_planes.hpp"
 #include "film/length_plane.hpp"
 #include "film/light_planes.hpp"
+#include "film/noise_plane.hpp"
 #include "film/plane_list.hpp"
 #include "film/radiance_plane.hpp"
 #include "film/sampling_planes.hpp"
@@ -13,9 +14,10 @@ namespace phasetree::tracer {
 
 /// Every plane, the picture first. Of its order depend only the order of channels in files, and of bytes in those that
 /// films are kept in.
-using Planes = PlaneList<RadiancePlane, DepthPlane, PositionPlane, NormalPlane, AlbedoPlane, DepthBehindPlane,
-                         PositionBehindPlane, NormalBehindPlane, AlbedoBehindPlane, PhaseLeftPlane, PhaseEnteredPlane,
-                         ObjectPlane, InstancePlane, LengthPlane, DirectPlane, IndirectPlane, LightGroupsPlane,
-                         VariancePlane, SamplesPlane, CryptoPhasePlane, CryptoObjectPlane, CryptoMaterialPlane>;
+using Planes =
+    PlaneList<RadiancePlane, DepthPlane, PositionPlane, NormalPlane, AlbedoPlane, DepthBehindPlane, PositionBehindPlane,
+              NormalBehindPlane, AlbedoBehindPlane, PhaseLeftPlane, PhaseEnteredPlane, ObjectPlane, InstancePlane,
+              LengthPlane, DirectPlane, IndirectPlane, LightGroupsPlane, VariancePlane, NoisePlane, SamplesPlane,
+              CryptoPhasePlane, CryptoObjectPlane, CryptoMaterialPlane>;
 
 }  // namespace phasetree::tracer

@@ -131,6 +131,17 @@ FilmTile FilmFile::band(int i) const {
     return tile;
 }
 
+std::uint32_t FilmFile::most_samples_of_pixel() const {
+    std::uint32_t most = 0;
+    for (int i = 0; i < header_.bands(); ++i) {
+        const FilmTile tile = band(i);
+        const PixelRange& area = tile.area();
+        for (int y = area.y0; y < area.y1; ++y)
+            for (int x = area.x0; x < area.x1; ++x) most = std::max(most, tile.samples(x, y));
+    }
+    return most;
+}
+
 void FilmFile::add_to(Film& film) const {
     for (int i = 0; i < header_.bands(); ++i) film.add(band(i));
 }

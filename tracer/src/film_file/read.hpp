@@ -22,6 +22,9 @@ class FilmFile {
     /// How many samples all pixels have together.
     std::uint64_t samples() const { return samples_; }
 
+    /// How many samples the pixel has that has most; reads all of it.
+    std::uint32_t most_samples_of_pixel() const;
+
     /// The i-th band. Refuses one that is damaged.
     FilmTile band(int i) const;
     /// Adds all of it to a film of the same picture.

@@ -82,7 +82,7 @@ void FilmFileWriter::finish(bool is_finished) {
     });
 }
 
-void write_film(const std::filesystem::path& path, const FilmFileHeader& header, const Film& film) {
+void write_film(const std::filesystem::path& path, const FilmFileHeader& header, const Film& film, bool is_finished) {
     FilmFileWriter writer(path, header);
     std::uint64_t samples = 0;
     ByteWriter bytes;
@@ -94,7 +94,7 @@ void write_film(const std::filesystem::path& path, const FilmFileHeader& header,
         writer.band(bytes.bytes(), of_band);
         samples += of_band;
     }
-    writer.finish(samples == header.area.size() * static_cast<std::uint64_t>(header.samples.size()));
+    writer.finish(is_finished || samples == header.area.size() * static_cast<std::uint64_t>(header.samples.size()));
 }
 
 bool is_film_file(const std::filesystem::path& path) {

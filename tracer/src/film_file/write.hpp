@@ -24,9 +24,11 @@ class FilmFileWriter {
     std::unique_ptr<State> state_;
 };
 
-/// Writes a film, to which others may add meanwhile. It is finished if it has all samples of its header. Throws
-/// OutputError, which names the file; then an existing file is untouched.
-void write_film(const std::filesystem::path& path, const FilmFileHeader& header, const Film& film);
+/// Writes a film, to which others may add meanwhile. It is finished if it has all samples of its header, or if that is
+/// said: pixels may have stopped by their noise. Throws OutputError, which names the file; then an existing file is
+/// untouched.
+void write_film(const std::filesystem::path& path, const FilmFileHeader& header, const Film& film,
+                bool is_finished = false);
 
 /// Whether a file's name is that of a film file, and not of an image: "NAME.part".
 bool is_film_file(const std::filesystem::path& path);

@@ -1,7 +1,7 @@
 #include "lights/constant_environment.hpp"
 
+#include "image/luminance.hpp"
 #include "lights/check.hpp"
-#include "lights/luminance.hpp"
 #include "sampling/warps.hpp"
 
 namespace phasetree::tracer {

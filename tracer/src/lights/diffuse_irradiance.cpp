@@ -5,7 +5,7 @@
 #include <glm/vec2.hpp>
 #include <numbers>
 
-#include "lights/luminance.hpp"
+#include "image/luminance.hpp"
 
 namespace phasetree::tracer {
 

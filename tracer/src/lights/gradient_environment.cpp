@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "image/luminance.hpp"
 #include "lights/check.hpp"
-#include "lights/luminance.hpp"
 
 namespace phasetree::tracer {
 

@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "image/luminance.hpp"
 #include "lights/check.hpp"
 #include "lights/lat_long.hpp"
-#include "lights/luminance.hpp"
 
 namespace phasetree::tracer {
 

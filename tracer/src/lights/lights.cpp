@@ -6,8 +6,8 @@
 #include <limits>
 #include <memory_resource>
 
+#include "image/luminance.hpp"
 #include "lights/check.hpp"
-#include "lights/luminance.hpp"
 
 namespace phasetree::tracer {
 

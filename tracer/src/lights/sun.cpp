@@ -5,8 +5,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "image/luminance.hpp"
 #include "lights/check.hpp"
-#include "lights/luminance.hpp"
 #include "sampling/warps.hpp"
 #include "shading/frame.hpp"
 

@@ -175,4 +175,24 @@ std::string Progress::bar_line(std::uint64_t done, double elapsed) const {
     return percent;
 }
 
+TimeProgress::TimeProgress(ProgressOutput::Clock::time_point end, ProgressOutput output, std::string task)
+    : output_(output),
+      start_(output_.now()),
+      total_(static_cast<std::uint64_t>(
+          std::max<std::int64_t>(std::chrono::duration_cast<std::chrono::milliseconds>(end - start_).count(), 1))),
+      progress_(total_, std::move(output), std::move(task)) {}
+
+std::uint64_t TimeProgress::milliseconds() const {
+    const auto passed = std::chrono::duration_cast<std::chrono::milliseconds>(output_.now() - start_).count();
+    return std::min(static_cast<std::uint64_t>(std::max<std::int64_t>(passed, 0)), total_);
+}
+
+void TimeProgress::tell() {
+    const std::uint64_t now = milliseconds();
+    std::uint64_t before = told_.load(std::memory_order_relaxed);
+    // One thread alone tells of each millisecond.
+    while (before < now)
+        if (told_.compare_exchange_weak(before, now, std::memory_order_relaxed)) return progress_.advance(now - before);
+}
+
 }  // namespace phasetree::tracer

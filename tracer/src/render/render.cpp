@@ -1,6 +1,6 @@
 #include "render/render.hpp"
 
-#include <tbb/blocked_range2d.h>
+#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -14,12 +14,11 @@
 #include "camera/camera.hpp"
 #include "caustics/caustics.hpp"
 #include "phasetree/math/float_mode.hpp"
+#include "render/noise_limit.hpp"
 
 namespace phasetree::tracer {
 
 namespace {
-
-constexpr int tile_side = 8;  // in pixels
 
 // The phases in which camera rays start.
 class StartingPhases {
@@ -52,29 +51,38 @@ class Renderer {
           // Of a picture alone no path need tell more.
           recording_(scene.film.planes.count() > 1),
           axis_(camera_.generate(glm::dvec2(scene.film.resolution()) * 0.5, glm::vec2(0.5f))),
-          film_(film) {
+          film_(film),
+          noise_(NoiseLimit::of(scene.settings)),
+          blocks_(blocks_of(film.area())) {
         if (scene.settings.caustics) caustics_.emplace(world, scene);
     }
 
-    // Returns how many samples each pixel has in the end, at least. A pass that is cut off leaves some pixels with
-    // more; of the first pass it leaves what there is, because something beats nothing.
+    // Returns how many samples each pixel has in the end, at least, but for those that stop by their noise. A pass that
+    // is cut off leaves some pixels with more; of the first pass it leaves what there is, because something beats
+    // nothing.
     int run() {
+        leave_out_quiet_blocks();
         int done = fewest_samples();
-        while (done < samples_.size() && !stopped_) {
-            // Each sample of a pixel sees photons of its own, so with photons a pass is one sample.
-            const int next = caustics_ ? done + 1 : after_pass(done, samples_.size());
+        while (done < samples_.size() && !stopped_ && !blocks_.empty()) {
+            const int next = after_next_pass(done);
+            if (next == done) break;
+            const Clock::time_point start = Clock::now();
             if (caustics_) {
                 photons_ = caustics_->photons(samples_.first + done, counters_.local(), job_.cancelled);
                 stopped_ = !photons_;
                 if (stopped_) break;
             }
             run(next);
+            seconds_of_sample_ = std::chrono::duration<double>(Clock::now() - start).count() / (next - done);
             if (!stopped_ || done == 0) done = next;
+            if (!stopped_ && NoiseLimit::is_look(done)) leave_out_quiet_blocks();
             if (!stopped_) job_.passed(film_, done);
         }
         return done;
     }
     bool stopped() const { return stopped_; }
+    bool is_out_of_time() const { return is_out_of_time_; }
+    std::size_t blocks_left() const { return noise_ ? blocks_.size() : 0; }
     PathCounters counters() const {
         PathCounters sum;
         for (const PathCounters& thread : counters_) sum += thread;
@@ -82,25 +90,59 @@ class Renderer {
     }
 
   private:
+    using Clock = std::chrono::steady_clock;
+
+    // Of the blocks that go on.
     int fewest_samples() const {
-        const PixelRange& area = film_.area();
         auto fewest = static_cast<std::uint32_t>(samples_.size());
-        for (int y = area.y0; y < area.y1; ++y)
-            for (int x = area.x0; x < area.x1; ++x) fewest = std::min(fewest, film_.pixels().samples(x, y));
+        for (const PixelRange& block : blocks_)
+            for (int y = block.y0; y < block.y1; ++y)
+                for (int x = block.x0; x < block.x1; ++x) fewest = std::min(fewest, film_.pixels().samples(x, y));
         return static_cast<int>(fewest);
+    }
+    // How many samples a pixel of the blocks that go on has after the next pass; as many as before if there is no time
+    // for one.
+    int after_next_pass(int done) {
+        // Each sample of a pixel sees photons of its own, so with photons a pass is one sample.
+        int next = caustics_ ? done + 1 : after_pass(done, samples_.size());
+        if (noise_) next = std::min(next, NoiseLimit::next_look(done));
+        if (job_.deadline && done > 0) {
+            const double left = std::chrono::duration<double>(*job_.deadline - Clock::now()).count();
+            is_out_of_time_ = left <= 0 || left < seconds_of_sample_;
+            if (is_out_of_time_) return done;
+            // Of what is resumed nobody has measured yet how long a sample takes.
+            if (seconds_of_sample_ == 0)
+                next = done + 1;
+            else if (left < (next - done) * seconds_of_sample_)
+                next = done + static_cast<int>(left / seconds_of_sample_);
+        }
+        return next;
+    }
+    // From now on they have no samples more. A block is looked at when all of its pixels have the same number, which
+    // those that a pass was cut off in may not have.
+    void leave_out_quiet_blocks() {
+        if (!noise_) return;
+        std::uint64_t spared = 0;
+        std::erase_if(blocks_, [&](const PixelRange& block) {
+            if (!noise_->is_met(film_.pixels(), block)) return false;
+            const auto had = static_cast<int>(film_.pixels().samples(block.x0, block.y0));
+            spared += static_cast<std::uint64_t>(samples_.size() - had) * block.size();
+            return true;
+        });
+        job_.advance(spared);
     }
     // One pass over the picture, after which each pixel has so many samples.
     void run(int wanted) {
-        const PixelRange& area = film_.area();
         tbb::parallel_for(
-            tbb::blocked_range2d<int>(area.y0, area.y1, tile_side, area.x0, area.x1, tile_side),
-            [&](const tbb::blocked_range2d<int>& tile) {
-                if (stopped_ || job_.cancelled()) {
-                    stopped_ = true;
-                    return;
+            tbb::blocked_range<std::size_t>(0, blocks_.size(), 1),
+            [&](const tbb::blocked_range<std::size_t>& range) {
+                for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                    if (stopped_ || job_.cancelled()) {
+                        stopped_ = true;
+                        return;
+                    }
+                    job_.advance(run(blocks_[i], wanted));
                 }
-                const PixelRange part{tile.cols().begin(), tile.rows().begin(), tile.cols().end(), tile.rows().end()};
-                job_.advance(run(part, wanted));
             },
             tbb::simple_partitioner());
     }
@@ -144,6 +186,10 @@ class Renderer {
     bool recording_;
     CameraRay axis_;  // through the middle of the picture
     Film& film_;
+    std::optional<NoiseLimit> noise_;
+    std::vector<PixelRange> blocks_;  // which tiles of the film are, without those that have stopped
+    double seconds_of_sample_ = 0;    // of all pixels, in the last pass
+    bool is_out_of_time_ = false;
     std::optional<Caustics> caustics_;
     std::optional<PhotonMap> photons_;  // of this pass
     tbb::enumerable_thread_specific<PathCounters> counters_;
@@ -157,9 +203,32 @@ PlaneSubjects subjects_of(const Scene& scene) {
     return {.phases = scene.phases.names, .groups = scene.lights.groups(), .objects = object_names(scene)};
 }
 
-Film film_of(const Scene& scene, const RenderJob& job) {
-    return {scene.film, job.pixels, subjects_of(scene)};
+FilmSettings film_settings(const Scene& scene) {
+    FilmSettings settings = scene.film;
+    if (NoiseLimit::of(scene.settings))
+        for (const std::size_t plane : {Planes::place<NoisePlane>(), Planes::place<SamplesPlane>()})
+            settings.planes[plane] = true;
+    return settings;
 }
+
+PixelRange film_area(const Scene& scene, const RenderJob& job) {
+    return NoiseLimit::of(scene.settings) ? whole_blocks(job.pixels, scene.film) : job.pixels;
+}
+
+Film film_of(const Scene& scene, const RenderJob& job) {
+    return {film_settings(scene), film_area(scene, job), subjects_of(scene)};
+}
+
+namespace {
+
+int mean_samples(const FilmTile& pixels, const PixelRange& area) {
+    std::uint64_t sum = 0;
+    for (int y = area.y0; y < area.y1; ++y)
+        for (int x = area.x0; x < area.x1; ++x) sum += pixels.samples(x, y);
+    return static_cast<int>(sum / area.size());
+}
+
+}  // namespace
 
 Rendering render(const World& world, const Scene& scene, const RenderJob& job) {
     Film film = film_of(scene, job);
@@ -178,7 +247,14 @@ Rendering render(const World& world, const Scene& scene, const RenderJob& job, F
         arena.execute([&] { result.samples = renderer.run(); });
     }
     result.cancelled = renderer.stopped();
+    result.is_out_of_time = renderer.is_out_of_time();
+    result.blocks = blocks_of(film.area()).size();
+    result.noisy_blocks = renderer.blocks_left();
+    if (NoiseLimit::of(scene.settings)) result.samples = mean_samples(film.pixels(), job.pixels);
     result.image = film.image();
+    const PixelRange &all = film.area(), &part = job.pixels;
+    if (part.size() != all.size())
+        result.image = part_of(result.image, part.x0 - all.x0, part.y0 - all.y0, part.width(), part.height());
     result.faults = film.pixels().faults();
     result.counters = renderer.counters();
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

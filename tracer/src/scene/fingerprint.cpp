@@ -95,6 +95,8 @@ std::vector<std::pair<std::string, std::string>> settings_of_samples(const Rende
             if (std::ranges::find(others, p.name) == others.end())
                 all.emplace_back(p.name, fmt::format("{}", values.*member));
     });
+    // By it the noise is judged.
+    if (settings.noise > 0) all.emplace_back("exposure", fmt::format("{}", settings.exposure_ev));
     return all;
 }
 

@@ -18,6 +18,10 @@ struct ImageParameters : RenderSettings {
         v(&P::width, Parameter{"width", "pixels", "Width of the image.", Limits{.low = 1, .high = 32768}, true});
         v(&P::height, Parameter{"height", "pixels", "Height of the image.", Limits{.low = 1, .high = 32768}, true});
         v(&P::samples, Parameter{"samples", "", "Paths of each pixel.", Limits{.low = 1, .high = 1 << 24}, true});
+        v(&P::noise, Parameter{"noise", "",
+                               "Pixels stop before that where their relative error is estimated to be at most this, "
+                               "after 32 samples at the earliest; 0 if none is to stop.",
+                               Limits{.low = 0, .high = 1}, true});
         v(&P::seed, Parameter{"seed", "", "Another whole number gives other noise.", limits::non_negative, true});
         v(&P::max_depth,
           Parameter{"max_depth", "", "The most surfaces that a path meets. One between equal indices counts, too.",

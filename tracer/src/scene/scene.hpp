@@ -35,6 +35,7 @@ enum class Techniques { all, shadow_rays_alone, directions_alone };
 
 struct RenderSettings {
     int samples = 64;  // per pixel
+    float noise = 0;   // the error at which pixels stop before that (render/noise_limit.hpp); 0 if none does
     Techniques techniques = Techniques::all;
     std::uint32_t seed = 0;
     // The most surfaces that a path meets, those between equal indices included, and points in media that scatter it;

@@ -345,7 +345,11 @@ bool Session::draw_whole(const Wishes& wishes, int samples) {
         show([&](Shown& shown) { shown.doing = fmt::format("{} of {} samples", done, shown.samples); });
         last = Clock::now();
     };
-    return !render(prepared_->world(), *scene_, job).cancelled && !is_stale(wishes);
+    Rendering rendering = render(prepared_->world(), *scene_, job);
+    if (rendering.cancelled || is_stale(wishes)) return false;
+    // Where pixels stop by their noise nobody knows before which pass is the last.
+    if (scene_->settings.noise > 0) show_picture(wishes, std::move(rendering.image), 1, samples);
+    return true;
 }
 
 void Session::show_picture(const Wishes& wishes, Image image, int scale, int samples) {

@@ -1,5 +1,4 @@
-// Luminance of linear Rec.709 colour (ITU-R BT.709-6, item 3.2). Lights use it to decide where samples go, never for
-// what they emit.
+// Luminance of linear Rec.709 colour (ITU-R BT.709-6, item 3.2).
 #pragma once
 
 #include <glm/glm.hpp>

@@ -1,0 +1,31 @@
+// How much a pixel may still be off: the standard error of its mean luminance, as its samples themselves estimate it.
+// Where a render may stop early is decided by it (render/noise_limit.hpp).
+#pragma once
+
+#include <cmath>
+
+#include "film/contract.hpp"
+#include "film/sums/mean_and_variance.hpp"
+#include "image/luminance.hpp"
+
+namespace phasetree::tracer {
+
+/// The sampler stratifies a pixel's samples, so the true error is smaller than that of independent ones, which this is.
+struct NoisePlane {
+    using Sum = MeanAndVariance;
+    static constexpr std::string_view name = "noise";
+    static constexpr bool by_default = false;
+    explicit NoisePlane(const PlaneSubjects&) {}
+
+    std::vector<std::string> channels() const { return {"noise.Y"}; }
+    std::size_t sums() const { return 1; }
+    void add(std::span<Sum> sums, const FilmSample& sample, FilmFaults&) const {
+        FilmFaults again;  // the picture has counted them
+        sums[0].add(luminance(sample.radiance), again);
+    }
+    void resolve(std::span<const Sum> sums, std::uint32_t samples, std::span<float> values) const {
+        values[0] = static_cast<float>(std::sqrt(sums[0].variance_of_mean(samples)));
+    }
+};
+
+}  // namespace phasetree::tracer
