@@ -4,9 +4,9 @@
 #include <doctest/doctest.h>
 
 #include "bsdf_checks.hpp"
-#include "shading/colour_matching.hpp"
 #include "shading/fresnel.hpp"
 #include "shading/metals.hpp"
+#include "spectrum/colour_matching.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;

@@ -126,6 +126,7 @@ void tell(std::vector<float>& told, const tracer::Material& material) {
     std::visit(
         [&](const auto& m) {
             if constexpr (requires { m.ior; }) told.push_back(m.ior);
+            if constexpr (requires { m.dispersion; }) told.push_back(m.dispersion ? m.dispersion->index(450.0f) : 0.0f);
             if constexpr (requires { m.interior; }) {
                 // Estimates, of which several show what one hides: that nothing is left whatever the density is.
                 for (std::uint32_t i = 0; i < 8; ++i) {
@@ -242,7 +243,8 @@ std::vector<Case> cases() {
               {"emission", R"("ior": 1.5, "absorption": [1, 1, 1])"},
               {"density", dense},
               {"density_depth", dense},
-              {"film_ior", R"("ior": 1.5, "film_thickness": 300)"}});
+              {"film_ior", R"("ior": 1.5, "film_thickness": 300)"},
+              {"glass", R"("glass": "bk7")"}});
     material("diffuse", R"("color": [0.1, 0.2, 0.3])");
     const std::string index = R"("eta": [1, 2, 3], "k": [2, 3, 4])";
     material("conductor", R"("metal": "gold")",
@@ -454,6 +456,8 @@ TEST_CASE("every key changes what is read") {
                                                     {"visible_to_camera", "false"},
                                                     {"group", "\"key\""},
                                                     {"medium", "\"ketchup\""},
+                                                    {"glass", "\"sf11\""},
+                                                    {"abbe_number", "40"},
                                                     {"density", R"({"sphere": {"radius": 0.5}})"},
                                                     {"caustics", "true"}};
     for (const Case& c : cases()) {

@@ -56,6 +56,12 @@ float Caustics::radius(int pass) const {
     return first_radius_ * std::pow(1.0f + static_cast<float>(pass), -1.0f / 6.0f);
 }
 
+std::optional<Wavelength> Caustics::wavelength(int pass) const {
+    if (!world_.disperses()) return std::nullopt;
+    Sampler sampler(column_of_passes, 0, static_cast<std::uint32_t>(pass), scene_.settings.seed);
+    return sampled_wavelength(sampler.next());
+}
+
 // What a photon is worth is its power times the weight that it has on a white diffuse surface against the other
 // techniques, in the first pass.
 void Caustics::learn() {
@@ -73,7 +79,9 @@ void Caustics::learn() {
             Sampler sampler(column_of_learning, 0, static_cast<std::uint32_t>(i), scene_.settings.seed);
             const std::optional<EmittedPhoton> emitted = emission_.sample(sampler);
             if (!emitted) continue;
-            const std::optional<Photon> photon = trace_photon(world_, scene_, *emitted, sampler, uncounted);
+            std::optional<Wavelength> wavelength;
+            if (world_.disperses()) wavelength = sampled_wavelength(sampler.next());
+            const std::optional<Photon> photon = trace_photon(world_, scene_, *emitted, sampler, uncounted, wavelength);
             if (!photon) continue;
             const float ior = clear_at(scene_, photon->phase).ior, cosine = 0.5f;
             const float by_photons = expected * photon->line_density * ior * ior * cosine;
@@ -93,12 +101,14 @@ void Caustics::learn() {
 std::vector<Photon> Caustics::traced(std::uint32_t pass, std::size_t from, std::size_t to,
                                      PathCounters& counters) const {
     const FlushSubnormals flush;
+    const std::optional<Wavelength> one = wavelength(static_cast<int>(pass));
     std::vector<Photon> photons;
     for (std::size_t i = from; i < to; ++i) {
         Sampler sampler(column_of_passes, pass, static_cast<std::uint32_t>(i), scene_.settings.seed);
         const std::optional<EmittedPhoton> emitted = emission_.sample(sampler);
         if (!emitted) continue;
-        if (const auto photon = trace_photon(world_, scene_, *emitted, sampler, counters)) photons.push_back(*photon);
+        if (const auto photon = trace_photon(world_, scene_, *emitted, sampler, counters, one))
+            photons.push_back(*photon);
     }
     return photons;
 }
@@ -125,7 +135,7 @@ std::optional<PhotonMap> Caustics::photons(int pass, PathCounters& counters,
         photons.insert(photons.end(), parts[task].begin(), parts[task].end());
         counters += costs[task];
     }
-    return PhotonMap(std::move(photons), count, radius(pass));
+    return PhotonMap(std::move(photons), count, radius(pass), wavelength(pass));
 }
 
 }  // namespace phasetree::tracer

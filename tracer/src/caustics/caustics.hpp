@@ -25,6 +25,9 @@ class Caustics {
     std::optional<PhotonMap> photons(int pass, PathCounters& counters, const std::function<bool()>& cancelled) const;
     const PhotonEmission& emission() const { return emission_; }
     float radius(int pass) const;
+    /// That all light of a pass has after dispersion, so that paths find photons of their own wavelength: of passes
+    /// that follow each other they are spread evenly. None if nothing disperses.
+    std::optional<Wavelength> wavelength(int pass) const;
 
   private:
     std::vector<Photon> traced(std::uint32_t pass, std::size_t from, std::size_t to, PathCounters& counters) const;

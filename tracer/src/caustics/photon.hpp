@@ -20,6 +20,7 @@ struct Photon {
     Lights::Emission emission;    ///< of the light, and
     glm::vec3 towards_light;      ///< the direction in which it is seen from where the photon met the first interface
     bool of_point_light = false;  ///< no other technique finds such light
+    bool of_one_wavelength = false;  ///< that of its map, and then `power` is what it is at this wavelength
 };
 
 }  // namespace phasetree::tracer

@@ -7,8 +7,9 @@
 
 namespace phasetree::tracer {
 
-PhotonMap::PhotonMap(std::vector<Photon> photons, std::size_t emitted, float radius)
-    : radius_(radius), expected_(static_cast<float>(emitted) * pi * radius * radius) {
+PhotonMap::PhotonMap(std::vector<Photon> photons, std::size_t emitted, float radius,
+                     const std::optional<Wavelength>& wavelength)
+    : wavelength_(wavelength), radius_(radius), expected_(static_cast<float>(emitted) * pi * radius * radius) {
     if (photons.empty()) return;
     // A counting sort, which keeps the order of photons within a bucket.
     starts_.assign(std::bit_ceil(photons.size()) + 1, 0);

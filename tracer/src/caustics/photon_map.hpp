@@ -6,9 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 #include "caustics/photon.hpp"
+#include "spectrum/wavelength.hpp"
 
 namespace phasetree::tracer {
 
@@ -16,7 +18,11 @@ class PhotonMap {
   public:
     /// `emitted` counts all photons that started, those too that fell nowhere. The order of the photons is that in
     /// which near() gives those of a cube.
-    PhotonMap(std::vector<Photon> photons, std::size_t emitted, float radius);
+    PhotonMap(std::vector<Photon> photons, std::size_t emitted, float radius,
+              const std::optional<Wavelength>& wavelength = {});
+
+    /// Of the photons that were dispersed, and so of the paths that gather them.
+    const std::optional<Wavelength>& wavelength() const { return wavelength_; }
 
     /// How many photons a unit of density of lines brings to the disc in which near() searches: N π r².
     float expected() const { return expected_; }
@@ -47,6 +53,7 @@ class PhotonMap {
     glm::ivec3 cube_of(const glm::vec3& p) const { return glm::ivec3(glm::floor(p / (2.0f * radius_))); }
     std::size_t bucket_of(const glm::ivec3& cube) const;
 
+    std::optional<Wavelength> wavelength_;
     float radius_;
     float expected_;
     std::vector<Photon> photons_;        ///< by bucket

@@ -61,9 +61,12 @@ float line_density(const Photons& photons, const Ray& ray) {
 // which is known; after that it is asked what light it sees. A point light is seen by the straight ray alone: what it
 // sends through an interface that bends light is left to photons, because no direction that is sampled here leads
 // through the interface to a point.
+// The light of the path is of one wavelength only, or becomes so by dispersion on the way: of the wavelength `hero`.
 std::optional<Arrival> emission_through_chain(const World& world, const Scene& scene, Ray ray,
-                                              const LightSample& sampled, const Photons& photons, Sampler& sampler,
+                                              const LightSample& sampled, const Photons& photons,
+                                              const Wavelength& hero, const Wavelength* only, Sampler& sampler,
                                               PathCounters& counters) {
+    const bool was_dispersed = only != nullptr;
     glm::vec3 throughput(1.0f);
     float to_point = sampled.distance;  // of the way to a point light, what is still before the ray
     for (int length = 0, segment = 0;; ++segment) {
@@ -79,12 +82,15 @@ std::optional<Arrival> emission_through_chain(const World& world, const Scene& s
                            : escaped    ? std::optional(Lights::Emission{to_point, sampled.radiance, sampled.source})
                                         : std::nullopt;
         if (!light && !surface) return std::nullopt;
-        throughput *= transmittance(medium, {ray.origin, ray.direction, light ? light->distance : distance}, sampler);
+        throughput *=
+            transmittance(medium, {ray.origin, ray.direction, light ? light->distance : distance, only}, sampler);
+        if (light && only && !was_dispersed) throughput *= only->response;
         if (light)
-            return Arrival{throughput * light->radiance, *light, ray.direction,
+            return Arrival{throughput * for_light(light->radiance, only), *light, ray.direction,
                            length > 0 ? line_density(photons, ray) : 0.0f};
         if (phase_function(medium) && !passes_roulette(throughput, sampler)) return std::nullopt;
-        const Bsdf bsdf = surface->bsdf();
+        if (surface->optics.get().disperses()) only = &hero;
+        const Bsdf bsdf = surface->bsdf(only);
         if (bsdf.passes_through()) {
             to_point = std::max(to_point - distance, 0.0f);
             ray = surface->transmitted(ray.direction);
@@ -94,7 +100,7 @@ std::optional<Arrival> emission_through_chain(const World& world, const Scene& s
         const Frame frame(surface->normal);
         const auto next = bsdf.sample(frame.to_local(-ray.direction), sampler.next(), glm::vec2(0.0f));
         if (!next) return std::nullopt;
-        throughput *= next->weight;
+        throughput *= for_light(next->weight, only);
         ray = continued(*surface, frame, *next);
     }
 }
@@ -131,7 +137,13 @@ class Path {
           counters_(counters),
           ray_(ray),
           camera_ior_(clear_at(scene, ray.phase).ior),
-          recorder_(record, scene) {}
+          recorder_(record, scene) {
+        // Photons have chosen already. Else it is the first number that a path draws, which is spread the most evenly
+        // over the samples of a pixel.
+        if (world.disperses())
+            hero_ =
+                photons && photons.map->wavelength() ? *photons.map->wavelength() : sampled_wavelength(sampler.next());
+    }
 
     glm::vec3 trace() {
         for (int depth = 0; depth < scene_.settings.max_depth;) {
@@ -142,8 +154,9 @@ class Path {
             const Flight flight = through_medium(light ? light->distance : distance);
             add_emission_of_medium(flight.emitted);
             if (light && !flight.scattered_at) {
-                add_light(throughput_ * chain_.weight(scene_, photons_, ray_) * flight.weight * light->radiance, *light,
-                          ray_.direction, false);
+                add_light(throughput_ * chain_.weight(scene_, photons_, ray_) * flight.weight *
+                              for_light(light->radiance, only_),
+                          *light, ray_.direction, false);
                 break;
             }
             throughput_ *= flight.weight;
@@ -156,7 +169,8 @@ class Path {
             if (!surface) break;
             recorder_.travelled(ray_.phase, distance);
             ++depth;
-            const Bsdf bsdf = surface->bsdf();
+            if (surface->optics.get().disperses()) only_ = &hero_;
+            const Bsdf bsdf = surface->bsdf(only_);
             if (bsdf.passes_through()) {  // equal indices scatter nothing, but do count for max_depth
                 ray_ = surface->transmitted(ray_.direction);
                 entered_ = surface->normal;
@@ -172,7 +186,7 @@ class Path {
     const Medium& medium() const { return clear_at(scene_, ray_.phase).interior; }
 
     Flight through_medium(float distance) {
-        return fly(medium(), {ray_.origin, ray_.direction, distance}, throughput_, sampler_);
+        return fly(medium(), {ray_.origin, ray_.direction, distance, only_}, throughput_, sampler_);
     }
 
     // As scatter_and_continue(), at that distance along the ray in a medium, where a path always goes on.
@@ -188,9 +202,11 @@ class Path {
         add_light(radiance, {infinity, radiance, {LightSource::background}}, ray_.direction, false);
     }
 
-    // Adds to the path's radiance, of an emission that was seen in the direction.
-    void add_light(const glm::vec3& radiance, const Lights::Emission& emission, const glm::vec3& direction,
+    // Adds to the path's radiance, of an emission that was seen in the direction. It is that at the path's wavelength,
+    // if it has one.
+    void add_light(const glm::vec3& found, const Lights::Emission& emission, const glm::vec3& direction,
                    bool by_shadow_ray) {
+        const glm::vec3 radiance = only_ ? found * only_->response : found;
         radiance_ += radiance;
         recorder_.add_light(radiance, emission, direction, by_shadow_ray);
     }
@@ -222,7 +238,7 @@ class Path {
         const auto next = bsdf.sample(wo, lobe, sampler_.next2());
         record(surface, bsdf, next);
         if (!next) return false;
-        throughput_ *= next->weight;
+        throughput_ *= for_light(next->weight, only_);
         ray_ = continued(surface, frame, *next);
         entered_ = next->transmitted ? surface.normal : -surface.normal;
         if (!next->delta)
@@ -255,7 +271,7 @@ class Path {
         const auto light = sampled_light(proposal);
         if (!light) return;
         const glm::vec3 wi = frame.to_local(light->wi);
-        const glm::vec3 f = bsdf.evaluate(wo, wi);
+        const glm::vec3 f = for_light(bsdf.evaluate(wo, wi), only_);
         if (f == glm::vec3(0.0f)) return;
         add_direct_light(*light, f, bsdf.pdf(wo, wi), density_by_photons(surface, bsdf, wi.z),
                          wi.z < 0 ? surface.transmitted(light->wi) : surface.reflected(light->wi));
@@ -270,7 +286,8 @@ class Path {
     void add_direct_light(const LightSample& light, const glm::vec3& f, float pdf, float by_photons,
                           const Ray& shadow) {
         if (scene_.settings.techniques == Techniques::directions_alone) return;
-        const auto arrival = emission_through_chain(world_, scene_, shadow, light, photons_, sampler_, counters_);
+        const auto arrival =
+            emission_through_chain(world_, scene_, shadow, light, photons_, hero_, only_, sampler_, counters_);
         if (!arrival) return;
         const float weight = light.is_point ? 1.0f
                                             : technique_weight(scene_, Techniques::shadow_rays_alone, light.pdf, pdf,
@@ -299,9 +316,13 @@ class Path {
                     photon.of_point_light
                         ? 1.0f
                         : power_heuristic(by_photons, bsdf.pdf(wo, wi), proposal.pdf(scene_.lights, photon.direction));
-                const glm::vec3 irradiance = photon.power / photons_.map->expected();
-                add_light(throughput_ * bsdf.evaluate(wo, wi) * irradiance * (weight / wi.z), photon.emission,
-                          photon.towards_light, true);
+                glm::vec3 irradiance = photon.power / photons_.map->expected();
+                if (!photon.of_one_wavelength)
+                    irradiance = for_light(irradiance, only_);
+                else if (!only_)
+                    irradiance *= hero_.response;
+                const glm::vec3 f = for_light(bsdf.evaluate(wo, wi), only_);
+                add_light(throughput_ * f * irradiance * (weight / wi.z), photon.emission, photon.towards_light, true);
             });
     }
 
@@ -331,6 +352,8 @@ class Path {
     Chain chain_;
     std::optional<glm::vec3> entered_;  // the outward normal of the boundary that the path met last in this medium
     bool is_camera_ray_ = true;
+    Wavelength hero_;                   // of the path once it was dispersed, and
+    const Wavelength* only_ = nullptr;  // that wavelength from then on
     PathRecorder recorder_;
 };
 

@@ -46,6 +46,10 @@ struct Photons {
 /// SIGGRAPH Asia 2012, has the general case). Photons light surfaces alone: they pass through media that scatter with
 /// what E has of them, and places in such a medium are left to the other two techniques.
 ///
+/// Dispersion. Where a path, a shadow ray or a photon meets an interface that disperses, one wavelength is chosen for
+/// all of them (spectrum/wavelength.hpp), so that the techniques still estimate the same: the integral over directions
+/// and wavelengths. The density of wavelengths is the same of all three, and cancels in their weights.
+///
 /// With a record it also fills that in. Neither the radiance nor the random numbers that are drawn depend on it.
 glm::vec3 trace_path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters,
                      PathRecord* record = nullptr, const Photons& photons = {});

@@ -19,7 +19,9 @@ inline glm::vec3 beer_lambert(const glm::vec3& coefficient, float distance) {
 struct AbsorbingMedium {
     glm::vec3 absorption{0.0f};  ///< a, per unit of length of the scene; not negative
 
-    glm::vec3 transmittance(const Way& way, Sampler&) const { return beer_lambert(absorption, way.length); }
+    glm::vec3 transmittance(const Way& way, Sampler&) const {
+        return beer_lambert(for_light(absorption, way.only), way.length);
+    }
 };
 
 }  // namespace phasetree::tracer

@@ -4,6 +4,7 @@
 #include <glm/vec3.hpp>
 
 #include "media/henyey_greenstein.hpp"
+#include "spectrum/wavelength.hpp"
 
 namespace phasetree::tracer {
 
@@ -15,6 +16,11 @@ struct ScatteringCoefficients {
     glm::vec3 emission{0.0f};
     HenyeyGreenstein phase_function{};
 
+    /// The same of one wavelength, or as they are for light of all.
+    ScatteringCoefficients for_light(const Wavelength* only) const {
+        return {tracer::for_light(absorption, only), tracer::for_light(scattering, only),
+                tracer::for_light(emission, only), phase_function};
+    }
     glm::vec3 extinction() const { return absorption + scattering; }  ///< σt
     bool scatters() const { return scattering != glm::vec3(0.0f); }
 };

@@ -8,16 +8,17 @@
 namespace phasetree::tracer {
 
 glm::vec3 HomogeneousMedium::transmittance(const Way& way, Sampler&) const {
-    return beer_lambert(coefficients_.extinction(), way.length);
+    return beer_lambert(coefficients_.for_light(way.only).extinction(), way.length);
 }
 
 Flight HomogeneousMedium::fly(const Way& way, const glm::vec3& throughput, Sampler& sampler) const {
-    const glm::vec3 extinction = coefficients_.extinction();
+    const ScatteringCoefficients coefficients = coefficients_.for_light(way.only);
+    const glm::vec3 extinction = coefficients.extinction();
     const glm::vec3 passed = beer_lambert(extinction, way.length);
     Flight flight;
     for (int c = 0; c < 3; ++c)
-        if (extinction[c] > 0.0f) flight.emitted[c] = coefficients_.emission[c] * (1.0f - passed[c]) / extinction[c];
-    if (!coefficients_.scatters()) {
+        if (extinction[c] > 0.0f) flight.emitted[c] = coefficients.emission[c] * (1.0f - passed[c]) / extinction[c];
+    if (!coefficients.scatters()) {
         flight.weight = passed;
         return flight;
     }
@@ -29,7 +30,7 @@ Flight HomogeneousMedium::fly(const Way& way, const glm::vec3& throughput, Sampl
     if (distance < way.length) {
         const glm::vec3 left = beer_lambert(extinction, distance);
         flight.scattered_at = distance;
-        flight.weight = coefficients_.scattering * left / glm::dot(choice, extinction * left);
+        flight.weight = coefficients.scattering * left / glm::dot(choice, extinction * left);
     } else {
         flight.weight = passed / glm::dot(choice, passed);
     }

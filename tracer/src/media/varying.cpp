@@ -59,7 +59,7 @@ void VaryingMedium::for_each_tentative_collision(const Way& way, Sampler& sample
 }
 
 glm::vec3 VaryingMedium::transmittance(const Way& way, Sampler& sampler) const {
-    const glm::vec3 share = coefficients_.extinction() / majorant_;
+    const glm::vec3 share = coefficients_.for_light(way.only).extinction() / majorant_;
     glm::vec3 left(1.0f);
     for_each_tentative_collision(way, sampler, [&](float, float density) {
         left *= 1.0f - share * density;
@@ -69,11 +69,13 @@ glm::vec3 VaryingMedium::transmittance(const Way& way, Sampler& sampler) const {
 }
 
 Flight VaryingMedium::fly(const Way& way, const glm::vec3& throughput, Sampler& sampler) const {
+    // No wavelength has more than the densest channel, so the majorant is one for each.
+    const ScatteringCoefficients coefficients = coefficients_.for_light(way.only);
     Flight flight;
     for_each_tentative_collision(way, sampler, [&](float distance, float density) {
-        const glm::vec3 scattering = coefficients_.scattering * density;
-        const glm::vec3 null = glm::max(majorant_ - coefficients_.extinction() * density, glm::vec3(0.0f));
-        flight.emitted += flight.weight * coefficients_.emission * (density / majorant_);
+        const glm::vec3 scattering = coefficients.scattering * density;
+        const glm::vec3 null = glm::max(majorant_ - coefficients.extinction() * density, glm::vec3(0.0f));
+        flight.emitted += flight.weight * coefficients.emission * (density / majorant_);
         const glm::vec3 history = throughput * flight.weight;
         const float scattered = glm::dot(history, scattering), going_on = glm::dot(history, null);
         if (!(scattered + going_on > 0.0f)) {

@@ -4,6 +4,7 @@
 #include "scene/material_kinds.hpp"
 #include "scene/read_parts.hpp"
 #include "shading/metals.hpp"
+#include "spectrum/glasses.hpp"
 
 namespace phasetree::tracer {
 
@@ -12,6 +13,41 @@ std::vector<std::string_view> names_of_metals() {
     for (const Metal& metal : metals()) names.push_back(metal.name);
     names.push_back("aluminum");
     return names;
+}
+
+std::vector<std::string_view> names_of_glasses() {
+    std::vector<std::string_view> names;
+    for (const Glass& glass : glasses()) names.push_back(glass.name);
+    return names;
+}
+
+std::optional<Dispersion> ClearParameters::dispersion() const {
+    if (glass && (ior || abbe_number))
+        throw ParameterError("glass", "\"glass\" names the index at each wavelength; give either it or \"ior\"",
+                             ParameterError::Place::key);
+    if (!glass && !ior) throw ParameterError("ior", "is missing");
+    if (!glass && !abbe_number) return std::nullopt;
+    const char* const key = glass ? "glass" : "abbe_number";
+    const auto* const roughness_everywhere = std::get_if<float>(&roughness);
+    if (!roughness_everywhere || *roughness_everywhere != 0.0f)
+        throw ParameterError(key, "what splits light into colours must be smooth here: it cannot have a \"roughness\"",
+                             ParameterError::Place::key);
+    if (film_thickness)
+        throw ParameterError(key, "what splits light into colours cannot have a film on its surface here",
+                             ParameterError::Place::key);
+    if (glass) return find_glass(*glass).value().dispersion;
+    if (*ior < 1.0f)
+        throw ParameterError(key, "Abbe's number is that of an index of at least 1", ParameterError::Place::key);
+    return Dispersion(static_cast<double>(*ior), static_cast<double>(*abbe_number));
+}
+
+Clear ClearParameters::made() const {
+    const std::optional<Dispersion> disperses = dispersion();
+    return {.ior = glass ? disperses->index(wavelength_of_d_line) : *ior,
+            .interior = interior(),
+            .roughness = roughness,
+            .film = film(),
+            .dispersion = disperses};
 }
 
 Conductor ConductorParameters::made() const {

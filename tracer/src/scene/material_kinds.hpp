@@ -18,6 +18,7 @@ inline constexpr Parameter roughness_parameter{"roughness", "", "α of GGX: 0 is
                                                limits::fraction, true};
 
 std::vector<std::string_view> names_of_media();
+std::vector<std::string_view> names_of_glasses();
 
 // What clear, conducting and coated materials have of a thin film on their surface.
 struct FilmParameters {
@@ -45,7 +46,9 @@ struct ClearParameters : FilmParameters {
                                    "absorbed and scattered there.",
                                    "exp(−(a + s) d)"};
 
-    float ior = 1.0f;
+    std::optional<float> ior{};
+    std::optional<std::string> glass{};
+    std::optional<float> abbe_number{};
     std::optional<glm::vec3> absorption{};
     std::optional<glm::vec3> color{};
     float color_distance = 1.0f;
@@ -63,7 +66,18 @@ struct ClearParameters : FilmParameters {
     template <class V>
     static void parameters(V&& v) {
         using P = ClearParameters;
-        v(&P::ior, Parameter{"ior", "", "Refractive index against vacuum.", Limits{.low = 0.1f, .high = 10}});
+        v(&P::ior, Parameter{"ior", "", "Refractive index against vacuum; needed unless a glass is named.",
+                             Limits{.low = 0.1f, .high = 10}, true});
+        v(&P::glass, ChoiceParameter{{"glass", "",
+                                      "In place of the index: a measured substance whose index changes with the "
+                                      "wavelength, so that white light is split into its colours.",
+                                      limits::any, true},
+                                     names_of_glasses});
+        v(&P::abbe_number, Parameter{"abbe_number", "",
+                                     "Abbe's number of a glass of one's own, which splits white light the more the "
+                                     "smaller it is: crown glass has 60, flint glass 30. Without it the index is that "
+                                     "of all colours.",
+                                     Limits{.low = 10, .high = 1000}, true});
         v(&P::absorption,
           RgbParameter{{"absorption", "1/m", "Absorption of red, green and blue, a; nothing is absorbed without it.",
                         limits::non_negative, true}});
@@ -107,7 +121,8 @@ struct ClearParameters : FilmParameters {
         film_parameters<P>(v);
     }
     Medium interior() const;
-    Clear made() const { return {.ior = ior, .interior = interior(), .roughness = roughness, .film = film()}; }
+    std::optional<Dispersion> dispersion() const;
+    Clear made() const;
 };
 
 struct DiffuseParameters {

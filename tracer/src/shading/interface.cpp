@@ -43,8 +43,11 @@ Interface::Optics optics_of(const Clear& from, const Clear& to, SharedSurfaces& 
     const std::optional<SurfaceFilm>& film = thicker(from.film, to.film);
     const ValueRange a = range_of(from.roughness), b = range_of(to.roughness);
     const ValueRange roughness{std::max(a.least, b.least), std::max(a.greatest, b.greatest)};
-    return Interface::ClearOptics{shared.dielectric(from.ior, to.ior, rough_part(roughness), film_of(film)),
+    Interface::ClearOptics optics{shared.dielectric(from.ior, to.ior, rough_part(roughness), film_of(film)),
                                   from.roughness, to.roughness, thickness_of(film)};
+    if ((from.dispersion || to.dispersion) && is_smooth(roughness.greatest) && !film)
+        optics.dispersive = Interface::ClearOptics::Dispersive{from.dispersion, to.dispersion, from.ior, to.ior};
+    return optics;
 }
 
 Interface::Optics optics_of(const Clear& from, const Conductor& to, SharedSurfaces& shared) {
@@ -65,6 +68,13 @@ Interface::Optics optics_of(const Clear& from, const Coated& to, SharedSurfaces&
     return Interface::CoatedOptics{std::make_shared<const Texture>(to.color),
                                    shared.coating(from.ior, to.ior, roughness, film_of(to.film)), to.roughness,
                                    thickness_of(to.film)};
+}
+
+Bsdf dispersive_bsdf(const Interface::ClearOptics::Dispersive& sides, float wavelength) {
+    const auto index = [&](const std::optional<Dispersion>& side, float ior) {
+        return side ? side->index(wavelength) : ior;
+    };
+    return SmoothDielectricBsdf(index(sides.from, sides.from_ior), index(sides.to, sides.to_ior));
 }
 
 // bsdf_of() gives the BSDF of each kind of optics at a place.
@@ -104,7 +114,13 @@ Interface Interface::between(const Material& from, const Material& to, SharedSur
     return std::visit([&](const auto& material) { return Interface(optics_of(*clear, material, shared)); }, to);
 }
 
-Bsdf Interface::at(const TexturePoint& point) const& {
+bool Interface::disperses() const {
+    const ClearOptics* clear = std::get_if<ClearOptics>(&optics_);
+    return clear && clear->dispersive;
+}
+
+Bsdf Interface::at(const TexturePoint& point, const Wavelength* only) const& {
+    if (only && disperses()) return dispersive_bsdf(*std::get<ClearOptics>(optics_).dispersive, only->nanometres);
     return std::visit([&](const auto& optics) { return bsdf_of(optics, point); }, optics_);
 }
 

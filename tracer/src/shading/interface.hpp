@@ -28,15 +28,25 @@ class Interface {
     /// `from` is the material the ray is in, `to` the one it meets. What surfaces share is made only once.
     static Interface between(const Material& from, const Material& to, SharedSurfaces& shared);
 
-    /// The BSDF at a place, which is in the space textures are defined in. It refers to data of this interface and must
+    /// The BSDF at a place, which is in the space textures are defined in, for light of one wavelength or of all: that
+    /// of all is refracted as light of the line d. It refers to data of this interface and must
     /// not outlive it.
-    Bsdf at(const TexturePoint& point) const&;
-    Bsdf at(const TexturePoint& point) && = delete;
+    Bsdf at(const TexturePoint& point, const Wavelength* only = nullptr) const&;
+    Bsdf at(const TexturePoint& point, const Wavelength* only = nullptr) && = delete;
+    /// Whether it refracts light of different wavelengths differently.
+    bool disperses() const;
 
     struct ClearOptics {
+        /// Both sides of an interface that disperses light: one that is smooth and has no film, of its own or of the
+        /// other material. Where it has, it refracts all light as that of the line d.
+        struct Dispersive {
+            std::optional<Dispersion> from, to;
+            float from_ior, to_ior;  ///< of a side without dispersion
+        };
         std::shared_ptr<const DielectricSurface> surface;
         Number from, to;  ///< roughness of both materials, of which the greater counts
         Number thickness;
+        std::optional<Dispersive> dispersive{};
     };
     struct MetalOptics {
         std::shared_ptr<const ConductorSurface> surface;

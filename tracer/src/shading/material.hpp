@@ -12,6 +12,7 @@
 #include "media/medium.hpp"
 #include "shading/texture/number.hpp"
 #include "shading/texture/texture.hpp"
+#include "spectrum/dispersion.hpp"
 
 namespace phasetree::tracer {
 
@@ -27,6 +28,12 @@ struct Clear {
     Medium interior{};  ///< what rays travel through inside
     Number roughness = 0.0f;
     std::optional<SurfaceFilm> film{};
+    /// How the index changes with the wavelength, and then `ior` is that at the line d; not at all without it.
+    std::optional<Dispersion> dispersion{};
+
+    float ior_for(const Wavelength* only) const {
+        return only && dispersion ? dispersion->index(only->nanometres) : ior;
+    }
 };
 
 struct Diffuse {

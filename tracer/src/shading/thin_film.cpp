@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <numbers>
 
-#include "shading/colour_matching.hpp"
+#include "spectrum/colour_matching.hpp"
 
 namespace phasetree::tracer {
 

@@ -2,6 +2,7 @@
 // it is constructed, and does not change, so that any number of threads may use it.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "world/flat_boundaries.hpp"
@@ -13,17 +14,25 @@ class World {
   public:
     /// Refers to the scene, which must outlive it. Throws as TracedGeometry's constructor does.
     explicit World(const Scene& scene, const WorldOptions& options = {})
-        : geometry_(scene, options), flat_boundaries_(tracer::flat_boundaries(geometry_, scene)) {}
+        : geometry_(scene, options),
+          flat_boundaries_(tracer::flat_boundaries(geometry_, scene)),
+          disperses_(std::ranges::any_of(scene.materials, [](const Material& material) {
+              const Clear* clear = std::get_if<Clear>(&material);
+              return clear && clear->dispersion;
+          })) {}
     World(const World&) = delete;
     World& operator=(const World&) = delete;
 
     const TracedGeometry& geometry() const { return geometry_; }
     /// The flat sides by which lights shine into the object.
     const std::vector<FlatBoundary>& flat_boundaries() const { return flat_boundaries_; }
+    /// Whether anything in it refracts light of different wavelengths differently.
+    bool disperses() const { return disperses_; }
 
   private:
     TracedGeometry geometry_;
     std::vector<FlatBoundary> flat_boundaries_;
+    bool disperses_;
 };
 
 }  // namespace phasetree::tracer

@@ -1,0 +1,49 @@
+// Light of one wavelength, and of all of them.
+//
+// A path carries three numbers, red, green and blue. They stand for what the whole spectrum brings until the path is
+// refracted by something that bends colours differently. There one wavelength is chosen for it, and from then on all
+// that it meets is what it is at this wavelength. This is hero wavelength sampling (Wilkie, Nawaz, Droske, Weidlich &
+// Hanika, Hero Wavelength Spectral Sampling, EGSR 2014) whose other wavelengths end at dispersion, but for one thing:
+// before dispersion there is no need to choose any, so a picture without dispersion has no noise in its colours, and is
+// the same to the bit.
+//
+// With the wavelength λ chosen by the density p, and the light L(λ) found there, the path brings to each of the three
+//     L(λ) w(λ)/p(λ),   ∫ w dλ = 1,
+// where w is how much a wavelength counts for red, green or blue: CIE's colour matching functions, as Rec.709 has them,
+// times the white of its screens, CIE's illuminant D65. So L is relative to D65. What is given as red, green and blue
+// is at λ
+//     red ρ_r(λ) + green ρ_g(λ) + blue ρ_b(λ)
+// with three spectra ρ that add up to 1, and whose own colours are exactly red, green and blue: white stays white, no
+// colour reflects more than all light, and the mean over wavelengths of every colour is that colour.
+#pragma once
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+namespace phasetree::tracer {
+
+/// That of Fraunhofer's line d, in nanometres, for which indices are given in tables.
+inline constexpr float wavelength_of_d_line = 587.5618f;
+
+struct Wavelength {
+    float nanometres = wavelength_of_d_line;
+    glm::vec3 primaries{1.0f / 3.0f};  ///< ρ at this wavelength
+    glm::vec3 response{1.0f};          ///< w/p: what light of this wavelength brings to red, green and blue
+};
+
+/// The wavelength that u in [0, 1) chooses. p is in proportion to the sum of |w| over red, green and blue.
+Wavelength sampled_wavelength(float u);
+
+/// ρ of red, green and blue at a wavelength in nanometres.
+glm::vec3 primaries_at(double wavelength);
+
+/// D65, in proportion to power per nanometre: 100 at 560 nm.
+double daylight_at(double wavelength);
+
+/// What is given as red, green and blue, as a path takes it: its value at the wavelength, in all three; or as it is, for
+/// light of all wavelengths, which has no `only`.
+inline glm::vec3 for_light(const glm::vec3& rgb, const Wavelength* only) {
+    return only ? glm::vec3(glm::dot(rgb, only->primaries)) : rgb;
+}
+
+}  // namespace phasetree::tracer
