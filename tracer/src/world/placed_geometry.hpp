@@ -1,7 +1,7 @@
 // The objects of a scene and their places in Embree. A scene of Embree holds the cells of one object, or the places of
 // one group; a place is a primitive of a user geometry, which takes the ray into the space of what stands there and
 // has it traced in that one's scene. So any number of groups may be nested, which Embree's own instances allow only
-// where it was built for that, and a copy takes less than half of the memory of an instance there.
+// where it was built for that.
 #pragma once
 
 #include <memory>
