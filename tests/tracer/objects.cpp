@@ -36,11 +36,12 @@ const TemporaryDirectory& folder() {
 }
 
 Document document_of(const std::string& rest) {
-    return Document::from_text(R"({"version": 1, "phases": {"glass": {"clear": {"ior": 1.5}}, "red": {"diffuse": {"color": [1, 0, 0]}}},
+    return Document::from_text(
+        R"({"version": 1, "phases": {"glass": {"clear": {"ior": 1.5}}, "red": {"diffuse": {"color": [1, 0, 0]}}},
         "shapes": {"round": {"sphere": {"radius": 1}}}, "lights": [{"constant": {}}],
         "camera": {"position": [0, -50, 0], "look_at": [0, 0, 0]}, )" +
-                                   rest + "}",
-                               (folder() / "scene.json").string());
+            rest + "}",
+        (folder() / "scene.json").string());
 }
 Scene scene_of(const std::string& rest) {
     return read_scene(document_of(rest));
@@ -143,8 +144,10 @@ TEST_CASE("what is wrong with objects is said") {
     CHECK(error_of(R"("objects": [{"name": "a", "file": "nothing.json"}])") == "\"nothing.json\" has no \"tree\"");
     CHECK(error_of(R"("objects": [{"name": "a", "file": "no.json"}])").find("no.json") == std::string::npos);
     CHECK(!error_of(R"("objects": [{"name": "a", "file": "no.json"}])").empty());
-    CHECK(error_of(R"("objects": [{"name": "a", "file": "other.json", "phases": {"golf": {"diffuse": {"color": [1, 0, 0]}}}}])") ==
-          "the object has no phase \"golf\"");
+    CHECK(
+        error_of(
+            R"("objects": [{"name": "a", "file": "other.json", "phases": {"golf": {"diffuse": {"color": [1, 0, 0]}}}}])") ==
+        "the object has no phase \"golf\"");
     CHECK(error_of(R"("tree": {"set": {"phase": "red", "of": "round"}}, "instances": [{"of": "a"}])") ==
           "\"instances\" is of no use without \"objects\"");
     CHECK(with(R"("instances": [{"of": "bell"}])") == "there is no object or group \"bell\"");

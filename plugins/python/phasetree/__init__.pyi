@@ -2389,12 +2389,14 @@ def distort(of: Object, amplitude: float, scale: float, octaves: float | None = 
 
 class materials:
     @staticmethod
-    def clear(ior: float, absorption: Sequence[float] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., emission: Sequence[float] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
+    def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused_silica", "sapphire", "sf11", "water"] | None = ..., abbe_number: float | None = ..., absorption: Sequence[float] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., emission: Sequence[float] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
         r"""Vacuum, air, water, glass, milk, wax, fog: light travels inside, and may be absorbed and scattered there.
 
             exp(−(a + s) d)
 
-        ior: Refractive index against vacuum. (number; at least 0.1 and at most 10)
+        ior: Refractive index against vacuum; needed unless a glass is named. (number; at least 0.1 and at most 10; default none)
+        glass: In place of the index: a measured substance whose index changes with the wavelength, so that white light is split into its colours. (`"bk7"`, `"diamond"`, `"f2"`, `"fused_silica"`, `"sapphire"`, `"sf11"`, `"water"`; default none)
+        abbe_number: Abbe's number of a glass of one's own, which splits white light the more the smaller it is: crown glass has 60, flint glass 30. Without it the index is that of all colours. (number; at least 10 and at most 1000; default none)
         absorption: Absorption of red, green and blue, a; nothing is absorbed without it. ([r, g, b] in 1/m; zero or more; default none)
         color: In place of the absorption: what is left of white light after a distance. (colour; more than 0 and at most 1; default none)
         color_distance: The distance after which the colour is left. (number in m; positive; default 1)
@@ -2439,12 +2441,14 @@ class materials:
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
         """
 
-def clear(ior: float, absorption: Sequence[float] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., emission: Sequence[float] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
+def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused_silica", "sapphire", "sf11", "water"] | None = ..., abbe_number: float | None = ..., absorption: Sequence[float] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., emission: Sequence[float] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
     r"""Vacuum, air, water, glass, milk, wax, fog: light travels inside, and may be absorbed and scattered there.
 
         exp(−(a + s) d)
 
-    ior: Refractive index against vacuum. (number; at least 0.1 and at most 10)
+    ior: Refractive index against vacuum; needed unless a glass is named. (number; at least 0.1 and at most 10; default none)
+    glass: In place of the index: a measured substance whose index changes with the wavelength, so that white light is split into its colours. (`"bk7"`, `"diamond"`, `"f2"`, `"fused_silica"`, `"sapphire"`, `"sf11"`, `"water"`; default none)
+    abbe_number: Abbe's number of a glass of one's own, which splits white light the more the smaller it is: crown glass has 60, flint glass 30. Without it the index is that of all colours. (number; at least 10 and at most 1000; default none)
     absorption: Absorption of red, green and blue, a; nothing is absorbed without it. ([r, g, b] in 1/m; zero or more; default none)
     color: In place of the absorption: what is left of white light after a distance. (colour; more than 0 and at most 1; default none)
     color_distance: The distance after which the colour is left. (number in m; positive; default 1)
@@ -2640,6 +2644,48 @@ class lights:
         intensity: A factor of the radiance. (number; zero or more; default 1)
         visible_to_camera: Whether the camera sees it by itself. (true or false; default true)
         group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
+        """
+    @staticmethod
+    def point(position: Sequence[float] | np.ndarray, color: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | Expression | None = ...) -> Light:
+        r"""A point that shines alike in all directions. It is never seen itself, and through glass or water its light is found by photons alone: without "caustics" it stays dark behind them. A small sphere has neither fault.
+
+        position: Where it is. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        color: A factor of the intensity of each colour. (colour; zero or more; default [1, 1, 1])
+        intensity: Radiant intensity, in the unit of radiance times m²: a surface that faces the light at the distance d gets the irradiance intensity/d². (number; zero or more; default 1)
+        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
+        """
+    @staticmethod
+    def spot(position: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, cone: float | None = ..., edge: float | None = ..., color: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | Expression | None = ...) -> Light:
+        r"""A point that shines into a cone with a smooth edge. It is a point light else.
+
+        position: Where it is. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        target: A point in the middle of its cone. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        cone: Angle across the whole cone, beyond which it is dark. (number in degrees; more than 0 and at most 360; default 60)
+        edge: Angle within the cone's edge over which it grows dark; of a narrow cone, at most half of it counts. (number in degrees; at least 0 and at most 180; default 5)
+        color: A factor of the intensity of each colour. (colour; zero or more; default [1, 1, 1])
+        intensity: Radiant intensity, in the unit of radiance times m²: a surface that faces the light at the distance d gets the irradiance intensity/d². (number; zero or more; default 1)
+        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
+        """
+    @staticmethod
+    def ies(file: str | PathLike[str], position: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, turn: float | None = ..., color: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | Expression | None = ...) -> Light:
+        r"""A point that shines as a photometric file of the IES tells it (LM-63, type C). It is a point light else.
+
+        file: The file, of at most 1 MiB. (name of a file)
+        position: Where it is. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        target: A point towards which goes what the file has as straight down. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        turn: Angle by which it is turned about that direction, anticlockwise as seen from behind it. At 0 the file's plane of 0° of a light that shines down is towards +x. (number in degrees; default 0)
+        color: A factor of the intensity of each colour. (colour; zero or more; default [1, 1, 1])
+        intensity: Radiant intensity where the file has the most candelas; see the point light. (number; zero or more; default 1)
+        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
+        """
+    @staticmethod
+    def portal(centre: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, width: float, height: float) -> Light:
+        r"""An opening through which the lights at infinity are looked for, such as a window of a room: it makes less noise, and no light.
+
+        centre: Its centre. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        target: A point inside, straight away from it. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        width: Length of its horizontal edge; along x if it faces up or down. (number in m; more than 0 and at most 1e15)
+        height: Length of its other edge. (number in m; more than 0 and at most 1e15)
         """
 
 class meshes:

@@ -40,8 +40,8 @@ glm::vec3 primaries_at(double wavelength);
 /// D65, in proportion to power per nanometre: 100 at 560 nm.
 double daylight_at(double wavelength);
 
-/// What is given as red, green and blue, as a path takes it: its value at the wavelength, in all three; or as it is, for
-/// light of all wavelengths, which has no `only`.
+/// What is given as red, green and blue, as a path takes it: its value at the wavelength, in all three; or as it is,
+/// for light of all wavelengths, which has no `only`.
 inline glm::vec3 for_light(const glm::vec3& rgb, const Wavelength* only) {
     return only ? glm::vec3(glm::dot(rgb, only->primaries)) : rgb;
 }
