@@ -161,6 +161,7 @@ const std::vector<Meant> meant = {
     {"land_block", {film("limestone", "water", "limestone")}, "The caves of the karst are a network of narrow cracks."},
     {"merged_eggs", {film(any, "gold", any)}, "A sheet of gold lies about every zero of the merged field."},
     {"merged_eggs", {film("gold", "vacuum", "gold")}, "Sheets of gold lie near each other where the caramel was."},
+    {"milk", {film("glass", "milk", "vacuum")}, "The milk creeps up its glass, and ends there as thin as can be."},
     {"praline_coating",
      {film("chocolate", "vacuum", "slab")},
      "The coating bulges over its foot, and there is little air between it and the slab."},
