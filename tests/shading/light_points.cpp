@@ -127,6 +127,30 @@ TEST_CASE("photometric files: between their angles candelas are linear, and plan
     CHECK_FALSE(irradiance(lights, {0, 2, 0}, {0, 0, 1}, 1.01f) == doctest::Approx(8.0 * 0.775 * slant).epsilon(1e-3));
 }
 
+TEST_CASE("photometric files: the planes that are not there are mirror images of those that are") {
+    const auto profile_of = [](const std::string& horizontals, const std::string& candelas) {
+        const auto count = 1 + std::ranges::count(horizontals, ' ');
+        return IesProfile("IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 2 " + std::to_string(count) +
+                          " 1 2 0 0 0\n1 1 100\n0 90\n" + horizontals + "\n" + candelas);
+    };
+    const IesProfile quarter = profile_of("0 30 90", "1 1  2 2  8 8"), half = profile_of("0 60 180", "1 1  4 4  8 8"),
+                     whole = profile_of("0 90 360", "2 2  8 8  2 2"), round = profile_of("0", "8 4");
+    struct Case {
+        double angle, in_quarter, in_half, in_whole;
+    };
+    for (const Case& c :
+         {Case{0, 1, 1, 2}, Case{30, 2, 2.5, 4}, Case{60, 5, 4, 6}, Case{120, 5, 6, 8 - 6 * 30.0 / 270},
+          Case{150, 2, 7, 8 - 6 * 60.0 / 270}, Case{180, 1, 8, 8 - 6 * 90.0 / 270},
+          Case{210, 2, 7, 8 - 6 * 120.0 / 270}, Case{300, 5, 4, 8 - 6 * 210.0 / 270},
+          Case{330, 2, 2.5, 8 - 6 * 240.0 / 270}, Case{-30, 2, 2.5, 8 - 6 * 240.0 / 270}, Case{390, 2, 2.5, 4}}) {
+        CAPTURE(c.angle);
+        CHECK(8 * quarter.relative_intensity(45, c.angle) == doctest::Approx(c.in_quarter));
+        CHECK(8 * half.relative_intensity(45, c.angle) == doctest::Approx(c.in_half));
+        CHECK(8 * whole.relative_intensity(45, c.angle) == doctest::Approx(c.in_whole));
+        CHECK(8 * round.relative_intensity(45, c.angle) == doctest::Approx(6));
+    }
+}
+
 TEST_CASE("photometric files: what is wrong is said with its line") {
     const auto says = [](const std::string& text, const std::string& part) {
         const std::string problem = problem_of(text);
