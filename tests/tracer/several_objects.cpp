@@ -265,3 +265,24 @@ TEST_CASE("where objects overlap, the first is there, and rays end") {
         CHECK(met == (sign > 0 ? forwards : backwards));
     }
 }
+
+TEST_CASE("of copies at the same place the first is met, also where Embree asks a later one before it") {
+    // The box of the second instance, a group, begins nearer to most rays than that of the first: it also holds beads.
+    const Scene scene = scene_of(R"("objects": [
+        {"name": "ball", "tree": {"set": {"phase": "glass", "of": {"sphere": {"radius": 1}}}}},
+        {"name": "bead", "tree": {"set": {"phase": "water", "of": {"sphere": {"radius": 0.01}}}}}],
+        "groups": {"more": [{"of": "ball", "transforms": [[0, 0, 0], [0, 0, 0]]},
+            {"of": "bead", "transforms": [[-9, -9, -9], [9, 9, 9]]}]},
+        "instances": [{"of": "ball"}, {"of": "more"}])");
+    const TracedGeometry geometry(scene);
+    Random random(3);
+    for (int i = 0; i < 500; ++i) {
+        const glm::vec3 d = direction(random), origin = 0.5f * direction(random) - 5.0f * d;
+        PathCounters counters;
+        const TracedGeometry::Inside start = geometry.inside(origin);
+        const Hit hit = geometry.intersect(Ray{origin, d, start.phase, {}, start.in}, counters);
+        const auto* surface = std::get_if<Surface>(&hit);
+        REQUIRE(surface);
+        CHECK(surface->copy == 0);
+    }
+}

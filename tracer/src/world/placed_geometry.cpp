@@ -32,7 +32,7 @@ class InwardRay {
             if (query.start && query.start->copy == query.first_copy) origin = query.start->origin;
         }
         const glm::vec3 direction(query.here.matrix * query.direction);
-        embree::set_ray(ray, origin, direction, ray.tnear, ray.tfar);
+        embree::set_ray(ray, origin, direction, ray.tnear, target.cells ? query.far : ray.tfar);
         ray.time = outer_ray_.time;
     }
     ~InwardRay() {
@@ -54,8 +54,10 @@ class InwardRay {
     std::uint32_t outer_first_copy_;
 };
 
-// What was found before is kept where nothing nearer is found. Of hits at the same distance that of the lower copy
-// counts, in whatever order Embree asks for them.
+// What was found before is kept where nothing nearer is found; of copies that are met at the same distance the one with
+// the lower number counts. The order in which Embree asks changes nothing: a crossing is known to a bracket, so a copy
+// is searched as far as the ray was to go in the beginning, and not to what was found on the way, which would end
+// within the bracket of a copy that is as near.
 void intersect_place(const RTCIntersectFunctionNArguments* arguments) noexcept {
     if (arguments->valid[0] != -1) return;
     const Places& places = *static_cast<const Places*>(arguments->geometryUserPtr);
@@ -74,9 +76,13 @@ void intersect_place(const RTCIntersectFunctionNArguments* arguments) noexcept {
         embree::intersect(target.scene, query.query.context, rayhit);
         if (target.cells && embree::is_hit(rayhit)) query.hit = {query.first_copy, target.object, query.here};
     }
-    const bool is_tie = embree::is_hit(rayhit) && hit_before.geomID != RTC_INVALID_GEOMETRY_ID &&
-                        hit_before.instID[0] != RTC_INVALID_GEOMETRY_ID && !(rayhit.ray.tfar < far_before);
-    if (embree::is_hit(rayhit) && !(is_tie && copy_before.number < query.hit.number)) return;
+    if (embree::is_hit(rayhit)) {
+        const bool is_copy_before =
+            hit_before.geomID != RTC_INVALID_GEOMETRY_ID && hit_before.instID[0] != RTC_INVALID_GEOMETRY_ID;
+        const bool is_first = !is_copy_before || query.hit.number < copy_before.number;
+        const float far = rayhit.ray.tfar;
+        if (far < far_before || (far == far_before && is_first)) return;
+    }
     rayhit.hit = hit_before;
     rayhit.ray.tfar = far_before;
     query.query.crossing = crossing_before;

@@ -36,6 +36,8 @@ struct PlacedQuery {
     embree::Query query;
     /// In: the copy at whose interface the ray starts, if it does.
     std::optional<StartInCopy> start{};
+    /// In: how far the ray goes.
+    float far = 0;
     /// Out: the copy that the hit is in, if the hit is one of a copy.
     Copy hit{};
 
