@@ -56,6 +56,9 @@ Material looking(const Material& material, const Look& look, float depth) {
                 if (look.ior) kind.ior = *look.ior;
             if constexpr (requires { kind.roughness; })
                 if (look.roughness) kind.roughness = *look.roughness;
+            // A glass that splits light has an index at each wavelength, and is smooth.
+            if constexpr (requires { kind.dispersion; })
+                if (look.ior || look.roughness) kind.dispersion.reset();
         },
         result);
     return result;

@@ -16,8 +16,8 @@ namespace phasetree::tracer::view {
 struct Look {
     bool is_clear = false;  ///< made so, whatever it is: light travels inside
     /// The reflectance, or of a clear phase what is left of white light after half the diagonal of the object's box.
-    std::optional<glm::vec3> color;
-    std::optional<float> ior, roughness;
+    std::optional<glm::vec3> color{};
+    std::optional<float> ior{}, roughness{};
 };
 
 /// What lies on the side to which the normal points is cut away: the node `intersect_shape` with the node `plane`.

@@ -1,0 +1,49 @@
+// What is wished for in the live view, made of a scene. That the picture is that of a file which says the same is tested
+// through the server (server.py).
+#include "view/edits.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "scene/scene.hpp"
+
+using namespace phasetree;
+using namespace phasetree::tracer;
+
+namespace {
+
+Scene ball(const std::string& material) {
+    return read_scene(Document::from_text(R"({"version": 1, "phases": {"glass": )" + material + R"(},
+        "tree": {"set": {"phase": "glass", "of": {"sphere": {"radius": 2}}}}, "lights": [{"constant": {}}],
+        "camera": {"position": [0, -9, 0], "look_at": [0, 0, 0]}})",
+                                          "ball.json"));
+}
+
+Clear edited_to(const view::Look& look) {
+    view::Edits edits;
+    edits.looks["glass"] = look;
+    return std::get<Clear>(view::edited(ball(R"({"clear": {"glass": "sf11"}})"), edits).materials[1]);
+}
+
+}  // namespace
+
+TEST_CASE("an index or a roughness of one's own ends a glass's dispersion, and a colour does not") {
+    const Clear coloured = edited_to({.color = glm::vec3(0.5f, 0.8f, 0.9f)});
+    REQUIRE(coloured.dispersion);
+    CHECK(coloured.ior == doctest::Approx(1.7847).epsilon(1e-4));
+    const Clear bent = edited_to({.ior = 1.5f});
+    CHECK_FALSE(bent.dispersion);
+    CHECK(bent.ior == 1.5f);
+    CHECK_FALSE(edited_to({.roughness = 0.2f}).dispersion);
+}
+
+TEST_CASE("a clear phase's colour is what is left of light after half the diagonal of the object's box") {
+    const Clear coloured = edited_to({.color = glm::vec3(0.5f, 0.8f, 0.9f)});
+    const auto* medium = std::get_if<AbsorbingMedium>(&coloured.interior);
+    REQUIRE(medium);
+    // The box is a cube of side 4.
+    const float half = 2 * std::sqrt(3.0f);
+    CHECK(std::exp(-medium->absorption.x * half) == doctest::Approx(0.5).epsilon(1e-4));
+    CHECK(std::exp(-medium->absorption.z * half) == doctest::Approx(0.9).epsilon(1e-4));
+}
