@@ -29,7 +29,7 @@ struct Found {
     Value at;           ///< its place in the scene's file, for errors
     PhaseNames names;   ///< of its tree's phases
     std::optional<Value> own_phases;
-    std::string from;  ///< the file that it is taken from; empty for the scene's own
+    std::string from;  ///< the file from which it is taken; empty if its tree stands in the scene's own
     PlacedObject object;
 };
 
@@ -54,7 +54,8 @@ class ObjectsReader {
     }
 
   private:
-    // Reads the trees, those of the scene's own file together, because they share its shapes.
+    // Finds the objects and reads their trees. Those in the scene's own file are read together, because they share its
+    // "shapes".
     void find_objects() {
         std::vector<Value> trees;
         std::vector<std::size_t> of;
@@ -88,7 +89,7 @@ class ObjectsReader {
         for (std::size_t i = 0; i < read.size(); ++i) found_[of[i]].object.tree = read[i];
     }
 
-    // The tree of another file, each file once.
+    // Takes the tree of another file. A file that several objects name is read once.
     void take(Value named, Found& found) {
         const std::string name = as<std::string>(document_, named, "\"file\"");
         auto known = files_.find(name);
@@ -115,7 +116,7 @@ class ObjectsReader {
         if (is_there) throw document_.error(at, fmt::format("there is another object \"{}\"", name));
     }
 
-    // The number of a phase that the scene did not have.
+    // Adds a phase to those of the scene, and returns its number. A name that is taken gets a number behind it.
     Phase new_phase(std::string name, const Document& document, Value material, Value at) {
         std::vector<std::string>& names = model_.phases.names;
         if (names.size() == Phase::capacity)
@@ -182,7 +183,8 @@ class ObjectsReader {
         for (const Value group : *groups_) (void)group_number(group);
     }
 
-    // Groups that it needs are read before it, so that they have smaller numbers.
+    // The number of a group, which is read here if it was not yet. The groups that it names are read before it, so they
+    // have smaller numbers.
     std::uint32_t group_number(Value group) {
         const std::string name(group.key());
         for (std::size_t i = 0; i < model_.placed.groups.size(); ++i)
@@ -252,7 +254,8 @@ class ObjectsReader {
         throw document_.error(at, fmt::format("there is no object or group \"{}\"", name), closest(name, names));
     }
 
-    // Those come first, in their order.
+    // An object that neither an instance nor a group names stands by its own transform alone. Such objects come first,
+    // in the order of the file.
     void place_what_no_instance_names() {
         is_named_.resize(model_.placed.objects.size());
         std::vector<Place> alone;

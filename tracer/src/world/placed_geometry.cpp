@@ -19,7 +19,7 @@ void bounds_of_place(const RTCBoundsFunctionArguments* arguments) {
                          static_cast<const Places*>(arguments->geometryUserPtr)->list[arguments->primID].bounds);
 }
 
-// The ray in the space of what stands at a place, for as long as this lives.
+// Takes the ray into the space of what stands at a place, and back when this is destroyed.
 class InwardRay {
   public:
     InwardRay(RTCRay& ray, PlacedQuery& query, const PlaceInEmbree& place, const Target& target)
@@ -89,7 +89,8 @@ void intersect_place(const RTCIntersectFunctionNArguments* arguments) noexcept {
     query.hit = copy_before;
 }
 
-// A point on its way through places.
+// A point for which the objects that hold it are sought: where it is in the space of the list that is asked now, and
+// what was found so far.
 struct PointOnItsWay {
     const Places* places = nullptr;
     glm::dvec3 point{0};
@@ -100,7 +101,7 @@ struct PointOnItsWay {
 
 bool ask_place(RTCPointQueryFunctionArguments* arguments);
 
-// Asks the places whose boxes hold the point; the first geometry of the scene has them.
+// Asks the places whose boxes hold the point. They are the primitives of the first geometry of the scene.
 void ask(RTCScene scene, PointOnItsWay& on_its_way) {
     const glm::vec3 p(on_its_way.here(on_its_way.point));
     RTCPointQuery query{};

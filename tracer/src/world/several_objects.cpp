@@ -20,10 +20,12 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Interfaces are looked for along the ray, so at most so much farther apart than across them.
+// A tolerance is measured across an interface, and the ray is searched along its own direction. Where it grazes the
+// interface the way along it would be without end, so the cosine between them counts as at least this.
 constexpr double least_cosine = 1.0 / 64;
 
-// More interfaces that are not seen, one behind the other, are only where copies without number overlap.
+// A ray passes at most so many interfaces that another object hides. There are more only where thousands of copies
+// overlap, and then the ray ends.
 constexpr int most_unseen = 1000;
 
 std::array<embree::CarriedPhase, RayObjects::most> carried(const RayObjects& in) {
@@ -116,7 +118,7 @@ Ray TracedGeometry::behind(const Ray& ray, const Met& met) {
 Surface TracedGeometry::surface_of_several(const Ray& ray, const Met& met, double distance) const {
     const CrossingInScene& first = met.first;
     const Phase from = ray.in.phase(), to = met.behind.phase();
-    // The object that the ray enters counts as the one that is met; of one that it leaves into vacuum, that.
+    // The object that the ray enters is the one that it meets. If it enters none, it meets the one that it leaves.
     const CrossingInScene& shown = met.joined && to != phasetree::vacuum ? *met.joined : first;
     Surface surface{.distance = static_cast<float>(distance),
                     .normal = first.normal,
