@@ -286,3 +286,51 @@ TEST_CASE("of copies at the same place the first is met, also where Embree asks 
         CHECK(surface->copy == 0);
     }
 }
+
+TEST_CASE("a ray goes through any number of copies that touch") {
+    std::string places;
+    for (int i = 0; i < 1500; ++i) places += fmt::format("{}[{}, 0, 0]", i > 0 ? ", " : "", i);
+    const Scene scene = scene_of(R"("objects": [
+        {"name": "tile", "tree": {"set": {"phase": "glass", "of": {"box": {"size": [1, 1, 1]}}}}}],
+        "instances": [{"of": "tile", "transforms": [)" +
+                                 places + "]}]");
+    const TracedGeometry geometry(scene);
+    const std::vector<Step> steps = straight_through(geometry, {-5, 0.1f, 0.2f}, {1, 0, 0});
+    REQUIRE(steps.size() == 2);
+    CHECK(steps[0].t == doctest::Approx(4.5));
+    CHECK(steps[1].t == doctest::Approx(1504.5));
+}
+
+TEST_CASE("where objects touch, the one that the ray enters is the one that it meets") {
+    Random random(8);
+    int touching = 0;
+    for (int turn = 0; turn < 40; ++turn) {
+        const glm::vec3 axis = direction(random);
+        const auto turned = [&](const char* name, const char* phase, float x) {
+            return fmt::format(
+                R"({{"name": "{}", "tree": {{"set": {{"phase": "{}", "of": {{"box": {{"size": [2, 2, 2]}}}}}}}},
+                "transform": [{{"translate": {{"by": [{}, 0, 0]}}}},
+                              {{"rotate": {{"axis": [{}, {}, {}], "angle": {}}}}}]}})",
+                name, phase, x, axis.x, axis.y, axis.z, 9 * turn);
+        };
+        const Scene scene =
+            scene_of(R"("objects": [)" + turned("a", "glass", -1) + ", " + turned("b", "water", 1) + "]");
+        const TracedGeometry geometry(scene);
+        for (int i = 0; i < 100; ++i) {
+            const glm::vec3 d = direction(random), origin = 0.5f * direction(random) - 6.0f * d;
+            Ray ray{origin, d, phasetree::vacuum, {}, {}};
+            PathCounters counters;
+            while (true) {
+                const Hit hit = geometry.intersect(ray, counters);
+                const auto* surface = std::get_if<Surface>(&hit);
+                if (!surface) break;
+                const Phase to = surface->entered.value();
+                const std::string shown = scene.phases[to == phasetree::vacuum ? ray.phase : to];
+                CHECK(surface->object == (shown == "glass" ? 0u : 1u));
+                touching += to != phasetree::vacuum && ray.phase != phasetree::vacuum;
+                ray = surface->transmitted(d);
+            }
+        }
+    }
+    CHECK(touching > 1000);
+}

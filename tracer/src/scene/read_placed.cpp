@@ -232,7 +232,6 @@ class ObjectsReader {
             places_read_ += many.size();
             if (places_read_ > most_places)
                 throw document_.error(value, fmt::format("there are more than {} places in all", most_places));
-            places.reserve(places.size() + many.size());
             for (const Transform& one : many) {
                 place.transform = outer * one;
                 places.push_back(place);

@@ -54,10 +54,10 @@ class InwardRay {
     std::uint32_t outer_first_copy_;
 };
 
-// What was found before is kept where nothing nearer is found; of copies that are met at the same distance the one with
-// the lower number counts. The order in which Embree asks changes nothing: a crossing is known to a bracket, so a copy
-// is searched as far as the ray was to go in the beginning, and not to what was found on the way, which would end
-// within the bracket of a copy that is as near.
+// What was found before is kept where nothing nearer is found. Of copies at the same distance the one with the lower
+// number counts, and a mesh counts before any copy, as Embree's triangles replace what is as near. So the order in
+// which Embree asks changes nothing. A crossing is known to a bracket only; therefore each copy is searched to the
+// ray's original end: stopping at the nearest hit so far could cut off a copy that is as near.
 void intersect_place(const RTCIntersectFunctionNArguments* arguments) noexcept {
     if (arguments->valid[0] != -1) return;
     const Places& places = *static_cast<const Places*>(arguments->geometryUserPtr);
@@ -77,9 +77,9 @@ void intersect_place(const RTCIntersectFunctionNArguments* arguments) noexcept {
         if (target.cells && embree::is_hit(rayhit)) query.hit = {query.first_copy, target.object, query.here};
     }
     if (embree::is_hit(rayhit)) {
-        const bool is_copy_before =
-            hit_before.geomID != RTC_INVALID_GEOMETRY_ID && hit_before.instID[0] != RTC_INVALID_GEOMETRY_ID;
-        const bool is_first = !is_copy_before || query.hit.number < copy_before.number;
+        const bool is_copy_before = hit_before.instID[0] != RTC_INVALID_GEOMETRY_ID;
+        const bool is_first =
+            hit_before.geomID == RTC_INVALID_GEOMETRY_ID || (is_copy_before && query.hit.number < copy_before.number);
         const float far = rayhit.ray.tfar;
         if (far < far_before || (far == far_before && is_first)) return;
     }
@@ -108,6 +108,7 @@ void ask(RTCScene scene, PointOnItsWay& on_its_way) {
     query.x = p.x;
     query.y = p.y;
     query.z = p.z;
+    // Boxes were rounded where they were placed, so those that nearly hold the point are asked, too.
     query.radius = 1e-6f * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
@@ -135,6 +136,7 @@ bool ask_place(RTCPointQueryFunctionArguments* arguments) {
     return false;
 }
 
+// Two interfaces that touch may be found so many resolutions of the cells apart, and what coordinates round away.
 constexpr double resolutions_apart = 2, relative_rounding = 4e-7;
 
 double rounded_at(const glm::vec3& p) {

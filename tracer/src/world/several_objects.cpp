@@ -4,8 +4,8 @@
 // and what it should see is one interface between the phases of both. Cells know where their interfaces are to a
 // resolution, and coordinates are rounded, so the two are found a little apart, and in either order. They count as one
 // if they lie apart, across the interface, by no more than the sum of the two objects' tolerances
-// (PlacedGeometry::tolerance). A ray that leaves such an interface starts by as much off it, so that neither object is
-// in doubt of where it is.
+// (PlacedGeometry::tolerance). A ray that leaves such an interface starts displaced from it by that distance, so that
+// neither object is in doubt of where it is.
 //
 // Objects should not overlap. Where they do, the first of those that a point is in is there, and the others' interfaces
 // are not seen.
@@ -24,9 +24,9 @@ namespace {
 // interface the way along it would be without end, so the cosine between them counts as at least this.
 constexpr double least_cosine = 1.0 / 64;
 
-// A ray passes at most so many interfaces that another object hides. There are more only where thousands of copies
-// overlap, and then the ray ends.
-constexpr int most_unseen = 1000;
+// A ray passes at most so many interfaces that are not seen, without coming farther than the tolerance: so it ends
+// also where thousands of copies stand at one place. How many it passes on its way is not limited.
+constexpr int most_unseen_at_one_place = 1000;
 
 std::array<embree::CarriedPhase, RayObjects::most> carried(const RayObjects& in) {
     std::array<embree::CarriedPhase, RayObjects::most> all;
@@ -118,8 +118,9 @@ Ray TracedGeometry::behind(const Ray& ray, const Met& met) {
 Surface TracedGeometry::surface_of_several(const Ray& ray, const Met& met, double distance) const {
     const CrossingInScene& first = met.first;
     const Phase from = ray.in.phase(), to = met.behind.phase();
-    // The object that the ray enters is the one that it meets. If it enters none, it meets the one that it leaves.
-    const CrossingInScene& shown = met.joined && to != phasetree::vacuum ? *met.joined : first;
+    // The object that the ray enters is the one that it meets; its beginning may be found before the end of the other.
+    // If the ray enters none, it meets the one that it leaves.
+    const CrossingInScene& shown = met.joined && met.joined->crossing.to != phasetree::vacuum ? *met.joined : first;
     Surface surface{.distance = static_cast<float>(distance),
                     .normal = first.normal,
                     .near_side = {first.p_in, from, ray.in, std::nullopt},
@@ -144,7 +145,7 @@ Surface TracedGeometry::surface_of_several(const Ray& ray, const Met& met, doubl
 Hit TracedGeometry::intersect_several(const Ray& ray, float far, PathCounters& counters) const {
     Ray rest = ray;
     double travelled = 0;
-    for (int unseen = 0; unseen < most_unseen; ++unseen) {
+    for (int unseen = 0; unseen < most_unseen_at_one_place; ++unseen) {
         const float left = std::isfinite(far) ? static_cast<float>(static_cast<double>(far) - travelled) : far;
         if (!(left > 0)) break;
         const NextOfSeveral next = next_of_several(rest, left, counters);
@@ -156,6 +157,7 @@ Hit TracedGeometry::intersect_several(const Ray& ray, float far, PathCounters& c
         }
         const Met met = with_what_touches(rest, std::get<CrossingInScene>(next), counters);
         if (rest.in.phase() != met.behind.phase()) return surface_of_several(rest, met, travelled + met.first.distance);
+        if (met.distance_behind() > placed_->most_tolerance()) unseen = 0;
         travelled += met.distance_behind();
         rest = behind(rest, met);
     }
