@@ -152,6 +152,18 @@ TEST_CASE("what is wrong with objects is said") {
           "\"instances\" is of no use without \"objects\"");
     CHECK(with(R"("instances": [{"of": "bell"}])") == "there is no object or group \"bell\"");
     CHECK(with(R"("groups": {"a": [{"of": "b"}], "b": [{"of": "a"}]})") == "the group \"a\" is made of itself");
+    // Whether a group stands before or after those of which it is made.
+    for (const bool is_outermost_first : {false, true})
+        for (const int depth : {32, 33}) {
+            std::string groups;
+            for (int i = 1; i <= depth; ++i) {
+                const int n = is_outermost_first ? depth + 1 - i : i;
+                groups += (i > 1 ? ", " : "") +
+                          fmt::format(R"("g{}": [{{"of": "{}"}}])", n, n > 1 ? "g" + std::to_string(n - 1) : "ball");
+            }
+            CHECK(with("\"groups\": {" + groups + "}, \"instances\": [{\"of\": \"g1\"}]") ==
+                  (depth > 32 ? "more than 32 groups are nested" : ""));
+        }
     CHECK(with(R"("groups": {"a": [{"of": "ball"}]})") ==
           "no object stands anywhere: all are in groups, and there are no \"instances\"");
     CHECK(with(R"("instances": [{"of": "ball", "transforms": [[1, 2]]}])") ==

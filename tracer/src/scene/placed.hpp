@@ -30,6 +30,7 @@ struct PlacedGroup {
     std::string name;
     std::vector<Place> places;  ///< groups among them have smaller numbers
     std::uint64_t copies = 0;   ///< of objects, through all groups
+    std::size_t depth = 1;      ///< how many groups are nested here, with this one
 };
 
 struct PlacedObjects {

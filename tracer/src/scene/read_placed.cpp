@@ -168,10 +168,11 @@ class ObjectsReader {
         try {
             if (is_changed)
                 found.object.tree = renumbered(found.object.tree, std::span(numbers).first(found.names.names.size()));
-            (void)prepare_to_trace(found.object.tree);
+            (void)prepare_to_trace(found.object.tree);  // This only asks whether the tree can be traced.
         } catch (const ModelError& e) {
             throw document_.error(found.at, fmt::format("\"{}\": {}", found.object.name, e.what()));
         }
+        object_numbers_.emplace(found.object.name, static_cast<std::uint32_t>(model_.placed.objects.size()));
         model_.placed.objects.push_back(found.object);
     }
 
@@ -187,30 +188,39 @@ class ObjectsReader {
     // have smaller numbers.
     std::uint32_t group_number(Value group) {
         const std::string name(group.key());
-        for (std::size_t i = 0; i < model_.placed.groups.size(); ++i)
-            if (model_.placed.groups[i].name == name) return static_cast<std::uint32_t>(i);
+        if (const auto known = group_numbers_.find(name); known != group_numbers_.end()) return known->second;
         if (object_number(name))
             throw document_.error(group.key_offset(), fmt::format("there is an object \"{}\", too", name));
         if (std::ranges::find(open_, name) != open_.end())
             throw document_.error(group.key_offset(), fmt::format("the group \"{}\" is made of itself", name));
-        if (open_.size() == deepest) throw document_.error(group.key_offset(), "groups are nested too deeply");
+        // Groups may be listed before or after those that they name, so neither of the two limits is enough: the one
+        // ends this recursion, and the other that of the rays.
+        const auto require_depth = [&](std::size_t depth) {
+            if (depth > deepest)
+                throw document_.error(group.key_offset(), fmt::format("more than {} groups are nested", deepest));
+        };
+        require_depth(open_.size() + 1);
         open_.push_back(name);
-        PlacedGroup made{name, {}, 0};
+        PlacedGroup made;
+        made.name = name;
         read_places(group, fmt::format("the group \"{}\"", name), made.places);
+        for (const Place& place : made.places)
+            if (place.is_group) made.depth = std::max(made.depth, 1 + model_.placed.groups[place.of].depth);
+        require_depth(made.depth);
         made.copies = model_.placed.copies_of(made.places);
         if (made.copies > most_copies)
             throw document_.error(group.key_offset(), fmt::format("the group \"{}\" has {} objects; at most {} can be",
                                                                   name, made.copies, most_copies));
         open_.pop_back();
+        const auto number = static_cast<std::uint32_t>(model_.placed.groups.size());
         model_.placed.groups.push_back(std::move(made));
-        return static_cast<std::uint32_t>(model_.placed.groups.size() - 1);
+        group_numbers_.emplace(name, number);
+        return number;
     }
 
     std::optional<std::uint32_t> object_number(std::string_view name) const {
-        const auto& objects = model_.placed.objects;
-        const auto found = std::ranges::find(objects, name, &PlacedObject::name);
-        if (found == objects.end()) return std::nullopt;
-        return static_cast<std::uint32_t>(found - objects.begin());
+        const auto found = object_numbers_.find(name);
+        return found == object_numbers_.end() ? std::nullopt : std::optional(found->second);
     }
 
     void read_places(Value list, const std::string& what, std::vector<Place>& places) {
@@ -267,7 +277,7 @@ class ObjectsReader {
                                   "no object stands anywhere: all are in groups, and there are no \"instances\"");
     }
 
-    static constexpr std::size_t deepest = 32;  // groups in groups
+    static constexpr std::size_t deepest = 32;  // At most so many groups are nested.
 
     struct TakenFile {
         Document document;
@@ -281,7 +291,8 @@ class ObjectsReader {
     std::vector<Found> found_;
     std::map<std::string, TakenFile, std::less<>> files_;
     std::optional<Value> groups_;
-    std::vector<std::string> open_;  // groups being read, to find cycles
+    std::vector<std::string> open_;  // the groups that are being read, to find cycles
+    std::map<std::string, std::uint32_t, std::less<>> object_numbers_, group_numbers_;
     std::vector<bool> is_named_;
     std::uint64_t places_read_ = 0;
 };

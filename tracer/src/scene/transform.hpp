@@ -20,10 +20,15 @@ struct Transform {
         const glm::dmat3 back = glm::inverse(matrix);
         return {back, -(back * by)};
     }
-    /// By how much it makes lengths longer at most: a bound, at most √3 times too large.
+    /// By how much it makes lengths longer at most: a bound, which is exact for turns, mirrorings, scales, and a stretch
+    /// along the axes before them, and else at most 1.32 times too large. It is √‖MᵀM‖∞: the greatest singular value of
+    /// M is √‖MᵀM‖₂, and of a symmetric matrix ‖·‖₂ ≤ ‖·‖∞ ≤ √3 ‖·‖₂.
     double stretch() const {
-        return glm::sqrt(glm::dot(matrix[0], matrix[0]) + glm::dot(matrix[1], matrix[1]) +
-                         glm::dot(matrix[2], matrix[2]));
+        const glm::dmat3 squared = glm::transpose(matrix) * matrix;
+        double most = 0;
+        for (int i = 0; i < 3; ++i)
+            most = glm::max(most, glm::abs(squared[i].x) + glm::abs(squared[i].y) + glm::abs(squared[i].z));
+        return glm::sqrt(most);
     }
     /// A box around the image of a box, rounded outward.
     Bounds image(const Bounds& box) const;

@@ -108,7 +108,7 @@ void ask(RTCScene scene, PointOnItsWay& on_its_way) {
     query.x = p.x;
     query.y = p.y;
     query.z = p.z;
-    // Boxes were rounded where they were placed, so those that nearly hold the point are asked, too.
+    // The point was rounded on its way into this space, so boxes that nearly hold it are asked, too.
     query.radius = 1e-6f * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
@@ -136,7 +136,7 @@ bool ask_place(RTCPointQueryFunctionArguments* arguments) {
     return false;
 }
 
-// Two interfaces that touch may be found so many resolutions of the cells apart, and what coordinates round away.
+// Two interfaces that touch may be found this many resolutions of the cells apart, plus this share of the coordinates.
 constexpr double resolutions_apart = 2, relative_rounding = 4e-7;
 
 double rounded_at(const glm::vec3& p) {

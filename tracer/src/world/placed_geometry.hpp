@@ -53,6 +53,9 @@ class PlacedGeometry {
     /// placed leaves the range of coordinates.
     PlacedGeometry(RTCDevice device, const PlacedObjects& placed,
                    std::vector<std::shared_ptr<const InterfaceCells>> cells);
+    // Lists of places refer to it, and Embree to them.
+    PlacedGeometry(const PlacedGeometry&) = delete;
+    PlacedGeometry& operator=(const PlacedGeometry&) = delete;
 
     /// The user geometry of the scene's places, which is committed. A query that meets it must be the first member of a
     /// PlacedQuery.

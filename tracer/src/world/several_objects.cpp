@@ -21,11 +21,11 @@ namespace phasetree::tracer {
 namespace {
 
 // A tolerance is measured across an interface, and the ray is searched along its own direction. Where it grazes the
-// interface the way along it would be without end, so the cosine between them counts as at least this.
+// interface the way along it could be arbitrarily long, so the cosine between them counts as at least this.
 constexpr double least_cosine = 1.0 / 64;
 
-// A ray passes at most so many interfaces that are not seen, without coming farther than the tolerance: so it ends
-// also where thousands of copies stand at one place. How many it passes on its way is not limited.
+// A ray passes at most so many unseen interfaces within a tolerance, so that it ends even where thousands of copies
+// stand at one place. How many it passes on its whole way is not limited.
 constexpr int most_unseen_at_one_place = 1000;
 
 std::array<embree::CarriedPhase, RayObjects::most> carried(const RayObjects& in) {
@@ -144,7 +144,7 @@ Surface TracedGeometry::surface_of_several(const Ray& ray, const Met& met, doubl
 
 Hit TracedGeometry::intersect_several(const Ray& ray, float far, PathCounters& counters) const {
     Ray rest = ray;
-    double travelled = 0;
+    double travelled = 0, place = 0;
     for (int unseen = 0; unseen < most_unseen_at_one_place; ++unseen) {
         const float left = std::isfinite(far) ? static_cast<float>(static_cast<double>(far) - travelled) : far;
         if (!(left > 0)) break;
@@ -157,9 +157,13 @@ Hit TracedGeometry::intersect_several(const Ray& ray, float far, PathCounters& c
         }
         const Met met = with_what_touches(rest, std::get<CrossingInScene>(next), counters);
         if (rest.in.phase() != met.behind.phase()) return surface_of_several(rest, met, travelled + met.first.distance);
-        if (met.distance_behind() > placed_->most_tolerance()) unseen = 0;
-        travelled += met.distance_behind();
-        rest = behind(rest, met);
+        const Ray on = behind(rest, met);
+        travelled += glm::dot(glm::dvec3(on.origin) - glm::dvec3(rest.origin), glm::dvec3(ray.direction));
+        rest = on;
+        if (travelled - place > placed_->most_tolerance()) {
+            place = travelled;
+            unseen = 0;
+        }
     }
     return Escaped{};
 }

@@ -69,7 +69,6 @@ class TracedGeometry {
         std::optional<CrossingInScene> joined;  ///< another object begins where the one ends
         RayObjects behind;
 
-        double distance_behind() const { return joined ? joined->distance : first.distance; }
         double apart() const { return joined ? first.tolerance + joined->tolerance : 0.0; }
     };
     using NextOfSeveral = std::variant<Escaped, RTCRayHit, CrossingInScene>;
