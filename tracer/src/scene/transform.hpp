@@ -20,9 +20,9 @@ struct Transform {
         const glm::dmat3 back = glm::inverse(matrix);
         return {back, -(back * by)};
     }
-    /// By how much it makes lengths longer at most: a bound, which is exact for turns, mirrorings, scales, and a stretch
-    /// along the axes before them, and else at most 1.32 times too large. It is √‖MᵀM‖∞: the greatest singular value of
-    /// M is √‖MᵀM‖₂, and of a symmetric matrix ‖·‖₂ ≤ ‖·‖∞ ≤ √3 ‖·‖₂.
+    /// By how much it makes lengths longer at most: a bound, which is exact for turns, mirrorings, scales, and a
+    /// stretch along the axes before them, and else at most 1.32 times too large. It is √‖MᵀM‖∞: the greatest singular
+    /// value of M is √‖MᵀM‖₂, and of a symmetric matrix ‖·‖₂ ≤ ‖·‖∞ ≤ √3 ‖·‖₂.
     double stretch() const {
         const glm::dmat3 squared = glm::transpose(matrix) * matrix;
         double most = 0;
