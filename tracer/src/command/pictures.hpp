@@ -37,8 +37,11 @@ class Writing {
 
 // Makes sure that they can be written, before hours of work. Throws OutputError.
 inline void check_outputs(const std::vector<std::string>& outputs) {
-    for (const std::string& output : outputs)
+    for (const std::string& output : outputs) {
+        if (is_film_file(output) && is_for_each_plane(output))
+            throw OutputError("a .part has all planes in one file, so {plane} is not for it");
         is_film_file(output) ? check_file_writable(output) : check_writable(output);
+    }
 }
 
 // What no sound scene leads to.

@@ -103,10 +103,12 @@ SampleRange samples_of(const RenderOptions& options, const Scene& scene) {
 
 void add_outputs(CLI::App& command, std::vector<std::string>& outputs, const std::string& by_default) {
     command
-        .add_option("-o,--output", outputs,
-                    "File to write: an image, the extension choosing the format: .exr .png .jpg .tif; or .part, which "
-                    "merge joins with others; may be repeated (default: " +
-                        by_default + ")")
+        .add_option(
+            "-o,--output", outputs,
+            "File to write: an image, the extension choosing the format: .exr .png .jpg .tif, where {plane} in the "
+            "name of a .exr makes a file for each plane; or .part, which merge joins with others; may be "
+            "repeated (default: " +
+                by_default + ")")
         ->take_all()
         ->expected(1)
         ->allow_extra_args(false);  // else it eats a "--" behind it

@@ -52,45 +52,54 @@ void check(const Image& image) {
     }
 }
 
-OIIO::ImageSpec spec_for(const Image& image, Format format, const Metadata& metadata,
-                         const DisplayTransform& transform) {
-    const auto type = format == Format::exr    ? OIIO::TypeDesc::FLOAT
-                      : format == Format::tiff ? OIIO::TypeDesc::UINT16
-                                               : OIIO::TypeDesc::UINT8;
+// What files of all formats say.
+OIIO::ImageSpec common_spec(const Image& image, OIIO::TypeDesc type) {
     OIIO::ImageSpec spec(image.width, image.height, 3, type);
-    const std::string scene = std::filesystem::path(metadata.scene).filename().string();
     spec.attribute("Software", fmt::format("phasetree {}", version()));
     // Left out, EXR and TIFF get today's date; an empty one keeps equal pictures equal files.
     spec.attribute("DateTime", "");
-    if (format == Format::exr) {
-        if (image.crop) {
-            spec.x = image.crop->x0;
-            spec.y = image.crop->y0;
-            spec.full_width = image.crop->display_width;
-            spec.full_height = image.crop->display_height;
-        }
-        for (const Channel& channel : image.further) spec.channelnames.push_back(channel.name);
-        spec.nchannels = static_cast<int>(spec.channelnames.size());
-        for (const auto& [name, text] : image.attributes) spec.attribute(name, text);
+    return spec;
+}
+
+std::string scene_name(const Metadata& metadata) {
+    return std::filesystem::path(metadata.scene).filename().string();
+}
+
+OIIO::ImageSpec exr_spec(const Image& image, const Layer& layer, const Metadata& metadata) {
+    OIIO::ImageSpec spec = common_spec(image, OIIO::TypeDesc::FLOAT);
+    if (image.crop) {
+        spec.x = image.crop->x0;
+        spec.y = image.crop->y0;
+        spec.full_width = image.crop->display_width;
+        spec.full_height = image.crop->display_height;
+    }
+    if (!layer.has_picture) spec.channelnames.clear();
+    for (const Channel* channel : layer.channels) spec.channelnames.push_back(channel->name);
+    spec.nchannels = static_cast<int>(spec.channelnames.size());
+    for (const auto& [name, text] : layer.attributes) spec.attribute(name, text);
+    spec.attribute("compression", "zip");
+    spec.attribute("oiio:ColorSpace", "Linear");
+    spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), rec709_chromaticities.data());
+    spec.attribute("phasetree:scene", scene_name(metadata));
+    spec.attribute("phasetree:samplesPerPixel", metadata.samples_per_pixel);
+    spec.attribute("phasetree:seed", std::to_string(metadata.seed));
+    return spec;
+}
+
+// Of the formats that hold what is shown.
+OIIO::ImageSpec shown_spec(const Image& image, Format format, const Metadata& metadata,
+                           const DisplayTransform& transform) {
+    OIIO::ImageSpec spec = common_spec(image, format == Format::tiff ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8);
+    spec.attribute("ImageDescription",
+                   fmt::format("{}, {} samples per pixel, seed {}, {} {:+g} EV", scene_name(metadata),
+                               metadata.samples_per_pixel, metadata.seed, transform.view(), transform.exposure_ev()));
+    // Not in TIFF: it would become an EXIF directory, which OpenImageIO before 2.5.13 spoils when writing to memory.
+    if (transform.is_srgb() && format != Format::tiff) spec.attribute("oiio:ColorSpace", "sRGB");
+    if (format == Format::jpeg) {
+        spec.attribute("compression", "jpeg:95");
+        spec.attribute("jpeg:subsampling", "4:4:4");
+    } else if (format == Format::tiff) {
         spec.attribute("compression", "zip");
-        spec.attribute("oiio:ColorSpace", "Linear");
-        spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), rec709_chromaticities.data());
-        spec.attribute("phasetree:scene", scene);
-        spec.attribute("phasetree:samplesPerPixel", metadata.samples_per_pixel);
-        spec.attribute("phasetree:seed", std::to_string(metadata.seed));
-    } else {
-        spec.attribute("ImageDescription",
-                       fmt::format("{}, {} samples per pixel, seed {}, {} {:+g} EV", scene, metadata.samples_per_pixel,
-                                   metadata.seed, transform.view(), transform.exposure_ev()));
-        // Not in TIFF: it would become an EXIF directory, which OpenImageIO before 2.5.13 spoils when writing to
-        // memory.
-        if (transform.is_srgb() && format != Format::tiff) spec.attribute("oiio:ColorSpace", "sRGB");
-        if (format == Format::jpeg) {
-            spec.attribute("compression", "jpeg:95");
-            spec.attribute("jpeg:subsampling", "4:4:4");
-        } else if (format == Format::tiff) {
-            spec.attribute("compression", "zip");
-        }
     }
     return spec;
 }
@@ -108,14 +117,14 @@ std::vector<unsigned char> encoded(const OIIO::ImageSpec& spec, const char* name
     return bytes;
 }
 
-// All channels of an image, pixel by pixel.
-std::vector<float> interleaved(const Image& image) {
+// All channels of a layer, pixel by pixel.
+std::vector<float> interleaved(const Image& image, const Layer& layer) {
     std::vector<float> values;
-    values.reserve(image.pixels.size() * (3 + image.further.size()));
+    values.reserve(image.pixels.size() * ((layer.has_picture ? 3 : 0) + layer.channels.size()));
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         const glm::vec3& colour = image.pixels[i];
-        values.insert(values.end(), {colour.r, colour.g, colour.b});
-        for (const Channel& channel : image.further) values.push_back(channel.values[i]);
+        if (layer.has_picture) values.insert(values.end(), {colour.r, colour.g, colour.b});
+        for (const Channel* channel : layer.channels) values.push_back(channel->values[i]);
     }
     return values;
 }
@@ -137,20 +146,25 @@ Format format_of(const std::filesystem::path& path) {
 
 std::vector<unsigned char> encode(const Image& image, Format format, const Metadata& metadata,
                                   const DisplayTransform& transform) {
+    if (format == Format::exr) return encode_layer(image, whole(image), metadata);
     check(image);
-    const OIIO::ImageSpec spec = spec_for(image, format, metadata, transform);
-    const char* name = name_for_format(format);
-    if (format == Format::exr) {
-        static_assert(sizeof(glm::vec3) == 3 * sizeof(float), "pixels are handed to OpenImageIO as packed floats");
-        if (image.further.empty()) return encoded(spec, name, image.pixels.data());
-        return encoded(spec, name, interleaved(image).data());
-    }
     std::vector<glm::vec3> shown = image.pixels;
     transform.apply(shown);
+    const OIIO::ImageSpec spec = shown_spec(image, format, metadata, transform);
+    const char* name = name_for_format(format);
     if (format == Format::tiff) return encoded(spec, name, quantise16(shown).data());
     const Crop whole{};
     const Crop& place = image.crop ? *image.crop : whole;
     return encoded(spec, name, quantise8(shown, image.width, place.x0, place.y0).data());
+}
+
+std::vector<unsigned char> encode_layer(const Image& image, const Layer& layer, const Metadata& metadata) {
+    check(image);
+    const OIIO::ImageSpec spec = exr_spec(image, layer, metadata);
+    const char* name = name_for_format(Format::exr);
+    static_assert(sizeof(glm::vec3) == 3 * sizeof(float), "pixels are handed to OpenImageIO as packed floats");
+    if (layer.has_picture && layer.channels.empty()) return encoded(spec, name, image.pixels.data());
+    return encoded(spec, name, interleaved(image, layer).data());
 }
 
 }  // namespace phasetree::tracer

@@ -9,6 +9,7 @@
 
 #include "film/image.hpp"
 #include "output/display.hpp"
+#include "output/layers.hpp"
 
 namespace phasetree::tracer {
 
@@ -34,5 +35,8 @@ Format format_of(const std::filesystem::path& path);
 /// Throws OutputError with the reason, not knowing the path.
 std::vector<unsigned char> encode(const Image& image, Format format, const Metadata& metadata,
                                   const DisplayTransform& transform);
+
+/// The same of an EXR file that has one layer alone (layers.hpp).
+std::vector<unsigned char> encode_layer(const Image& image, const Layer& layer, const Metadata& metadata);
 
 }  // namespace phasetree::tracer

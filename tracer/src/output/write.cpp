@@ -2,26 +2,62 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "output/file.hpp"
 
 namespace phasetree::tracer {
 
-void write_image(const Image& image, const std::filesystem::path& path, const Metadata& metadata,
-                 const DisplayTransform& transform) {
-    const Format format = format_of(path);
+namespace {
+
+// What `encoding` gives, as a file.
+template <class Encoding>
+void write_encoded(const std::filesystem::path& path, Encoding&& encoding) {
     check_file_writable(path);  // first, so that what is said is the same before and after rendering
     std::vector<unsigned char> bytes;
     try {
-        bytes = encode(image, format, metadata, transform);
+        bytes = encoding();
     } catch (const OutputError& error) {
         throw OutputError(fmt::format("cannot write \"{}\": {}", path.string(), error.what()));
     }
     write_file(bytes, path);
 }
 
+// Files are written though another cannot be.
+void write_layers(const Image& image, const std::filesystem::path& path, const Metadata& metadata) {
+    std::optional<OutputError> first_error;
+    for (const Layer& layer : layers_of(image)) try {
+            write_encoded(file_of_plane(path, layer.name), [&] { return encode_layer(image, layer, metadata); });
+        } catch (const OutputError& error) {
+            if (!first_error) first_error = error;
+        }
+    if (first_error) throw *first_error;
+}
+
+// The format; throws OutputError for a name that asks for what cannot be.
+Format checked_format(const std::filesystem::path& path) {
+    const Format format = format_of(path);
+    if (!is_for_each_plane(path)) return format;
+    const auto refusal = [&](const char* why) {
+        return OutputError(fmt::format("cannot write \"{}\": {}", path.string(), why));
+    };
+    if (format != Format::exr) throw refusal("only .exr files have planes, so {plane} is for them");
+    if (is_for_each_plane(path.parent_path())) throw refusal("{plane} may stand in a file's name, not in a folder's");
+    return format;
+}
+
+}  // namespace
+
+void write_image(const Image& image, const std::filesystem::path& path, const Metadata& metadata,
+                 const DisplayTransform& transform) {
+    const Format format = checked_format(path);
+    if (is_for_each_plane(path)) return write_layers(image, path, metadata);
+    write_encoded(path, [&] { return encode(image, format, metadata, transform); });
+}
+
 void check_writable(const std::filesystem::path& path) {
-    format_of(path);
-    check_file_writable(path);
+    checked_format(path);
+    check_file_writable(file_of_plane(path, layer_of_picture));
 }
 
 }  // namespace phasetree::tracer

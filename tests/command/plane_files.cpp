@@ -1,0 +1,72 @@
+// A file for each plane, whoever writes them: a render, a merge, a farm.
+#include <map>
+
+#include "cut_scene.hpp"
+
+using namespace phasetree::tests;
+namespace fs = std::filesystem;
+
+namespace {
+
+// Files that begin with `name` and a point, by what follows.
+std::map<std::string, std::string> files_of(const Shell& shell, const std::string& name) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::directory_iterator(shell.directory.path()))
+        if (const std::string file = entry.path().filename().string(); file.starts_with(name + "."))
+            files[file.substr(name.size() + 1)] = bytes_of(entry.path());
+    return files;
+}
+
+}  // namespace
+
+TEST_CASE("a render and a merge of its shares write the same file for each plane") {
+    const Shell shell;
+    write_text(shell.directory / "scene.json", cut_scene(4));
+    const std::vector<std::string> render{"render", "scene.json", "--planes", "all", "--quiet"};
+    const Outcome whole = shell.run(joined(render, {"-o", "whole.{plane}.exr"}));
+    REQUIRE_MESSAGE(whole.code == 0, whole.err);
+    REQUIRE(shell.run(joined(render, {"-o", "a.part", "--samples", "0:3"})).code == 0);
+    REQUIRE(shell.run(joined(render, {"-o", "b.part", "--samples", "3:4"})).code == 0);
+    const Outcome merged = shell.run({"merge", "a.part", "b.part", "-o", "merged.{plane}.exr"});
+    REQUIRE_MESSAGE(merged.code == 0, merged.err);
+    CHECK(merged.err.find("merged.{plane}.exr (28x21, 4 samples a pixel, of 2 parts)") != std::string::npos);
+    const auto files = files_of(shell, "whole");
+    const bool same = files == files_of(shell, "merged");
+    CHECK(same);
+    for (const char* plane : {"beauty", "depth", "normal_behind", "length_water", "light_lamp", "light_sky", "direct",
+                              "variance", "noise", "samples", "CryptoPhase", "CryptoObject", "CryptoMaterial"})
+        CHECK_MESSAGE(files.contains(std::string(plane) + ".exr"), plane);
+}
+
+TEST_CASE("without further planes there is one file") {
+    const Shell shell;
+    write_text(shell.directory / "scene.json", SceneText().text());
+    REQUIRE(shell.run({"render", "scene.json", "--quiet", "-o", "{plane}.exr", "-o", "a.exr"}).code == 0);
+    CHECK(shell.directory.size() == 3);
+    const bool same = bytes_of(shell.directory / "beauty.exr") == bytes_of(shell.directory / "a.exr");
+    CHECK(same);
+}
+
+TEST_CASE("a farm passes the name on as it is") {
+    const Shell shell;
+    write_text(shell.directory / "scene.json", cut_scene(4));
+    const Outcome o = shell.run({"farm", "list", "scene.json", "--shares", "2", "-o", "f.{plane}.exr", "--program",
+                                 PHASETREE_COMMAND, "--", "--planes", "depth,crypto_phase", "--quiet"});
+    REQUIRE_MESSAGE(o.code == 0, o.err);
+    write_text(shell.directory / "farm.sh", "set -e\n" + o.out);
+    REQUIRE(std::system(("cd '" + shell.directory.path().string() + "' && bash farm.sh 2>/dev/null").c_str()) == 0);
+    CHECK(files_of(shell, "f").size() == 3);
+}
+
+TEST_CASE("a name that asks for what cannot be is refused before any work") {
+    const Shell shell;
+    write_text(shell.directory / "scene.json", SceneText().text());
+    for (const char* name : {"a.{plane}.png", "a.{plane}.part", "{plane}/a.exr"}) {
+        const Outcome o = shell.run({"render", "scene.json", "-o", name});
+        CAPTURE(o.err);
+        CHECK(o.code == 2);
+        CHECK(o.err.find("{plane}") != std::string::npos);
+        CHECK(o.err.find('\n') == o.err.size() - 1);
+    }
+    CHECK(shell.directory.size() == 1);
+}

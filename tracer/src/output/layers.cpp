@@ -1,0 +1,72 @@
+#include "output/layers.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+namespace phasetree::tracer {
+
+namespace {
+
+constexpr std::string_view cryptomatte = "cryptomatte/";
+
+// The Cryptomattes of an image by their names, each with the beginning that all of its attributes have: Cryptomatte 1.2
+// says "cryptomatte/NUMBER/name", and the same number in whatever else it has to say.
+std::vector<std::pair<std::string, std::string>> cryptomattes_of(const Image& image) {
+    std::vector<std::pair<std::string, std::string>> all;
+    for (const auto& [key, text] : image.attributes)
+        if (key.starts_with(cryptomatte) && key.ends_with("/name"))
+            all.emplace_back(text, key.substr(0, key.size() - std::string_view("name").size()));
+    return all;
+}
+
+// Whether a layer of EXR is a rank of a Cryptomatte: its name and two digits.
+bool is_rank_of(const std::string& layer, const std::string& matte) {
+    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+    return layer.size() == matte.size() + 2 && layer.starts_with(matte) && is_digit(layer[matte.size()]) &&
+           is_digit(layer[matte.size() + 1]);
+}
+
+}  // namespace
+
+Layer whole(const Image& image) {
+    Layer all{.name = layer_of_picture, .has_picture = true, .attributes = image.attributes};
+    for (const Channel& channel : image.further) all.channels.push_back(&channel);
+    return all;
+}
+
+std::vector<Layer> layers_of(const Image& image) {
+    const auto mattes = cryptomattes_of(image);
+    std::vector<Layer> layers{{.name = layer_of_picture, .has_picture = true}};
+    for (const Channel& channel : image.further) {
+        std::string name = channel.name.substr(0, channel.name.find('.'));
+        const auto matte = std::ranges::find_if(mattes, [&](const auto& m) { return is_rank_of(name, m.first); });
+        if (matte != mattes.end()) name = matte->first;
+        std::ranges::replace(name, '/', '_');  // who makes channels himself may call them anything
+        auto layer = std::ranges::find(layers, name, &Layer::name);
+        if (layer == layers.end()) {
+            layer = layers.insert(layers.end(), Layer{.name = name});
+            if (matte != mattes.end())
+                for (const auto& attribute : image.attributes)
+                    if (attribute.first.starts_with(matte->second)) layer->attributes.push_back(attribute);
+        }
+        layer->channels.push_back(&channel);
+    }
+    // What is no Cryptomatte's is said beside the picture.
+    for (const auto& attribute : image.attributes)
+        if (std::ranges::none_of(mattes, [&](const auto& m) { return attribute.first.starts_with(m.second); }))
+            layers.front().attributes.push_back(attribute);
+    return layers;
+}
+
+bool is_for_each_plane(const std::filesystem::path& path) {
+    return path.string().find(plane_in_name) != std::string::npos;
+}
+
+std::filesystem::path file_of_plane(const std::filesystem::path& path, const std::string& plane) {
+    std::string name = path.filename().string();
+    if (const std::size_t at = name.find(plane_in_name); at != std::string::npos)
+        name.replace(at, plane_in_name.size(), plane);
+    return path.parent_path() / name;
+}
+
+}  // namespace phasetree::tracer
