@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 using namespace phasetree::tracer;
 
@@ -97,4 +99,72 @@ TEST_CASE("a signal that was ignored stays ignored") {
               if (interrupted()) ::abort();
               std::raise(SIGINT);
           }) == 0);
+}
+
+namespace {
+
+struct Ended {
+    int code = -1;
+    std::string err;
+};
+
+// How a child ends that runs f and then exits with 0.
+template <class F>
+Ended end_of(F&& f) {
+    int ends[2];
+    REQUIRE(::pipe(ends) == 0);
+    const pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        ::dup2(ends[1], STDERR_FILENO);
+        f();
+        ::_exit(0);
+    }
+    ::close(ends[1]);
+    Ended ended;
+    char c = 0;
+    while (::read(ends[0], &c, 1) == 1) ended.err += c;
+    ::close(ends[0]);
+    int status = 0;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    if (WIFEXITED(status)) ended.code = WEXITSTATUS(status);
+    return ended;
+}
+
+constexpr EndingAtOnce::Codes codes{7, 8};
+
+}  // namespace
+
+TEST_CASE("where it is said, the first signal ends the program at once, with a code and a message" *
+          doctest::skip(!signals_work_in_children)) {
+    for (const auto& [signal, code] : {std::pair(SIGINT, 7), std::pair(SIGTERM, 8), std::pair(SIGHUP, 8)}) {
+        CAPTURE(signal);
+        const Ended ended = end_of([s = signal] {
+            const InterruptGuard guard;
+            const EndingAtOnce at_once(codes, "as it was said\n");
+            std::raise(s);
+        });
+        CHECK(ended.code == code);
+        CHECK(ended.err == "as it was said\n");
+    }
+    // One that arrived before.
+    CHECK(end_of([] {
+              const InterruptGuard guard;
+              std::raise(SIGTERM);
+              const EndingAtOnce at_once(codes, "");
+          }).code == 8);
+}
+
+TEST_CASE("before and after that it is a question" * doctest::skip(!signals_work_in_children)) {
+    const Ended ended = end_of([] {
+        const InterruptGuard guard;
+        { const EndingAtOnce at_once(codes, "too early\n"); }
+        std::raise(SIGINT);
+        if (!interrupted()) ::abort();
+    });
+    CHECK(ended.code == 0);
+    CHECK(ended.err.empty());
+    const InterruptGuard guard;
+    const EndingAtOnce at_once(codes, "");
+    CHECK_THROWS_AS(EndingAtOnce(codes, ""), std::logic_error);
 }

@@ -1,4 +1,4 @@
-#include "output/progress.hpp"
+#include "output/late_progress.hpp"
 
 #include <doctest/doctest.h>
 
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "environment.hpp"
+#include "output/progress.hpp"
 
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::test;
@@ -217,4 +218,33 @@ TEST_CASE("threads may advance together") {
             CHECK(previous == 100);
         }
     }
+}
+
+TEST_CASE("what is done within a second is never shown, and what takes longer is from then on") {
+    Screen screen;
+    {
+        LateProgress quick(screen.output(false), "reading");
+        quick.tell(0.2);
+        screen.now += 900ms;
+        quick.tell(0.9);
+        screen.now += 900ms;
+        quick.tell(1);
+    }
+    CHECK(screen.take() == "");
+    {
+        LateProgress slow(screen.output(false), "reading");
+        slow.tell(0.1);
+        screen.now += 2s;
+        slow.tell(0.25);
+        CHECK(screen.take() == "reading: 0%\nreading: 25%, 0:00 elapsed, ETA -:--\n");
+        screen.now += 1s;
+        slow.tell(0.2);  // less than before is nothing new
+        slow.tell(0.5);
+        CHECK(screen.take() == "reading: 50%, 0:01 elapsed, ETA 0:01\n");
+        slow.tell(1);
+        CHECK(screen.take() == "reading: 100%, 0:01 elapsed\n");
+    }
+    LateProgress silent({}, "reading");
+    silent.tell(0.5);
+    CHECK(screen.take() == "");
 }

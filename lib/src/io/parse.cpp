@@ -19,6 +19,7 @@
 #include "io/diagnose.hpp"
 #include "io/lexis.hpp"
 #include "io/utf8.hpp"
+#include "phasetree_support/reading.hpp"
 
 namespace phasetree::io {
 
@@ -103,6 +104,7 @@ class Builder {
     void run() {
         const bool is_good = nlohmann::json::sax_parse(SourceIterator(source_), SourceIterator(), this);
         if (!is_good) throw diagnose(data_.name, data_.text, failure_);
+        place_.finished(data_.text.size());
         data_.root = append(pending_);
     }
 
@@ -271,6 +273,7 @@ class Builder {
     }
 
     void passed(std::size_t begin, std::size_t end, Expecting expecting) {
+        place_.reached(end);
         failure_.last_token = begin;
         failure_.last_token_end = end;
         failure_.last_is_word = false;
@@ -291,6 +294,7 @@ class Builder {
     std::vector<Open> open_;
     std::uint32_t key_ = DocumentData::no_key;  // of the value that comes next
     Failure failure_;
+    support::ReadingPlace place_;
 };
 
 }  // namespace

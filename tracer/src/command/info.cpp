@@ -11,7 +11,7 @@
 #include "command/numbers.hpp"
 #include "command/objects_report.hpp"
 #include "command/streams.hpp"
-#include "output/cell_progress.hpp"
+#include "output/late_progress.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/io/tree.hpp"
 #include "phasetree/model/handle.hpp"
@@ -77,7 +77,7 @@ int info(const SceneFile& file, const Options& chosen) {
     if (chosen.with_cells) {
         CellOptions options = chosen.cells;
         options.opaque = opaque_phases(document);
-        CellProgress progress(ProgressOutput::standard_error(false));
+        LateProgress progress(ProgressOutput::standard_error(false), "preparing the object");
         options.progress = [&](float done) { progress.tell(done); };
         cells = made_of_tree(document, [&] { return InterfaceCells(tree.object, options).statistics(); });
     }

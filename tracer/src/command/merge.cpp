@@ -5,6 +5,7 @@
 
 #include "command/commands.hpp"
 #include "command/pictures.hpp"
+#include "command/reading.hpp"
 #include "command/render_options.hpp"
 #include "film_file/merge.hpp"
 #include "output/interrupt.hpp"
@@ -71,12 +72,19 @@ bool write_pictures(const Options& options, const Parts& parts, const std::vecto
     return writing.all_is_well();
 }
 
+// Reads what is at the beginning and the end of each part.
+Parts opened(const Options& options) {
+    const EndingAtOnce at_once = ending_at_once("the parts were being read", false);
+    return {{options.parts.begin(), options.parts.end()}, options.may_have_gaps};
+}
+
 int merge_parts(const Options& options) {
+    const InterruptGuard guard;
     const AvailableThreads threads;
     std::vector<std::string> images, film_files;
     for (const std::string& output : options.outputs) (is_film_file(output) ? film_files : images).push_back(output);
     check_outputs(options.outputs);
-    const Parts parts({options.parts.begin(), options.parts.end()}, options.may_have_gaps);
+    const Parts parts = opened(options);
     if (const std::string missing = parts.missing(); !missing.empty() && !images.empty() && !options.may_have_gaps)
         throw FilmFileError(
             fmt::format("{} of the {} of each pixel; --allow-gaps makes a picture of those that there are", missing,
@@ -85,7 +93,6 @@ int merge_parts(const Options& options) {
         throw OutputError("a .part cannot be made of parts between which something is missing");
     const std::optional<std::string> view = options.view ? options.view : parts.header().view;
     const DisplayTransform display(options.display, view, options.exposure.value_or(parts.header().exposure_ev));
-    const InterruptGuard guard;
     Progress progress(static_cast<std::uint64_t>(parts.header().bands()), ProgressOutput::standard_error(options.quiet),
                       "merging");
     const Joined joined = join(parts, film_files, !images.empty(), progress);

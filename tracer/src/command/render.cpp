@@ -16,10 +16,11 @@
 #include "command/load.hpp"
 #include "command/overlap_report.hpp"
 #include "command/pictures.hpp"
+#include "command/reading.hpp"
 #include "command/render_options.hpp"
 #include "film_file/read.hpp"
-#include "output/cell_progress.hpp"
 #include "output/interrupt.hpp"
+#include "output/late_progress.hpp"
 #include "output/progress.hpp"
 #include "phasetree/cells/file.hpp"
 #include "render/threads.hpp"
@@ -144,22 +145,69 @@ int code_of_interruption(bool can_resume) {
     return can_resume ? resume_me : 1;
 }
 
+// Whether the same line goes on, or starts, when it is given again.
+bool can_resume(const RenderOptions& options) {
+    return options.resume && (options.may_start || std::filesystem::exists(*options.resume));
+}
+
+struct ReadScene {
+    Document document;
+    Scene scene;
+};
+
+ReadScene read(const RenderOptions& options) {
+    const EndingAtOnce at_once = ending_at_once("the scene was being read", can_resume(options));
+    Document document = read_document_showing(*options.scene, options.quiet);
+    Scene scene = load_scene_showing(document, options.quiet);
+    return {std::move(document), std::move(scene)};
+}
+
+// What the picture is, and what there is of it already, if anything. Reads all files of the scene once more.
+std::pair<FilmFileHeader, std::optional<FilmFile>> read_checkpoint(const RenderOptions& options,
+                                                                   const Document& document, const Scene& scene,
+                                                                   const RenderJob& job) {
+    const EndingAtOnce at_once = ending_at_once("the scene was being read", can_resume(options));
+    FilmFileHeader header = header_of(options, document, scene, job);
+    std::optional<FilmFile> found = film_to_resume(options, header);
+    return {std::move(header), std::move(found)};
+}
+
+constexpr const char* while_preparing = "the object was being prepared";
+
 // Builds the world. Returns whether it is there; it is not if a signal came.
 bool prepare(std::optional<World>& world, const RenderOptions& options, const Scene& scene, const RenderJob& job) {
-    try {
-        CellProgress progress(ProgressOutput::standard_error(options.quiet));
+    LateProgress progress(ProgressOutput::standard_error(options.quiet), "preparing the object");
+    const auto build = [&] {
         world.emplace(scene, WorldOptions{.quality = options.quality,
                                           .cancelled = job.cancelled,
-                                          .progress = [&](float done) { progress.tell(done); },
+                                          .progress = [&](float done) { progress.tell(static_cast<double>(done)); },
                                           .most_bytes = options.most_bytes,
                                           .kept_cells = options.cells});
+    };
+    try {
+        if (options.cells) {  // which may be being written when a signal comes
+            build();
+        } else {
+            const EndingAtOnce at_once = ending_at_once(while_preparing, can_resume(options));
+            build();
+        }
         return true;
     } catch (const BuildCancelled&) {
-        say("phasetree: interrupted while the object was being prepared; nothing is written\n");
+        say("phasetree: interrupted while {}; nothing is written\n", while_preparing);
         return false;
     } catch (const CellsFileError& e) {
         throw OutputError(e.what());
     }
+}
+
+// What people should know of what was prepared.
+void warn_of_object(const RenderOptions& options, const Document& document, const Scene& scene, const World& world) {
+    if (world.geometry().statistics().cells == 0) say("{}\n", empty_object_warning(document));
+    if (options.quiet) return;
+    if (world.geometry().statistics().is_coarser)
+        say("phasetree: the object would take more memory than --max-memory allows: rays are slower\n");
+    for (const auto& object : world.geometry().objects()) print_warning(document.name(), object->warning());
+    warn_of_overlaps(document, scene.placed);
 }
 
 Rendering rendered(const RenderOptions& options, const World& world, const Scene& scene, RenderJob job,
@@ -200,9 +248,11 @@ void say_what_is_missing(const RenderOptions& options, const Scene& scene, const
 int render_scene(const RenderOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     expect_checkpoint_requests();
+    const InterruptGuard guard;
     const AvailableThreads threads(options.threads);
-    const Document document = read_document(*options.scene);
-    Scene scene = load_scene(document);
+    ReadScene read_scene = read(options);
+    const Document& document = read_scene.document;
+    Scene& scene = read_scene.scene;
     apply(options, scene);
     if (!scene.placed.empty() && (options.detail || options.cells))
         throw OutputError(fmt::format("{} is for scenes of one tree, and this one has \"objects\"",
@@ -221,26 +271,20 @@ int render_scene(const RenderOptions& options) {
         display_of(document, scene.settings, options.display, options.view, options.exposure);
     if (threads.count() < threads.wanted())
         say("phasetree: only {} of {} threads can be started\n", threads.count(), threads.wanted());
-    FilmFileHeader header = header_of(options, document, scene, job);
-    const std::optional<FilmFile> found = film_to_resume(options, header);
+    auto [header, found] = read_checkpoint(options, document, scene, job);
 
-    const InterruptGuard guard;
     std::optional<World> world;
-    // What there was to resume is still there; and the same line starts anew if it may.
-    if (!prepare(world, options, scene, job)) return code_of_interruption(found || options.may_start);
-    if (world->geometry().statistics().cells == 0) say("{}\n", empty_object_warning(document));
-    if (!options.quiet && world->geometry().statistics().is_coarser)
-        say("phasetree: the object would take more memory than --max-memory allows: rays are slower\n");
-    if (!options.quiet) {
-        for (const auto& object : world->geometry().objects()) print_warning(document.name(), object->warning());
-        warn_of_overlaps(document, scene.placed);
-    }
+    if (!prepare(world, options, scene, job)) return code_of_interruption(can_resume(options));
     // The header now says of the cells, too, whether they were made coarser, so what is resumed is compared again.
     add_cells(header, options, world->geometry().statistics());
     Film film = film_of(scene, job);
-    if (found) {
-        found->check_picture(header);
-        found->add_to(film);
+    {
+        const EndingAtOnce at_once = ending_at_once(while_preparing, can_resume(options));
+        warn_of_object(options, document, scene, *world);
+        if (found) {
+            found->check_picture(header);
+            found->add_to(film);
+        }
     }
     const Rendering rendering = rendered(options, *world, scene, job, header, film);
 

@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "phasetree_support/reading.hpp"
+
 namespace phasetree::tracer {
 
 namespace {
@@ -43,8 +45,10 @@ bool read_rows(OIIO::ImageInput& input, int begin, int end, int channels, float*
     return input.read_scanlines(0, 0, spec.y + begin, spec.y + end, spec.z, 0, channels, OIIO::TypeDesc::FLOAT, values);
 }
 
-void read_values(OIIO::ImageInput& input, int channels, const std::function<void(std::span<const float>)>& add) {
+void read_values(OIIO::ImageInput& input, int channels, std::uintmax_t file_bytes,
+                 const std::function<void(std::span<const float>)>& add) {
     const OIIO::ImageSpec& spec = input.spec();
+    support::ReadingPlace place;
     // Whole blocks and tiles, as the formats make them.
     const int step = spec.tile_width != 0 ? spec.tile_height : 64;
     std::vector<float> values;
@@ -54,7 +58,9 @@ void read_values(OIIO::ImageInput& input, int channels, const std::function<void
                       static_cast<std::size_t>(channels));
         if (!read_rows(input, begin, end, channels, values.data())) throw std::runtime_error(input.geterror());
         add(values);
+        place.reached(file_bytes * static_cast<std::uintmax_t>(end) / static_cast<std::uintmax_t>(spec.height));
     }
+    place.finished(file_bytes);
 }
 
 void read(const std::filesystem::path& path, const std::function<int(const ImageHeader&)>& begin,
@@ -72,9 +78,10 @@ void read(const std::filesystem::path& path, const std::function<int(const Image
     if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) throw std::runtime_error("it is empty");
     if (spec.depth > 1) throw std::runtime_error("it is a volume, not an image");
     const int channels = begin({spec.width, spec.height, spec.nchannels, spec.format.is_floating_point()});
-    if (!can_hold_what_it_claims(*input, std::filesystem::file_size(path, ignored)))
+    const std::uintmax_t file_bytes = std::filesystem::file_size(path);
+    if (!can_hold_what_it_claims(*input, file_bytes))
         throw std::runtime_error("it is too short for the size that it claims");
-    read_values(*input, channels, add);
+    read_values(*input, channels, file_bytes, add);
 }
 
 }  // namespace

@@ -1,7 +1,10 @@
 #include "output/interrupt.hpp"
 
+#include <unistd.h>
+
 #include <atomic>
 #include <stdexcept>
+#include <utility>
 
 namespace phasetree::tracer {
 namespace {
@@ -11,13 +14,23 @@ namespace {
 std::atomic<int> signal_arrived{0};
 std::atomic<bool> checkpoint_asked{false};
 std::atomic<bool> guard_lives{false};
+std::atomic<const EndingAtOnce::Told*> ending_at_once{nullptr};
+static_assert(std::atomic<const EndingAtOnce::Told*>::is_always_lock_free);
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
 constexpr std::array<int, 4> handled_signals{SIGINT, SIGTERM, SIGHUP, SIGUSR1};
 
+// Does what a signal handler may.
+[[noreturn]] void end_at_once(const EndingAtOnce::Told& told, int arrived) {
+    // Who reads no messages misses nothing else.
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, told.message.data(), told.message.size());
+    ::_exit(arrived == SIGINT ? told.codes.of_person : told.codes.of_others);
+}
+
 // The first signal of any kind. With the default actions back, the second ends the program by the system's own hand,
 // however stuck it is, and the shell learns why.
 extern "C" void phasetree_on_interrupt(int arrived) {
+    if (const EndingAtOnce::Told* told = ending_at_once) end_at_once(*told, arrived);
     signal_arrived = arrived;
     for (const int signal : handled_signals) {
         struct sigaction current {};
@@ -53,6 +66,16 @@ InterruptGuard::~InterruptGuard() {
     for (std::size_t i = 0; i < handled_signals.size(); ++i) sigaction(handled_signals[i], &previous_[i], nullptr);
     signal_arrived = 0;
     guard_lives = false;
+}
+
+EndingAtOnce::EndingAtOnce(Codes codes, std::string message) : told_{codes, std::move(message)} {
+    const Told* nobody = nullptr;
+    if (!ending_at_once.compare_exchange_strong(nobody, &told_)) throw std::logic_error("one EndingAtOnce at a time");
+    if (interrupted()) end_at_once(told_, interrupting_signal());
+}
+
+EndingAtOnce::~EndingAtOnce() {
+    ending_at_once = nullptr;
 }
 
 bool interrupted() {

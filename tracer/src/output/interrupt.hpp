@@ -4,6 +4,7 @@
 
 #include <array>
 #include <csignal>
+#include <string>
 
 namespace phasetree::tracer {
 
@@ -20,6 +21,31 @@ class InterruptGuard {
 
   private:
     std::array<struct sigaction, 4> previous_{};
+};
+
+/// While it lives, within the life of an InterruptGuard, the first signal ends the program at once, as does one that
+/// has arrived before: for work that leaves nothing behind, such as reading, and need not ask interrupted(). One at a
+/// time.
+class EndingAtOnce {
+  public:
+    struct Codes {
+        int of_person;  ///< the exit code after SIGINT
+        int of_others;  ///< after the other two
+    };
+    /// The message is written to standard error.
+    EndingAtOnce(Codes codes, std::string message);
+    ~EndingAtOnce();
+    EndingAtOnce(const EndingAtOnce&) = delete;
+    EndingAtOnce& operator=(const EndingAtOnce&) = delete;
+
+    /// What the signal handler needs.
+    struct Told {
+        Codes codes;
+        std::string message;
+    };
+
+  private:
+    Told told_;
 };
 
 /// Whether a signal has arrived since the living InterruptGuard was made; false without one.

@@ -6,11 +6,10 @@
 #include <array>
 #include <fstream>
 #include <string_view>
-#include <system_error>
 
 #include "phasetree_support/checksum.hpp"
 #include "scene/image_parameters.hpp"
-#include "scene/placed.hpp"
+#include "scene/named_files.hpp"
 
 namespace phasetree::tracer {
 
@@ -23,22 +22,15 @@ void put(Checksum& sum, std::string_view text) {
 }
 
 void put_file(Checksum& sum, const std::filesystem::path& path) {
-    std::error_code problem;
-    if (!std::filesystem::is_regular_file(path, problem)) return;
     std::ifstream file(path, std::ios::binary);
     std::array<char, 1 << 16> bytes;
     while (file.read(bytes.data(), bytes.size()) || file.gcount() > 0)
         put(sum, {bytes.data(), static_cast<std::size_t>(file.gcount())});
 }
 
-// Which strings name files only their readers know. One that by chance is a file's name counts as that file, too.
 void put_string(Checksum& sum, const Document& document, Value value) {
     put(sum, value.string());
-    if (value.string().empty()) return;
-    try {
-        put_file(sum, document.file(value));
-    } catch (const SceneError&) {  // not within the folder that files must lie in, so none that is read
-    }
+    if (const auto path = named_file(document, value)) put_file(sum, *path);
 }
 
 void put_value(Checksum& sum, const Document& document, Value value) {
@@ -74,15 +66,12 @@ void put_value(Checksum& sum, const Document& document, Value value) {
 
 std::uint64_t fingerprint(const Document& document) {
     Checksum sum;
-    for (const Value part : document.root())
-        if (part.key() != "render") put_value(sum, document, part);
-    // Of objects from other scene files, the files that those name.
-    if (const auto objects = has_objects(document) ? document.root().find("objects") : std::nullopt)
-        for (const Value object : *objects)
-            if (const auto file = object.find("file"); file && file->is_string()) {
-                const Document other = document.beside(*file);
-                put_value(sum, other, other.root());
-            }
+    each_document(document, [&](const Document& d) {
+        const bool is_the_scene = &d == &document;
+        if (!is_the_scene) return put_value(sum, d, d.root());
+        for (const Value part : d.root())
+            if (part.key() != "render") put_value(sum, d, part);
+    });
     return sum.get();
 }
 

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <istream>
 #include <span>
+#include <streambuf>
 
 #include "parameters/text_file.hpp"
+#include "phasetree_support/reading.hpp"
 #include "scene/mesh_kinds.hpp"
 
 namespace phasetree::tracer {
@@ -14,6 +17,26 @@ namespace phasetree::tracer {
 namespace {
 
 constexpr std::uintmax_t max_file_bytes = std::uintmax_t{1} << 30;
+
+// A text as a stream, which tells how far it has been read.
+class ToldText : public std::streambuf {
+  public:
+    explicit ToldText(std::string text) : text_(std::move(text)) {}
+
+  protected:
+    int_type underflow() override {
+        place_.finished(at_);
+        const std::size_t next = std::min<std::size_t>(support::ReadingPlace::step, text_.size() - at_);
+        setg(text_.data() + at_, text_.data() + at_, text_.data() + at_ + next);
+        at_ += next;
+        return next > 0 ? traits_type::to_int_type(*gptr()) : traits_type::eof();
+    }
+
+  private:
+    std::string text_;
+    std::size_t at_ = 0;  // up to where it has been handed out
+    support::ReadingPlace place_;
+};
 
 // Normals of the vertices: those of the triangles around each, weighted by area.
 void add_smooth_normals(Mesh& mesh) {
@@ -45,16 +68,20 @@ void add_uv(Mesh& mesh, const std::vector<float>& coordinates, std::span<const t
 }  // namespace
 
 Mesh ObjParameters::made() const {
-    tinyobj::ObjReader obj;
-    tinyobj::ObjReaderConfig config;
-    config.triangulate = true;
-    config.vertex_color = false;
-    if (!obj.ParseFromString(read_text_file(file, max_file_bytes, "1 GiB"), "", config))
-        throw ParameterError("file", fmt::format("{} is not a readable OBJ file: {}", file.string(), obj.Error()));
+    tinyobj::attrib_t attributes;
+    std::vector<tinyobj::shape_t> shapes;
+    std::vector<tinyobj::material_t> materials;
+    std::string warning, error;
+    ToldText text(read_text_file(file, max_file_bytes, "1 GiB"));
+    std::istream stream(&text);
+    constexpr bool as_triangles = true, with_colours = false;
+    if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, &stream, nullptr, as_triangles,
+                          with_colours))
+        throw ParameterError("file", fmt::format("{} is not a readable OBJ file: {}", file.string(), error));
 
     const float turn = glm::radians(rotate_z_degrees);
     Mesh mesh;
-    const auto& v = obj.GetAttrib().vertices;
+    const auto& v = attributes.vertices;
     for (std::size_t i = 0; i + 2 < v.size(); i += 3) {
         glm::vec3 p(v[i], v[i + 1], v[i + 2]);
         if (y_up) p = {p.x, -p.z, p.y};
@@ -66,7 +93,7 @@ Mesh ObjParameters::made() const {
                 throw ParameterError(
                     "file", fmt::format("{} has a coordinate that is no number or beyond 10¹⁵", file.string()));
     }
-    for (const auto& shape : obj.GetShapes()) {
+    for (const auto& shape : shapes) {
         const auto& index = shape.mesh.indices;
         for (std::size_t i = 0; i + 2 < index.size(); i += 3) {
             glm::uvec3 triangle;
@@ -78,7 +105,7 @@ Mesh ObjParameters::made() const {
                 triangle[k] = static_cast<unsigned>(vertex);
             }
             mesh.triangles.push_back(triangle);
-            add_uv(mesh, obj.GetAttrib().texcoords, std::span(index).subspan(i, 3));
+            add_uv(mesh, attributes.texcoords, std::span(index).subspan(i, 3));
         }
     }
     // Some faces without coordinates are as none at all.

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "phasetree/io/read_kind.hpp"
+#include "phasetree_support/reading.hpp"
 #include "scene/object_kinds.hpp"
 #include "scene/placed.hpp"
 
@@ -115,6 +116,7 @@ std::vector<Transform> read_transforms_file(const Document& document, Value name
     std::vector<Transform> all;
     all.reserve(count);
     std::array<unsigned char, 48> raw{};
+    support::ReadingPlace place;
     for (std::uint64_t i = 0; i < count; ++i) {
         if (!file.read(reinterpret_cast<char*>(raw.data()), raw.size())) throw wrong("cannot be read to its end");
         std::array<float, 12> n{};
@@ -124,7 +126,9 @@ std::vector<Transform> read_transforms_file(const Document& document, Value name
         if (!transform.is_usable())
             throw wrong(fmt::format("has a place, number {} from 0, that cannot be used: {}", i, unusable));
         all.push_back(transform);
+        place.reached(16 + 48 * (i + 1));
     }
+    place.finished(bytes);
     return all;
 }
 

@@ -1,0 +1,55 @@
+// How far the reading of large files is: whoever shows progress listens, and readers tell, without knowing each other.
+// Between the two lie a dozen functions that neither read bytes nor show anything.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <utility>
+
+namespace phasetree::support {
+
+/// While it lives it hears what its thread reads. Of several the newest does.
+class ReadingListener {
+  public:
+    /// `hear` is called with numbers of bytes that have been read and understood since the last call.
+    explicit ReadingListener(std::function<void(std::uint64_t)> hear)
+        : hear_(std::move(hear)), before_(std::exchange(newest(), this)) {}
+    ~ReadingListener() { newest() = before_; }
+    ReadingListener(const ReadingListener&) = delete;
+    ReadingListener& operator=(const ReadingListener&) = delete;
+
+    /// Tells the thread's listener, if there is one. Readers call it every megabyte or so, not for every byte.
+    static void tell(std::uint64_t bytes) {
+        if (newest() != nullptr) newest()->hear_(bytes);
+    }
+
+  private:
+    // What a thread keeps for itself.
+    static ReadingListener*& newest() {
+        thread_local ReadingListener* listener = nullptr;
+        return listener;
+    }
+
+    std::function<void(std::uint64_t)> hear_;
+    ReadingListener* before_;
+};
+
+/// Tells of a file or a text from the place in it that has been reached, every megabyte.
+class ReadingPlace {
+  public:
+    static constexpr std::uint64_t step = std::uint64_t{1} << 20;
+
+    void reached(std::uint64_t at) {
+        if (at < told_ + step) return;
+        finished(at);
+    }
+    void finished(std::uint64_t at) {
+        ReadingListener::tell(at - told_);
+        told_ = at;
+    }
+
+  private:
+    std::uint64_t told_ = 0;
+};
+
+}  // namespace phasetree::support

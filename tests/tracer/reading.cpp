@@ -1,0 +1,127 @@
+// How far the reading of files is: each reader tells of every byte once, while it reads.
+#include "phasetree_support/reading.hpp"
+
+#include <OpenImageIO/imageio.h>
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <numeric>
+#include <thread>
+#include <vector>
+
+#include "image/read_image.hpp"
+#include "phasetree_support/temporary_directory.hpp"
+#include "scene/mesh_kinds.hpp"
+#include "scene/named_files.hpp"
+#include "scene/read_transform.hpp"
+
+using namespace phasetree;
+using namespace phasetree::tracer;
+using support::TemporaryDirectory;
+using support::write_text;
+
+namespace {
+
+constexpr std::uint64_t megabyte = std::uint64_t{1} << 20;
+
+// What a listener hears while f runs.
+template <class F>
+std::vector<std::uint64_t> heard(F&& f) {
+    std::vector<std::uint64_t> all;
+    const support::ReadingListener listener([&](std::uint64_t bytes) { all.push_back(bytes); });
+    f();
+    return all;
+}
+
+// That all bytes are told, and in several steps, each not much larger than a megabyte.
+void check(const std::vector<std::uint64_t>& told, std::uint64_t bytes) {
+    CHECK(std::accumulate(told.begin(), told.end(), std::uint64_t{0}) == bytes);
+    CHECK(std::count_if(told.begin(), told.end(), [](std::uint64_t n) { return n > 0; }) >=
+          static_cast<std::ptrdiff_t>(bytes / (2 * megabyte)));
+    CHECK(std::all_of(told.begin(), told.end(), [](std::uint64_t n) { return n < 2 * megabyte; }));
+}
+
+}  // namespace
+
+TEST_CASE("a scene's text") {
+    std::string text = "{\"list\": [";
+    while (text.size() < 5 * megabyte) text += "[0.25, 12, \"a\"], ";
+    text += "0]}";
+    check(heard([&] { (void)Document::from_text(text); }), text.size());
+}
+
+TEST_CASE("a mesh") {
+    const TemporaryDirectory folder;
+    std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    while (text.size() < 3 * megabyte) text += "f 1 2 3\n";
+    write_text(folder / "a.obj", text);
+    ObjParameters obj;
+    obj.file = folder / "a.obj";
+    Mesh mesh;
+    check(heard([&] { mesh = obj.made(); }), text.size());
+    CHECK(mesh.triangles.size() == (text.size() - 24) / 8);
+}
+
+TEST_CASE("an image") {
+    const TemporaryDirectory folder;
+    const std::string path = folder / "a.exr";
+    const OIIO::ImageSpec spec(1024, 1024, 1, OIIO::TypeDesc::FLOAT);
+    std::vector<float> values(1024 * 1024);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>((i * 2654435761u) % 65521);
+    const auto out = OIIO::ImageOutput::create(path);
+    REQUIRE(out->open(path, spec));
+    REQUIRE(out->write_image(OIIO::TypeDesc::FLOAT, values.data()));
+    REQUIRE(out->close());
+    const std::uint64_t bytes = std::filesystem::file_size(path);
+    REQUIRE(bytes > 2 * megabyte);
+    check(heard([&] {
+              read_image(
+                  path, "image", [](const ImageHeader&) { return 1; }, [](std::span<const float>) {});
+          }),
+          bytes);
+}
+
+TEST_CASE("a list of places") {
+    const TemporaryDirectory folder;
+    constexpr std::uint64_t count = 50'000;
+    std::string bytes = "PTPLACES" + std::string(8, '\0');
+    std::memcpy(bytes.data() + 8, &count, 8);
+    const std::array<float, 12> place{1, 0, 0, 0, 1, 0, 0, 0, 1};
+    for (std::uint64_t i = 0; i < count; ++i) bytes.append(reinterpret_cast<const char*>(place.data()), 48);
+    write_text(folder / "a.places", bytes);
+    write_text(folder / "scene.json", R"({"file": "a.places"})");
+    const Document document = Document::from_file(folder / "scene.json");
+    check(heard([&] { (void)read_transforms_file(document, *document.root().find("file")); }), bytes.size());
+}
+
+TEST_CASE("who listens last hears, and then who listened before; another thread is not heard") {
+    std::uint64_t outer = 0, inner = 0;
+    const support::ReadingListener before([&](std::uint64_t n) { outer += n; });
+    {
+        const support::ReadingListener listener([&](std::uint64_t n) { inner += n; });
+        support::ReadingListener::tell(1);
+    }
+    support::ReadingListener::tell(10);
+    std::thread([] { support::ReadingListener::tell(100); }).join();
+    CHECK(inner == 1);
+    CHECK(outer == 10);
+}
+
+TEST_CASE("the files that a scene names are counted as often as it names them, those of objects' files too") {
+    const TemporaryDirectory folder;
+    write_text(folder / "a.obj", std::string(1000, ' '));
+    write_text(folder / "vase.json", R"({"shapes": {"x": {"siren": {"file": "a.obj"}}}})");
+    const auto bytes = [&](const std::string& text) {
+        write_text(folder / "scene.json", text);
+        return bytes_of_named_files(Document::from_file(folder / "scene.json"));
+    };
+    CHECK(bytes("{}") == 0);
+    CHECK(bytes(R"({"meshes": [{"obj": {"file": "a.obj"}}, {"obj": {"file": "a.obj"}}, {"x": "none.obj"}]})") == 2000);
+    const std::uintmax_t vase = std::filesystem::file_size(folder / "vase.json");
+    CHECK(bytes(R"({"objects": [{"name": "v", "file": "vase.json"}]})") == vase + 1000);
+    CHECK(bytes(R"({"objects": [{"name": "v", "file": "a.obj"}]})") == 1000);  // no scene: its reader says so
+    const Document strict = Document::from_file(folder / "scene.json").with_files_within(folder / "..");
+    CHECK(bytes_of_named_files(strict) > 0);
+}

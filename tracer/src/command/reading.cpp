@@ -1,0 +1,52 @@
+#include "command/reading.hpp"
+
+#include <fmt/format.h>
+
+#include <system_error>
+
+#include "command/commands.hpp"
+#include "command/load.hpp"
+#include "output/late_progress.hpp"
+#include "phasetree_support/reading.hpp"
+#include "scene/named_files.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+// Does what reads so many bytes.
+template <class Read>
+auto showing(const char* task, std::uint64_t bytes, bool quiet, Read&& read) {
+    LateProgress progress(ProgressOutput::standard_error(quiet), task);
+    std::uint64_t done = 0;
+    const support::ReadingListener listener([&](std::uint64_t more) {
+        done += more;
+        // Something may be read that was not counted, so 1 is not for saying that all is done.
+        const double share = static_cast<double>(done) / static_cast<double>(std::max(bytes, std::uint64_t{1}));
+        progress.tell(std::min(share, 0.9999));
+    });
+    auto result = read();
+    progress.tell(1);
+    return result;
+}
+
+}  // namespace
+
+EndingAtOnce ending_at_once(std::string_view what, bool can_resume) {
+    // Where a bar is drawn, it is erased.
+    const char* start = ProgressOutput::standard_error(false).terminal ? "\r\x1b[K" : "";
+    return {{interrupted_by_person, can_resume ? resume_me : 1},
+            fmt::format("{}phasetree: interrupted while {}; nothing is written\n", start, what)};
+}
+
+Document read_document_showing(const SceneFile& file, bool quiet) {
+    std::error_code unknown;
+    const std::uintmax_t size = file.is_standard_input() ? 0 : std::filesystem::file_size(file.name, unknown);
+    return showing("reading the scene", unknown ? 0 : size, quiet, [&] { return read_document(file); });
+}
+
+Scene load_scene_showing(const Document& document, bool quiet) {
+    return showing("reading its files", bytes_of_named_files(document), quiet, [&] { return load_scene(document); });
+}
+
+}  // namespace phasetree::tracer

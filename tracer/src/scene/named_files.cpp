@@ -1,0 +1,54 @@
+#include "scene/named_files.hpp"
+
+#include <system_error>
+
+#include "scene/placed.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+std::uint64_t bytes_named_in(const Document& document, Value value) {
+    std::uint64_t bytes = 0;
+    if (value.kind() == Kind::string) {
+        std::error_code problem;
+        const auto path = named_file(document, value);
+        const std::uintmax_t size = path ? std::filesystem::file_size(*path, problem) : 0;
+        return problem ? 0 : size;
+    }
+    if (value.kind() == Kind::array || value.kind() == Kind::object)
+        for (const Value member : value) bytes += bytes_named_in(document, member);
+    return bytes;
+}
+
+}  // namespace
+
+std::optional<std::filesystem::path> named_file(const Document& document, Value string) {
+    if (string.string().empty()) return std::nullopt;
+    try {
+        std::error_code problem;
+        std::filesystem::path path = document.file(string);
+        if (std::filesystem::is_regular_file(path, problem)) return path;
+    } catch (const SceneError&) {  // not within the folder that files must lie in, so none that is read
+    }
+    return std::nullopt;
+}
+
+void each_document(const Document& document, const std::function<void(const Document&)>& f) {
+    f(document);
+    const auto objects = has_objects(document) ? document.root().find("objects") : std::nullopt;
+    if (!objects) return;
+    for (const Value object : *objects)
+        if (const auto file = object.find("file"); file && file->is_string()) f(document.beside(*file));
+}
+
+std::uint64_t bytes_of_named_files(const Document& document) {
+    std::uint64_t bytes = 0;
+    try {
+        each_document(document, [&](const Document& d) { bytes += bytes_named_in(d, d.root()); });
+    } catch (const SceneError&) {  // which whoever reads the scene finds, too
+    }
+    return bytes;
+}
+
+}  // namespace phasetree::tracer
