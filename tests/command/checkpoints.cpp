@@ -70,9 +70,12 @@ TEST_CASE("SIGTERM and SIGHUP say \"resume me\", and Ctrl-C does not; each leave
         CAPTURE(signal);
         std::filesystem::remove(shell.directory / "a.part");
         bool is_sent = false;
+        std::optional<double> ready;
         const auto send = [&, s = signal](pid_t child) {
             if (is_sent || !is_ready(child)) return;
-            std::this_thread::sleep_for(std::chrono::milliseconds(60));
+            // The scene is read and prepared by then; before that there is nothing to go on from.
+            if (!ready) ready = processor_seconds(child);
+            if (processor_seconds(child) - *ready < 0.3) return;
             is_sent = ::kill(child, s) == 0;
         };
         const Outcome o = shell.run(joined(render, {"--checkpoint", "a.part"}), "", send);

@@ -254,7 +254,7 @@ TEST_CASE("Ctrl-C in the first pass exits with 130 too") {
     const Shell shell;
     write_text(shell.directory / "scene.json", SceneText().text());
     Interrupt interrupt{SIGINT};
-    const Outcome o = shell.run({"render", "scene.json", "-o", "a.exr", "--quiet", "--spp", "1", "--size", "8000x6000"},
+    const Outcome o = shell.run({"render", "scene.json", "-o", "a.exr", "--quiet", "--spp", "1", "--size", "3000x2000"},
                                 "", std::ref(interrupt));
     CAPTURE(o.err);
     CHECK(o.code == 130);
