@@ -1,85 +1,101 @@
-"""How long it is from a change to the first picture of it, as a page gets it: for scenes of the gallery, after its file is
-saved, after a phase is hidden, and after the camera is turned. The median of some times each, in seconds.
+#!/usr/bin/env python3
+"""The time from an edit to the first picture of it in the live view, for every scene of the gallery.
 
-    PHASETREE_COMMAND=build/release/tracer/phasetree python3 benchmarks/view_latency.py scenes/*.json
+    python3 benchmarks/view_latency.py [--command build/release/tracer/phasetree] [--edits 7] [SCENE …]
+
+An edit is one of the numbers of the tree changed by a hundredth, as by a slider: the scene is read, its cells are built
+and a picture is taken. The time is the one that the page shows; it is the server's, from the request to the picture.
+Of so many edits of a scene the median counts. Numbers that may not be changed, as those on which the tree's validity
+depends, are passed over.
 """
 
+import argparse
 import json
 import pathlib
-import shutil
 import statistics
+import subprocess
 import sys
 import time
+import urllib.request
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tests/view"))
-
-from support import View  # noqa: E402
-
-TIMES = 5
+ROOT = pathlib.Path(__file__).resolve().parents[1]
 
 
-class Gallery(View):
-    """The view of a copy of a scene, beside whatever it names."""
+class View:
+    def __init__(self, command, scene):
+        self.process = subprocess.Popen([command, "view", str(scene)], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        self.url = self.process.stdout.readline().strip()
 
-    def __init__(self, scene):
-        self.scene = scene
-        super().__init__(scene.read_text(encoding="utf-8"))
+    def __enter__(self):
+        return self
 
-    def prepare(self):
-        assets = self.scene.parent / "assets"
-        if assets.is_dir():
-            shutil.copytree(assets, self.file.parent / "assets")
+    def __exit__(self, *_):
+        self.process.terminate()
+        self.process.wait()
+
+    def state(self, after=0):
+        with urllib.request.urlopen(f"{self.url}picture?after={after}") as answer:
+            return json.loads(answer.read().split(b"\n", 1)[0])
+
+    def numbers(self):
+        with urllib.request.urlopen(self.url + "numbers") as answer:
+            return json.loads(answer.read())["numbers"]
+
+    def change(self, numbers):
+        body = json.dumps({"numbers": numbers}).encode()
+        request = urllib.request.Request(self.url + "change", body, {"Content-Type": "application/json"})
+        with urllib.request.urlopen(request) as answer:
+            return json.loads(answer.read())["version"]
+
+    def first_picture(self, version, number):
+        """The time until a picture later than `number`; nothing where there was an error."""
+        while True:
+            state = self.state(version)
+            if state["error"]:
+                return None
+            if state.get("picture", {}).get("number", 0) > number:
+                return state["seconds_to_picture"]
+            version = state["version"]
 
 
-def first_picture_after(view, change):
-    """Seconds until the page has a picture that was taken after the change."""
-    state = view.get("picture").state
-    before = state["seconds_to_picture"]
-    start = time.monotonic()
-    change()
-    # Pictures of what was there before go on coming until the change is followed; this number is that of the first one after it.
-    while state["seconds_to_picture"] == before:
-        state = view.get(f"picture?after={state['version']}").state
-    return time.monotonic() - start
-
-
-def measure(scene):
-    with Gallery(scene) as view:
-        camera = json.loads(view.wait_for(lambda state: "picture" in state, within=300).state["camera"])
-        phases = [p["name"] for p in view.get("picture").state["phases"]]
-        text = view.file.read_text(encoding="utf-8")
-        members = camera.get("orthographic", camera)
-
-        def turn(i):
-            members["position"][0] += 0.01 * (i + 1)
-            view.post("change", {"camera": camera})
-
-        changes = {
-            "saved": lambda i: view.file.write_text(text + " " * (i + 1), encoding="utf-8"),
-            "hidden": lambda i: view.post("change", {"hidden": phases[-1:] if i % 2 == 0 else []}),
-            "turned": turn,
-        }
-        result = {}
-        for name, change in changes.items():
-            seconds = []
-            for i in range(TIMES):
-                # The picture before is still refined when somebody changes something.
-                time.sleep(0.5)
-                seconds.append(first_picture_after(view, lambda i=i, change=change: change(i)))
-            result[name] = statistics.median(seconds)
-        return result
+def measure(command, scene, edits):
+    with View(command, scene) as view:
+        state = view.state()
+        while "picture" not in state:
+            state = view.state(state["version"])
+        numbers = [n for n in view.numbers() if n["pointer"].startswith(("/tree/", "/shapes/", "/objects/")) and n["value"] != 0]
+        numbers = numbers[:: max(1, len(numbers) // (3 * edits))]
+        times = []
+        for n in numbers:
+            if len(times) == edits:
+                break
+            time.sleep(0.3)
+            number = view.state()["picture"]["number"]
+            seconds = view.first_picture(view.change({n["pointer"]: 1.01 * n["value"]}), number)
+            if seconds is not None:
+                times.append(seconds)
+        return times
 
 
 def main():
-    scenes = [pathlib.Path(name) for name in sys.argv[1:] if not name.endswith("scene.schema.json")]
-    print(f"{'scene':24} {'saved':>8} {'hidden':>8} {'turned':>8}")
-    results = []
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--command", default=str(ROOT / "build/release/tracer/phasetree"))
+    parser.add_argument("--edits", type=int, default=7)
+    parser.add_argument("scenes", nargs="*", type=pathlib.Path)
+    options = parser.parse_args()
+    scenes = options.scenes or sorted(p for p in (ROOT / "scenes").glob("*.json") if p.name != "scene.schema.json")
+    medians = {}
     for scene in scenes:
-        results.append(measure(scene))
-        print(f"{scene.stem:24}" + "".join(f" {s:8.3f}" for s in results[-1].values()), flush=True)
-    for name, of in (("median", statistics.median), ("worst", max)):
-        print(f"{name:24}" + "".join(f" {of([r[kind] for r in results]):8.3f}" for kind in results[0]))
+        if times := measure(options.command, scene, options.edits):
+            medians[scene.stem] = statistics.median(times)
+            print(f"{scene.stem:32} {medians[scene.stem]:6.2f} s  worst of {len(times)}: {max(times):.2f} s", flush=True)
+        else:
+            print(f"{scene.stem:32} no number could be changed", flush=True)
+    if medians:
+        worst = max(medians, key=medians.get)
+        print(f"{'median of the scenes':32} {statistics.median(medians.values()):6.2f} s\n{'worst, ' + worst:32} {medians[worst]:6.2f} s")
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -36,7 +36,7 @@ class Page(unittest.TestCase):
 
     def setUp(self):
         self.view.file.write_text(LARGER, encoding="utf-8")
-        self.view.post("change", {"camera": None, "hidden": [], "looks": {}, "cut": None, "exposure": 0})
+        self.view.post("change", {"camera": None, "hidden": [], "looks": {}, "cut": None, "numbers": {}, "layer": "", "exposure": 0})
         self.browser.events.clear()
         self.browser.open(self.view.url)
         self.browser.wait_for(READY)
@@ -207,6 +207,41 @@ class Page(unittest.TestCase):
         self.browser.run("document.getElementById('cut-facing').click()")
         self.browser.wait_for(f"{READY} && document.querySelector('[data-normal][aria-label^=y]').value === '-1'")
         self.set_input("#cut-direction", "", "change")
+        self.browser.wait_for(f"{READY} && {SEEN} === {json.dumps(self.before)}")
+
+    def test_a_point_leads_to_its_numbers_and_those_to_the_file(self):
+        self.browser.click(*self.at(0.65, 0.5))
+        self.browser.wait_for("document.querySelectorAll('#point li').length === 4")
+        self.assertIn("sphere scene.json:3:21", self.text("point"))
+        self.browser.run("[...document.querySelectorAll('#point li button')].at(-1).click()")
+        self.assertEqual(self.text("numbers-said"), "1 of sphere, scene.json:3:21.")
+        self.set_input("#number-rows input[type=range]", "0.3")
+        smaller = self.wait_for_another(self.before)
+        self.assertEqual(self.browser.run("document.querySelector('#number-rows input[type=number]').value"), "0.3")
+        self.shoot("numbers")
+        self.browser.run("document.getElementById('numbers-reset').click()")
+        self.browser.wait_for(f"{READY} && {SEEN} === {json.dumps(self.before)}")
+        # By words, and as a number by the keyboard.
+        self.set_input("#number-filter", "ball radius")
+        self.browser.run("(() => { const e = document.querySelector('#number-rows input[type=number]'); e.focus(); e.select(); })()")
+        for key in "0.3":
+            self.browser.press(key, "", key)
+        self.browser.press("Tab")
+        self.browser.wait_for(f"{READY} && {SEEN} === {json.dumps(smaller)}")
+        self.browser.run("document.getElementById('numbers-write').click()")
+        self.browser.wait_for("!document.querySelector('#number-rows .changed')")
+        self.assertEqual(self.view.file.read_text(encoding="utf-8"), LARGER.replace('"radius": 0.5', '"radius": 0.3'))
+
+    def test_planes_of_the_film_are_shown(self):
+        layers = self.browser.run("[...document.getElementById('layer').options].map((o) => o.value)")
+        for layer in ("depth", "normal", "position_behind", "phase_entered", "length_glass", "CryptoPhase00", "variance"):
+            self.assertIn(layer, layers)
+        last = self.before
+        for layer in ("depth", "normal", "phase_entered", "CryptoPhase00", "length_glass"):
+            self.set_input("#layer", layer, "change")
+            last = self.wait_for_another(last)
+            self.shoot(f"layer-{layer}")
+        self.set_input("#layer", "", "change")
         self.browser.wait_for(f"{READY} && {SEEN} === {json.dumps(self.before)}")
 
     def test_the_exposure_brightens(self):

@@ -109,6 +109,83 @@ class Pictures(unittest.TestCase):
             self.assertEqual(back.pixels, before.pixels)
             self.assertEqual(view.file.read_text(encoding="utf-8"), SCENE)
 
+    def test_numbers_of_the_file_are_changed_and_written(self):
+        radius = "/shapes/ball/sphere/radius"
+        smaller = changed(SCENE, '"radius": 0.5', '"radius": 0.375')
+        with View() as view:
+            before = view.ready()
+            told = json.loads(view.get("numbers").body)
+            self.assertEqual(told["version"], before.state["numbers_version"])
+            self.assertIn({"pointer": radius, "line": 3, "value": 0.5}, told["numbers"])
+            view.post("change", {"numbers": {radius: 0.375, "/gone": 1}})
+            after = view.wait_for(lambda s: is_ready(s) and s["numbers"])
+            self.assertEqual(view.get("picture.png").body, self.rendered(view, smaller))
+            self.assertEqual(view.file.read_text(encoding="utf-8"), SCENE)
+            # What the reader refuses is said as of a file, over the last picture.
+            view.post("change", {"numbers": {radius: -1}})
+            wrong = view.wait_for(lambda s: s["error"])
+            self.assertIn("scene.json:3:42: ", wrong.state["error"])
+            self.assertEqual(wrong.state["picture"]["number"], after.state["picture"]["number"])
+            # Turning the camera shows the last good object, and what is wrong with the numbers stays said.
+            view.post("change", {"camera": {"position": [0, -4, 0], "look_at": [0, 0, 0]}})
+            turned = view.wait_for(lambda s: is_ready(s))
+            self.assertIn("scene.json:3:42: ", turned.state["error"])
+            view.post("change", {"camera": None, "numbers": {}})
+            back = view.wait_for(lambda s: is_ready(s) and not s["error"] and not s["numbers"])
+            self.assertEqual(back.pixels, before.pixels)
+            view.post("change", {"numbers": {radius: 0.375}})
+            view.wait_for(lambda s: is_ready(s) and s["numbers"])
+            self.assertEqual(view.post("write_numbers", {}).status, 200)
+            self.assertEqual(view.file.read_text(encoding="utf-8"), smaller)
+            view.wait_for(lambda s: is_ready(s) and not s["numbers"])
+            self.assertEqual(view.get("picture.png").body, self.rendered(view, smaller))
+
+    def test_planes_of_the_film_are_shown_and_saved(self):
+        with View() as view:
+            before = view.ready()
+            self.assertIn("depth", before.state["layers"])
+            self.assertEqual(view.post("change", {"layer": "depht"}).status, 400)
+
+            def shown(layer):
+                version = json.loads(view.post("change", {"layer": layer}).body)["version"]
+                answer = view.wait_for(lambda s: is_ready(s) and s["version"] > version and s["layer"] == layer)
+                width = answer.state["width"]
+                def at(x, y):
+                    return tuple(answer.pixels[3 * (y * width + x):3 * (y * width + x) + 3])
+                return answer, at
+            # The camera looks along y at a ball of wood, whose front has the normal (0, -1, 0): dithered, 0.5 is 127 or 128.
+            _, at = shown("normal")
+            for told, wanted in zip(at(64, 32), (127.5, 0, 127.5)):
+                self.assertAlmostEqual(told, wanted, delta=16)
+            _, at = shown("phase_entered")
+            self.assertEqual(len({at(64, 32), at(32, 32), at(2, 2)}), 3)
+            self.assertEqual(at(2, 2), (0, 0, 0))
+            depth, at = shown("depth")
+            self.assertGreater(at(64, 32)[0], 200)
+            self.assertEqual(at(2, 2), (0, 0, 0))
+            self.assertNotEqual(view.get("picture.png").body, self.rendered(view, SCENE))
+            self.assertIn(b"depth.Z", view.get("picture.exr").body)
+            back, _ = shown("")
+            self.assertEqual(back.pixels, before.pixels)
+            self.assertNotEqual(depth.pixels, before.pixels)
+
+    def test_a_point_tells_the_nodes_that_made_it(self):
+        def places(x, y):
+            told = json.loads(view.post("ask", {"x": x, "y": y}).body)["path"]
+            return [(n["name"], n["line"], n["column"], n["pointer"]) for n in told]
+        with View() as view:
+            view.ready()
+            self.assertEqual(places(64, 32), [("under", 4, 10, "/tree/under"),
+                                              ("set", 4, 21, "/tree/under/0/set"),
+                                              ("translate", 4, 53, "/tree/under/0/set/of/translate"),
+                                              ("sphere", 3, 21, "/shapes/ball/sphere")])
+            self.assertEqual(places(32, 32)[2], ("translate", 5, 54, "/tree/under/1/set/of/translate"))
+            self.assertEqual(places(1, 1), [])
+            # What the view itself cuts with is in no file.
+            view.post("change", {"cut": {"normal": [0, -1, 0], "offset": 0}})
+            view.wait_for(lambda s: is_ready(s) and s["cut"])
+            self.assertEqual(places(64, 32), [("intersect_shape", 0, 0, ""), ("plane", 0, 0, "")])
+
     def test_a_clear_phase_has_its_colour_after_half_the_diagonal_of_the_object(self):
         with View() as view:
             view.ready()

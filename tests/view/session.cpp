@@ -68,7 +68,7 @@ class Bench {
     Session& begin() {
         options_.name = "scene";
         options_.threads = 1;
-        session_.emplace([this](WatchedFiles& files) { return read(files); }, options_);
+        session_.emplace([this](WatchedFiles& files, const NumberEdits&) { return read(files); }, options_);
         return *session_;
     }
     void save() { std::ofstream(file_, std::ios::app) << "."; }

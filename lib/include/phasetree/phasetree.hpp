@@ -13,4 +13,5 @@
 #include "phasetree/program/program.hpp"
 #include "phasetree/trace/tracer.hpp"
 #include "phasetree/tree/levels_of_detail.hpp"
+#include "phasetree/tree/value_source.hpp"
 #include "phasetree/version.hpp"

@@ -35,11 +35,12 @@ static_assert(Document::max_depth >= 3 * max_tree_depth + 8, "the deepest tree t
 class Reader {
   public:
     Reader(const Document& document, PhaseNames names, std::optional<Value> shapes, const FileReaders& files,
-           KnownShapes known = {})
+           KnownShapes known = {}, NodePlaces* places = nullptr)
         : document_(document),
           names_(std::move(names)),
           shapes_(shapes),
           files_(files),
+          places_(places),
           fields_(std::move(known.fields)),
           objects_(std::move(known.objects)) {}
 
@@ -163,7 +164,9 @@ class Reader {
         else if (!(member.is_string() && read_text(node, member)))
             read_parameters(node, member);
         try {
-            return Handle(std::move(node));
+            Handle made(std::move(node));
+            if (places_) places_->add(made.node(), document_, member.key_offset());
+            return made;
         } catch (const TextError& e) {
             const Value text = member.is_string() ? member : member.find(e.parameter()).value();
             throw document_.error(io::offset_in_string(document_.text(), text.offset(), e.offset()), e.message());
@@ -334,6 +337,7 @@ class Reader {
     PhaseNames names_;
     std::optional<Value> shapes_;
     const FileReaders& files_;
+    NodePlaces* places_;
     std::map<std::string, std::shared_ptr<const SirenNetwork>, std::less<>> networks_;
     std::map<std::string, std::shared_ptr<const HeightGrid>, std::less<>> height_grids_;
     std::map<std::string, Field, std::less<>> fields_;
@@ -369,7 +373,7 @@ std::optional<Value> shapes_of(const Document& document) {
 
 }  // namespace
 
-SceneTree read_tree(const Document& document, const FileReaders& files) {
+SceneTree read_tree(const Document& document, const FileReaders& files, NodePlaces* places) {
     const Value root = document.root();
     if (!root.is_object())
         throw document.error(root, fmt::format("a scene is an object, but this is {}", name_of(root.kind())));
@@ -377,7 +381,7 @@ SceneTree read_tree(const Document& document, const FileReaders& files) {
     const std::optional<Value> shapes = shapes_of(document);
     const std::optional<Value> tree = root.find("tree");
     if (!tree) throw document.error(root, "the scene needs \"tree\"");
-    Reader reader(document, names, shapes, files);
+    Reader reader(document, names, shapes, files, {}, places);
     SceneTree result{names, reader.read<Phased>(*tree)};
     reader.read_unused();
     return result;
@@ -389,8 +393,8 @@ PhaseNames read_phase_names(const Document& document) {
 }
 
 std::vector<Phased> read_objects(const Document& document, const PhaseNames& names, std::span<const Value> objects,
-                                 const FileReaders& files) {
-    Reader reader(document, names, shapes_of(document), files);
+                                 const FileReaders& files, NodePlaces* places) {
+    Reader reader(document, names, shapes_of(document), files, {}, places);
     std::vector<Phased> result;
     for (const Value object : objects) result.push_back(reader.read<Phased>(object));
     reader.read_unused();

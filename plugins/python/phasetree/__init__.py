@@ -20,6 +20,7 @@ from phasetree._parts import cameras, lights, materials, meshes, numbers, textur
 from phasetree._phases import Phase, phase, vacuum
 from phasetree._scene import Image, Scene, load
 from phasetree._trees import Closest, Crossings, Field, Hits, Object
+from phasetree._view import View, view
 
 __version__ = _phasetree.version
 
@@ -32,8 +33,8 @@ image = _parts.image
 camera = cameras.thin_lens
 
 __all__ = [
-    "Closest", "Crossings", "Error", "Expression", "Field", "Hits", "Image", "Object", "Phase", "Scene", "SceneError",
-    "camera", "cameras", "coordinates", "image", "lights", "load", "materials", "meshes", "numbers", "phase", "textures", "vacuum",
+    "Closest", "Crossings", "Error", "Expression", "Field", "Hits", "Image", "Object", "Phase", "Scene", "SceneError", "View",
+    "camera", "cameras", "coordinates", "image", "lights", "load", "materials", "meshes", "numbers", "phase", "textures", "vacuum", "view",
 ]  # fmt: skip
 # Not among them are those that Python has under the same name.
 __all__ += [name for name in _formula.functions if name not in ("abs", "max", "min")]

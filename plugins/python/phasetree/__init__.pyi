@@ -990,6 +990,30 @@ class Scene:
 image: settings in place of the scene's own, such as samples=16, width=400. crop: (x0, y0, x1, y1) in pixels.
 progress: True for a line on standard error, or a function of a stage and a share in [0, 1]. Ctrl-C ends it."""
 
+class View:
+    r"""A live view that is served until close(), or until the program ends.
+
+    url: the page's address, for browsers of this machine; whoever has it may look. file: the scene's file, which the page
+    can write a camera and numbers into."""
+    def __init__(self, what, width=..., samples=..., threads=..., port=...):
+        r"""Initialize self.  See help(type(self)) for accurate signature."""
+    def show(self, what):
+        r"""Shows another object or scene on the same page. The camera stays where it was turned to, unless the new scene
+has another one than the last."""
+    def close(self):
+        r"""Ends the view. The page then says that nobody answers."""
+    url: str
+    file: str
+    def __enter__(self) -> View: ...
+    def __exit__(self, *_: object) -> None: ...
+
+def view(what: Object | Scene, *, width: int | None = ..., samples: int | None = ..., threads: int = ..., port: int = ..., open: bool | None = ...) -> View:
+    r"""Shows an object or a scene in the browser, to be turned, cut and edited while it is refined: a View.
+
+    An object alone is seen under a plain sky, and a phase without a material has a plain colour. width: of the picture
+    in pixels. samples: a pixel's, in the end. port: of 127.0.0.1, 0 for any that is free. open: whether the browser is
+    asked to show the page; by default it is, but not in notebooks, which show it within them. Raises pt.Error."""
+
 class Expression:
     r"""A number for each point: x, y, z and what is computed of them. Immutable.
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import inspect
 import textwrap
 
-from phasetree import _formula, _parts, _scene, _trees
+from phasetree import _formula, _parts, _scene, _trees, _view
 
 _TYPES = {
     "number": "float",
@@ -121,7 +121,7 @@ def _class(cls, methods=""):
     text = f"class {cls.__name__}:\n" + textwrap.indent(f'r"""{inspect.getdoc(cls)}"""', "    ") + "\n"
     for name, member in vars(cls).items():
         is_generated = name in _trees.functions
-        is_said = not name.startswith("_") or (name == "__init__" and cls in (_scene.Scene, _scene.Image))
+        is_said = not name.startswith("_") or (name == "__init__" and cls in (_scene.Scene, _scene.Image, _view.View))
         if is_said and not is_generated and (inspect.isfunction(member) or isinstance(member, property)):
             text += _plain(member)
     if cls is _trees.Field:
@@ -158,6 +158,11 @@ def text():
     out += "".join(["class Object:\n    phases: tuple[Phase, ...]\n", _class(_trees.Object).split("\n", 1)[1]])
     out += _methods(_trees.Object) + "\n"
     out += _class(_scene.Image) + "\n" + _class(_scene.Scene) + "\n"
+    out += _class(_view.View) + "    url: str\n    file: str\n    def __enter__(self) -> View: ...\n"
+    out += "    def __exit__(self, *_: object) -> None: ...\n\n"
+    out += "def view(what: Object | Scene, *, width: int | None = ..., samples: int | None = ..., threads: int = ..., "
+    out += "port: int = ..., open: bool | None = ...) -> View:\n"
+    out += textwrap.indent(f'r"""{inspect.getdoc(_view.view)}"""', "    ") + "\n\n"
     out += _class(_formula.Expression)
     for name in ("add", "radd", "sub", "rsub", "mul", "rmul", "truediv", "rtruediv"):
         out += f"    def __{name}__(self, other: {_NUMBER}) -> Expression: ...\n"

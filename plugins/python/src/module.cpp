@@ -12,4 +12,5 @@ PYBIND11_MODULE(_phasetree, module) {
     add_rays(module);
     add_scenes(module);
     add_rendering(module);
+    add_viewing(module);
 }

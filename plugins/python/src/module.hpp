@@ -17,6 +17,7 @@ void add_points(pybind11::module_&);
 void add_rays(pybind11::module_&);
 void add_scenes(pybind11::module_&);
 void add_rendering(pybind11::module_&);
+void add_viewing(pybind11::module_&);
 
 /// What work tells of itself: the stage that it is in, and which share of that is done. By any thread.
 using Progress = std::function<void(const char* stage, float share)>;

@@ -94,8 +94,8 @@ Phase phase_at(const Document& document, const Scene& scene, const glm::vec3& po
 
 }  // namespace
 
-Scene load_scene(const Document& document) {
-    Scene scene = read_scene(document);
+Scene load_scene(const Document& document, NodePlaces* places) {
+    Scene scene = read_scene(document, places);
     const Phase phase = phase_at(document, scene, position_of(scene.camera));
     if (!is_clear(scene.materials[phase.index]))
         throw document.error(*document.root().find("camera"),

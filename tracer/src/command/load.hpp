@@ -12,8 +12,8 @@ namespace phasetree::tracer {
 
 // Reads a scene and makes sure that it can be rendered: beside what read_scene finds, that the object is neither too
 // large nor too small nor too far away, that the camera is not inside an opaque phase, that something shines, and that
-// there is the view that the scene names. Throws SceneError.
-Scene load_scene(const Document&);
+// there is the view that the scene names. Throws SceneError. `places` is told where the object's nodes stand.
+Scene load_scene(const Document&, NodePlaces* places = nullptr);
 
 // How a scene is shown: as the options say, which come before what the scene says. Throws DisplayError for the options,
 // SceneError for the scene.

@@ -4,17 +4,14 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
-#include <filesystem>
 
 #include "command/commands.hpp"
-#include "command/load.hpp"
 #include "command/max_memory.hpp"
 #include "command/streams.hpp"
+#include "command/viewed_file.hpp"
 #include "output/error.hpp"
-#include "output/file.hpp"
 #include "output/interrupt.hpp"
 #include "render/threads.hpp"
-#include "scene/camera_text.hpp"
 #include "view/server.hpp"
 
 namespace phasetree::tracer {
@@ -25,46 +22,12 @@ struct Options {
     std::shared_ptr<SceneFile> scene;
     std::optional<int> samples, width;
     std::optional<std::string> display, view;
+
+    ViewedFile file() const { return {*scene, display, view}; }
     int threads = 0, port = 0;
     std::size_t most_bytes = 0;
     bool opens = false;
 };
-
-// Files that the scene names. Which strings are names of files the readers know; every string with a dot in it that may
-// be read as one is watched, which costs a look now and then.
-void add_named_files(const Document& document, Value value, view::WatchedFiles& files) {
-    if (value.is_string() && value.string().find('.') != std::string_view::npos && value.string().size() < 1024) {
-        try {
-            files.add(document.file(value));
-        } catch (const SceneError&) {
-            // It leaves the folder that files must lie in, which the reader says if it is a file.
-        }
-    }
-    for (const Value child : value) add_named_files(document, child, files);
-}
-
-view::ViewedScene read_viewed(const Options& options, view::WatchedFiles& files) {
-    files.add(options.scene->name);
-    const Document document = read_document(*options.scene);
-    add_named_files(document, document.root(), files);
-    Scene scene = load_scene(document);
-    make_one_tree(document, scene);
-    // A name that is wrong is said now.
-    (void)display_of(document, scene.settings, options.display, options.view, {});
-    const RenderSettings settings = scene.settings;
-    return {std::move(scene), [=, display = options.display, view = options.view](float exposure_ev) {
-                return display_of(document, settings, display, view, exposure_ev);
-            }};
-}
-
-// The file keeps who may read and write it.
-void write_camera(const Options& options, const std::string& camera) {
-    const Document document = read_document(*options.scene);
-    const std::filesystem::path file = options.scene->name;
-    const std::filesystem::perms permissions = std::filesystem::status(file).permissions();
-    write_file(with_camera(document, camera), file);
-    std::filesystem::permissions(file, permissions);
-}
 
 // The desktop's browser, which is left to itself. Where there is none, the address that was printed is enough.
 void open_browser(const std::string& url) {
@@ -86,23 +49,19 @@ int view_scene(const Options& options) {
     if (options.scene->is_standard_input())
         throw OutputError("view: the scene must be a file, which is read again when it is saved");
     const AvailableThreads threads(options.threads);
+    const ViewedFile file = options.file();
     const view::SessionOptions session_options{
         .name = options.scene->shown(),
         .threads = threads.count(),
         .most_bytes = options.most_bytes,
         .samples = options.samples,
         .width = options.width,
-        .write_camera = [&](const std::string& text) { write_camera(options, text); },
+        .write_camera = [&](const std::string& camera) { file.write_camera(camera); },
+        .write_numbers = [&](const view::NumberEdits& numbers) { file.write_numbers(numbers); },
         .tell = [](std::string_view text) { say(text); }};
     // A scene that is wrong from the start is said as by every subcommand.
-    view::WatchedFiles first_files;
-    std::optional<view::ViewedScene> first = read_viewed(options, first_files);
+    const view::ReadScene read = file.reader();
     const InterruptGuard guard;
-    const auto read = [&](view::WatchedFiles& files) {
-        if (!first) return read_viewed(options, files);
-        files = first_files;
-        return *std::exchange(first, std::nullopt);
-    };
     view::Session session(read, session_options);
     view::serve(session, {.port = options.port,
                           .is_over = [] { return interrupted(); },

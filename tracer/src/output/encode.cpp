@@ -158,6 +158,17 @@ std::vector<unsigned char> encode(const Image& image, Format format, const Metad
     return encoded(spec, name, quantise8(shown, image.width, place.x0, place.y0).data());
 }
 
+std::vector<unsigned char> encode_png(std::span<const std::uint8_t> pixels, int width, int height,
+                                      const std::string& description) {
+    if (pixels.size() != 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height))
+        throw std::invalid_argument("a picture must have width × height pixels");
+    OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
+    spec.attribute("Software", fmt::format("phasetree {}", version()));
+    spec.attribute("DateTime", "");
+    spec.attribute("ImageDescription", description);
+    return encoded(spec, name_for_format(Format::png), pixels.data());
+}
+
 std::vector<unsigned char> encode_layer(const Image& image, const Layer& layer, const Metadata& metadata) {
     check(image);
     const OIIO::ImageSpec spec = exr_spec(image, layer, metadata);

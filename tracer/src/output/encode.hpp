@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,10 @@ Format format_of(const std::filesystem::path& path);
 /// Throws OutputError with the reason, not knowing the path.
 std::vector<unsigned char> encode(const Image& image, Format format, const Metadata& metadata,
                                   const DisplayTransform& transform);
+
+/// A PNG file of pixels that are as a display shows them: red, green and blue, row by row. Throws as encode() does.
+std::vector<unsigned char> encode_png(std::span<const std::uint8_t> pixels, int width, int height,
+                                      const std::string& description);
 
 /// The same of an EXR file that has one layer alone (layers.hpp).
 std::vector<unsigned char> encode_layer(const Image& image, const Layer& layer, const Metadata& metadata);

@@ -85,7 +85,7 @@ struct ObjectsModel {
 /// Whether the document is a scene of several objects: whether it has "objects".
 bool has_objects(const Document&);
 /// Reads "objects", "groups" and "instances", and "tree" as one object more, with the phases and shapes that they need.
-/// Throws SceneError.
-ObjectsModel read_placed_objects(const Document&);
+/// Throws SceneError. `places` is told of the nodes of the objects whose phases keep the numbers that their file gives.
+ObjectsModel read_placed_objects(const Document&, NodePlaces* places = nullptr);
 
 }  // namespace phasetree::tracer

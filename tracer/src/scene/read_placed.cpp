@@ -35,7 +35,8 @@ struct Found {
 
 class ObjectsReader {
   public:
-    explicit ObjectsReader(const Document& document) : document_(document), root_(document.root()) {
+    ObjectsReader(const Document& document, NodePlaces* places)
+        : document_(document), root_(document.root()), node_places_(places) {
         model_.phases = read_phase_names(document);
         if (const auto phases = root_.find("phases"))
             for (const Value phase : *phases) model_.materials.push_back({document, phase});
@@ -85,7 +86,7 @@ class ObjectsReader {
             }
         }
         const std::vector<Phased> read =
-            phasetree::read_objects(document_, model_.phases, trees, {.height_grid = read_height_grid});
+            phasetree::read_objects(document_, model_.phases, trees, {.height_grid = read_height_grid}, node_places_);
         for (std::size_t i = 0; i < read.size(); ++i) found_[of[i]].object.tree = read[i];
     }
 
@@ -102,7 +103,7 @@ class ObjectsReader {
                                                          name));
             if (!root.is_object() || !root.find("tree"))
                 throw document_.error(named, fmt::format("\"{}\" has no \"tree\"", name));
-            known = files_.emplace(name, TakenFile{other, read_tree(other, {.height_grid = read_height_grid})}).first;
+            known = files_.emplace(name, TakenFile{other, read_tree(other, {.height_grid = read_height_grid}, node_places_)}).first;
         }
         found.document = known->second.document;
         found.names = known->second.tree.phases;
@@ -287,6 +288,7 @@ class ObjectsReader {
 
     const Document& document_;
     Value root_;
+    NodePlaces* node_places_;
     ObjectsModel model_;
     std::vector<Found> found_;
     std::map<std::string, TakenFile, std::less<>> files_;
@@ -303,8 +305,8 @@ bool has_objects(const Document& document) {
     return document.root().is_object() && document.root().find("objects");
 }
 
-ObjectsModel read_placed_objects(const Document& document) {
-    return ObjectsReader(document).read();
+ObjectsModel read_placed_objects(const Document& document, NodePlaces* places) {
+    return ObjectsReader(document, places).read();
 }
 
 }  // namespace phasetree::tracer

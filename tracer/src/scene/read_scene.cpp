@@ -70,10 +70,10 @@ void refuse_places_of_nothing(const Document& document) {
             throw document.error(value->key_offset(), fmt::format("\"{}\" is of no use without \"objects\"", part));
 }
 
-void read_model_into(const Document& document, const FileParts& parts, Scene& scene) {
+void read_model_into(const Document& document, const FileParts& parts, NodePlaces* places, Scene& scene) {
     scene.materials.push_back(vacuum());
     if (parts.objects) {
-        ObjectsModel model = read_placed_objects(document);
+        ObjectsModel model = read_placed_objects(document, places);
         scene.phases = std::move(model.phases);
         scene.placed = std::move(model.placed);
         for (const auto& source : model.materials)
@@ -82,7 +82,7 @@ void read_model_into(const Document& document, const FileParts& parts, Scene& sc
         return;
     }
     refuse_places_of_nothing(document);
-    SceneTree tree = read_tree(document, {.height_grid = read_height_grid});
+    SceneTree tree = read_tree(document, {.height_grid = read_height_grid}, places);
     scene.phases = std::move(tree.phases);
     scene.object = std::move(tree.object);
     for (const Value phase : *parts.phases) scene.materials.push_back(read_phase_material(document, phase));
@@ -108,14 +108,14 @@ SceneModel read_scene_model(const Document& document) {
     return {std::move(tree.phases), std::move(tree.object), {}};
 }
 
-Scene read_scene(const Document& document) {
+Scene read_scene(const Document& document, NodePlaces* places) {
     ObjectReader root(document, document.root(), "the scene");
     const FileParts parts = parts_of(root);
     check_version(document, needed(root, &FileParts::version));
 
     Scene scene;
     scene.file = document.name();
-    read_model_into(document, parts, scene);
+    read_model_into(document, parts, places, scene);
     scene.lights = read_lights(document, document.root());
     if (parts.meshes) scene.meshes = read_meshes(document, *parts.meshes);
     scene.camera = read_camera(document, needed(root, &FileParts::camera), scene.film);

@@ -71,7 +71,8 @@ struct Scene {
 };
 
 // Reads a whole scene. Files it names are relative to it. Throws SceneError with the place in the text.
-Scene read_scene(const Document& document);
+// `places` is told where the object's nodes stand.
+Scene read_scene(const Document& document, NodePlaces* places = nullptr);
 
 // What objects and meshes are called, in the order of their numbers (Surface::object).
 std::vector<std::string> object_names(const Scene& scene);

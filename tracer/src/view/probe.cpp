@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "phasetree/math/float_mode.hpp"
+#include "phasetree/tree/value_source.hpp"
 
 namespace phasetree::tracer::view {
 
@@ -29,8 +30,25 @@ void follow(const Prepared& prepared, Probed& result) {
     }
 }
 
+std::vector<ProbedNode> path_to(const ViewedScene& viewed, const Phased& object, const glm::vec3& p, Phase phase) {
+    std::vector<ProbedNode> path;
+    for (const NodeOnPath& step : value_source(object, p, phase)) {
+        ProbedNode node{.name = std::string(step.name), .file = {}, .pointer = {}};
+        if (const auto place = viewed.places.find(step.node)) {
+            node.file = place->file;
+            node.line = place->line;
+            node.column = place->column;
+            const auto member = viewed.numbers.members.find(place->offset);
+            if (place->file == viewed.scene.file && member != viewed.numbers.members.end())
+                node.pointer = member->second;
+        }
+        path.push_back(node);
+    }
+    return path;
+}
+
 // Fills in what is met first: the object, or a mesh before it.
-void meet(const Prepared& prepared, Probed& result) {
+void meet(const ViewedScene& viewed, const Prepared& prepared, Probed& result) {
     const World& world = prepared.world();
     PathCounters counters;
     const Ray ray{result.origin, result.direction, world.geometry().label(result.origin), {}};
@@ -38,10 +56,17 @@ void meet(const Prepared& prepared, Probed& result) {
     const auto* surface = std::get_if<Surface>(&hit);
     if (!surface) return;
     result.point = result.origin + surface->distance * result.direction;
-    if (surface->object == 0)
-        result.met = prepared.scene().phases[surface->entered.value()];
-    else
+    if (surface->object == 0) {
+        const Phase entered = surface->entered.value();
+        result.met = prepared.scene().phases[entered];
+        try {
+            result.path = path_to(viewed, prepared.scene().object, surface->near_side.origin, entered);
+        } catch (const ModelError&) {
+            // The tree stands for too many nodes; the rest can be told all the same.
+        }
+    } else {
         result.met = prepared.scene().meshes[surface->object - 1].name;
+    }
     const Phases<float> phi = prepared.world().geometry().object().whole().distances(surface->near_side.origin,
                                                                                      Evaluator::thread_workspace());
     const std::vector<std::string>& names = prepared.scene().phases.names;
@@ -59,7 +84,7 @@ Probed probe(const Picture& picture, const glm::vec2& place) {
     Probed result;
     result.origin = ray.origin;
     result.direction = ray.direction;
-    meet(*picture.prepared, result);
+    meet(*picture.viewed, *picture.prepared, result);
     if (picture.prepared->world().geometry().object().size() > 0) follow(*picture.prepared, result);
     return result;
 }

@@ -20,6 +20,14 @@ struct ProbedDistance {
     float phi = 0;
 };
 
+/// A node of those that made a surface. What the view itself puts around the scene, such as the cut, has no line.
+struct ProbedNode {
+    std::string name;
+    std::string file;
+    std::size_t line = 0, column = 0;  ///< from 1
+    std::string pointer;               ///< as in TextNumbers; empty if the node has no numbers there
+};
+
 struct Probed {
     glm::vec3 origin{0.0f}, direction{0.0f};  ///< of the ray through the middle of the lens
     std::string start;                        ///< the phase in which the ray starts
@@ -28,6 +36,8 @@ struct Probed {
     std::string met;                          ///< the phase or the mesh that is met first; empty if nothing is
     glm::vec3 point{0.0f};                    ///< where, if anything
     std::vector<ProbedDistance> distances;    ///< there, of the phases that the object has
+    /// From the tree's root to the primitive that gives the distance of the phase that is met.
+    std::vector<ProbedNode> path;
 
     static constexpr std::size_t most = 200;
 };

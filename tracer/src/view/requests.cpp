@@ -1,5 +1,8 @@
 #include "view/requests.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "phasetree/io/object_reader.hpp"
@@ -92,6 +95,16 @@ Change read_change(const std::string& text, const Shown& shown) {
         change.has_cut = true;
         if (!cut->is_null()) change.cut = read_cut(document, *cut);
     }
+    if (const auto numbers = reader.value("numbers")) {
+        if (!numbers->is_object()) throw document.error(*numbers, "\"numbers\" must be an object");
+        change.numbers.emplace();
+        for (const Value number : *numbers)
+            change.numbers->emplace(number.key(), as<double>(document, number, "a number"));
+    }
+    change.layer = reader.maybe<std::string>("layer");
+    if (change.layer && !change.layer->empty() &&
+        std::ranges::none_of(shown.layers, [&](const FilmLayer& layer) { return layer.name == *change.layer; }))
+        throw document.error(reader.required_value("layer"), fmt::format("there is no layer \"{}\"", *change.layer));
     change.exposure_ev = reader.maybe<float>("exposure", exposures);
     reader.finish();
     return change;
@@ -120,6 +133,11 @@ std::string written(const Shown& shown) {
     for (const ShownPhase& phase : shown.phases) json["phases"].push_back(written(phase));
     json["cut"] = Json();
     if (shown.cut) json["cut"] = {{"normal", list(shown.cut->normal)}, {"offset", shown.cut->offset}};
+    json["layer"] = shown.layer;
+    json["layers"] = Json::array();
+    for (const FilmLayer& layer : shown.layers) json["layers"].push_back(layer.name);
+    json["numbers"] = shown.numbers;
+    json["numbers_version"] = shown.numbers_version;
     json["camera"] = shown.camera_text;
     json["centre"] = list(shown.centre);
     json["radius"] = shown.radius;
@@ -149,6 +167,20 @@ std::string written(const Probed& probed) {
     for (const ProbedCrossing& c : probed.crossings)
         json["crossings"].push_back({{"distance", c.distance}, {"from", c.from}, {"to", c.to}});
     json["has_more"] = probed.has_more;
+    json["path"] = Json::array();
+    for (const ProbedNode& n : probed.path)
+        json["path"].push_back(
+            {{"name", n.name}, {"file", n.file}, {"line", n.line}, {"column", n.column}, {"pointer", n.pointer}});
+    return line(json);
+}
+
+std::string written(const TextNumbers& numbers, std::uint64_t version) {
+    Json json;
+    json["version"] = version;
+    json["numbers"] = Json::array();
+    for (const NumberInText& n : numbers.numbers)
+        json["numbers"].push_back({{"pointer", n.pointer}, {"line", n.line}, {"value", n.value}});
+    json["has_more"] = numbers.has_more;
     return line(json);
 }
 

@@ -20,5 +20,6 @@ glm::vec2 read_place(const std::string& text, const Shown& shown);
 /// One line.
 std::string written(const Shown& shown);
 std::string written(const Probed& probed);
+std::string written(const TextNumbers& numbers, std::uint64_t version);
 
 }  // namespace phasetree::tracer::view

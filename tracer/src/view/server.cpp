@@ -85,7 +85,8 @@ class Server : public httplib::Server {
 
 class Answers {
   public:
-    Answers(Session& session, Access access) : session_(session), access_(std::move(access)) {}
+    Answers(Session& session, Access access, bool may_be_framed)
+        : session_(session), access_(std::move(access)), may_be_framed_(may_be_framed) {}
 
     // Before the body is read. Whether it is answered already.
     bool head(const httplib::Request& request, httplib::Response& response) const {
@@ -98,7 +99,8 @@ class Answers {
             return true;
         }
         if (request.method != "POST") return refuse(response, 405, "only GET and POST are understood");
-        if (name != "change" && name != "ask" && name != "write") return refuse(response, 404, "there is no such page");
+        if (name != "change" && name != "ask" && name != "write" && name != "write_numbers")
+            return refuse(response, 404, "there is no such page");
         if (request.has_header("Content-Encoding") || request.has_header("Transfer-Encoding") ||
             !request.has_header("Content-Length"))
             return refuse(response, 411, "a request must be plain and say its length");
@@ -115,6 +117,9 @@ class Answers {
                 response.set_content(fmt::format("{{\"version\": {}}}", version), json);
             } else if (name == "write") {
                 session_.write_camera();
+                response.set_content("{}", json);
+            } else if (name == "write_numbers") {
+                session_.write_numbers();
                 response.set_content("{}", json);
             } else if (shown->picture) {
                 const glm::vec2 place = read_place(request.body, *shown);
@@ -137,11 +142,13 @@ class Answers {
     }
 
   private:
-    // The page may load nothing from elsewhere and be shown in nobody's frame, and its address goes nowhere.
-    static void set_headers(httplib::Response& response) {
-        response.set_header("Content-Security-Policy",
-                            "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
-                            "connect-src 'self'; form-action 'none'; base-uri 'none'; frame-ancestors 'none'");
+    // The page may load nothing from elsewhere and be shown in no stranger's frame, and its address goes nowhere.
+    void set_headers(httplib::Response& response) const {
+        response.set_header(
+            "Content-Security-Policy",
+            fmt::format("default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
+                        "connect-src 'self'; form-action 'none'; base-uri 'none'; frame-ancestors {}",
+                        may_be_framed_ ? "http://127.0.0.1:* http://localhost:*" : "'none'"));
         response.set_header("Referrer-Policy", "no-referrer");
         response.set_header("X-Content-Type-Options", "nosniff");
         response.set_header("Cross-Origin-Resource-Policy", "same-origin");
@@ -149,6 +156,11 @@ class Answers {
     }
     bool get(std::string_view name, const httplib::Request& request, httplib::Response& response) const {
         if (name == "picture") return picture(request, response);
+        if (name == "numbers") {
+            const std::shared_ptr<const Shown> shown = session_.shown();
+            response.set_content(written(*shown->numbers_of_file, shown->numbers_version), json);
+            return true;
+        }
         if (name == "picture.png") return file(response, Format::png, "image/png");
         if (name == "picture.exr") return file(response, Format::exr, "image/x-exr");
         for (const PageFile& f : page_files())
@@ -176,13 +188,17 @@ class Answers {
         if (!shown->picture) return refuse(response, 409, "there is no picture yet");
         const Picture& p = *shown->picture;
         const Metadata metadata{shown->scene, p.samples, p.viewed->scene.settings.seed};
-        const std::vector<unsigned char> bytes = encode(p.linear, format, metadata, p.viewed->display(p.exposure_ev));
+        const std::vector<unsigned char> bytes =
+            format == Format::png && !p.layer.empty()
+                ? encode_png(p.pixels, p.linear.width, p.linear.height, fmt::format("{}, {}", shown->scene, p.layer))
+                : encode(p.linear, format, metadata, p.viewed->display(p.exposure_ev));
         response.set_content(std::string(bytes.begin(), bytes.end()), type);
         return true;
     }
 
     Session& session_;
     Access access_;
+    bool may_be_framed_;
     mutable std::atomic<int> waiting_{0};
 };
 
@@ -210,7 +226,7 @@ void serve(Session& session, const ServeOptions& options) {
     if (port < 0) throw std::runtime_error(fmt::format("port {} of 127.0.0.1 cannot be had", options.port));
 
     const Access access(port, random_token());
-    const Answers answers(session, access);
+    const Answers answers(session, access, options.may_be_framed);
     using Handled = httplib::Server::HandlerResponse;
     server.set_pre_routing_handler([&](const httplib::Request& request, httplib::Response& response) {
         return answers.head(request, response) ? Handled::Handled : Handled::Unhandled;
@@ -218,7 +234,8 @@ void serve(Session& session, const ServeOptions& options) {
     const auto post = [&](const httplib::Request& request, httplib::Response& response) {
         answers.post(request, response);
     };
-    for (const char* name : {"change", "ask", "write"}) server.Post(std::string(access.path()) + name, post);
+    for (const char* name : {"change", "ask", "write", "write_numbers"})
+        server.Post(std::string(access.path()) + name, post);
     server.set_exception_handler([](const httplib::Request&, httplib::Response& response, std::exception_ptr) {
         Answers::refuse(response, 500, "this cannot be answered: memory may have run out");
     });

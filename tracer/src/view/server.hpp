@@ -13,6 +13,8 @@ bool can_serve();
 
 struct ServeOptions {
     int port = 0;  ///< 0: any that is free
+    /// Whether pages of other servers of this machine, such as a notebook's, may show the page within them.
+    bool may_be_framed = false;
     std::function<bool()> is_over;
     std::function<void(const std::string& url)> serving;  ///< is told where, once requests are answered
 };

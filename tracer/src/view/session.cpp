@@ -35,10 +35,24 @@ std::string error_text(std::exception_ptr failure) {
     }
 }
 
-std::vector<std::uint8_t> on_display(const Image& image, const DisplayTransform& display) {
-    std::vector<glm::vec3> pixels = image.pixels;
-    display.apply(pixels);
-    return quantise8(pixels, image.width, 0, 0);
+std::vector<std::uint8_t> on_display(const Picture& picture) {
+    const DisplayTransform display = picture.viewed->display(picture.exposure_ev);
+    std::vector<glm::vec3> pixels;
+    if (picture.layer.empty()) {
+        pixels = picture.linear.pixels;
+        display.apply(pixels);
+    } else {
+        pixels = layer_on_display(picture.linear, picture.layer, display, picture.centre, picture.radius);
+    }
+    return quantise8(pixels, picture.linear.width, 0, 0);
+}
+
+// The film of a picture of which this layer is shown; the others are those that `render` keeps by itself.
+Planes::Choice planes_with(const Scene& scene, const std::string& layer) {
+    Planes::Choice planes = Planes::by_default();
+    for (const FilmLayer& known : layers_of_film(subjects_of(scene)))
+        if (known.name == layer) planes[known.plane] = true;
+    return planes;
 }
 
 std::vector<ShownPhase> shown_phases(const Scene& scene) {
@@ -50,8 +64,9 @@ std::vector<ShownPhase> shown_phases(const Scene& scene) {
 }
 
 // What the page's controls say must not go back to what was wished before.
-void show_wishes(const Edits& edits, Shown& shown) {
+void show_wishes(const Edits& edits, const NumberEdits& numbers, Shown& shown) {
     shown.cut = edits.cut;
+    shown.numbers = numbers;
     for (ShownPhase& phase : shown.phases) {
         phase.is_hidden = std::ranges::find(edits.hidden, phase.name) != edits.hidden.end();
         const auto look = edits.looks.find(phase.name);
@@ -87,7 +102,8 @@ void Session::show(Edit&& edit) {
     const std::lock_guard lock(mutex_);
     auto next = std::make_shared<Shown>(*shown_);
     edit(*next);
-    show_wishes(wishes_.edits, *next);
+    show_wishes(wishes_.edits, wishes_.numbers, *next);
+    next->layer = wishes_.layer;
     ++next->version;
     shown_ = std::move(next);
     changed_.notify_all();
@@ -111,20 +127,37 @@ void Session::write_camera() const {
     options_.write_camera(camera);
 }
 
+void Session::write_numbers() {
+    const std::lock_guard lock(writing_);
+    const NumberEdits numbers = shown()->numbers;
+    options_.write_numbers(numbers);
+    // Others may have been wished for meanwhile.
+    Change change;
+    change.numbers = shown()->numbers;
+    for (const auto& [pointer, value] : numbers)
+        if (const auto still = change.numbers->find(pointer); still != change.numbers->end() && still->second == value)
+            change.numbers->erase(still);
+    this->change(change);
+}
+
 std::uint64_t Session::change(const Change& change) {
     {
         const std::lock_guard lock(mutex_);
         if (change.exposure_ev) wishes_.exposure_ev = change.exposure_ev;
         if (change.has_camera) wishes_.camera = change.camera;
-        if (change.has_camera) ++wishes_.view;
+        if (change.layer) wishes_.layer = *change.layer;
+        if (change.has_camera || change.layer) ++wishes_.view;
         if (change.hidden) wishes_.edits.hidden = *change.hidden;
         if (change.looks) wishes_.edits.looks = *change.looks;
         if (change.has_cut) wishes_.edits.cut = change.cut;
         if (change.is_of_object()) ++wishes_.object;
-        if (change.has_camera || change.is_of_object()) wishes_.since = Clock::now();
+        if (change.numbers) wishes_.numbers = *change.numbers;
+        if (change.numbers) ++wishes_.text;
+        if (change.has_camera || change.layer || change.is_of_object() || change.numbers) wishes_.since = Clock::now();
         announce_wishes();
     }
     if (change.is_of_object()) show([](Shown& shown) { shown.doing = "Building cells"; });
+    if (change.numbers) show([](Shown& shown) { shown.doing = "Reading the scene"; });
     if (change.exposure_ev) expose();
     return shown()->version;
 }
@@ -178,12 +211,12 @@ void Session::work() {
 }
 
 void Session::follow(Wishes wishes) {
-    if (wishes.reading != last_reading_) {
-        last_reading_ = wishes.reading;
+    if (const TextNumber text{wishes.reading, wishes.text}; text != last_read_) {
+        last_read_ = text;
         read(wishes);
     }
     if (!viewed_) return;
-    const ObjectNumber object{last_good_reading_, wishes.object};
+    const ObjectNumber object{last_read_well_, wishes.object};
     if (object != built_for_) {
         // Set first: what cannot be built is not tried again before another object is wished for.
         built_for_ = object;
@@ -201,7 +234,7 @@ void Session::read(Wishes& wishes) {
     std::shared_ptr<const ViewedScene> viewed;
     std::string error;
     try {
-        ViewedScene scene = read_(files);
+        ViewedScene scene = read_(files, wishes.numbers);
         if (options_.samples) scene.scene.settings.samples = *options_.samples;
         if (options_.width) set_width(scene.scene.film, *options_.width);
         viewed = std::make_shared<const ViewedScene>(std::move(scene));
@@ -222,7 +255,11 @@ void Session::read(Wishes& wishes) {
     }
     if (!viewed) return fail(error);
     viewed_ = std::move(viewed);
-    last_good_reading_ = wishes.reading;
+    last_read_well_ = last_read_;
+    show([&](Shown& shown) {
+        shown.numbers_of_file = {viewed_, &viewed_->numbers};
+        shown.numbers_version = wishes.reading;
+    });
 }
 
 void Session::build(const Wishes& wishes) {
@@ -261,6 +298,7 @@ void Session::build(const Wishes& wishes) {
         shown.resolution = scene->film.resolution();
         shown.samples = scene->settings.samples;
         shown.phases = shown_phases(viewed_->scene);
+        shown.layers = layers_of_film(subjects_of(viewed_->scene));
         // Hiding a part must not move what the camera turns around.
         const Bounds bounds = phasetree::bounds(viewed_->scene.object);
         if (bounds.empty() || !bounds.finite()) return;
@@ -274,11 +312,12 @@ bool Session::draw(const Wishes& wishes) {
     const Scene& file = viewed_->scene;
     drawing_since_ = Clock::now();
     scene_->camera = wishes.camera.value_or(file.camera);
+    scene_->film.planes = planes_with(file, wishes.layer);
     show([&](Shown& shown) {
         shown.camera = scene_->camera;
         shown.camera_text = camera_text(scene_->camera, file.film.filter);
         // What went wrong with an earlier picture is over; that the file cannot be read is not.
-        if (last_good_reading_ == last_reading_) shown.error.clear();
+        if (last_read_well_ == last_read_) shown.error.clear();
         shown.warning = warning_ + warning_of_camera();
         shown.doing = "Taking the first picture";
     });
@@ -331,8 +370,8 @@ bool Session::draw_coarser(const Wishes& wishes, int scale) {
 }
 
 bool Session::draw_whole(const Wishes& wishes, int samples) {
-    scene_->film = viewed_->scene.film;
-    scene_->film.planes = Planes::by_default();
+    scene_->film.width = viewed_->scene.film.width;
+    scene_->film.height = viewed_->scene.film.height;
     scene_->settings.samples = samples;
     RenderJob job;
     job.pixels = scene_->film.whole();
@@ -358,14 +397,17 @@ void Session::show_picture(const Wishes& wishes, Image image, int scale, int sam
     picture->scale = scale;
     picture->samples = samples;
     picture->camera = scene_->camera;
+    picture->layer = wishes.layer;
     picture->viewed = viewed_;
     picture->prepared = prepared_;
     picture->exposure_ev = viewed_->scene.settings.exposure_ev;
     {
         const std::lock_guard lock(mutex_);
+        picture->centre = shown_->centre;
+        picture->radius = shown_->radius;
         picture->exposure_ev = wishes_.exposure_ev.value_or(picture->exposure_ev);
     }
-    picture->pixels = on_display(picture->linear, viewed_->display(picture->exposure_ev));
+    picture->pixels = on_display(*picture);
     const bool is_first = drawn_for_.exchange(wishes.number()) != wishes.number();
     const double seconds = std::chrono::duration<double>(Clock::now() - wishes.since).count();
     show([&](Shown& shown) {
@@ -391,7 +433,7 @@ void Session::expose() {
         if (!wished || !last || last->exposure_ev == *wished) return;
         auto picture = std::make_shared<Picture>(*last);
         picture->exposure_ev = *wished;
-        picture->pixels = on_display(picture->linear, picture->viewed->display(*wished));
+        picture->pixels = on_display(*picture);
         show([&](Shown& shown) {
             if (shown.picture != last) return;
             ++picture->number;

@@ -33,6 +33,8 @@ struct SessionOptions {
     std::optional<int> width;    ///< of the picture, likewise; the height follows
     /// Puts a camera into the scene's file. Throws SceneError and OutputError.
     std::function<void(const std::string& camera)> write_camera = [](const std::string&) {};
+    /// Puts numbers into the scene's file. Throws likewise.
+    std::function<void(const NumberEdits&)> write_numbers = [](const NumberEdits&) {};
     /// Is told errors and warnings, each with its line's end.
     std::function<void(std::string_view)> tell = [](std::string_view) {};
 };
@@ -45,6 +47,8 @@ struct Change {
     std::optional<std::map<std::string, Look>> looks;  ///< all of them
     bool has_cut = false;                              ///< Whether the cut changes: to this one,
     std::optional<CutPlane> cut;                       ///< or without a value to none.
+    std::optional<NumberEdits> numbers;                ///< all of them
+    std::optional<std::string> layer;                  ///< to be shown; empty for the picture itself
     std::optional<float> exposure_ev;
 
     bool is_of_object() const { return hidden || looks || has_cut; }
@@ -67,6 +71,9 @@ class Session {
     /// Puts the camera that is shown into the scene's file, one call after the other. Throws as
     /// SessionOptions::write_camera does, and ModelError while none is shown.
     void write_camera() const;
+    /// Puts the numbers that are wished into the scene's file, where they then are; no more of them are wished. Throws
+    /// as SessionOptions::write_numbers does.
+    void write_numbers();
 
     std::shared_ptr<const Shown> shown() const;
     /// What is shown once its version is more than `version`, or when the time is over, or after stop() at once.
@@ -79,19 +86,27 @@ class Session {
 
     // What is wished. Each number grows with a wish of its kind.
     struct Wishes {
-        std::uint64_t reading = 1, object = 0, view = 0;
+        std::uint64_t reading = 1, text = 0, object = 0, view = 0;
         Edits edits;
+        NumberEdits numbers;
         std::optional<AnyCameraParameters> camera;
+        std::string layer;
         std::optional<float> exposure_ev;  // needs no new picture and so has no number
         Clock::time_point since = Clock::now();
 
-        std::uint64_t number() const { return reading + object + view; }
-        std::uint64_t number_of_object() const { return reading + object; }
+        std::uint64_t number() const { return reading + text + object + view; }
+        std::uint64_t number_of_object() const { return reading + text + object; }
     };
 
+    // Which text of the file.
+    struct TextNumber {
+        std::uint64_t reading = 0, text = 0;
+        bool operator==(const TextNumber&) const = default;
+    };
     // Which scene, and which wish of how it is edited.
     struct ObjectNumber {
-        std::uint64_t reading = 0, object = 0;
+        TextNumber text;
+        std::uint64_t object = 0;
         bool operator==(const ObjectNumber&) const = default;
     };
     struct PictureNumber {
@@ -143,7 +158,7 @@ class Session {
     std::shared_ptr<const ViewedScene> viewed_;
     std::shared_ptr<Scene> scene_;  // as it is edited
     std::shared_ptr<const Prepared> prepared_;
-    std::uint64_t last_reading_ = 0, last_good_reading_ = 0;
+    TextNumber last_read_, last_read_well_;
     std::string warning_;                      // The object's.
     ObjectNumber built_for_;                   // The last object whose build was tried, with success or without.
     PictureNumber finished_for_;               // The last picture that has all samples.

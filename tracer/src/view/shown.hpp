@@ -13,6 +13,7 @@
 #include "camera/camera.hpp"
 #include "film/image.hpp"
 #include "view/edits.hpp"
+#include "view/layer.hpp"
 #include "view/prepared.hpp"
 #include "view/viewed_scene.hpp"
 
@@ -25,6 +26,9 @@ struct Picture {
     int scale = 1;                     ///< of the whole picture's pixels along a side of one of these
     int samples = 0;                   ///< in each pixel
     AnyCameraParameters camera;
+    std::string layer;                          ///< that is shown of it; empty for the picture itself
+    glm::vec3 centre{0.0f};                     ///< of the object, for that,
+    float radius = 1;                           ///< and of a ball around it
     std::shared_ptr<const ViewedScene> viewed;  ///< what it was taken of …
     std::shared_ptr<const Prepared> prepared;   ///< … ready for rays
     float exposure_ev = 0;                      ///< with which the display shows it
@@ -48,6 +52,12 @@ struct Shown {
     int samples = 0;           ///< that a pixel is to have in the end
     std::vector<ShownPhase> phases;
     std::optional<CutPlane> cut;  ///< likewise
+    std::string layer;            ///< likewise; empty for the picture itself
+    std::vector<FilmLayer> layers;    ///< that there are
+    NumberEdits numbers;          ///< likewise, in place of those of the file
+    /// Those of the file, and how often it has been read until they were there.
+    std::shared_ptr<const TextNumbers> numbers_of_file = std::make_shared<TextNumbers>();
+    std::uint64_t numbers_version = 0;
     AnyCameraParameters camera;
     std::string camera_text;  ///< as the scene's file would say it
     glm::vec3 centre{0.0f};   ///< of the object

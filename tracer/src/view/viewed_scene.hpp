@@ -5,7 +5,9 @@
 #include <string>
 
 #include "output/display.hpp"
+#include "phasetree/io/node_places.hpp"
 #include "scene/scene.hpp"
+#include "view/numbers.hpp"
 #include "view/watched_files.hpp"
 
 namespace phasetree::tracer::view {
@@ -14,10 +16,12 @@ struct ViewedScene {
     Scene scene;
     /// How the scene is shown, but for the exposure.
     std::function<DisplayTransform(float exposure_ev)> display;
+    TextNumbers numbers{};  ///< of the scene's file
+    NodePlaces places{};    ///< of the object's nodes
 };
 
-/// Reads the scene, and names each file before it reads it. Throws what reading a scene throws; the files that were
-/// named until then are watched all the same.
-using ReadScene = std::function<ViewedScene(WatchedFiles&)>;
+/// Reads the scene with some of the numbers of its text replaced, and names each file before it reads it. Throws what
+/// reading a scene throws; the files that were named until then are watched all the same.
+using ReadScene = std::function<ViewedScene(WatchedFiles&, const NumberEdits&)>;
 
 }  // namespace phasetree::tracer::view

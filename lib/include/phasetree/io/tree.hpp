@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "phasetree/io/document.hpp"
+#include "phasetree/io/node_places.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/nodes/fields/height_grid.hpp"
 #include "phasetree/nodes/fields/siren_network.hpp"
@@ -49,8 +50,8 @@ SirenNetwork read_siren(const std::filesystem::path&);
 /// A node is an object of one member: the node's name, and its parameters; a node whose one required parameter is a
 /// list of children takes the list in place of the parameters, as does one whose required parameter is a text. A string
 /// is a named shape. Names of phases are strings, sets of phases lists of them. Throws SceneError, at the place in the
-/// text. Files are sought from the scene file's folder.
-SceneTree read_tree(const Document&, const FileReaders& = {});
+/// text. Files are sought from the scene file's folder. `places` is told of every node.
+SceneTree read_tree(const Document&, const FileReaders& = {}, NodePlaces* places = nullptr);
 
 /// The names of a document's "phases". A document without any has the vacuum alone.
 PhaseNames read_phase_names(const Document&);
@@ -58,7 +59,7 @@ PhaseNames read_phase_names(const Document&);
 /// Reads objects that stand anywhere in a document, which share its phases and shapes; of each the node or the name of
 /// a shape. Throws SceneError as read_tree() does, also for a shape that none of them uses.
 std::vector<Phased> read_objects(const Document&, const PhaseNames&, std::span<const Value> objects,
-                                 const FileReaders& = {});
+                                 const FileReaders& = {}, NodePlaces* places = nullptr);
 
 /// What a node's text may name that stands nowhere in it: handles that a program has, by names that it gives them.
 struct KnownShapes {

@@ -2,10 +2,11 @@
 import {followed, membersOf, moved, turned, zoomed} from "./camera.js";
 import {Cut} from "./cut.js";
 import {listen} from "./input.js";
+import {Numbers} from "./numbers.js";
 import {PhaseList} from "./phases.js";
 import {draw, place} from "./picture.js";
 import {showPoint} from "./point.js";
-import {Changes, ask, follow, writeCamera} from "./server.js";
+import {Changes, ask, askNumbers, follow, writeCamera, writeNumbers} from "./server.js";
 
 const element = (id) => document.getElementById(id);
 const canvas = element("picture"), exposure = element("exposure");
@@ -21,6 +22,12 @@ const cut = new Cut({
   said: element("cut-said"),
 }, (change) => changes.make(change));
 
+const numbers = new Numbers({
+  filter: element("number-filter"),
+  rows: element("number-rows"),
+  said: element("numbers-said"),
+}, (change) => changes.make(change));
+
 function showText(id, text) {
   const place = element(id);
   if (place.textContent === text) return;
@@ -31,6 +38,15 @@ function showText(id, text) {
 function statusOf(state) {
   const seconds = state.seconds_to_picture > 0 ? `; first picture after ${state.seconds_to_picture.toFixed(2)} s` : "";
   return `${state.doing}${seconds}`;
+}
+
+// The options are made anew only if there are others, so that an open list stays.
+function showLayers(state) {
+  const select = element("layer");
+  const known = [...select.options].slice(1).map((option) => option.value);
+  if (known.join("\n") !== state.layers.join("\n"))
+    select.replaceChildren(select.options[0], ...state.layers.map((layer) => new Option(layer.replaceAll("_", " "), layer)));
+  if (select !== document.activeElement) select.value = state.layer;
 }
 
 function showExposure(stops) {
@@ -49,6 +65,8 @@ function told(next, pixels) {
   if (changes.arePending || state.version < changes.version) return;
   phases.show(state.phases);
   cut.show(state);
+  showLayers(state);
+  numbers.show(state, askNumbers).catch((error) => showText("error", error.message));
   if (document.activeElement !== exposure) showExposure(state.exposure);
   if (state.camera) {
     camera = JSON.parse(state.camera);
@@ -69,7 +87,7 @@ function look(next) {
 
 async function askAt(x, y) {
   try {
-    showPoint(element("point"), await ask(x, y));
+    showPoint(element("point"), await ask(x, y), (name, pointer) => numbers.showNode(name, pointer));
   } catch (error) {
     showText("error", error.message);
   }
@@ -91,6 +109,7 @@ for (const button of document.querySelectorAll("[data-turn]"))
   button.addEventListener("click", () => act.turn(...button.dataset.turn.split(" ").map((n) => step * Number(n))));
 for (const button of document.querySelectorAll("[data-zoom]"))
   button.addEventListener("click", () => act.zoom(Number(button.dataset.zoom)));
+element("layer").addEventListener("change", () => changes.make({layer: element("layer").value}));
 element("reset").addEventListener("click", act.reset);
 exposure.addEventListener("input", () => {
   showExposure(exposure.value);
@@ -104,6 +123,15 @@ element("copy").addEventListener("click", async () => {
     document.execCommand("copy");
   }
   element("copied").textContent = "Copied.";
+});
+element("numbers-reset").addEventListener("click", () => numbers.reset());
+element("numbers-write").addEventListener("click", async () => {
+  try {
+    await writeNumbers();
+    element("numbers-said").textContent = "Written.";
+  } catch (error) {
+    showText("error", error.message);
+  }
 });
 element("write").addEventListener("click", async () => {
   try {

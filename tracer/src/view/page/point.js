@@ -24,11 +24,28 @@ function table(caption, heads, rows) {
   return made;
 }
 
-export function showPoint(section, told) {
+// The nodes that made the surface, each a button that shows its numbers. What the view itself put there is in no file.
+function nodes(path, showNode) {
+  const first = path.findIndex((node) => node.line > 0);
+  const list = document.createElement("ol");
+  list.setAttribute("aria-label", "Nodes that made it, from the tree's root");
+  for (const node of first < 0 ? path.slice(-1) : path.slice(first)) {
+    const item = document.createElement("li"), button = document.createElement("button");
+    const place = node.line > 0 ? ` ${node.file.replace(/^.*\//, "")}:${node.line}:${node.column}` : " of the view";
+    Object.assign(button, {type: "button", textContent: node.name, disabled: node.pointer === ""});
+    button.addEventListener("click", () => showNode(`${node.name},${place}`, node.pointer));
+    item.append(button, place);
+    list.append(item);
+  }
+  return list;
+}
+
+export function showPoint(section, told, showNode) {
   const said = document.createElement("p");
   const at = told.point.map(number).join(", ");
   said.textContent = told.met ? `${told.met} at (${at}).` : "Nothing is met there.";
   const parts = [said];
+  if (told.path.length > 0) parts.push(nodes(told.path, showNode));
   if (told.distances.length > 0)
     parts.push(table("Φ just before it", ["phase", "Φ"], told.distances.map((d) => [d.phase, d.phi])));
   if (told.crossings.length > 0) {

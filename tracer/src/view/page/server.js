@@ -12,6 +12,12 @@ async function post(name, wish) {
 }
 
 export const ask = (x, y) => post("ask", {x, y});
+export async function askNumbers() {
+  const answer = await fetch("numbers");
+  if (!answer.ok) throw new Error(await answer.text());
+  return answer.json();
+}
+export const writeNumbers = () => post("write_numbers", {});
 export const writeCamera = () => post("write", {});
 
 // Sends changes one after the other. Those that come while one is on its way are joined, so that a fast mouse leaves no

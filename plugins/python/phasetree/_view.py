@@ -1,0 +1,112 @@
+"""The live view: a page on this machine that shows a scene, and follows what is made of it."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sys
+import tempfile
+import webbrowser
+import weakref
+
+import numpy as np
+
+from phasetree import _parts, _phasetree
+from phasetree._errors import Error
+from phasetree._phases import Phase
+from phasetree._scene import Scene
+from phasetree._trees import Object
+
+# Colours that differ for those who see few, too (Okabe and Ito, "Color Universal Design", 2008), as linear values.
+_COLOURS = ("#e69f00", "#56b4e9", "#009e73", "#f0e442", "#0072b2", "#d55e00", "#cc79a7")
+
+
+def _with_materials(object):
+    """The same object, with a plain colour for each phase that has no material."""
+    phases = [
+        p if p.material else Phase(p.name, _parts.materials.diffuse(_COLOURS[i % len(_COLOURS)]))
+        for i, p in enumerate(object.phases[1:])
+    ]
+    return Object(object._handle, (object.phases[0], *phases))
+
+
+def _as_scene(what):
+    """A scene of its own for an object: seen from the front, a little from above, under a plain sky."""
+    if isinstance(what, Scene):
+        missing = any(p.material is None for p in what.object.phases[1:])
+        what = what.with_(object=_with_materials(what.object)) if missing else what
+    elif isinstance(what, Object):
+        what = Scene(_with_materials(what))
+    else:
+        raise Error(f"what is viewed is an object of phases or a scene, but this is {what!r}")
+    if what.camera is None:
+        low, high = np.array(what.object.bounds, dtype=float)
+        if not (np.all(np.isfinite(low)) and np.all(low < high)):
+            raise Error("the object has no bounds to put a camera before: give a scene with a camera")
+        middle, radius = (low + high) / 2, np.linalg.norm(high - low) / 2
+        position = middle + 3.2 * radius * np.array([0.35, -0.87, 0.35])
+        what = what.with_(camera=_parts.cameras.thin_lens(tuple(position), tuple(middle), fov=40))
+    if not what.lights:
+        sky = _parts.lights.gradient(zenith=(1, 1, 1), horizon=(0.75, 0.75, 0.75), ground=(0.25, 0.25, 0.25))
+        what = what.with_(lights=sky)
+    return what
+
+
+class View:
+    """A live view that is served until close(), or until the program ends.
+
+    url: the page's address, for browsers of this machine; whoever has it may look. file: the scene's file, which the page
+    can write a camera and numbers into.
+    """
+
+    def __init__(self, what, width=None, samples=None, threads=0, port=0):
+        folder = tempfile.mkdtemp(prefix="phasetree-view-")
+        try:
+            self.file = os.path.join(folder, "scene.json")
+            self.show(what)
+            served = _phasetree.View(self.file, width, samples, threads, port)
+        except BaseException:
+            shutil.rmtree(folder)
+            raise
+        self.url = served.url
+        # When the view is no longer referred to, or the program ends.
+        self._end = weakref.finalize(self, View._ended, served, folder)
+
+    @staticmethod
+    def _ended(served, folder):
+        served.close()
+        shutil.rmtree(folder, ignore_errors=True)
+
+    def show(self, what):
+        """Shows another object or scene on the same page. The camera stays where it was turned to, unless the new scene
+        has another one than the last."""
+        _as_scene(what).save(self.file)
+
+    def close(self):
+        """Ends the view. The page then says that nobody answers."""
+        self._end()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def _repr_html_(self):
+        return f'<iframe src="{self.url}" width="100%" height="640" style="border: 0"></iframe><a href="{self.url}">{self.url}</a>'
+
+    def __repr__(self):
+        return f"<View at {self.url}>" if self._end.alive else "<View, closed>"
+
+
+def view(what, *, width=None, samples=None, threads=0, port=0, open=None):
+    """Shows an object or a scene in the browser, to be turned, cut and edited while it is refined: a View.
+
+    An object alone is seen under a plain sky, and a phase without a material has a plain colour. width: of the picture
+    in pixels. samples: a pixel's, in the end. port: of 127.0.0.1, 0 for any that is free. open: whether the browser is
+    asked to show the page; by default it is, but not in notebooks, which show it within them. Raises pt.Error.
+    """
+    made = View(what, width, samples, threads, port)
+    if "ipykernel" not in sys.modules if open is None else open:
+        webbrowser.open(made.url)
+    return made

@@ -1,0 +1,84 @@
+#include "command/viewed_file.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "command/load.hpp"
+#include "output/file.hpp"
+#include "scene/camera_text.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+// Files that the scene names. Which strings are names of files the readers know; every string with a dot in it that may
+// be read as one is watched, which costs a look now and then.
+void add_named_files(const Document& document, Value value, view::WatchedFiles& files) {
+    if (value.is_string() && value.string().find('.') != std::string_view::npos && value.string().size() < 1024) {
+        try {
+            files.add(document.file(value));
+        } catch (const SceneError&) {
+            // It leaves the folder that files must lie in, which the reader says if it is a file.
+        }
+    }
+    for (const Value child : value) add_named_files(document, child, files);
+}
+
+Document with_edits(const SceneFile& scene, const Document& document, const view::NumberEdits& numbers) {
+    if (numbers.empty()) return document;
+    const Document edited = Document::from_text(view::with_numbers(document, numbers), document.name());
+    return scene.assets_within ? edited.with_files_within(*scene.assets_within) : edited;
+}
+
+view::ViewedScene read_viewed(const ViewedFile& file, view::WatchedFiles& files, const view::NumberEdits& numbers) {
+    files.add(file.scene.name);
+    const Document in_file = read_document(file.scene);
+    const Document document = with_edits(file.scene, in_file, numbers);
+    add_named_files(document, document.root(), files);
+    NodePlaces places;
+    Scene scene = load_scene(document, &places);
+    make_one_tree(document, scene);
+    // A name that is wrong is said now.
+    (void)display_of(document, scene.settings, file.display, file.view, {});
+    const RenderSettings settings = scene.settings;
+    return {std::move(scene),
+            [=, display = file.display, view = file.view](float exposure_ev) {
+                return display_of(document, settings, display, view, exposure_ev);
+            },
+            view::numbers_of(in_file), std::move(places)};
+}
+
+// The file keeps who may read and write it.
+void write_text(const std::filesystem::path& file, const std::string& text) {
+    const std::filesystem::perms permissions = std::filesystem::status(file).permissions();
+    write_file(text, file);
+    std::filesystem::permissions(file, permissions);
+}
+
+}  // namespace
+
+view::ReadScene ViewedFile::reader() const {
+    struct First {
+        std::optional<view::ViewedScene> scene;
+        view::WatchedFiles files;
+    };
+    const auto first = std::make_shared<First>();
+    first->scene = read_viewed(*this, first->files, {});
+    return [file = *this, first](view::WatchedFiles& files, const view::NumberEdits& numbers) {
+        std::optional<view::ViewedScene> known = std::exchange(first->scene, std::nullopt);
+        if (!known || !numbers.empty()) return read_viewed(file, files, numbers);
+        files = first->files;
+        return std::move(*known);
+    };
+}
+
+void ViewedFile::write_camera(const std::string& camera) const {
+    write_text(scene.name, with_camera(read_document(scene), camera));
+}
+
+void ViewedFile::write_numbers(const view::NumberEdits& numbers) const {
+    write_text(scene.name, view::with_numbers(read_document(scene), numbers));
+}
+
+}  // namespace phasetree::tracer
