@@ -29,6 +29,87 @@ def small_scene():
     )
 
 
+def several_objects():
+    glass, sand = pt.phase("glass", pt.clear(ior=1.5)), pt.phase("sand", pt.diffuse((0.8, 0.6, 0.3)))
+    block = pt.box((0.5, 0.5, 0.5))
+    turned = np.array([[0, -1, 0, 0.25], [1, 0, 0, 0], [0, 0, 1, 0.1]])
+    return pt.Scene(
+        # Its tree shares a part, and both trees have parts of the same name.
+        objects={"ball": glass(pt.sphere(0.4) | pt.sphere(0.4).translate((0, 0, 0.1))),
+                 "cube": (sand(block | block.translate((0, 0, 0.2))), turned)},
+        groups={"pair": [pt.places("ball", (0, 0, 0)), pt.places("cube", (1, 0, 0))]},
+        instances=[pt.places("pair", [(0, 0, 0), (0, 2, 0)]), pt.places("ball", np.eye(4) * [[0.5], [0.5], [0.5], [1]])],
+        camera=pt.camera((0.5, -8, 3), (0.5, 2, 0)),
+        lights=pt.lights.gradient(zenith=(1, 1, 1), horizon=(0.7, 0.7, 0.7), ground=(0.2, 0.2, 0.2)),
+        image=pt.image(width=60, height=40, samples=2),
+    )  # fmt: skip
+
+
+class ManyObjects(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def test_they_are_equal_when_read_back_and_the_command_agrees(self):
+        scene = several_objects()
+        scene.save(self.folder / "several.json")
+        run("check", self.folder / "several.json")
+        again = pt.load(self.folder / "several.json")
+        self.assertEqual(again, scene)
+        self.assertEqual([len(places) for places in again.instances], [2, 1])
+        points = "0.3 0 0.1\n1.25 0.2 0.1\n0.35 2 0\n1.25 2.2 0.1\n-0.1 0 0\n5 5 5\n"
+        said = run("eval", self.folder / "several.json", given=points)
+        self.assertEqual([row.split(",")[3] for row in said.splitlines()[1:]], ["glass", "sand", "glass", "sand", "glass", "vacuum"])
+        image = self.folder / "several.exr"
+        run("render", self.folder / "several.json", "-o", image, "--quiet")
+        again.render().save(self.folder / "from_python.exr")
+        self.assertTrue(filecmp.cmp(image, self.folder / "from_python.exr", shallow=False))
+
+    def test_objects_of_other_files_become_the_scene_s_own(self):
+        path = SCENES / "objects" / "hourglasses.json"
+        scene = pt.load(path)
+        self.assertEqual(scene.instances[0].transforms.shape, (2400, 3, 4))
+        self.assertEqual([p.name for p in scene.phases], ["vacuum", "hourglass.glass", "hourglass.sand", "hourglass.wood", "hourglass.brass"])
+        few = scene.with_(instances=pt.places("hourglass", scene.instances[0].transforms[:5]))
+        few.save(self.folder / "few.json")
+        self.assertEqual(pt.load(self.folder / "few.json"), few)
+        own, files = (run("trace", p, "--object", "hourglass", given="0 -3 0.5 0 1 0\n") for p in (self.folder / "few.json", path))
+        self.assertEqual(own.splitlines(), files.splitlines())
+        self.assertGreater(len(own.splitlines()), 5)
+
+    def test_an_object_may_have_materials_of_its_own(self):
+        text = """{"version": 1, "phases": {"wood": {"diffuse": {"color": [0.5, 0.3, 0.1]}}},
+            "shapes": {"ball": {"set": {"phase": "wood", "of": {"sphere": {"radius": 1}}}}},
+            "objects": [{"name": "a", "tree": "ball"},
+                        {"name": "b", "tree": "ball", "transform": {"translate": {"by": [3, 0, 0]}},
+                         "phases": {"wood": {"clear": {"ior": 1.5}}}}]}"""
+        (self.folder / "own.json").write_text(text, encoding="utf-8")
+        scene = pt.load(self.folder / "own.json")
+        self.assertEqual([(p.name, p.material.kind) for p in scene.phases[1:]], [("wood", "diffuse"), ("b.wood", "clear")])
+        self.assertEqual(scene.instances, ())
+        np.testing.assert_array_equal(scene.objects["b"][1][:, 3], (3, 0, 0))
+
+    def test_what_cannot_be_is_refused(self):
+        ball = pt.phase("glass", pt.clear(ior=1.5))(pt.sphere(1))
+        other = pt.phase("glass", pt.clear(ior=1.4))(pt.sphere(1))
+        for make, said in (
+            (lambda: pt.Scene(), "either an object or objects"),
+            (lambda: pt.Scene(ball, objects={"a": ball}), "either an object or objects"),
+            (lambda: pt.Scene(ball, instances=pt.places("a", (0, 0, 0))), "of objects, which have names"),
+            (lambda: pt.Scene(objects={"a": pt.sphere(1)}), "must be an object of phases"),
+            (lambda: pt.Scene(objects={"a": ball, "b": other}), 'a phase "glass", of different materials'),
+            (lambda: pt.Scene(objects={"a": (ball, np.zeros((2, 3)))}), "2 maps of its own"),
+            (lambda: pt.places("a", np.zeros((2, 2))), r"the shape is \(2, 2\)"),
+            (lambda: pt.places("a", (0, np.nan, 0)), "finite"),
+            (lambda: pt.places("a", np.ones((4, 4))), "the last row"),
+            (lambda: pt.places(ball, (0, 0, 0)), "by its name"),
+        ):
+            with self.assertRaisesRegex(pt.Error, said):
+                make()
+        with self.assertRaisesRegex(pt.SceneError, 'did you mean "ball"'):
+            several_objects().with_(instances=pt.places("bal", (0, 0, 0))).render()
+
+
 class Files(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp())

@@ -18,6 +18,7 @@ from phasetree._errors import Error, SceneError
 from phasetree._formula import Expression, coordinates
 from phasetree._parts import cameras, lights, materials, meshes, numbers, textures
 from phasetree._phases import Phase, phase, vacuum
+from phasetree._placed import Places, places
 from phasetree._scene import Image, Scene, load
 from phasetree._trees import Closest, Crossings, Field, Hits, Object
 from phasetree._view import View, view
@@ -33,8 +34,8 @@ image = _parts.image
 camera = cameras.thin_lens
 
 __all__ = [
-    "Closest", "Crossings", "Error", "Expression", "Field", "Hits", "Image", "Object", "Phase", "Scene", "SceneError", "View",
-    "camera", "cameras", "coordinates", "image", "lights", "load", "materials", "meshes", "numbers", "phase", "textures", "vacuum", "view",
+    "Closest", "Crossings", "Error", "Expression", "Field", "Hits", "Image", "Object", "Phase", "Places", "Scene", "SceneError", "View",
+    "camera", "cameras", "coordinates", "image", "lights", "load", "materials", "meshes", "numbers", "phase", "places", "textures", "vacuum", "view",
 ]  # fmt: skip
 # Not among them are those that Python has under the same name.
 __all__ += [name for name in _formula.functions if name not in ("abs", "max", "min")]

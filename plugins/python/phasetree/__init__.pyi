@@ -972,11 +972,13 @@ class Image:
         r"""Writes .exr (linear, with all planes), .png, .jpg or .tif."""
 
 class Scene:
-    r"""An object, and what a picture of it needs. Immutable; `with_` makes another one with some parts replaced.
+    r"""An object or several, and what a picture of them needs. Immutable; `with_` makes another one with some parts replaced.
 
-    object: its phases need materials to be rendered. camera: pt.camera(…) or one of pt.cameras. lights, meshes: one or
+    object: its phases need materials to be rendered. Or objects: {name: object}, or {name: (object, map)} with a position or
+    a 3x4 or 4x4 matrix where it stands; instances: pt.places(name, transforms), one or several, the places of objects, which
+    then stand there alone, and of groups; groups: {name: places}. Objects may touch and must not overlap. camera: pt.camera(…) or one of pt.cameras. lights, meshes: one or
     several. background: the colour that the camera sees in place of the lights at infinity. image: pt.image(…)."""
-    def __init__(self, object, camera=..., lights=..., meshes=..., background=..., image=..., name=...):
+    def __init__(self, object=..., camera=..., lights=..., meshes=..., background=..., image=..., name=..., *, objects=..., groups=..., instances=...):
         r"""Initialize self.  See help(type(self)) for accurate signature."""
     def with_(self, **parts):
         r"""The same scene with some parts replaced: scene.with_(camera=…)."""
@@ -989,6 +991,16 @@ class Scene:
 
 image: settings in place of the scene's own, such as samples=16, width=400. crop: (x0, y0, x1, y1) in pixels.
 progress: True for a line on standard error, or a function of a stage and a share in [0, 1]. Ctrl-C ends it."""
+
+class Places:
+    of: str
+    transforms: np.ndarray
+    def __len__(self) -> int: ...
+
+def places(of: str, transforms: Sequence[float] | Sequence[Sequence[float]] | np.ndarray) -> Places:
+    r"""Where an object or a group of a scene stands, once or many times: Places.
+
+    of: its name. transforms: a position, (3,) or (N, 3), or a 3x4 or 4x4 matrix of an affine map, one or N of them."""
 
 class View:
     r"""A live view that is served until close(), or until the program ends.

@@ -8,7 +8,7 @@ import sys
 
 import numpy as np
 
-from phasetree import _parts, _phasetree
+from phasetree import _parts, _phasetree, _placed
 from phasetree._errors import Error
 from phasetree._parts import Part
 from phasetree._phases import Phase, vacuum
@@ -62,16 +62,31 @@ class Image:
 
 
 class Scene:
-    """An object, and what a picture of it needs. Immutable; `with_` makes another one with some parts replaced.
+    """An object or several, and what a picture of them needs. Immutable; `with_` makes another one with some parts replaced.
 
-    object: its phases need materials to be rendered. camera: pt.camera(…) or one of pt.cameras. lights, meshes: one or
+    object: its phases need materials to be rendered. Or objects: {name: object}, or {name: (object, map)} with a position or
+    a 3x4 or 4x4 matrix where it stands; instances: pt.places(name, transforms), one or several, the places of objects, which
+    then stand there alone, and of groups; groups: {name: places}. Objects may touch and must not overlap. camera: pt.camera(…) or one of pt.cameras. lights, meshes: one or
     several. background: the colour that the camera sees in place of the lights at infinity. image: pt.image(…).
     """
 
-    def __init__(self, object, camera=None, lights=(), meshes=(), background=None, image=None, name="scene"):
-        if not isinstance(object, Object):
+    def __init__(
+        self, object=None, camera=None, lights=(), meshes=(), background=None, image=None, name="scene", *,
+        objects=None, groups=None, instances=(),
+    ):  # fmt: skip
+        if (object is None) == (objects is None):
+            raise Error("a scene shows either an object or objects")
+        if object is not None and not isinstance(object, Object):
             raise Error(f"a scene shows an object of phases, but this is {object!r}")
         self.object = object
+        self.objects = _placed.named_objects(objects or {})
+        self.groups = {
+            name: _placed.place_lists(places, f'the group "{name}"') for name, places in dict(groups or {}).items()
+        }
+        self.instances = _placed.place_lists(instances, "instances")
+        if object is not None and (self.groups or self.instances):
+            raise Error("groups and instances are of objects, which have names: Scene(objects={…}, instances=…)")
+        self.phases = object.phases if object is not None else _placed.phases_of(self.objects)
         self.camera = None if camera is None else _part(camera, "Cameras", "a camera")
         self.lights = _several(lights, "Lights", "a light")
         self.meshes = _several(meshes, "Meshes", "a mesh")
@@ -85,8 +100,26 @@ class Scene:
 
     def with_(self, **parts):
         """The same scene with some parts replaced: scene.with_(camera=…)."""
-        own = ("object", "camera", "lights", "meshes", "background", "image", "name")
-        return Scene(**{**{name: getattr(self, name) for name in own}, **parts})
+        own = ("camera", "lights", "meshes", "background", "image", "name")
+        shown = ("object",) if self.object is not None else ("objects", "groups", "instances")
+        shown = () if parts.keys() & {"object", "objects"} else shown
+        return Scene(**{**{name: getattr(self, name) for name in (*shown, *own)}, **parts})
+
+    def _shown(self):
+        """The file's text but for what is beside the objects, and without its last bracket."""
+        if self.object is not None:
+            materials = [_material(p) for p in self.phases[1:]]
+            return self.object._handle.text(self.object._materials, materials).rstrip()[:-1].rstrip()
+        shapes, objects = _placed.written(self.objects)
+        parts = {"version": 1, "phases": {p.name: json.loads(_material(p)) for p in self.phases[1:]}}
+        if shapes:
+            parts["shapes"] = shapes
+        parts["objects"] = objects
+        if self.groups:
+            parts["groups"] = {name: [one.written() for one in places] for name, places in self.groups.items()}
+        if self.instances:
+            parts["instances"] = [one.written() for one in self.instances]
+        return json.dumps(parts, ensure_ascii=False, separators=(",", ": "))[:-1].rstrip()
 
     def _rest(self, image=None):
         rest = {}
@@ -105,13 +138,12 @@ class Scene:
 
     def to_json(self, **image):
         """The scene as a file says it; image: settings that are replaced."""
-        materials = [_material(p) for p in self.object.phases[1:]]
-        text = self.object._handle.text(self.object._materials, materials).rstrip()
+        text = self._shown()
         rest = self._rest(image)
         if not rest:
-            return text + "\n"
+            return text + "\n}\n"
         more = json.dumps(rest, indent=2, ensure_ascii=False)
-        return text[:-1].rstrip() + "," + more[1:] + "\n"
+        return text + "," + more[1:] + "\n"
 
     def save(self, path):
         """Writes a scene file, from which load() makes an equal scene. Files beside it are named relative to it."""
@@ -141,7 +173,7 @@ class Scene:
         """
         if self.camera is None:
             raise Error("the scene has no camera: Scene(…, camera=pt.camera(position, look_at))")
-        for p in self.object.phases[1:]:
+        for p in self.phases[1:]:
             if p.material is None:
                 raise Error(f'the phase "{p.name}" has no material: pt.phase("{p.name}", pt.clear(ior=1.5))')
         if quality not in ("low", "medium"):
@@ -167,7 +199,7 @@ class Scene:
 
     def _repr_png_(self):
         """A small and quick picture, for notebooks."""
-        if self.camera is None or any(p.material is None for p in self.object.phases[1:]):
+        if self.camera is None or any(p.material is None for p in self.phases[1:]):
             return None
         own = self.image.parameters() if self.image else {}
         width, height = own.get("width", 1024), own.get("height", 768)
@@ -181,7 +213,8 @@ class Scene:
     __hash__ = None
 
     def __repr__(self):
-        return f"<Scene of {self.object!r}, {len(self.lights)} lights, {len(self.meshes)} meshes>"
+        shown = repr(self.object) if self.object is not None else f"{len(self.objects)} objects"
+        return f"<Scene of {shown}, {len(self.lights)} lights, {len(self.meshes)} meshes>"
 
 
 def _line(stage, share):
@@ -197,9 +230,57 @@ def _with_nodes(parts, phases):
     return [_with_nodes(value, phases) for value in parts] if isinstance(parts, list) else parts
 
 
+def _phases_of(parts):
+    phases = [vacuum]
+    for name, material in parts.get("phases", {}).items():
+        is_material = isinstance(material, dict) and len(material) == 1
+        phases.append(Phase(name, _parts.part_of("Materials", material) if is_material else None))
+    return tuple(phases)
+
+
+def _object_with_names(entry, raw, path):
+    """An object of a scene of several: its tree, with the phases that the reader of scenes gives it."""
+    name = entry["name"]
+    if "file" in entry:
+        taken = load(os.path.join(os.path.dirname(os.path.abspath(path)), entry["file"]))
+        made, prefix = taken.object, f"{name}."
+    else:
+        alone = {key: raw[key] for key in ("phases", "shapes") if key in raw}
+        handle, parts = _phasetree.read_text(json.dumps({**alone, "tree": entry["tree"]}), path)
+        made, prefix = Object(handle, _phases_of(_with_nodes(parts, list(parts["phases"])))), ""
+    own = entry.get("phases", {})
+    phases = [
+        Phase(f"{name}.{p.name}", _parts.part_of("Materials", own[p.name])) if p.name in own else Phase(prefix + p.name, p.material)
+        for p in made.phases[1:]
+    ]  # fmt: skip
+    return Object(made._handle, (vacuum, *phases))
+
+
+def _load_objects(path):
+    folder = os.path.dirname(os.path.abspath(path))
+    maps, groups, places = _phasetree.placed_in_file(path)
+    text = _phasetree.with_files(_phasetree.text_of_file(path), path, lambda file: os.path.join(folder, file))
+    raw = _phasetree.value_of(text)
+    entries = [*raw["objects"]]
+    if "tree" in raw:
+        entries.insert(0, {"name": "tree", "tree": raw["tree"]})
+    objects = {
+        name: (_object_with_names(entry, raw, path), matrix[0]) for entry, (name, matrix) in zip(entries, maps)
+    }
+    groups = {name: [_placed.Places(*one) for one in listed] for name, listed in groups.items()}
+    instances = _placed.without_places_alone(objects, groups, [_placed.Places(*one) for one in places])
+    return raw, {"objects": objects, "groups": groups, "instances": instances}
+
+
 def load(path):
-    """Reads a scene file. Raises SceneError with file, line and column. Comments and names of shapes are not kept."""
+    """Reads a scene file. Raises SceneError with file, line and column. Comments and names of shapes are not kept.
+
+    What an object takes from another scene file is read from there, and is the scene's own from then on.
+    """
     path = os.fspath(path)
+    if "objects" in _phasetree.value_of(_phasetree.text_of_file(path)):
+        parts, shown = _load_objects(path)
+        return _scene_of(parts, path, **shown)
     handle, parts = _phasetree.read_file(path)
     folder = os.path.dirname(os.path.abspath(path))
     text = _phasetree.text_of_file(path)
@@ -207,13 +288,13 @@ def load(path):
     if absolute != text:
         handle, parts = _phasetree.read_text(absolute, path)
     parts = _with_nodes(parts, list(parts["phases"]))
-    phases = [vacuum]
-    for name, material in parts["phases"].items():
-        is_material = isinstance(material, dict) and len(material) == 1
-        phases.append(Phase(name, _parts.part_of("Materials", material) if is_material else None))
+    return _scene_of(parts, path, object=Object(handle, _phases_of(parts)))
+
+
+def _scene_of(parts, path, **shown):
     camera, render = parts.get("camera"), parts.get("render")
     return Scene(
-        Object(handle, tuple(phases)),
+        **shown,
         camera=None if camera is None else _parts.part_of("Cameras", camera),
         lights=[_parts.part_of("Lights", light) for light in parts.get("lights", ())],
         meshes=[_parts.part_of("Meshes", mesh) for mesh in parts.get("meshes", ())],

@@ -9,7 +9,7 @@ from __future__ import annotations
 import inspect
 import textwrap
 
-from phasetree import _formula, _parts, _scene, _trees, _view
+from phasetree import _formula, _parts, _placed, _scene, _trees, _view
 
 _TYPES = {
     "number": "float",
@@ -158,6 +158,9 @@ def text():
     out += "".join(["class Object:\n    phases: tuple[Phase, ...]\n", _class(_trees.Object).split("\n", 1)[1]])
     out += _methods(_trees.Object) + "\n"
     out += _class(_scene.Image) + "\n" + _class(_scene.Scene) + "\n"
+    out += "class Places:\n    of: str\n    transforms: np.ndarray\n    def __len__(self) -> int: ...\n\n"
+    out += "def places(of: str, transforms: Sequence[float] | Sequence[Sequence[float]] | np.ndarray) -> Places:\n"
+    out += textwrap.indent(f'r"""{inspect.getdoc(_placed.places)}"""', "    ") + "\n\n"
     out += _class(_view.View) + "    url: str\n    file: str\n    def __enter__(self) -> View: ...\n"
     out += "    def __exit__(self, *_: object) -> None: ...\n\n"
     out += "def view(what: Object | Scene, *, width: int | None = ..., samples: int | None = ..., threads: int = ..., "

@@ -33,12 +33,17 @@ def _with_materials(object):
 def _as_scene(what):
     """A scene of its own for an object: seen from the front, a little from above, under a plain sky."""
     if isinstance(what, Scene):
-        missing = any(p.material is None for p in what.object.phases[1:])
-        what = what.with_(object=_with_materials(what.object)) if missing else what
+        if what.object is not None:
+            what = what.with_(object=_with_materials(what.object))
+        else:
+            what = what.with_(objects={n: (_with_materials(o), m) for n, (o, m) in what.objects.items()},
+                              groups=what.groups, instances=what.instances)  # fmt: skip
     elif isinstance(what, Object):
         what = Scene(_with_materials(what))
     else:
         raise Error(f"what is viewed is an object of phases or a scene, but this is {what!r}")
+    if what.camera is None and what.object is None:
+        raise Error("a scene of several objects needs a camera to be viewed")
     if what.camera is None:
         low, high = np.array(what.object.bounds, dtype=float)
         if not (np.all(np.isfinite(low)) and np.all(low < high)):

@@ -1,11 +1,13 @@
 // Scene files in and out: what a file says as Python's values, its object as a handle; and the checks of the parts that
 // people write, by the readers of scene files.
 #include <fmt/format.h>
+#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <span>
 
 #include "module.hpp"
 #include "phasetree/io/document.hpp"
@@ -59,8 +61,6 @@ py::object as_python(Value value, const Document* document = nullptr) {
 py::tuple parts_of(const Document& document) {
     SceneTree tree;
     const Value root = document.root();
-    if (const auto objects = root.find("objects"))
-        throw document.error(*objects, "scenes of several objects cannot be read here; those of one \"tree\" can");
     if (root.find("camera")) {
         tracer::Scene scene = tracer::read_scene(document);
         tree = {scene.phases, scene.object};
@@ -73,6 +73,46 @@ py::tuple parts_of(const Document& document) {
         if (part.key() != "tree" && part.key() != "shapes" && part.key() != "version")
             rest[py::str(std::string(part.key()))] = as_python(part, &document);
     return py::make_tuple(tree.object, rest);
+}
+
+// The matrices [M v] of maps, (N, 3, 4).
+py::array_t<float> matrices(std::span<const tracer::Transform> maps) {
+    py::array_t<float> result({static_cast<py::ssize_t>(maps.size()), py::ssize_t{3}, py::ssize_t{4}});
+    float* out = result.mutable_data();
+    for (const tracer::Transform& map : maps)
+        for (int row = 0; row < 3; ++row) {
+            for (int column = 0; column < 3; ++column) *out++ = static_cast<float>(map.matrix[column][row]);
+            *out++ = static_cast<float>(map.by[row]);
+        }
+    return result;
+}
+
+// (name, matrices) of each run of places of the same object or group.
+py::list places_of(const tracer::PlacedObjects& all, const std::vector<tracer::Place>& places) {
+    py::list result;
+    for (std::size_t i = 0; i < places.size();) {
+        const tracer::Place& first = places[i];
+        std::vector<tracer::Transform> maps;
+        for (; i < places.size() && places[i].of == first.of && places[i].is_group == first.is_group; ++i)
+            maps.push_back(places[i].transform);
+        result.append(py::make_tuple(first.is_group ? all.groups[first.of].name : all.objects[first.of].name,
+                                     matrices(maps)));
+    }
+    return result;
+}
+
+// Of a scene of several objects: the names and own maps of the objects, the places in each group, and those of the
+// scene. All that is wrong with the scene is said here.
+py::tuple placed_in(const Document& document) {
+    const Value root = document.root();
+    tracer::PlacedObjects all = root.find("camera") ? tracer::read_scene(document).placed
+                                                    : tracer::read_scene_without_camera(document).placed;
+    py::list objects;
+    for (const tracer::PlacedObject& object : all.objects)
+        objects.append(py::make_tuple(object.name, matrices(std::span(&object.first, 1))));
+    py::dict groups;
+    for (const tracer::PlacedGroup& group : all.groups) groups[py::str(group.name)] = places_of(all, group.places);
+    return py::make_tuple(objects, groups, places_of(all, all.places));
 }
 
 // The names of kinds that read a file, each with the name of that parameter: of all that a scene file can say.
@@ -157,6 +197,7 @@ void add_scenes(py::module_& module) {
     module.def("read_text", [](const std::string& text, const std::string& name) {
         return parts_of(Document::from_text(text, name));
     });
+    module.def("placed_in_file", [](const std::string& path) { return placed_in(Document::from_file(path)); });
     module.def("text_of_file", [](const std::string& path) { return Document::from_file(path).text(); });
     module.def("with_files", &with_files, py::arg("text"), py::arg("name"), py::arg("renamed"));
     module.def("value_of", &value_of);

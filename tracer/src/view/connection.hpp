@@ -29,8 +29,13 @@ class Connection : public httplib::Stream {
     /// Answers without the library.
     void refuse(std::string_view status);
 
-    bool is_readable() const override { return true; }
-    bool is_writable() const override { return true; }
+    // The library asks by these names before 0.19, and by those from then on.
+    bool is_readable() const { return true; }
+    bool is_writable() const { return true; }
+    bool wait_readable() const { return true; }
+    bool wait_writable() const { return true; }
+    time_t duration() const { return 0; }
+
     ssize_t read(char* to, std::size_t size) override;
     ssize_t write(const char* from, std::size_t size) override;
     void get_remote_ip_and_port(std::string& ip, int& port) const override;

@@ -100,6 +100,11 @@ void Session::stop() {
 template <class Edit>
 void Session::show(Edit&& edit) {
     const std::lock_guard lock(mutex_);
+    show_locked(edit);
+}
+
+template <class Edit>
+void Session::show_locked(Edit&& edit) {
     auto next = std::make_shared<Shown>(*shown_);
     edit(*next);
     show_wishes(wishes_.edits, wishes_.numbers, *next);
@@ -155,9 +160,10 @@ std::uint64_t Session::change(const Change& change) {
         if (change.numbers) ++wishes_.text;
         if (change.has_camera || change.layer || change.is_of_object() || change.numbers) wishes_.since = Clock::now();
         announce_wishes();
+        // Before the thread can have done it, or the page would be told of what is over.
+        if (change.is_of_object()) show_locked([](Shown& shown) { shown.doing = "Building cells"; });
+        if (change.numbers) show_locked([](Shown& shown) { shown.doing = "Reading the scene"; });
     }
-    if (change.is_of_object()) show([](Shown& shown) { shown.doing = "Building cells"; });
-    if (change.numbers) show([](Shown& shown) { shown.doing = "Reading the scene"; });
     if (change.exposure_ev) expose();
     return shown()->version;
 }

@@ -139,6 +139,9 @@ class Session {
     // Changes what is shown, by `edit(Shown&)`, under the lock.
     template <class Edit>
     void show(Edit&& edit);
+    // The same, for who holds the lock.
+    template <class Edit>
+    void show_locked(Edit&& edit);
 
     const ReadScene read_;
     const SessionOptions options_;

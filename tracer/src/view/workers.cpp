@@ -18,18 +18,19 @@ bool Workers::is_refusing() {
     return refusing;
 }
 
-void Workers::enqueue(std::function<void()> task) {
+Workers::Enqueued Workers::enqueue(std::function<void()> task) {
     {
         const std::lock_guard lock(mutex_);
         if (waiting_.size() < most_waiting) {
             waiting_.push_back(std::move(task));
             changed_.notify_one();
-            return;
+            return Enqueued(true);
         }
     }
     refusing = true;
     task();
     refusing = false;
+    return Enqueued(true);
 }
 
 void Workers::work() {

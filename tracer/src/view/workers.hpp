@@ -8,6 +8,7 @@
 #include <functional>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace phasetree::tracer::view {
@@ -17,10 +18,13 @@ class Workers : public httplib::TaskQueue {
     static constexpr std::size_t threads = 12;
     static constexpr std::size_t most_waiting = 64;
 
+    /// Before 0.15 nothing, from then on whether the task was taken; it always is.
+    using Enqueued = decltype(std::declval<httplib::TaskQueue&>().enqueue({}));
+
     Workers();
 
     /// Where no more may wait, runs the task at once in the caller's thread, with is_refusing().
-    void enqueue(std::function<void()> task) override;
+    Enqueued enqueue(std::function<void()> task) override;
     void shutdown() override;
 
     /// Whether the calling thread runs a task only to refuse what it stands for.

@@ -1,0 +1,147 @@
+"""Scenes of many objects: what there is by name, and where it stands, as arrays of affine maps."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from phasetree import _phasetree
+from phasetree._errors import Error
+from phasetree._phases import vacuum
+from phasetree._trees import Object
+
+_IDENTITY = np.hstack([np.eye(3), np.zeros((3, 1))]).astype(np.float32)
+
+
+def _maps(transforms, what):
+    """float32 (N, 3, 4) from maps of any of the shapes that `places` takes."""
+    array = np.asarray(transforms, dtype=np.float32)
+    if array.shape[-1:] == (3,) and array.ndim <= 2:
+        positions = array.reshape(-1, 3)
+        array = np.tile(_IDENTITY, (len(positions), 1, 1))
+        array[:, :, 3] = positions
+    elif array.shape[-2:] == (4, 4) and array.ndim <= 3:
+        array = array.reshape(-1, 4, 4)
+        if not np.array_equal(array[:, 3], np.tile([0, 0, 0, 1], (len(array), 1))):
+            raise Error(f"{what}: the last row of a 4x4 matrix must be 0 0 0 1")
+        array = array[:, :3]
+    elif array.shape[-2:] == (3, 4) and array.ndim <= 3:
+        array = array.reshape(-1, 3, 4)
+    else:
+        raise Error(f"{what} must be positions (3,) or (N, 3), or matrices 3x4 or 4x4, one or N; the shape is {array.shape}")
+    if len(array) == 0 or not np.all(np.isfinite(array)):
+        raise Error(f"{what} must be at least one place of finite numbers")
+    return np.ascontiguousarray(array)
+
+
+class Places:
+    """Places of an object or of a group of a scene: its name, and float32 (N, 3, 4), each the matrix [M v] of an
+    affine map, p to M p + v."""
+
+    __slots__ = ("of", "transforms")
+
+    def __init__(self, of, transforms):
+        self.of, self.transforms = of, transforms
+
+    def written(self):
+        """As JSON has them: twelve numbers each, where the axes and the origin go."""
+        columns = self.transforms.transpose(0, 2, 1).reshape(-1, 12)
+        return {"of": self.of, "transforms": _numbers(columns)}
+
+    def __len__(self):
+        return len(self.transforms)
+
+    def __eq__(self, other):
+        return isinstance(other, Places) and self.of == other.of and np.array_equal(self.transforms, other.transforms)
+
+    __hash__ = None
+
+    def __repr__(self):
+        return f"<{len(self)} places of {self.of!r}>"
+
+
+def places(of, transforms):
+    """Where an object or a group of a scene stands, once or many times: Places.
+
+    of: its name. transforms: a position, (3,) or (N, 3), or a 3x4 or 4x4 matrix of an affine map, one or N of them.
+    """
+    if not isinstance(of, str) or not of:
+        raise Error(f"places are those of an object or a group by its name, but this is {of!r}")
+    return Places(of, _maps(transforms, "transforms"))
+
+
+def named_objects(objects):
+    """{name: (object, its own map)} of what a scene is given."""
+    result = {}
+    for name, value in dict(objects).items():
+        placed, transform = value if isinstance(value, tuple) and len(value) == 2 else (value, _IDENTITY)
+        if not isinstance(placed, Object):
+            raise Error(f'the object "{name}" must be an object of phases, or a pair of one and its map, but is {value!r}')
+        maps = _maps(transform, f'the map of "{name}"')
+        if len(maps) != 1:
+            raise Error(f'the object "{name}" has {len(maps)} maps of its own; use places(…)')
+        result[name] = (placed, maps[0])
+    return result
+
+
+def place_lists(value, what):
+    """A tuple of Places."""
+    lists = (value,) if isinstance(value, Places) else tuple(value)
+    for one in lists:
+        if not isinstance(one, Places):
+            raise Error(f"{what} must be pt.places(…), but {one!r} is among them")
+    return lists
+
+
+def phases_of(objects):
+    """All phases of the objects, the vacuum first. Phases of one name must have one material."""
+    known = {}
+    for placed, _ in objects.values():
+        for p in placed.phases[1:]:
+            if known.setdefault(p.name, p) != p:
+                raise Error(f'two objects have a phase "{p.name}", of different materials: give one another name')
+    return (vacuum, *known.values())
+
+
+def _numbers(array):
+    """Lists of numbers in the few digits that say a float32."""
+    if array.ndim > 1:
+        return [_numbers(row) for row in array]
+    return [float(str(value)) for value in array]
+
+
+def _written_map(matrix):
+    x, y, z, by = (_numbers(matrix[:, i]) for i in range(4))
+    return {"affine": {"x": x, "y": y, "z": z, "by": by}}
+
+
+def written(objects):
+    """The "shapes" and "objects" of a scene file. Shapes that several places of a tree share have the object's name."""
+    shapes, placed = {}, []
+    for name, (one, matrix) in objects.items():
+        names = [p.name for p in one.phases[1:]]
+        scene = _phasetree.value_of(one._handle.text(names, ["null"] * len(names)))
+        renamed = {shape: f"{name}: {shape}" for shape in scene.get("shapes", {})}
+
+        def with_names(value, renamed=renamed):
+            if isinstance(value, str):
+                return renamed.get(value, value)
+            if isinstance(value, dict):
+                return {key: with_names(v) for key, v in value.items()}
+            return [with_names(v) for v in value] if isinstance(value, list) else value
+
+        shapes.update({renamed[shape]: with_names(node) for shape, node in scene.get("shapes", {}).items()})
+        entry = {"name": name, "tree": with_names(scene["tree"])}
+        if not np.array_equal(matrix, _IDENTITY):
+            entry["transform"] = _written_map(matrix)
+        placed.append(entry)
+    return shapes, placed
+
+
+def without_places_alone(objects, groups, places):
+    """The same places without those that an object has because nothing names it."""
+    named = [one.of for listed in (*groups.values(), places) for one in listed]
+    return [
+        one
+        for one in places
+        if not (one.of in objects and named.count(one.of) == 1 and np.array_equal(one.transforms, _IDENTITY[None]))
+    ]
