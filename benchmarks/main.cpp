@@ -29,6 +29,7 @@ const std::vector<Command>& commands() {
         {"scaling", "the tentacle with 30 to 30,000 bumps", scaling},
         {"quality", "objects built for a quick look and as usual", quality},
         {"mesh", "fields against the triangles that would replace them", mesh},
+        {"triangles", "closed meshes as fields against the same triangles", triangles},
         {"naive", "interface cells against the paper's way", naive},
         {"phases", "the same geometry with 1 to 32 phases (Figure 20)", phases},
         {"simd", "instruction sets and threads", simd},

@@ -9,6 +9,7 @@ namespace phasetree::bench {
 Report table1(const Settings&);
 Report scaling(const Settings&);
 Report mesh(const Settings&);
+Report triangles(const Settings&);
 Report naive(const Settings&);
 Report phases(const Settings&);
 Report quality(const Settings&);

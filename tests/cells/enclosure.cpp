@@ -99,10 +99,10 @@ void look(const Primitive& n, Random& rng, int boxes, CellBuffer& found, Enclose
 }  // namespace
 
 TEST_CASE("an enclosure holds the values and the gradients of every primitive") {
-    Random rng(23);
     std::size_t kinds = 0, curved_kinds = 0;
     CellBuffer all;
     for (const NodeKind& kind : node_kinds()) {
+        Random rng = random_for(23, kind);
         if (!kind.is_field) continue;
         CAPTURE(kind.name);
         CellBuffer found;
@@ -200,9 +200,9 @@ double largest_bend(const Solid& solid, const glm::dvec3& q) {
 }  // namespace
 
 TEST_CASE("a rounded solid's distance bends as that to the ball which it says lies in its surface") {
-    Random rng(41);
     std::size_t kinds = 0;
     for (const NodeKind& kind : node_kinds()) {
+        Random rng = random_for(41, kind);
         if (!kind.is_field) continue;
         CAPTURE(kind.name);
         // Of 1/(f + ρ), the bend at most: where ρ is of all points within reach, and of the point itself.
@@ -246,9 +246,9 @@ TEST_CASE("a rounded solid's distance bends as that to the ball which it says li
 }
 
 TEST_CASE("what is known at a box's centre encloses rounded solids, behind affine maps, too") {
-    Random rng(29);
     std::size_t kinds = 0;
     for (const NodeKind& kind : node_kinds()) {
+        Random rng = random_for(29, kind);
         if (!kind.is_field) continue;
         CAPTURE(kind.name);
         CellBuffer found;
@@ -339,11 +339,11 @@ struct EnclosingWalk {
 }  // namespace
 
 TEST_CASE("an enclosure of a tree holds its values and how they bend") {
-    Random rng(29);
     // Of a tree's values, whose numbers are up to 10 and pass through a dozen operations.
     constexpr double error = 2e-5;
     std::size_t looked = 0, bounded = 0, outside = 0, off_chord = 0, off_tangent = 0, seen = 0, kinds = 0;
     for (const NodeKind& kind : node_kinds()) {
+        Random rng = random_for(29, kind);
         if (!kind.is_field) continue;
         CAPTURE(kind.name);
         const std::size_t before = bounded;

@@ -13,9 +13,9 @@ using namespace phasetree;
 using namespace phasetree::tests;
 
 TEST_CASE("a cell's program gives the whole object's labels with each kind of node at the root") {
-    Random rng(8);
     const int trees = long_tests() ? 200 : 2;
     for (const NodeKind& kind : node_kinds()) {
+        Random rng = random_for(8, kind);
         CAPTURE(kind.name);
         std::size_t points = 0;
         for (int i = 0, attempt = 0; i < trees && attempt < 50 * trees; ++attempt) {

@@ -57,11 +57,11 @@ TEST_CASE("with opaque phases rays in the others meet what they met, and where o
 }
 
 TEST_CASE("the nearest crossing over all cells is the whole object's with each kind of node at the root") {
-    Random rng(14);
     const int trees = long_tests() ? 100 : 1;
     Compared all;
     int attempt_of_all = 0;
     for (const NodeKind& kind : node_kinds()) {
+        Random rng = random_for(14, kind);
         CAPTURE(kind.name);
         for (int i = 0, attempt = 0; i < trees && attempt < 50 * trees; ++attempt) {
             const Phased object = cut_to_size(kind.object(rng, 1 + attempt_of_all++ % 3));

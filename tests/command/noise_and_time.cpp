@@ -63,6 +63,20 @@ TEST_CASE("--noise gives the same bytes with any threads, after kills, and throu
     CHECK(other.err.find("noise") != std::string::npos);
 }
 
+TEST_CASE("a crop is the same through a part, which holds whole blocks") {
+    const Shell shell;
+    write_text(shell.directory / "scene.json", cut_scene(100));
+    const std::vector<std::string> crop{"--noise", "0.1", "--crop", "5,3,21,18"};
+    REQUIRE(shell.run(joined(joined(render, crop), {"-o", "a.exr", "-o", "a.part"})).code == 0);
+    const Outcome o = shell.run({"merge", "a.part", "-o", "b.exr"});
+    CHECK(is_same(shell, "a.exr", "b.exr"));
+    CHECK(o.err.find("b.exr (16x15, ") != std::string::npos);
+    // It goes on as if more samples had been asked for at once.
+    REQUIRE(shell.run(joined(joined(render, crop), {"-o", "a.exr", "--spp", "150", "--resume", "a.part"})).code == 0);
+    REQUIRE(shell.run(joined(joined(render, crop), {"-o", "b.exr", "--spp", "150"})).code == 0);
+    CHECK(is_same(shell, "a.exr", "b.exr"));
+}
+
 TEST_CASE("the scene may say its limit of noise, and --noise 0 turns it off") {
     const Shell shell;
     std::string text = cut_scene(50);

@@ -13,6 +13,7 @@ constexpr Target list[] = {
     {"color_config", Inputs::lines, 16384, 500, "tracer/color", run_color_config},
     {"image", Inputs::bytes, 16384, 500, "", run_image},
     {"lines", Inputs::lines, 1024, 10000, "", run_lines},
+    {"mesh", Inputs::bytes, 4096, 5000, "", run_mesh},
     {"obj", Inputs::lines, 4096, 10000, "", run_obj},
     {"part", Inputs::bytes, 8192, 3000, "", run_part},
     {"scene", Inputs::json, 8192, 10000, "scenes", run_scene},

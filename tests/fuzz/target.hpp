@@ -46,6 +46,7 @@ void run_calls(Bytes);
 void run_color_config(Bytes);
 void run_image(Bytes);
 void run_lines(Bytes);
+void run_mesh(Bytes);
 void run_obj(Bytes);
 void run_part(Bytes);
 void run_scene(Bytes);

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "phasetree/math/number.hpp"
+#include "phasetree/math/vec3.hpp"
 
 namespace phasetree::tests {
 
@@ -117,6 +118,11 @@ inline Rounded lookup(const float* table, const Rounded& index) {
     Rounded result(table[low]);
     if (high > low) result = either(result, Rounded(table[high]));
     return high > low + 1 ? Rounded(0, INFINITY) : result;
+}
+/// A shader has no search, so the loop over everything is what is compared.
+template <class Search, class Equation, class Otherwise>
+Rounded found_equation(const Vec3<Rounded>& p, const Search&, const Equation&, const Otherwise& otherwise) {
+    return otherwise(p);
 }
 
 }  // namespace phasetree::tests

@@ -54,9 +54,9 @@ double slack(const glm::vec3& p) {
 }  // namespace
 
 TEST_CASE("nothing of an object lies outside its bounds") {
-    Random rng(61);
     const int trees = long_tests() ? 2000 : 60;
     for (const NodeKind& kind : node_kinds()) {
+        Random rng = random_for(61, kind);
         for (int tree = 0; tree < trees; ++tree) {
             CAPTURE(kind.name);
             CAPTURE(tree);
@@ -77,9 +77,9 @@ TEST_CASE("nothing of an object lies outside its bounds") {
 }
 
 TEST_CASE("at every level, what is within the level of a field lies within the bounds") {
-    Random rng(62);
     const int trees = long_tests() ? 2000 : 60;
     for (const NodeKind& kind : node_kinds()) {
+        Random rng = random_for(62, kind);
         for (int tree = 0; tree < trees; ++tree) {
             CAPTURE(kind.name);
             CAPTURE(tree);

@@ -65,12 +65,19 @@ void look(const Phased& object, Random& rng, int pairs, Slopes& s) {
 
 TEST_CASE("components of every node are 1-Lipschitz and do not overlap") {
     const int trees = 50, pairs = long_tests() ? 20'000 : 200;
-    Random rng(51);
     std::size_t total = 0;
     for (const NodeKind& kind : node_kinds()) {
+        Random rng = random_for(51, kind);
         Slopes s;
         CAPTURE(kind.name);
-        for (int tree = 0; tree < trees; ++tree) {
+        // A bound that is far too large would be safe and slow: some pair sees a slope close to 1.
+        // A periodic sheet's slope is 1 at single points only, which tests of their own look at (fractal_noise.cpp),
+        // and that of Voronoi phases only between two sites. What moves space by noise is steep where it moves little,
+        // which not every fifty trees do, so it has more of them until one is found.
+        const bool sheet =
+            kind.name == "gyroid" || kind.name == "schwarz_p" || kind.name == "schwarz_d" || kind.name == "voronoi";
+        const double wanted = sheet ? 0.8 : 0.99;
+        for (int tree = 0; tree < trees || (tree < 4 * trees && s.steepest <= wanted); ++tree) {
             CAPTURE(tree);
             look(kind.object(rng, 2 + tree % 3), rng, pairs, s);
             REQUIRE(s.too_steep == 0);
@@ -81,12 +88,7 @@ TEST_CASE("components of every node are 1-Lipschitz and do not overlap") {
             REQUIRE(s.steepest <= 1 + 2e-6);
         }
         total += s.pairs;
-        // A bound that is far too large would be safe and slow: some pair sees a slope close to 1.
-        // A periodic sheet's slope is 1 at single points only, which tests of their own look at (fractal_noise.cpp),
-        // and that of Voronoi phases only between two sites.
-        const bool sheet =
-            kind.name == "gyroid" || kind.name == "schwarz_p" || kind.name == "schwarz_d" || kind.name == "voronoi";
-        CHECK(s.steepest > (sheet ? 0.8 : 0.99));
+        CHECK(s.steepest > wanted);
     }
     MESSAGE(total, " pairs");
     CHECK(total >= 1'000'000);

@@ -13,6 +13,7 @@
 #include "phasetree/nodes/list.hpp"
 #include "phasetree/trace/tracer.hpp"
 #include "support/normal_checks.hpp"
+#include "support/random_mesh.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tests;
@@ -106,6 +107,7 @@ Solids every_primitive() {
     s.add(Bowl{.radius = 1, .cut = 0, .thickness = 0.25f});
     s.add(Dodecahedron{.radius = 1});
     s.add(Icosahedron{.radius = 1});
+    s.add(Mesh{.file = held(octahedron_mesh())});
     s.add(Helix{.radius = 0.5f, .pitch = 0.5f, .turns = 2, .wire = 0.125f});
     s.add(Heightfield{.size = 1, .amplitude = 0.25f});
     s.add(Polygon{.points = {{-0.5f, -0.5f}, {0.5f, -0.5f}, {0.5f, 0.5f}, {0, 0.25f}, {-0.5f, 0.5f}}});

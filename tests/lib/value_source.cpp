@@ -28,7 +28,8 @@ using Names = std::vector<std::string>;
 TEST_CASE("of a union the nearer solid gives the value") {
     const Field left = ball_at(-2), right = ball_at(2);
     const Phased object = Set{.phase = water, .of = Union{.of = {left, right}}};
-    for (const float x : {-4.f, -1.f, -0.1f}) CHECK(value_source(object, {x, 0.3f, 0}, water).at(2).node == left.node());
+    for (const float x : {-4.f, -1.f, -0.1f})
+        CHECK(value_source(object, {x, 0.3f, 0}, water).at(2).node == left.node());
     for (const float x : {4.f, 1.f, 0.1f}) CHECK(value_source(object, {x, 0.3f, 0}, water).at(2).node == right.node());
     CHECK(names(value_source(object, {3, 0, 0}, water)) == Names{"set", "union", "translate", "sphere"});
     // The vacuum around it has the same source.

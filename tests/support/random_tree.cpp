@@ -1,6 +1,7 @@
 #include "support/random_tree.hpp"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <vector>
 
@@ -10,15 +11,25 @@ namespace phasetree::tests {
 
 namespace {
 
+// A hash of a name and a number.
+std::uint64_t mixed(std::string_view name, std::uint64_t number) {
+    for (const char c : name) number = Random(number ^ static_cast<unsigned char>(c)).bits();
+    return number;
+}
+
+// Each name has a hash with one random number, and the greatest is chosen (rendezvous hashing).
 template <class... Nodes, class F>
 void with_random_type(Random& rng, TypeList<Nodes...>, F&& f) {
-    int chosen = rng.below(static_cast<int>(sizeof...(Nodes)));
+    const std::uint64_t number = rng.bits();
+    const std::array<std::uint64_t, sizeof...(Nodes)> hashes{mixed(Nodes::info.name, number)...};
+    auto chosen = std::ranges::max_element(hashes) - hashes.begin();
     ((chosen-- == 0 ? f.template operator()<Nodes>() : void()), ...);
 }
 
 // One random instance with this node at its root.
 template <class Node>
-auto drawn(Random& rng, int depth) {
+auto drawn(Random& of_parent, int depth) {
+    Random rng(of_parent.bits());
     using Handle = std::conditional_t<IsFieldNode<Node>, Field, Phased>;
     for (int attempt = 0;; ++attempt) {
         Node node;
@@ -41,7 +52,8 @@ auto drawn(Random& rng, int depth) {
 
 }  // namespace
 
-Field random_field(Random& rng, int depth) {
+Field random_field(Random& of_parent, int depth) {
+    Random rng(of_parent.bits());
     Field result;
     const auto make = [&]<class Node>() { result = drawn<Node>(rng, depth); };
     if (depth <= 1)
@@ -51,7 +63,8 @@ Field random_field(Random& rng, int depth) {
     return result;
 }
 
-Phased random_object(Random& rng, int depth) {
+Phased random_object(Random& of_parent, int depth) {
+    Random rng(of_parent.bits());
     Phased result;
     const auto make = [&]<class Node>() { result = drawn<Node>(rng, depth); };
     if (depth <= 1)
@@ -80,6 +93,10 @@ std::span<const NodeKind> node_kinds() {
         return all;
     }();
     return kinds;
+}
+
+Random random_for(std::uint64_t seed, const NodeKind& kind) {
+    return Random(mixed(kind.name, seed));
 }
 
 const NodeKind& object_kind(std::string_view name) {

@@ -2,6 +2,8 @@
 
 /// Random trees for the tests over all nodes. They come from the node lists and the nodes' own lists of parameters, so
 /// a new node is drawn, as a root and as a child, without a line here. What a node's prepare() refuses is drawn again.
+/// A tree is made of one number of the generator, each child of one of its parent's, and which node that is depends on
+/// names and not on places in lists. So a new node takes the place of others in some trees and leaves all else alone.
 ///
 /// The values keep an object about a metre large. A third of them are multiples of a quarter: coincident faces, equal
 /// radii, zero angles and exact ties are where sign errors and missing cases hide.
@@ -60,6 +62,8 @@ struct NodeKind {
     Field (*field)(Random&, int depth);  ///< null for objects' kinds
 };
 std::span<const NodeKind> node_kinds();
+/// Random numbers to draw trees of one kind with, which do not depend on the kinds before it.
+Random random_for(std::uint64_t seed, const NodeKind&);
 /// The kind of objects with this name.
 const NodeKind& object_kind(std::string_view name);
 

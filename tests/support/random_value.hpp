@@ -18,6 +18,7 @@
 #include "phasetree/nodes/fields/siren_network.hpp"
 #include "phasetree/nodes/fields/sphere.hpp"
 #include "phasetree/nodes/phased/intersect_shape.hpp"
+#include "support/random_mesh.hpp"
 #include "support/random_tree.hpp"
 
 namespace phasetree::tests::detail {
@@ -115,6 +116,8 @@ void fill(Random& rng, Value& value, const Parameter& p, int depth, bool needs_b
             network.layers.push_back(std::move(layer));
         }
         value.content = std::make_shared<const SirenNetwork>(std::move(network));
+    } else if constexpr (std::is_same_v<Value, FromFile<TriangleMesh>>) {
+        value = held(random_mesh(rng, rng.below(2), 0.3f));
     } else if constexpr (std::is_same_v<Value, FromFile<HeightGrid>>) {
         HeightGrid grid{2 + rng.below(4), 2 + rng.below(4), {}};
         for (int i = 0; i < grid.width * grid.height; ++i) grid.values.push_back(rng.uniform(0, 1));

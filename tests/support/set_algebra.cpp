@@ -5,6 +5,7 @@
 #include "support/set_algebra/copies.hpp"
 #include "support/set_algebra/field_operators.hpp"
 #include "support/set_algebra/formulas.hpp"
+#include "support/set_algebra/meshes.hpp"
 #include "support/set_algebra/outlines.hpp"
 #include "support/set_algebra/patterns.hpp"
 #include "support/set_algebra/primitives.hpp"

@@ -20,7 +20,7 @@ FilmFileHeader header_of(const FilmSettings& settings, const PixelRange& area) {
     h.settings = {{"version", "1.2.3"}, {"scene", "0123"}, {"seed", "4"}};
     h.film = settings;
     h.subjects = {{"vacuum", "gläss", ""}, {"lamp"}, {"object", "floor"}};
-    h.area = area;
+    h.area = h.shown = area;
     h.samples = {3, 5};
     h.samples_in_all = 9;
     h.scene = "a.json";
@@ -153,7 +153,7 @@ TEST_CASE("an image where a part was meant, and a file of another format") {
     const Written written(header_of({.width = 5, .height = 5}, {0, 0, 5, 5}));
     CHECK(written.refusal("\x89PNG\r\n and more").ends_with("it is no part and no checkpoint"));
     std::string later = written.bytes;
-    later[8] = 2;
+    later[8] = static_cast<char>(film_file_format + 1);
     CHECK(written.refusal(later).ends_with("it is of another version of phasetree"));
 }
 
@@ -190,4 +190,21 @@ TEST_CASE("what a process left that was killed is taken away, and what another i
     }
     CHECK(written.folder.size() == 4);
     CHECK(support::bytes_of(written.path) != written.bytes);
+}
+
+TEST_CASE("the pixels of the picture are some of the film's") {
+    FilmFileHeader h = header_of({.width = 40, .height = 30}, {8, 8, 24, 16});
+    h.shown = {9, 8, 20, 15};
+    const Written written(h);
+    const FilmFile file(written.path);
+    CHECK(file.header().shown.x0 == 9);
+    CHECK(file.header().shown.y1 == 15);
+    FilmFileHeader other = h;
+    other.shown = h.area;
+    CHECK(difference(other, file.header()) == "it is of another picture");
+    for (const PixelRange outside : {PixelRange{7, 8, 20, 15}, PixelRange{9, 8, 25, 15}, PixelRange{9, 8, 9, 15}}) {
+        h.shown = outside;
+        const Written wrong(h);
+        CHECK(wrong.refusal(wrong.bytes).find("out of range") != std::string::npos);
+    }
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "image/read_image.hpp"
+#include "phasetree/io/mesh.hpp"
 #include "phasetree_support/temporary_directory.hpp"
 #include "scene/mesh_kinds.hpp"
 #include "scene/named_files.hpp"
@@ -51,6 +52,32 @@ TEST_CASE("a scene's text") {
     while (text.size() < 5 * megabyte) text += "[0.25, 12, \"a\"], ";
     text += "0]}";
     check(heard([&] { (void)Document::from_text(text); }), text.size());
+}
+
+TEST_CASE("a mesh that is a field") {
+    const TemporaryDirectory folder;
+    const auto check_file = [&](const std::string& name, const std::string& content) {
+        write_text(folder / name, content);
+        check(heard([&] { (void)read_mesh(folder / name); }), content.size());
+    };
+    const auto filled = [](std::string text, const std::string& row) {
+        while (text.size() < 3 * megabyte) text += row;
+        return text;
+    };
+    check_file("a.obj", filled("v 0 0 0\nv 1 0 0\nv 0 1 0\n", "f 1 2 3\n"));
+    check_file("a.stl", filled("solid\n", "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendfacet\n"));
+    const std::uint32_t count = 60'000;
+    std::string binary(84 + 50 * std::size_t{count}, '\0');
+    std::memcpy(binary.data() + 80, &count, sizeof count);
+    check_file("b.stl", binary);
+    const auto ply = [](const std::string& format) {
+        return "ply\nformat " + format + " 1.0\nelement vertex 300000\nproperty float x\nproperty float y\n" +
+               "property float z\nend_header\n";
+    };
+    check_file("a.ply", ply("binary_little_endian") + std::string(300'000 * 12, '\0'));
+    std::string rows;
+    while (rows.size() < 300'000 * 12) rows += "0.5 1 0.125\n";
+    check_file("b.ply", ply("ascii") + rows);
 }
 
 TEST_CASE("a mesh") {

@@ -200,6 +200,7 @@ inline void tell_settings(const Document& document, std::vector<float>& told) {
     told.push_back(static_cast<float>(s.seed));
     told.insert(told.end(), {s.exposure_ev, s.caustics ? 1.0f : 0.0f, s.photons, s.photon_radius});
     told.push_back(s.noise);
+    told.insert(told.end(), {s.shutter.x, s.shutter.y});
     told.push_back(static_cast<float>(s.view ? s.view->size() : 0));
 }
 

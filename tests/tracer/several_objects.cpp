@@ -3,30 +3,17 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <random>
 
 #include "phasetree/io/document.hpp"
 #include "scene/one_tree.hpp"
+#include "straight_rays.hpp"
 #include "world/world.hpp"
 
 using namespace phasetree;
 using namespace phasetree::tracer;
+using namespace phasetree::tracer::tests;
 
 namespace {
-
-using Random = std::mt19937;
-
-float uniform(Random& random, float low, float high) {
-    return std::uniform_real_distribution<float>(low, high)(random);
-}
-
-glm::vec3 direction(Random& random) {
-    while (true) {
-        const glm::vec3 v(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
-        const float length = glm::length(v);
-        if (length > 0.1f && length < 1) return v / length;
-    }
-}
 
 Scene scene_of(const std::string& objects) {
     return read_scene(Document::from_text(R"({"version": 1, "phases": {"glass": {"clear": {"ior": 1.5}},
@@ -34,43 +21,6 @@ Scene scene_of(const std::string& objects) {
                                               objects + R"(, "lights": [{"constant": {}}],
         "camera": {"position": [0, -50, 0], "look_at": [0, 0, 0]}})",
                                           "test.json"));
-}
-
-struct Step {
-    double t;
-    float cosine;
-    Phase from, to;
-};
-
-/// The interfaces on the straight way through all that is clear.
-std::vector<Step> straight_through(const TracedGeometry& geometry, const glm::vec3& origin, const glm::vec3& d) {
-    std::vector<Step> steps;
-    const TracedGeometry::Inside start = geometry.inside(origin);
-    Ray ray{origin, d, start.phase, {}, start.in};
-    PathCounters counters;
-    while (steps.size() < 10'000) {
-        const Hit hit = geometry.intersect(ray, counters);
-        const auto* surface = std::get_if<Surface>(&hit);
-        if (!surface) return steps;
-        CHECK(surface->near_side.phase == ray.phase);
-        const double t = glm::dot(glm::dvec3(surface->near_side.origin) - glm::dvec3(origin), glm::dvec3(d));
-        steps.push_back({t, std::abs(glm::dot(surface->normal, d)), ray.phase, surface->entered.value()});
-        ray = surface->transmitted(d);
-    }
-    FAIL("a ray meets no end of interfaces");
-    return steps;
-}
-
-/// Without the phases that are too thin along the ray to be certain to be seen.
-std::vector<Step> without_slivers(const std::vector<Step>& steps, double thickness) {
-    std::vector<Step> kept;
-    for (const Step& step : steps) {
-        if (!kept.empty() && kept.back().from == step.to && step.t - kept.back().t < thickness)
-            kept.pop_back();
-        else
-            kept.push_back(step);
-    }
-    return kept;
 }
 
 /// A random turn, stretch and mirroring as a list of transforms, which keeps what is within the unit ball within 0.45

@@ -1,5 +1,5 @@
-// What is wished for in the live view, made of a scene. That the picture is that of a file which says the same is tested
-// through the server (server.py).
+// What is wished for in the live view, made of a scene. That the picture is that of a file which says the same is
+// tested through the server (server.py).
 #include "view/edits.hpp"
 
 #include <doctest/doctest.h>

@@ -15,7 +15,8 @@ Document document(const std::string& text) {
 }  // namespace
 
 TEST_CASE("every number is listed by its pointer, with its line, but for the version") {
-    const auto found = numbers_of(document("{\"version\": 1, // 2\n\"a/b\": {\"c~d\": [3,\r\n 4.5e1]},\r\"e\": [{\"f\": -0.25}]}"));
+    const auto found =
+        numbers_of(document("{\"version\": 1, // 2\n\"a/b\": {\"c~d\": [3,\r\n 4.5e1]},\r\"e\": [{\"f\": -0.25}]}"));
     REQUIRE(found.numbers.size() == 3);
     CHECK(found.numbers[0].pointer == "/a~1b/c~0d/0");
     CHECK(found.numbers[0].line == 2);

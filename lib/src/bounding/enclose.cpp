@@ -132,13 +132,13 @@ void Encloser::enclose_primitives(const WorkingProgram& program, std::span<const
                 }
             } else if constexpr (LongPrimitive<P>) {
                 SpecialisationInBox specialisation{{}, scratch_};
-                if constexpr (LocalPrimitive<P>) {
+                if constexpr (AnyLocalPrimitive<P>) {
                     do ++local;
                     while (previous[local] != 0 || !traits(program.code[local].op).is_local);
                     specialisation.around = data_around(static_cast<std::uint32_t>(c - context_.constants.data()));
                 }
                 result = enclose_long_primitive<P>(c, q, half_, specialisation);
-                if constexpr (LocalPrimitive<P>) found[local] = specialisation.found;
+                if constexpr (AnyLocalPrimitive<P>) found[local] = specialisation.found;
             } else {
                 result = enclose_primitive<P>(c, q);
                 tighten_by_linear_bound(result, half_);

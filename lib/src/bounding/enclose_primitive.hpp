@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cmath>
-#include <cstring>
 
 #include "bounding/convex_in_box.hpp"
+#include "bounding/mesh_in_box.hpp"
 #include "bounding/network_in_box.hpp"
 #include "enclosure/enclosure.hpp"
 #include "evaluation/interpret.hpp"
@@ -22,20 +22,25 @@ struct SpecialisationInBox {
 };
 
 /// The value of a local primitive at the centre of a region, by its specialisation there if there is one.
-template <LocalPrimitive P>
+template <AnyLocalPrimitive P>
 float value_by_specialisation(const float* constants, const Region& at, SpecialisationInBox& specialisation) {
-    P primitive;
-    std::memcpy(static_cast<void*>(&primitive), constants, sizeof primitive);
     std::vector<float> floats;
-    if (!primitive.specialise(at, specialisation.around, floats)) return primitive.distance(at.point());
+    const bool is_special = [&] {
+        if constexpr (LocalDataPrimitive<P>)
+            return P::specialise(constants, at, specialisation.around, floats);
+        else
+            return program::read<P>(constants).specialise(at, specialisation.around, floats);
+    }();
+    if (!is_special) return program::distance_of<P>(constants, at.point());
     Specialisation& found = specialisation.found;
     found = Specialisation::of<P>(specialisation.scratch.copy(std::span<const float>(floats)));
     return P::Specialised::distance(found.data.data(), at.point());
 }
 
 /// The enclosure of a long primitive. Noise has an enclosure of its own, and a network has one inside of its cube,
-/// beyond which points are projected onto the cube (Siren::Network). Of all others (an image, Voronoi cells), and of a
-/// network elsewhere, only the value at the centre is used and that their slope is at most 1 in their own space.
+/// beyond which points are projected onto the cube (Siren::Network). The few pieces of a mesh in a small box bound its
+/// gradient. Of all others (an image, Voronoi cells), and of those elsewhere, only the value at the centre is used and
+/// that their slope is at most 1 in their own space.
 template <class P>
 Enclosure enclose_long_primitive(const float* constants, const Vec3<Enclosure>& q, const Enclosure::Vector& half,
                                  SpecialisationInBox& specialisation) {
@@ -47,10 +52,15 @@ Enclosure enclose_long_primitive(const float* constants, const Vec3<Enclosure>& 
     }
     if constexpr (std::is_same_v<P, FractalNoise>) return program::distance_of<P>(constants, q);
     double value = 0;
-    if constexpr (LocalPrimitive<P>)
+    if constexpr (AnyLocalPrimitive<P>)
         value = static_cast<double>(value_by_specialisation<P>(constants, at, specialisation));
     else
         value = static_cast<double>(program::distance_of<P>(constants, at.point()));
+    const float* pieces = nullptr;
+    if constexpr (std::is_same_v<P, Mesh::Specialised>) pieces = constants;
+    if constexpr (std::is_same_v<P, Mesh>) pieces = specialisation.found.data.data();
+    if (pieces)
+        if (const auto known = mesh_in_box(pieces, at)) return enclose(*known, at).tightened(half);
     const auto slope = enclosure::detail::each_axis([&](std::size_t i) {
         return within(
             std::hypot(q.x.gradient[i].magnitude(), q.y.gradient[i].magnitude(), q.z.gradient[i].magnitude()));

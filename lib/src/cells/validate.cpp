@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "phasetree/nodes/list.hpp"
+#include "program/dispatch.hpp"
 #include "program/fused.hpp"
 
 namespace phasetree::cells {
@@ -130,6 +131,8 @@ class Validation {
         static const auto floats = all_floats();
         if (!fits(at, floats[op], constants_.size())) return false;
         if (!has_data(op)) return true;
+        if (static_cast<Op>(op) == program::op_of<Mesh::Specialised>())
+            return Mesh::Specialised::is_sound(constants_.subspan(at));
         if (traits(static_cast<Op>(op)).is_specialised) return is_list_of_sites(at);
         return std::ranges::binary_search(object_data_, std::pair{op, at});
     }

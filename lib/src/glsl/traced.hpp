@@ -143,6 +143,11 @@ inline Traced angle_of(const Traced& x, const Traced& y) {
     if (x.is_number() && y.is_number()) return Traced(phasetree::angle_of(x.number(), y.number()));
     return write_call(SharedFunction::angle, x, y);
 }
+/// A shader has no search.
+template <class Search, class Equation, class Otherwise>
+Traced found_equation(const Vec3<Traced>& p, const Search&, const Equation&, const Otherwise& otherwise) {
+    return otherwise(p);
+}
 inline Traced value_noise(const Vec3<Traced>& p) {
     return write_call(SharedFunction::space_noise, p.x, p.y, p.z);
 }

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "io/utf8.hpp"
+#include "phasetree/io/keys.hpp"
 #include "phasetree/io/object_reader.hpp"
 
 namespace phasetree {
@@ -60,26 +61,60 @@ Checked read_number(Value value, const Range& range, Number& out) {
     return std::nullopt;
 }
 
-Checked read(Value value, const Range& range, float& out) {
-    return read_number(value, range, out);
+float mixed(float a, float b, double share) {
+    return static_cast<float>(std::lerp(static_cast<double>(a), static_cast<double>(b), share));
 }
-Checked read(Value value, const Range& range, double& out) {
-    return read_number(value, range, out);
+double mixed(double a, double b, double share) {
+    return std::lerp(a, b, share);
 }
-Checked read(Value value, const Range& range, int& out) {
-    return read_number(value, range, out);
+template <glm::length_t n, class Number>
+glm::vec<n, Number> mixed(glm::vec<n, Number> a, const glm::vec<n, Number>& b, double share) {
+    for (glm::length_t i = 0; i < n; ++i) a[i] = mixed(a[i], b[i], share);
+    return a;
 }
-Checked read(Value value, const Range& range, unsigned& out) {
+
+// What keys say at the document's time. All of them are read, so that a mistake is found whatever the time is.
+template <class T, class ReadOne>
+T of_keys(const Document& document, const Keys& keys, ReadOne&& read_one) {
+    const Keys::Place place = keys.at(document.seconds());
+    T before{}, after{};
+    for (std::size_t i = 0; i < keys.count(); ++i) {
+        const T value = read_one(keys.value(i));
+        if (i == place.before) before = value;
+        if (i == place.before + 1) after = value;
+    }
+    return place.share > 0 ? mixed(before, after, place.share) : before;
+}
+
+template <class T>
+Checked read_keys(const Document& document, Value value, const Range& range, T& out);
+
+template <class Number>
+Checked read_number_or_keys(const Document& document, Value value, const Range& range, Number& out) {
+    if (Keys::are_in(value)) return read_keys(document, value, range, out);
     return read_number(value, range, out);
 }
 
-Checked read(Value value, const Range&, bool& out) {
+Checked read(const Document& document, Value value, const Range& range, float& out) {
+    return read_number_or_keys(document, value, range, out);
+}
+Checked read(const Document& document, Value value, const Range& range, double& out) {
+    return read_number_or_keys(document, value, range, out);
+}
+Checked read(const Document&, Value value, const Range& range, int& out) {
+    return read_number(value, range, out);
+}
+Checked read(const Document&, Value value, const Range& range, unsigned& out) {
+    return read_number(value, range, out);
+}
+
+Checked read(const Document&, Value value, const Range&, bool& out) {
     if (!value.is_boolean()) return must_be(value, "true or false");
     out = value.boolean();
     return std::nullopt;
 }
 
-Checked read(Value value, const Range&, std::string& out) {
+Checked read(const Document&, Value value, const Range&, std::string& out) {
     if (!value.is_string()) return must_be(value, "a string");
     out = value.string();
     return std::nullopt;
@@ -92,7 +127,8 @@ Complaint inside(Complaint complaint, std::size_t index) {
 }
 
 template <glm::length_t n, class Number>
-Checked read(Value value, const Range& range, glm::vec<n, Number>& out) {
+Checked read(const Document& document, Value value, const Range& range, glm::vec<n, Number>& out) {
+    if (Keys::are_in(value)) return read_keys(document, value, range, out);
     constexpr std::string_view what = n == 2   ? "two numbers [x, y]"
                                       : n == 3 ? "three numbers [x, y, z]"
                                                : "four numbers [x, y, z, w]";
@@ -100,22 +136,33 @@ Checked read(Value value, const Range& range, glm::vec<n, Number>& out) {
     if (value.size() != n) return Complaint{value, fmt::format("must be {}, but has {}", what, value.size())};
     for (glm::length_t i = 0; i < n; ++i) {
         const std::size_t index = static_cast<std::size_t>(i);
-        if (const Checked wrong = read(value[index], range, out[i])) return inside(*wrong, index);
+        if (const Checked wrong = read(document, value[index], range, out[i])) return inside(*wrong, index);
     }
     return std::nullopt;
 }
 
 template <class Item>
-Checked read(Value value, const Range& range, std::vector<Item>& out) {
+Checked read(const Document& document, Value value, const Range& range, std::vector<Item>& out) {
     if (!value.is_array()) return must_be(value, "an array");
     out.clear();
     out.reserve(value.size());
     for (const Value item_value : value) {
         Item item{};
-        if (const Checked wrong = read(item_value, range, item)) return inside(*wrong, out.size());
+        if (const Checked wrong = read(document, item_value, range, item)) return inside(*wrong, out.size());
         out.push_back(std::move(item));
     }
     return std::nullopt;
+}
+
+template <class T>
+Checked read_keys(const Document& document, Value value, const Range& range, T& out) {
+    Checked wrong;
+    out = of_keys<T>(document, Keys(document, value, "what changes with time"), [&](Value one) {
+        T read_out{};
+        if (!wrong) wrong = read(document, one, range, read_out);
+        return read_out;
+    });
+    return wrong;
 }
 
 SceneError error_of(const Document& document, std::string_view what, const Complaint& complaint) {
@@ -151,12 +198,15 @@ std::optional<glm::vec3> linear_of_hexadecimal(std::string_view text) {
 template <Readable T>
 T as(const Document& document, Value value, std::string_view what, const Range& range) {
     T out{};
-    if (const Checked wrong = read(value, range, out)) throw error_of(document, what, *wrong);
+    if (const Checked wrong = read(document, value, range, out)) throw error_of(document, what, *wrong);
     return out;
 }
 
 glm::vec3 as_colour(const Document& document, Value value, std::string_view what, const Range& range) {
     constexpr std::string_view either = "a colour, [r, g, b] or \"#rrggbb\"";
+    if (Keys::are_in(value))
+        return of_keys<glm::vec3>(document, Keys(document, value, "what changes with time"),
+                                  [&](Value one) { return as_colour(document, one, what, range); });
     if (value.is_string()) {
         const auto colour = linear_of_hexadecimal(value.string());
         if (!colour) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/utf8.hpp"
+#include "phasetree/io/keys.hpp"
 #include "phasetree/io/suggest.hpp"
 
 namespace phasetree {
@@ -23,9 +24,16 @@ Json with_limits(Json schema, const Limits& l) {
     return schema;
 }
 
+Json or_keys(const Json& schema) {
+    return Json::parse(schema_of_keyed(schema.dump()));
+}
+
+Json number(const Limits& l) {
+    return or_keys(with_limits({{"type", "number"}}, l));
+}
+
 Json list_of_numbers(int count, const Limits& l) {
-    return {
-        {"type", "array"}, {"minItems", count}, {"maxItems", count}, {"items", with_limits({{"type", "number"}}, l)}};
+    return or_keys({{"type", "array"}, {"minItems", count}, {"maxItems", count}, {"items", number(l)}});
 }
 
 Json string_in_json() {
@@ -60,7 +68,7 @@ ValueType ParameterType<T, Parameter>::describe(const Parameter& p) {
     } else if constexpr (std::is_same_v<T, glm::vec3>) {
         return {"[x, y, z]", list_of_numbers(3, p.limits).dump()};
     } else {
-        return {"number", with_limits({{"type", "number"}}, p.limits).dump()};
+        return {"number", number(p.limits).dump()};
     }
 }
 

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <nlohmann/json.hpp>
 
+#include "phasetree/io/keys.hpp"
 #include "tree/node.hpp"
 
 namespace phasetree {
@@ -223,6 +224,7 @@ std::string scene_schema(const KindPage& file, std::span<const std::pair<std::st
         schema[part] = object.at(part);
     Json& all = schema["definitions"];
     for (const auto& [name, text] : definitions) all[name] = Json::parse(text);
+    all["keys"] = Json::parse(schema_of_keys());
     all["field"] = node_of(FieldNodes());
     all["object"] = node_of(PhasedNodes());
     return schema.dump(1) + "\n";

@@ -7,6 +7,8 @@
 #include "io/string_offset.hpp"
 #include "model/preparation.hpp"
 #include "model/text_error.hpp"
+#include "phasetree/io/keys.hpp"
+#include "phasetree/io/mesh.hpp"
 #include "phasetree/io/object_reader.hpp"
 #include "phasetree/io/suggest.hpp"
 #include "tree/node.hpp"
@@ -237,7 +239,8 @@ class Reader {
             for (const Value item : value) target.push_back(read<typename T::value_type>(item));
         } else if constexpr (std::is_same_v<T, std::vector<float>> || std::is_same_v<T, std::vector<glm::vec2>> ||
                              std::is_same_v<T, std::vector<glm::vec3>> || std::is_same_v<T, std::vector<Phase>>) {
-            if (p.one_for_all && value.is_number()) return read_value(target.emplace_back(), value, p);
+            if (p.one_for_all && (value.is_number() || Keys::are_in(value)))
+                return read_value(target.emplace_back(), value, p);
             if (!value.is_array())
                 throw document_.error(
                     value, fmt::format("{} must be {}list, but is {}", what, p.one_for_all ? "a number or a " : "a ",
@@ -267,26 +270,29 @@ class Reader {
     template <class Content>
     void read_file(FromFile<Content>& target, Value value) {
         const std::filesystem::path path = document_.file(value);
-        std::map<std::string, std::shared_ptr<const Content>, std::less<>>* known = nullptr;
-        if constexpr (std::is_same_v<Content, SirenNetwork>)
-            known = &networks_;
-        else
-            known = &height_grids_;
-        if (const auto found = known->find(target.path); found != known->end()) {
+        auto& known = std::get<KnownFiles<Content>>(known_files_);
+        if (const auto found = known.find(target.path); found != known.end()) {
             target.content = found->second;
             return;
         }
         try {
-            if constexpr (std::is_same_v<Content, SirenNetwork>) {
-                target.content = std::make_shared<const Content>(read_siren(path));
-            } else {
-                if (!files_.height_grid) throw std::runtime_error("this program reads no images");
-                target.content = std::make_shared<const Content>(files_.height_grid(path));
-            }
+            target.content = std::make_shared<const Content>(content_of<Content>(path));
         } catch (const std::exception& e) {
             throw document_.error(value, e.what());
         }
-        known->emplace(target.path, target.content);
+        known.emplace(target.path, target.content);
+    }
+
+    template <class Content>
+    Content content_of(const std::filesystem::path& path) const {
+        if constexpr (std::is_same_v<Content, SirenNetwork>) {
+            return read_siren(path);
+        } else if constexpr (std::is_same_v<Content, TriangleMesh>) {
+            return read_mesh(path);
+        } else {
+            if (!files_.height_grid) throw std::runtime_error("this program reads no images");
+            return files_.height_grid(path);
+        }
     }
 
     // In a set the vacuum may be; the nodes that have no use for it refuse it themselves.
@@ -338,8 +344,9 @@ class Reader {
     std::optional<Value> shapes_;
     const FileReaders& files_;
     NodePlaces* places_;
-    std::map<std::string, std::shared_ptr<const SirenNetwork>, std::less<>> networks_;
-    std::map<std::string, std::shared_ptr<const HeightGrid>, std::less<>> height_grids_;
+    template <class Content>
+    using KnownFiles = std::map<std::string, std::shared_ptr<const Content>, std::less<>>;
+    std::tuple<KnownFiles<SirenNetwork>, KnownFiles<HeightGrid>, KnownFiles<TriangleMesh>> known_files_;
     std::map<std::string, Field, std::less<>> fields_;
     std::map<std::string, Phased, std::less<>> objects_;
     std::vector<std::string> open_;  // shapes being read, to find cycles

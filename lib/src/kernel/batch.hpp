@@ -5,7 +5,7 @@
 #include <hwy/highway.h>
 #include <cstring>
 
-#include "phasetree/math/number.hpp"
+#include "phasetree/math/vec3.hpp"
 #include "phasetree/program/batch.hpp"
 
 namespace phasetree::kernel::HWY_NAMESPACE {
@@ -136,6 +136,21 @@ HWY_INLINE Batch lookup(const float* table, const Batch& index) {
     return each([&](std::size_t i) {
         return hn::GatherIndex(Tag(), table, hn::ConvertTo(hn::RebindToSigned<Tag>(), index.v[i]));
     });
+}
+
+/// Each lane has a search and an equation of its own, so they are evaluated one by one.
+template <class Search, class Equation, class Otherwise>
+HWY_INLINE Batch found_equation(const Vec3<Batch>& p, const Search& search, const Equation& equation,
+                                const Otherwise&) {
+    alignas(Batch) float x[batch_size], y[batch_size], z[batch_size];
+    store(p.x, x);
+    store(p.y, y);
+    store(p.z, z);
+    for (std::size_t i = 0; i < batch_size; ++i) {
+        const Vec3<float> q{x[i], y[i], z[i]};
+        x[i] = equation(search(q), q);
+    }
+    return load(x);
 }
 
 /// The numbers of the lanes, 0 … 7.

@@ -102,6 +102,11 @@ class Dual {
     const float k = v > 0 ? 0.5f / v : 0.f;  // at a cone's apex every direction is as good: none
     return Dual(v, Dual::each(k) * a.lanes());
 }
+/// The derivatives are those of the equation that is found.
+template <class Search, class Equation, class Otherwise>
+Dual found_equation(const Vec3<Dual>& p, const Search& search, const Equation& equation, const Otherwise&) {
+    return equation(search(Vec3<float>{p.x.value(), p.y.value(), p.z.value()}), p);
+}
 /// The derivative is (x dy − y dx)/(x² + y²), and zero at the origin. That of the equation itself, which is evaluated
 /// with the ratio of the lesser to the greater coordinate, would be wrong where both are equal.
 [[gnu::always_inline]] inline Dual angle_of(const Dual& x, const Dual& y) {

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "phasetree/nodes/list.hpp"
+#include "phasetree/program/program.hpp"
 
 namespace phasetree::program {
 
@@ -27,6 +28,16 @@ template <std::size_t first, std::size_t count, class... Ts, class Run>
 template <class... Ts, class Run>
 void dispatch(TypeList<Ts...> list, std::uint32_t index, Run&& run) {
     if (index < sizeof...(Ts)) dispatch_among<0, sizeof...(Ts)>(list, index, run);
+}
+
+/// The operation of a primitive, with or without data.
+template <class P>
+constexpr Op op_of() {
+    constexpr auto first = static_cast<std::size_t>(Op::first_primitive);
+    if constexpr (DataPrimitive<P>)
+        return static_cast<Op>(first + Primitives::size + index_in<P>(DataPrimitives()));
+    else
+        return static_cast<Op>(first + index_in<P>(Primitives()));
 }
 
 template <class Struct>

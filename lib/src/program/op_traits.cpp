@@ -1,5 +1,7 @@
 #include "program/op_traits.hpp"
 
+#include "model/local_data.hpp"
+#include "program/dispatch.hpp"
 #include "program/fused.hpp"
 
 namespace phasetree::program {
@@ -14,17 +16,21 @@ constexpr auto long_ones(TypeList<Ps...>) {
     return std::array<bool, sizeof...(Ps)>{LongPrimitive<Ps>...};
 }
 
-// Sets what is special of patterns, and of those that can be specialised.
+constexpr OpTraits& traits_of(auto& all, Op op) {
+    return all[static_cast<std::size_t>(op)];
+}
+
+// Sets what is special of patterns, and of what can be specialised.
 template <class... Ps>
 constexpr void mark_patterns(TypeList<Ps...>, auto& all) {
-    constexpr auto first = static_cast<std::size_t>(Op::first_primitive);
     const auto mark = [&]<class P>() {
-        if constexpr (PatternPrimitive<P>) all[first + index_in<P>(Primitives())].is_pattern = true;
-        if constexpr (LocalPrimitive<P>) {
-            OpTraits& local = all[first + index_in<P>(Primitives())];
+        if constexpr (PatternPrimitive<P>) traits_of(all, op_of<P>()).is_pattern = true;
+        if constexpr (AnyLocalPrimitive<P>) {
+            OpTraits& local = traits_of(all, op_of<P>());
             local.is_local = true;
-            local.half_works = 800;  // a rough estimate of the cost of all its sites
-            all[first + Primitives::size + index_in<typename P::Specialised>(DataPrimitives())].is_specialised = true;
+            local.half_works = 800;  // a rough estimate of the cost of all sites of a Voronoi pattern
+            if constexpr (LocalDataPrimitive<P>) local.half_works = P::search_half_works;
+            traits_of(all, op_of<typename P::Specialised>()).is_specialised = true;
         }
     };
     (mark.template operator()<Ps>(), ...);
@@ -51,6 +57,7 @@ constexpr auto all_traits() {
     all[first_map + index_in<FoldMap>(PointMaps())].is_fold = true;
     all[first_primitive + Primitives::size + index_in<Siren::Network>(DataPrimitives())].is_network = true;
     mark_patterns(Primitives(), all);
+    mark_patterns(DataPrimitives(), all);
     return all;
 }
 }  // namespace

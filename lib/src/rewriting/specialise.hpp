@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "model/local_data.hpp"
 #include "phasetree/nodes/list.hpp"
+#include "program/dispatch.hpp"
 #include "rewriting/working_program.hpp"
 
 /// Primitives of which little matters in a small box (LocalPrimitive in model/concepts.hpp). A Voronoi pattern looks at
@@ -24,14 +26,11 @@ struct Specialisation {
     std::span<const float> data{};  ///< the data of that; empty if the primitive is not replaced
     unsigned half_works_saved = 0;  ///< by how much it is less work (OpTraits::half_works)
 
-    template <LocalPrimitive P>
+    template <AnyLocalPrimitive P>
     static Specialisation of(std::span<const float> data) {
-        constexpr auto first = static_cast<std::size_t>(Op::first_primitive);
-        constexpr std::size_t general = first + index_in<P>(Primitives());
-        constexpr std::size_t special = first + Primitives::size + index_in<typename P::Specialised>(DataPrimitives());
-        const unsigned before = traits(static_cast<Op>(general)).half_works;
+        const unsigned before = traits(program::op_of<P>()).half_works;
         const unsigned after = P::Specialised::half_works(data.data());
-        return {0, no_source, static_cast<Op>(special), data, after < before ? before - after : 0};
+        return {0, no_source, program::op_of<typename P::Specialised>(), data, after < before ? before - after : 0};
     }
 };
 

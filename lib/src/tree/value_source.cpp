@@ -1,5 +1,5 @@
-// The walk that defines what a tree means (tree/walk.hpp), over numbers that remember their primitive. Of each primitive
-// that was met the nodes above it are kept, as a list that shares what paths have in common.
+// The walk that defines what a tree means (tree/walk.hpp), over numbers that remember their primitive. Of each
+// primitive that was met the nodes above it are kept, as a list that shares what paths have in common.
 #include "phasetree/tree/value_source.hpp"
 
 #include <algorithm>

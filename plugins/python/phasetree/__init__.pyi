@@ -1535,6 +1535,14 @@ def height_map(file: str | PathLike[str], size_x: float, size_y: float, height: 
     height: The height of white; black is at z = 0. (number in m; positive)
     """
 
+def mesh(file: str | PathLike[str]) -> Field:
+    r"""The solid within a closed surface of triangles, exact.
+
+        ± min over the triangles of |p − nearest point|
+
+    file: The triangles: OBJ, PLY or STL, in metres, closed, not crossing itself, and counter-clockwise seen from outside. Corners at the same place are one; materials, normals and the like are not looked at. Walls and gaps that are thinner than a millionth of the mesh's size may be taken for each other. (name of a file)
+    """
+
 @overload
 def fibonacci_disk(of: Field, count: int, radius: float, turned: int | None = ...) -> Field:
     r"""Copies spread evenly over a disk about the z axis, on a Fibonacci spiral.
@@ -2836,11 +2844,13 @@ def camera(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np
     focus_at: In place of the distance: a point of the plane of focus. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
     """
 
-def image(width: int | None = ..., height: int | None = ..., samples: int | None = ..., noise: float | None = ..., seed: int | None = ..., max_depth: int | None = ..., caustics: bool | None = ..., photons: float | None = ..., photon_radius: float | None = ..., exposure: float | None = ..., view: str | Expression | None = ...) -> ImageSettings:
+def image(width: int | None = ..., height: int | None = ..., frames_per_second: float | None = ..., shutter: Sequence[float] | np.ndarray | None = ..., samples: int | None = ..., noise: float | None = ..., seed: int | None = ..., max_depth: int | None = ..., caustics: bool | None = ..., photons: float | None = ..., photon_radius: float | None = ..., exposure: float | None = ..., view: str | Expression | None = ...) -> ImageSettings:
     r"""How large the image is, and how it is made.
 
     width: Width of the image. (whole number in pixels; at least 1 and at most 32768; default 1024)
     height: Height of the image. (whole number in pixels; at least 1 and at most 32768; default 768)
+    frames_per_second: Of a film: frame n, from 0, shows the scene as it is n over this after its beginning. (number in 1/s; at least 0.001 and at most 100000; default 24)
+    shutter: When the shutter opens and closes, from the time of the picture. What moves meanwhile is blurred: transforms of objects and instances, and the camera. ([x, y] in s; at least -1000000 and at most 1000000; default [0, 0])
     samples: Paths of each pixel. (whole number; at least 1 and at most 16777216; default 64)
     noise: Pixels stop before that where their relative error is estimated to be at most this, after 32 samples at the earliest; 0 if none is to stop. (number; at least 0 and at most 1; default 0)
     seed: Another whole number gives other noise. (whole number; zero or more; default 0)

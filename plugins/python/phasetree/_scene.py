@@ -275,7 +275,8 @@ def _load_objects(path):
 def load(path):
     """Reads a scene file. Raises SceneError with file, line and column. Comments and names of shapes are not kept.
 
-    What an object takes from another scene file is read from there, and is the scene's own from then on.
+    What an object takes from another scene file is read from there, and is the scene's own from then on. Objects, and
+    where they stand, are as at the time 0.
     """
     path = os.fspath(path)
     if "objects" in _phasetree.value_of(_phasetree.text_of_file(path)):

@@ -95,8 +95,8 @@ py::list places_of(const tracer::PlacedObjects& all, const std::vector<tracer::P
         std::vector<tracer::Transform> maps;
         for (; i < places.size() && places[i].of == first.of && places[i].is_group == first.is_group; ++i)
             maps.push_back(places[i].transform);
-        result.append(py::make_tuple(first.is_group ? all.groups[first.of].name : all.objects[first.of].name,
-                                     matrices(maps)));
+        result.append(
+            py::make_tuple(first.is_group ? all.groups[first.of].name : all.objects[first.of].name, matrices(maps)));
     }
     return result;
 }
@@ -105,8 +105,10 @@ py::list places_of(const tracer::PlacedObjects& all, const std::vector<tracer::P
 // scene. All that is wrong with the scene is said here.
 py::tuple placed_in(const Document& document) {
     const Value root = document.root();
-    tracer::PlacedObjects all = root.find("camera") ? tracer::read_scene(document).placed
-                                                    : tracer::read_scene_without_camera(document).placed;
+    tracer::PlacedObjects all =
+        root.find("camera") ? tracer::read_scene(document).placed : tracer::read_scene_without_camera(document).placed;
+    if (!all.moving.empty())
+        throw document.error(*root.find("objects"), "objects that move while the shutter is open cannot be read here");
     py::list objects;
     for (const tracer::PlacedObject& object : all.objects)
         objects.append(py::make_tuple(object.name, matrices(std::span(&object.first, 1))));

@@ -25,8 +25,9 @@ class View {
     // Returns once the page is served. Throws what reading the scene throws, and std::runtime_error where no port can
     // be had.
     View(const std::string& file, std::optional<int> width, std::optional<int> samples, int threads, int port)
-        : file_{{file, std::nullopt}, std::nullopt, std::nullopt} {
-        if (!view::can_serve()) throw OutputError("this phasetree was built without cpp-httplib, which serves the page");
+        : file_{{file, std::nullopt, std::nullopt}, std::nullopt, std::nullopt} {
+        if (!view::can_serve())
+            throw OutputError("this phasetree was built without cpp-httplib, which serves the page");
         const view::ReadScene read = file_.reader();
         std::promise<std::string> served;
         std::future<std::string> url = served.get_future();

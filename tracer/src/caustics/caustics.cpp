@@ -11,6 +11,7 @@
 #include "image/luminance.hpp"
 #include "phasetree/math/float_mode.hpp"
 #include "sampling/heuristic.hpp"
+#include "sampling/shutter_time.hpp"
 #include "sampling/warps.hpp"
 #include "world/chain.hpp"
 
@@ -56,6 +57,11 @@ float Caustics::radius(int pass) const {
     return first_radius_ * std::pow(1.0f + static_cast<float>(pass), -1.0f / 6.0f);
 }
 
+float Caustics::time(int pass) const {
+    return scene_.moves() ? shutter_time(column_of_passes, 0, static_cast<std::uint32_t>(pass), scene_.settings.seed)
+                          : 0.0f;
+}
+
 std::optional<Wavelength> Caustics::wavelength(int pass) const {
     if (!world_.disperses()) return std::nullopt;
     Sampler sampler(column_of_passes, 0, static_cast<std::uint32_t>(pass), scene_.settings.seed);
@@ -77,7 +83,11 @@ void Caustics::learn() {
         PathCounters uncounted;
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
             Sampler sampler(column_of_learning, 0, static_cast<std::uint32_t>(i), scene_.settings.seed);
-            const std::optional<EmittedPhoton> emitted = emission_.sample(sampler);
+            // What is learnt is of all times.
+            const float time = scene_.moves() ? shutter_time(column_of_learning, 0, static_cast<std::uint32_t>(i),
+                                                             scene_.settings.seed)
+                                              : 0.0f;
+            const std::optional<EmittedPhoton> emitted = emission_.sample(sampler, time);
             if (!emitted) continue;
             std::optional<Wavelength> wavelength;
             if (world_.disperses()) wavelength = sampled_wavelength(sampler.next());
@@ -105,7 +115,7 @@ std::vector<Photon> Caustics::traced(std::uint32_t pass, std::size_t from, std::
     std::vector<Photon> photons;
     for (std::size_t i = from; i < to; ++i) {
         Sampler sampler(column_of_passes, pass, static_cast<std::uint32_t>(i), scene_.settings.seed);
-        const std::optional<EmittedPhoton> emitted = emission_.sample(sampler);
+        const std::optional<EmittedPhoton> emitted = emission_.sample(sampler, time(static_cast<int>(pass)));
         if (!emitted) continue;
         if (const auto photon = trace_photon(world_, scene_, *emitted, sampler, counters, one))
             photons.push_back(*photon);

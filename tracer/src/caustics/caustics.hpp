@@ -25,6 +25,10 @@ class Caustics {
     std::optional<PhotonMap> photons(int pass, PathCounters& counters, const std::function<bool()>& cancelled) const;
     const PhotonEmission& emission() const { return emission_; }
     float radius(int pass) const;
+    /// When all photons of a pass fly, as a share of the time in which the shutter is open: a photon lights what is
+    /// there at its own time, so the paths that gather those of a pass must be of that time, too. Passes are spread
+    /// evenly over the time.
+    float time(int pass) const;
     /// That all light of a pass has after dispersion, so that paths find photons of their own wavelength: of passes
     /// that follow each other they are spread evenly. None if nothing disperses.
     std::optional<Wavelength> wavelength(int pass) const;

@@ -87,7 +87,7 @@ glm::vec3 PhotonEmission::outside_of_object(const glm::vec3& point, const glm::v
     return nearest - direction * std::sqrt(std::max(squared, 0.0f));
 }
 
-std::optional<EmittedPhoton> PhotonEmission::sample(Sampler& sampler) const {
+std::optional<EmittedPhoton> PhotonEmission::sample(Sampler& sampler, float time) const {
     double left = static_cast<double>(sampler.next());
     std::size_t number = 0;
     while (number + 1 < sources_.size() && left >= sources_[number].share) left -= sources_[number++].share;
@@ -95,7 +95,7 @@ std::optional<EmittedPhoton> PhotonEmission::sample(Sampler& sampler) const {
     const glm::vec2 u_light = sampler.next2();
     const float u_cell = sampler.next();
     const PhotonTarget::Aim aim = source.target.sample(u_cell, sampler.next2());
-    if (source.point) return of_point_light(number, aim);
+    if (source.point) return of_point_light(number, aim, time);
 
     glm::vec3 direction;
     float back = infinity;  // from the target to the light
@@ -112,7 +112,7 @@ std::optional<EmittedPhoton> PhotonEmission::sample(Sampler& sampler) const {
         direction = (aim.point - from.position) / back;
         if (!(glm::dot(direction, from.normal) > 0.0f)) return std::nullopt;
     }
-    const std::optional<Ray> ray = start(aim.point, direction, back);
+    const std::optional<Ray> ray = start(aim.point, direction, back, time);
     if (!ray) return std::nullopt;
     const float density = line_density(ray->origin, -direction, ray->phase);
     const auto seen = scene_.lights.seen(ray->origin, -direction, infinity, false);
@@ -121,16 +121,18 @@ std::optional<EmittedPhoton> PhotonEmission::sample(Sampler& sampler) const {
     return EmittedPhoton{*ray, *seen, seen->radiance / line, density, number, aim.cell};
 }
 
-std::optional<Ray> PhotonEmission::start(const glm::vec3& target, const glm::vec3& direction, float back) const {
+std::optional<Ray> PhotonEmission::start(const glm::vec3& target, const glm::vec3& direction, float back,
+                                         float time) const {
     glm::vec3 origin = outside_of_object(target, direction);
     // A light within the sphere about the object: the photon starts at the light, but for a hair.
     if (glm::dot(target - origin, direction) > back) origin = target - direction * (back * (1 - 1e-5f));
-    const TracedGeometry::Inside inside = world_.geometry().inside(origin);
+    const TracedGeometry::Inside inside = world_.geometry().inside(origin, time);
     if (!is_clear(scene_.materials[inside.phase.index])) return std::nullopt;
     return Ray{origin, direction, inside.phase, {}, inside.in};
 }
 
-std::optional<EmittedPhoton> PhotonEmission::of_point_light(std::size_t number, const PhotonTarget::Aim& aim) const {
+std::optional<EmittedPhoton> PhotonEmission::of_point_light(std::size_t number, const PhotonTarget::Aim& aim,
+                                                            float time) const {
     const Source& source = sources_[number];
     const auto& light = scene_.lights.points()[*source.point];
     const glm::vec3 from = std::visit([](const auto& any) { return glm::vec3(any.position()); }, light);
@@ -140,7 +142,7 @@ std::optional<EmittedPhoton> PhotonEmission::of_point_light(std::size_t number, 
     const glm::vec3 intensity = std::visit([&](const auto& any) { return any.intensity(direction); }, light);
     const float density =
         static_cast<float>(source.share) * source.target.crossing(from, direction).density * back * back;
-    const std::optional<Ray> ray = start(aim.point, direction, back);
+    const std::optional<Ray> ray = start(aim.point, direction, back, time);
     if (!ray || !(density > 0.0f) || intensity == glm::vec3(0.0f)) return std::nullopt;
     const Lights::Emission emission{glm::length(ray->origin - from), intensity, Lights::point_source(*source.point)};
     return EmittedPhoton{*ray, emission, intensity / density, density, number, aim.cell, true};

@@ -41,8 +41,8 @@ class PhotonEmission {
 
     /// How many lights send photons: none if nothing clear bends light.
     std::size_t lights() const { return sources_.size(); }
-    /// Nothing if the line leads nowhere.
-    std::optional<EmittedPhoton> sample(Sampler& sampler) const;
+    /// One that flies at a share of the time in which the shutter is open. Nothing if the line leads nowhere.
+    std::optional<EmittedPhoton> sample(Sampler& sampler, float time) const;
     /// As EmittedPhoton::line_density, for a line that leads from a point in this phase towards a light.
     float line_density(const glm::vec3& origin, const glm::vec3& towards_light, Phase phase) const;
 
@@ -60,8 +60,8 @@ class PhotonEmission {
     float density_of(const Source& source, const glm::vec3& origin, const glm::vec3& towards_light) const;
     /// Where a photon starts that flies to this point of a target in this direction, and comes from this far behind it;
     /// none in an opaque phase.
-    std::optional<Ray> start(const glm::vec3& target, const glm::vec3& direction, float back) const;
-    std::optional<EmittedPhoton> of_point_light(std::size_t number, const PhotonTarget::Aim& aim) const;
+    std::optional<Ray> start(const glm::vec3& target, const glm::vec3& direction, float back, float time) const;
+    std::optional<EmittedPhoton> of_point_light(std::size_t number, const PhotonTarget::Aim& aim, float time) const;
 
     const World& world_;
     const Scene& scene_;

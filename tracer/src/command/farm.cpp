@@ -37,6 +37,9 @@ RenderOptions render_options(const Options& options) {
     if (!render.outputs.empty() || render.share || render.checkpoint || render.resume || render.stats)
         throw OutputError(
             "what follows -- is for every share: --output, --samples, --checkpoint, --resume and --stats are not");
+    if (render.frames)
+        throw OutputError("a farm shares the samples of one picture: name its time by --at, before the --");
+    if (render.scene->at) throw OutputError("--at is for before the --");
     if (render.time_seconds > 0) throw OutputError("--time is not for shares, which have all of their samples");
     return render;
 }
@@ -66,6 +69,10 @@ int write_farm(const Options& options) {
     if (options.scene->assets_within) {
         farm.render_options.push_back("--assets-within");
         farm.render_options.push_back(*options.scene->assets_within);
+    }
+    if (options.scene->at) {
+        farm.render_options.push_back("--at");
+        farm.render_options.push_back(fmt::format("{}", *options.scene->at));
     }
     const std::filesystem::path stem = std::filesystem::path(options.scene->name).stem();
     farm.parts = as_file((std::filesystem::path(options.folder) / stem).string());

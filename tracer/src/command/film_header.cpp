@@ -39,6 +39,7 @@ FilmFileHeader header_of(const RenderOptions& options, const Document& document,
     h.film = film_settings(scene);
     h.subjects = subjects_of(scene);
     h.area = film_area(scene, job);
+    h.shown = job.pixels;
     h.samples = *job.samples;
     h.samples_in_all = scene.settings.samples;
     h.scene = std::filesystem::path(options.scene->shown()).filename().string();

@@ -26,9 +26,17 @@ struct Options {
 // The joined film as an image, and as film files if there are to be any. The image has no pixels if nobody wants it.
 struct Joined {
     Image image;
+    std::uint64_t samples = 0;  // of all of its pixels
     FilmFaults faults;
     bool is_complete = true;
 };
+
+std::uint64_t samples_within(const FilmTile& band, const PixelRange& shown) {
+    std::uint64_t samples = 0;
+    for (int y = std::max(band.area().y0, shown.y0); y < std::min(band.area().y1, shown.y1); ++y)
+        for (int x = shown.x0; x < shown.x1; ++x) samples += band.samples(x, y);
+    return samples;
+}
 
 Joined join(const Parts& parts, const std::vector<std::string>& film_files, bool has_image, Progress& progress) {
     const FilmFileHeader& header = parts.header();
@@ -42,6 +50,7 @@ Joined join(const Parts& parts, const std::vector<std::string>& film_files, bool
             if (has_image && joined.image.pixels.empty())
                 joined.image = black_image(header.film, header.area, band.channels());
             if (has_image) band.write_into(joined.image, header.area);
+            joined.samples += samples_within(band, header.shown);
             bytes.clear();
             std::uint64_t samples = 0;
             if (!writers.empty())
@@ -51,23 +60,26 @@ Joined join(const Parts& parts, const std::vector<std::string>& film_files, bool
         },
         [] { return interrupted(); });
     joined.is_complete = !interrupted();
+    if (has_image && joined.is_complete && header.shown.size() != header.area.size())
+        joined.image = part_of(joined.image, header.shown.x0 - header.area.x0, header.shown.y0 - header.area.y0,
+                               header.shown.width(), header.shown.height());
     if (joined.is_complete)
         for (const auto& writer : writers) writer->finish(parts.are_joined());
     return joined;
 }
 
 bool write_pictures(const Options& options, const Parts& parts, const std::vector<std::string>& images,
-                    const Image& image, const DisplayTransform& display) {
+                    const Joined& joined, const DisplayTransform& display) {
     Metadata metadata;
     metadata.scene = parts.header().scene;
-    metadata.samples_per_pixel = parts.samples_per_pixel();
+    metadata.samples_per_pixel = static_cast<int>(joined.samples / parts.header().shown.size());
     metadata.seed = parts.header().seed;
     Writing writing;
     std::string written;
     for (const std::string& output : images)
-        if (writing([&] { write_image(image, output, metadata, display); }))
-            written += fmt::format("{} ({}x{}, {} samples a pixel, of {} parts)\n", output, image.width, image.height,
-                                   metadata.samples_per_pixel, options.parts.size());
+        if (writing([&] { write_image(joined.image, output, metadata, display); }))
+            written += fmt::format("{} ({}x{}, {} samples a pixel, of {} parts)\n", output, joined.image.width,
+                                   joined.image.height, metadata.samples_per_pixel, options.parts.size());
     if (!options.quiet) say(written);
     return writing.all_is_well();
 }
@@ -102,7 +114,7 @@ int merge_parts(const Options& options) {
         return interrupting_signal() == SIGINT ? interrupted_by_person : 1;
     }
     say_faults(joined.faults);
-    return write_pictures(options, parts, images, joined.image, display) ? 0 : 1;
+    return write_pictures(options, parts, images, joined, display) ? 0 : 1;
 }
 
 }  // namespace

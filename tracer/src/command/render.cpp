@@ -13,6 +13,7 @@
 #include "command/detail.hpp"
 #include "command/empty_object.hpp"
 #include "command/film_header.hpp"
+#include "command/frames.hpp"
 #include "command/load.hpp"
 #include "command/overlap_report.hpp"
 #include "command/pictures.hpp"
@@ -158,6 +159,7 @@ struct ReadScene {
 ReadScene read(const RenderOptions& options) {
     const EndingAtOnce at_once = ending_at_once("the scene was being read", can_resume(options));
     Document document = read_document_showing(*options.scene, options.quiet);
+    if (options.frame) document = document.at(seconds_of_frame(document, *options.frame));
     Scene scene = load_scene_showing(document, options.quiet);
     return {std::move(document), std::move(scene)};
 }
@@ -306,7 +308,8 @@ void add_render(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand("render", "Path-trace a scene to images");
     auto o = std::make_shared<RenderOptions>();
     add_render_options(*command, *o);
-    command->callback([o, &run] { run = [o] { return render_scene(*o); }; });
+    command->callback(
+        [o, &run] { run = [o] { return o->frames ? render_frames(*o, render_scene) : render_scene(*o); }; });
 }
 
 }  // namespace phasetree::tracer

@@ -140,6 +140,14 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
                     "Only those of the samples a pixel that have these numbers, from 0, the last excluded: a share of "
                     "the work, which goes to a .part and is joined with the others by merge")
         ->option_text("FIRST:LAST");
+    // By its place and not its name, which CLI11 looks up where no exception may leave.
+    CLI::Option* const frames = command.add_option(
+        "--frames", o.frames,
+        "Frames of a film by their numbers, from 0, the last excluded; each is at its number over the "
+        "scene's \"frames_per_second\". In the names of files #### becomes the number");
+    frames->option_text("FIRST:LAST");
+    command.add_flag("--skip-existing", o.skips_existing, "With --frames: leave out frames whose files are all there")
+        ->needs(frames);
     command.add_option("--size", o.size, "WIDTHxHEIGHT in pixels");
     command.add_option("--crop", o.crop, "X0,Y0,X1,Y1: only these pixels, from the top left, the last excluded");
     command.add_option("--threads", o.threads, "Threads (default: one a core); the image does not depend on it")

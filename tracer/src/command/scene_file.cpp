@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <cerrno>
+#include <cmath>
 #include <system_error>
 
 namespace phasetree::tracer {
@@ -36,6 +37,15 @@ std::shared_ptr<SceneFile> add_scene_file(CLI::App& command) {
                     "Refuse files that the scene names outside of this folder, links followed: for scenes of strangers "
                     "(default: any file that the user may read)")
         ->option_text("DIR");
+    command
+        .add_option("--at", file->at,
+                    "The time, in seconds, at which the scene is read, where it changes with time (default: 0)")
+        ->check([](const std::string& text) {
+            double seconds = 0;
+            const bool is_time = CLI::detail::lexical_cast(text, seconds) && std::isfinite(seconds);
+            return std::string(is_time ? "" : "must be a number of seconds");
+        })
+        ->option_text("SECONDS");
     return file;
 }
 
@@ -50,7 +60,8 @@ void add_object(CLI::App& command, std::optional<std::string>& object) {
 Document read_document(const SceneFile& file) {
     const Document document = file.is_standard_input() ? Document::from_text(standard_input(file.shown()), file.shown())
                                                        : Document::from_file(file.name);
-    return file.assets_within ? document.with_files_within(*file.assets_within) : document;
+    const Document then = document.at(file.at.value_or(0));
+    return file.assets_within ? then.with_files_within(*file.assets_within) : then;
 }
 
 }  // namespace phasetree::tracer

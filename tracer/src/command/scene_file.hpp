@@ -16,6 +16,7 @@ namespace phasetree::tracer {
 struct SceneFile {
     std::string name;
     std::optional<std::string> assets_within;
+    std::optional<double> at;  // the time at which it is read, in seconds
 
     // What errors and files made of the scene call it.
     std::string shown() const { return is_standard_input() ? "<stdin>" : name; }
@@ -23,7 +24,7 @@ struct SceneFile {
     bool is_standard_input() const { return name == "-" || name == "/dev/stdin" || name == "/dev/fd/0"; }
 };
 
-// Adds the argument SCENE and the option --assets-within.
+// Adds the argument SCENE and the options --assets-within and --at.
 std::shared_ptr<SceneFile> add_scene_file(CLI::App& command);
 
 // Adds the option --object, which names one of several objects.

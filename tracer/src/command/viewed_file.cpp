@@ -27,7 +27,8 @@ void add_named_files(const Document& document, Value value, view::WatchedFiles& 
 
 Document with_edits(const SceneFile& scene, const Document& document, const view::NumberEdits& numbers) {
     if (numbers.empty()) return document;
-    const Document edited = Document::from_text(view::with_numbers(document, numbers), document.name());
+    const Document edited =
+        Document::from_text(view::with_numbers(document, numbers), document.name()).at(document.seconds());
     return scene.assets_within ? edited.with_files_within(*scene.assets_within) : edited;
 }
 
@@ -39,6 +40,7 @@ view::ViewedScene read_viewed(const ViewedFile& file, view::WatchedFiles& files,
     NodePlaces places;
     Scene scene = load_scene(document, &places);
     make_one_tree(document, scene);
+    scene.camera_moments.clear();  // The page turns the camera, and shows what is there as the shutter opens.
     // A name that is wrong is said now.
     (void)display_of(document, scene.settings, file.display, file.view, {});
     const RenderSettings settings = scene.settings;

@@ -43,6 +43,16 @@ int read_int(ByteReader& in, int low, int high) {
     return static_cast<int>(value);
 }
 
+// Pixels within others, one at least.
+PixelRange read_range(ByteReader& in, const PixelRange& within) {
+    PixelRange range;
+    range.x0 = read_int(in, within.x0, within.x1 - 1);
+    range.y0 = read_int(in, within.y0, within.y1 - 1);
+    range.x1 = read_int(in, range.x0 + 1, within.x1);
+    range.y1 = read_int(in, range.y0 + 1, within.y1);
+    return range;
+}
+
 Planes::Choice read_planes(ByteReader& in) {
     Planes::Choice planes;
     const std::size_t count = read_count(in, longest_list);
@@ -71,7 +81,9 @@ void FilmFileHeader::write(ByteWriter& out) const {
         write_text(out, name);
         write_text(out, value);
     }
-    for (const int n : {film.width, film.height, area.x0, area.y0, area.x1, area.y1}) write_int(out, n);
+    for (const int n : {film.width, film.height}) write_int(out, n);
+    for (const PixelRange& r : {area, shown})
+        for (const int n : {r.x0, r.y0, r.x1, r.y1}) write_int(out, n);
     write_int(out, static_cast<int>(film.planes.count()));
     for (std::size_t i = 0; i < Planes::size; ++i)
         if (film.planes[i]) write_text(out, Planes::names[i]);
@@ -95,10 +107,8 @@ FilmFileHeader FilmFileHeader::read(ByteReader& in) {
     }
     h.film.width = read_int(in, 1, largest_side);
     h.film.height = read_int(in, 1, largest_side);
-    h.area.x0 = read_int(in, 0, h.film.width - 1);
-    h.area.y0 = read_int(in, 0, h.film.height - 1);
-    h.area.x1 = read_int(in, h.area.x0 + 1, h.film.width);
-    h.area.y1 = read_int(in, h.area.y0 + 1, h.film.height);
+    h.area = read_range(in, h.film.whole());
+    h.shown = read_range(in, h.area);
     h.film.planes = read_planes(in);
     for (auto* names : {&h.subjects.phases, &h.subjects.groups, &h.subjects.objects})
         for (std::size_t left = read_count(in, longest_list); left > 0; --left) names->push_back(read_text(in));
@@ -130,7 +140,7 @@ std::string difference(const FilmFileHeader& wanted, const FilmFileHeader& found
     // The settings say this too, unless the file was forged.
     if (wanted.film.planes != found.film.planes || wanted.film.width != found.film.width ||
         wanted.film.height != found.film.height || !same_range(wanted.area, found.area) ||
-        wanted.subjects != found.subjects)
+        !same_range(wanted.shown, found.shown) || wanted.subjects != found.subjects)
         return "it is of another picture";
     return "";
 }

@@ -4,7 +4,7 @@
 // file is
 //
 //     magic           8 bytes, "phtfilm" and a line feed
-//     format          u32, the version of this list: 1
+//     format          u32, the version of this list: 2
 //     header          a block (below), this header
 //     bands           a block for each 16 rows of the film, from the top: FilmTile::write_row of each
 //     contents        a block: the offset of each band's block (u64 each), how many samples all pixels have (u64), and
@@ -28,7 +28,7 @@
 namespace phasetree::tracer {
 
 inline constexpr std::string_view film_file_magic = "phtfilm\n", film_file_end = "phtdone\n";
-inline constexpr std::uint32_t film_file_format = 1;
+inline constexpr std::uint32_t film_file_format = 2;
 inline constexpr int band_rows = 16;
 
 struct FilmFileHeader {
@@ -39,6 +39,9 @@ struct FilmFileHeader {
     FilmSettings film;  ///< but for the filter, of which there is only one
     PlaneSubjects subjects;
     PixelRange area;
+    /// The pixels of the picture, which lie in the area. Where blocks stop by their noise the film keeps them whole,
+    /// for by all of its pixels it is decided whether a block goes on.
+    PixelRange shown;
     SampleRange samples;     ///< that the film is to have
     int samples_in_all = 0;  ///< of the whole picture, of which these are a share
 

@@ -65,12 +65,6 @@ std::string Parts::missing() const {
     return ranges.empty() ? "" : fmt::format("samples {} are missing", fmt::join(ranges, " and "));
 }
 
-int Parts::samples_per_pixel() const {
-    std::uint64_t samples = 0;
-    for (const FilmFile& file : files_) samples += file.samples();
-    return static_cast<int>(samples / header_.area.size());
-}
-
 void Parts::join(const std::function<void(const FilmTile&)>& take, const std::function<bool()>& stopped) const {
     // As many bands at once as there are threads; they are taken in order.
     const int at_once = tbb::this_task_arena::max_concurrency();

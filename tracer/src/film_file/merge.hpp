@@ -23,8 +23,6 @@ class Parts {
     std::string missing() const;
     /// Whether there is no gap between the parts, and all are finished.
     bool are_joined() const { return are_joined_; }
-    /// How many samples a pixel has on average, rounded down.
-    int samples_per_pixel() const;
 
     /// Joins the parts band by band, and calls `take` with each band from the top down. `stopped` is asked in between;
     /// if it says so no further band is made. Works on all threads. Throws FilmFileError.

@@ -11,10 +11,11 @@
 #include <chrono>
 #include <utility>
 
-#include "camera/camera.hpp"
+#include "camera/moving_camera.hpp"
 #include "caustics/caustics.hpp"
 #include "phasetree/math/float_mode.hpp"
 #include "render/noise_limit.hpp"
+#include "sampling/shutter_time.hpp"
 
 namespace phasetree::tracer {
 
@@ -23,10 +24,14 @@ namespace {
 // The phases in which camera rays start.
 class StartingPhases {
   public:
-    StartingPhases(const TracedGeometry& geometry, const Camera& camera) : geometry_(geometry) {
-        if (const auto origin = camera.single_origin()) single_ = geometry.inside(*origin);
+    StartingPhases(const TracedGeometry& geometry, const MovingCamera& camera, const Scene& scene)
+        : geometry_(geometry) {
+        const auto origin = camera.single_origin();
+        if (origin && !scene.moves()) single_ = geometry.inside(*origin);
     }
-    TracedGeometry::Inside at(const glm::vec3& origin) const { return single_ ? *single_ : geometry_.inside(origin); }
+    TracedGeometry::Inside at(const glm::vec3& origin, float time) const {
+        return single_ ? *single_ : geometry_.inside(origin, time);
+    }
 
   private:
     const TracedGeometry& geometry_;
@@ -46,8 +51,8 @@ class Renderer {
           scene_(scene),
           job_(job),
           samples_(job.samples.value_or(SampleRange{0, scene.settings.samples})),
-          camera_(scene.camera, scene.film.resolution()),
-          phases_(world.geometry(), camera_),
+          camera_(scene.camera, scene.camera_moments, scene.film.resolution()),
+          phases_(world.geometry(), camera_, scene),
           // Of a picture alone no path need tell more.
           recording_(scene.film.planes.count() > 1),
           axis_(camera_.generate(glm::dvec2(scene.film.resolution()) * 0.5, glm::vec2(0.5f))),
@@ -165,8 +170,9 @@ class Renderer {
         Sampler sampler(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
                         static_cast<std::uint32_t>(number), scene_.settings.seed);
         const glm::dvec2 on_film = film_.sample_position(x, y, sampler.next2());
-        const CameraRay ray = camera_.generate(on_film, sampler.next2());
-        const TracedGeometry::Inside start = phases_.at(ray.origin);
+        const float time = scene_.moves() ? time_of(x, y, number) : 0.0f;
+        const CameraRay ray = camera_.generate(on_film, sampler.next2(), static_cast<double>(time));
+        const TracedGeometry::Inside start = phases_.at(ray.origin, time);
         const Ray first{ray.origin, ray.direction, start.phase, {}, start.in};
         FilmSample result{.number = static_cast<std::uint32_t>(number)};
         PathRecord* record = recording_ ? &records_.local() : nullptr;
@@ -177,11 +183,18 @@ class Renderer {
         return result;
     }
 
+    // Photons and paths of a pass meet the world at one and the same time.
+    float time_of(int x, int y, int number) const {
+        if (caustics_) return caustics_->time(number);
+        return shutter_time(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
+                            static_cast<std::uint32_t>(number), scene_.settings.seed);
+    }
+
     const World& world_;
     const Scene& scene_;
     const RenderJob& job_;
     SampleRange samples_;
-    Camera camera_;
+    MovingCamera camera_;
     StartingPhases phases_;
     bool recording_;
     CameraRay axis_;  // through the middle of the picture

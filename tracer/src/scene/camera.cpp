@@ -80,6 +80,14 @@ TiltShiftParameters TiltShiftKind::made() const {
     return p;
 }
 
+std::vector<CameraMoment> read_camera_moments(const Document& document, Value value, const Shutter& shutter) {
+    std::vector<CameraMoment> moments;
+    FilmSettings unused;
+    for (const double moment : moments_of(document, value, shutter))
+        moments.push_back({moment, read_camera(at_moment(document, shutter, moment), value, unused)});
+    return moments;
+}
+
 AnyCameraParameters read_camera(const Document& document, Value value, FilmSettings& film) {
     if (!names_its_kind(value)) return read_camera_of_kind<ThinLensKind>(document, value, "the camera", film);
     AnyCameraParameters parameters;

@@ -72,11 +72,14 @@ std::uint64_t fingerprint(const Document& document) {
         for (const Value part : d.root())
             if (part.key() != "render") put_value(sum, d, part);
     });
+    // Files of pictures at time 0 are as they were before scenes had a time.
+    if (const double seconds = document.seconds(); seconds != 0) sum.put(&seconds, sizeof seconds);
     return sum.get();
 }
 
 std::vector<std::pair<std::string, std::string>> settings_of_samples(const RenderSettings& settings) {
-    constexpr std::array<std::string_view, 5> others{"width", "height", "samples", "exposure", "view"};
+    constexpr std::array<std::string_view, 6> others{"width",    "height", "samples",
+                                                     "exposure", "view",   "frames_per_second"};
     const ImageParameters values{settings};
     std::vector<std::pair<std::string, std::string>> all;
     ImageParameters::parameters([&](auto member, const Parameter& p) {
@@ -84,6 +87,8 @@ std::vector<std::pair<std::string, std::string>> settings_of_samples(const Rende
             if (std::ranges::find(others, p.name) == others.end())
                 all.emplace_back(p.name, fmt::format("{}", values.*member));
     });
+    if (settings.shutter != glm::vec2(0))
+        all.emplace_back("shutter", fmt::format("{},{}", settings.shutter.x, settings.shutter.y));
     // By it the noise is judged.
     if (settings.noise > 0) all.emplace_back("exposure", fmt::format("{}", settings.exposure_ev));
     return all;

@@ -11,12 +11,21 @@ struct ImageParameters : RenderSettings {
 
     int width = 1024;
     int height = 768;
+    double frames_per_second = 24;
 
     template <class V>
     static void parameters(V&& v) {
         using P = ImageParameters;
         v(&P::width, Parameter{"width", "pixels", "Width of the image.", Limits{.low = 1, .high = 32768}, true});
         v(&P::height, Parameter{"height", "pixels", "Height of the image.", Limits{.low = 1, .high = 32768}, true});
+        v(&P::frames_per_second,
+          Parameter{"frames_per_second", "1/s",
+                    "Of a film: frame n, from 0, shows the scene as it is n over this after its beginning.",
+                    Limits{.low = 0.001f, .high = 100000}, true});
+        v(&P::shutter, Parameter{"shutter", "s",
+                                 "When the shutter opens and closes, from the time of the picture. What moves "
+                                 "meanwhile is blurred: transforms of objects and instances, and the camera.",
+                                 Limits{.low = -1e6f, .high = 1e6f}, true});
         v(&P::samples, Parameter{"samples", "", "Paths of each pixel.", Limits{.low = 1, .high = 1 << 24}, true});
         v(&P::noise, Parameter{"noise", "",
                                "Pixels stop before that where their relative error is estimated to be at most this, "

@@ -23,17 +23,19 @@ Phased placed(const Phased& tree, const Transform& t) {
 
 }  // namespace
 
-Phased as_one_tree(const PlacedObjects& all) {
+Phased as_one_tree(const PlacedObjects& all, double time) {
     if (all.copies() > most_in_one_tree)
         throw ModelError(
             fmt::format("the scene has {} objects, too many to be one tree, which has at most {}: choose "
                         "one of them with --object",
                         all.copies(), most_in_one_tree));
     std::vector<Phased> copies;
-    all.each_copy([&](std::uint32_t, const PlacedObject& object, const Transform& to_scene) {
-        copies.push_back(placed(object.tree, to_scene));
-        return true;
-    });
+    all.each_copy(
+        [&](std::uint32_t, const PlacedObject& object, const Transform& to_scene) {
+            copies.push_back(placed(object.tree, to_scene));
+            return true;
+        },
+        time);
     if (copies.size() == 1) return copies.front();
     return Over{.of = std::move(copies)};
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "phasetree/io/keys.hpp"
 #include "phasetree/io/read_kind.hpp"
 #include "phasetree/io/reference.hpp"
 #include "scene/read_parts.hpp"
@@ -54,7 +55,7 @@ std::string schema_of_ramp(const std::string& item) {
 using TextureType = ParameterType<tracer::Texture, Parameter>;
 
 tracer::Texture TextureType::read(const Document& document, Value value, std::string_view, const Parameter&) {
-    if (!value.is_object())
+    if (!value.is_object() || Keys::are_in(value))
         return tracer::ConstantTexture{as_colour(document, value, "the colour", range_of(limits::fraction))};
     tracer::Texture texture;
     with_kind(tracer::NamedTextures(), document, value, "a texture", [&]<class Kind>(Value member) {
@@ -100,7 +101,7 @@ ValueType NumberRampType::describe(const tracer::RampParameter&) {
 using NumberType = ParameterType<tracer::Number, Parameter>;
 
 tracer::Number NumberType::read(const Document& document, Value value, std::string_view what, const Parameter& p) {
-    if (!value.is_object()) return as<float>(document, value, what, range_of(p.limits));
+    if (!value.is_object() || Keys::are_in(value)) return as<float>(document, value, what, range_of(p.limits));
     tracer::Number number;
     with_kind(tracer::NumberTextures(), document, value, what, [&]<class Kind>(Value member) {
         number = read_kind<Kind>(document, member, fmt::format("the {} of {}", Kind::info.name, what), [&](Kind kind) {

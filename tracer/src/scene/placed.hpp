@@ -9,21 +9,28 @@
 
 #include "phasetree/io/document.hpp"
 #include "phasetree/io/tree.hpp"
+#include "scene/moving_transform.hpp"
+#include "scene/shutter.hpp"
 #include "scene/transform.hpp"
 
 namespace phasetree::tracer {
 
+/// In place of a number of PlacedObjects::moving.
+inline constexpr std::uint32_t stands_still = 0xFFFFFFFF;
+
 struct PlacedObject {
     std::string name;
     Phased tree;      ///< in its own space; its phases are numbered as the scene's
-    Transform first;  ///< its own transform, which comes before that of each place
+    Transform first;  ///< its own transform, which comes before that of each place; as the shutter opens, if it moves
+    std::uint32_t moving = stands_still;  ///< which of PlacedObjects::moving that is
 };
 
 /// Where an object or a group stands.
 struct Place {
-    Transform transform{};  ///< from what stands there to what the place is in
+    Transform transform{};  ///< from what stands there to what the place is in, unless it moves: then before that
     std::uint32_t of = 0;   ///< number of an object, or of a group
     bool is_group = false;
+    std::uint32_t moving = stands_still;  ///< which of PlacedObjects::moving it goes through after `transform`
 };
 
 struct PlacedGroup {
@@ -37,6 +44,17 @@ struct PlacedObjects {
     std::vector<PlacedObject> objects;
     std::vector<PlacedGroup> groups;
     std::vector<Place> places;  ///< of the scene
+    std::vector<MovingTransform> moving;
+
+    /// Where an object stands by itself, and a place in its list, at a share of the time in which the shutter is open.
+    Transform first_of(const PlacedObject& object, double time) const {
+        return object.moving == stands_still ? object.first : moving[object.moving].at(time);
+    }
+    Transform transform_of(const Place& place, double time) const {
+        return place.moving == stands_still ? place.transform : moving[place.moving].at(time) * place.transform;
+    }
+    /// Of each object, whether any copy of it moves.
+    std::vector<bool> moving_objects() const;
 
     bool empty() const { return objects.empty(); }
     std::uint64_t copies_at(const Place& place) const { return place.is_group ? groups[place.of].copies : 1; }
@@ -48,20 +66,22 @@ struct PlacedObjects {
     std::uint64_t copies() const { return copies_of(places); }
 
     /// Calls use(number, object, transform from the object's tree to the scene) for each copy, in the order of their
-    /// numbers, until it says false. There may be billions.
+    /// numbers, until it says false. There may be billions. `time` is a share of that in which the shutter is open.
     template <class Use>
-    void each_copy(Use&& use) const {
+    void each_copy(Use&& use, double time = 0) const {
         std::uint32_t next = 0;
-        each_copy(places, Transform(), next, use);
+        each_copy(places, Transform(), time, next, use);
     }
 
   private:
     template <class Use>
-    bool each_copy(const std::vector<Place>& list, const Transform& outer, std::uint32_t& next, Use& use) const {
+    bool each_copy(const std::vector<Place>& list, const Transform& outer, double time, std::uint32_t& next,
+                   Use& use) const {
         for (const Place& place : list) {
-            const Transform here = outer * place.transform;
-            const bool goes_on = place.is_group ? each_copy(groups[place.of].places, here, next, use)
-                                                : use(next++, objects[place.of], here * objects[place.of].first);
+            const Transform here = outer * transform_of(place, time);
+            const bool goes_on = place.is_group
+                                     ? each_copy(groups[place.of].places, here, time, next, use)
+                                     : use(next++, objects[place.of], here * first_of(objects[place.of], time));
             if (!goes_on) return false;
         }
         return true;
@@ -86,6 +106,6 @@ struct ObjectsModel {
 bool has_objects(const Document&);
 /// Reads "objects", "groups" and "instances", and "tree" as one object more, with the phases and shapes that they need.
 /// Throws SceneError. `places` is told of the nodes of the objects whose phases keep the numbers that their file gives.
-ObjectsModel read_placed_objects(const Document&, NodePlaces* places = nullptr);
+ObjectsModel read_placed_objects(const Document&, const Shutter& = {}, NodePlaces* places = nullptr);
 
 }  // namespace phasetree::tracer

@@ -5,6 +5,7 @@
 
 #include "phasetree/io/document.hpp"
 #include "scene/scene.hpp"
+#include "scene/shutter.hpp"
 
 namespace phasetree::tracer {
 
@@ -12,6 +13,8 @@ Material read_material(const Document& document, Value value);
 Lights read_lights(const Document& document, Value root);
 // Sets the pixel filter of the film, too.
 AnyCameraParameters read_camera(const Document& document, Value value, FilmSettings& film);
+// The camera while the shutter is open; none if it stands still.
+std::vector<CameraMoment> read_camera_moments(const Document& document, Value value, const Shutter& shutter);
 std::vector<Mesh> read_meshes(const Document& document, Value list);
 // Sets the size of the film, too.
 RenderSettings read_settings(const Document& document, Value value, FilmSettings& film);

@@ -35,8 +35,8 @@ struct Found {
 
 class ObjectsReader {
   public:
-    ObjectsReader(const Document& document, NodePlaces* places)
-        : document_(document), root_(document.root()), node_places_(places) {
+    ObjectsReader(const Document& document, const Shutter& shutter, NodePlaces* places)
+        : document_(document), shutter_(shutter), root_(document.root()), node_places_(places) {
         model_.phases = read_phase_names(document);
         if (const auto phases = root_.find("phases"))
             for (const Value phase : *phases) model_.materials.push_back({document, phase});
@@ -77,7 +77,11 @@ class ObjectsReader {
             if (p.tree.has_value() == p.file.has_value())
                 throw document_.error(value, "an object has either \"tree\" or \"file\"");
             found_.push_back({document_, value, model_.phases, p.phases, "", {p.name, {}, {}}});
-            if (p.transform) found_.back().object.first = read_transform(document_, *p.transform);
+            if (p.transform) {
+                ReadTransform read = read_transform(document_, *p.transform, shutter_);
+                found_.back().object.first = read.at_opening;
+                if (read.moving) found_.back().object.moving = moving_number(std::move(*read.moving));
+            }
             if (p.tree) {
                 trees.push_back(*p.tree);
                 of.push_back(found_.size() - 1);
@@ -103,7 +107,10 @@ class ObjectsReader {
                                                          name));
             if (!root.is_object() || !root.find("tree"))
                 throw document_.error(named, fmt::format("\"{}\" has no \"tree\"", name));
-            known = files_.emplace(name, TakenFile{other, read_tree(other, {.height_grid = read_height_grid}, node_places_)}).first;
+            known =
+                files_
+                    .emplace(name, TakenFile{other, read_tree(other, {.height_grid = read_height_grid}, node_places_)})
+                    .first;
         }
         found.document = known->second.document;
         found.names = known->second.tree.phases;
@@ -235,7 +242,14 @@ class ObjectsReader {
             if (p.transforms && p.file)
                 throw document_.error(value, "an instance has either \"transforms\" or \"file\"");
             Place place = place_of(reader.required_value("of"), p.of);
-            const Transform outer = p.transform ? read_transform(document_, *p.transform) : Transform();
+            Transform outer;
+            if (p.transform) {
+                ReadTransform read = read_transform(document_, *p.transform, shutter_);
+                if (read.moving)
+                    place.moving = moving_number(std::move(*read.moving));
+                else
+                    outer = read.at_opening;
+            }
             std::vector<Transform> many;
             if (p.transforms) many = read_transforms(document_, *p.transforms);
             if (p.file) many = read_transforms_file(document_, *p.file);
@@ -264,6 +278,11 @@ class ObjectsReader {
         throw document_.error(at, fmt::format("there is no object or group \"{}\"", name), closest(name, names));
     }
 
+    std::uint32_t moving_number(MovingTransform moving) {
+        model_.placed.moving.push_back(std::move(moving));
+        return static_cast<std::uint32_t>(model_.placed.moving.size() - 1);
+    }
+
     // An object that neither an instance nor a group names stands by its own transform alone. Such objects come first,
     // in the order of the file.
     void place_what_no_instance_names() {
@@ -287,6 +306,7 @@ class ObjectsReader {
     };
 
     const Document& document_;
+    Shutter shutter_;
     Value root_;
     NodePlaces* node_places_;
     ObjectsModel model_;
@@ -305,8 +325,8 @@ bool has_objects(const Document& document) {
     return document.root().is_object() && document.root().find("objects");
 }
 
-ObjectsModel read_placed_objects(const Document& document, NodePlaces* places) {
-    return ObjectsReader(document, places).read();
+ObjectsModel read_placed_objects(const Document& document, const Shutter& shutter, NodePlaces* places) {
+    return ObjectsReader(document, shutter, places).read();
 }
 
 }  // namespace phasetree::tracer

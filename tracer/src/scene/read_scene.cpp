@@ -54,8 +54,10 @@ void refuse_moved_densities(const Document& document, const Scene& scene) {
             dense = dense | PhaseSet::of(Phase{static_cast<std::uint8_t>(i)});
     }
     if (dense.empty()) return;
+    const std::vector<bool> moving = scene.placed.moving_objects();
     scene.placed.each_copy([&](std::uint32_t, const PlacedObject& object, const Transform& to_scene) {
-        if (!(phases(object.tree) & dense).empty() && to_scene != Transform())
+        const bool moves = moving[static_cast<std::size_t>(&object - scene.placed.objects.data())];
+        if (!(phases(object.tree) & dense).empty() && (moves || to_scene != Transform()))
             throw document.error(*document.root().find("objects"),
                                  fmt::format("\"{}\" has a phase with a \"density\", which is of the scene's space, so "
                                              "it can have no transform and no instances",
@@ -70,10 +72,11 @@ void refuse_places_of_nothing(const Document& document) {
             throw document.error(value->key_offset(), fmt::format("\"{}\" is of no use without \"objects\"", part));
 }
 
-void read_model_into(const Document& document, const FileParts& parts, NodePlaces* places, Scene& scene) {
+void read_model_into(const Document& document, const FileParts& parts, const Shutter& shutter, NodePlaces* places,
+                     Scene& scene) {
     scene.materials.push_back(vacuum());
     if (parts.objects) {
-        ObjectsModel model = read_placed_objects(document, places);
+        ObjectsModel model = read_placed_objects(document, shutter, places);
         scene.phases = std::move(model.phases);
         scene.placed = std::move(model.placed);
         for (const auto& source : model.materials)
@@ -115,11 +118,14 @@ Scene read_scene(const Document& document, NodePlaces* places) {
 
     Scene scene;
     scene.file = document.name();
-    read_model_into(document, parts, places, scene);
+    if (parts.render) scene.settings = read_settings(document, *parts.render, scene.film);
+    const Shutter shutter{scene.settings.shutter.x, scene.settings.shutter.y};
+    read_model_into(document, parts, shutter, places, scene);
     scene.lights = read_lights(document, document.root());
     if (parts.meshes) scene.meshes = read_meshes(document, *parts.meshes);
-    scene.camera = read_camera(document, needed(root, &FileParts::camera), scene.film);
-    if (parts.render) scene.settings = read_settings(document, *parts.render, scene.film);
+    const Value camera = needed(root, &FileParts::camera);
+    scene.camera = read_camera(at_moment(document, shutter, 0), camera, scene.film);
+    scene.camera_moments = read_camera_moments(document, camera, shutter);
 
     // An object that cannot be traced is found here, and not after the meshes are in memory.
     if (scene.object) try {

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "phasetree/io/keys.hpp"
 #include "phasetree/io/read_kind.hpp"
 #include "phasetree_support/reading.hpp"
 #include "scene/object_kinds.hpp"
@@ -66,13 +67,54 @@ std::uint64_t little_endian(const unsigned char* bytes, int count) {
 
 }  // namespace
 
+namespace {
+
+constexpr const char* turned_inside_out = "between this key and the one before it space would be turned inside out";
+
+// What is between two transforms that are usable is so too: the moving transform's file says why.
+Transform between_keys(const Document& document, Value value) {
+    const Keys keys(document, value, "what changes with time");
+    const Keys::Place place = keys.at(document.seconds());
+    Pose before, after;
+    bool mirrored = false;
+    for (std::size_t i = 0; i < keys.count(); ++i) {
+        const Pose pose = Pose::of(read_transform(document, keys.value(i)));
+        if (i > 0 && pose.mirrors() != mirrored) throw document.error(keys.value(i), turned_inside_out);
+        mirrored = pose.mirrors();
+        if (i == place.before) before = pose;
+        if (i == place.before + 1) after = pose;
+    }
+    return place.share > 0 ? between(before, after, place.share).transform()
+                           : read_transform(document, keys.value(place.before));
+}
+
+}  // namespace
+
 Transform read_transform(const Document& document, Value value) {
+    if (Keys::are_in(value)) return between_keys(document, value);
     if (!value.is_array()) return read_one(document, value);
     if (value.size() == 0) throw document.error(value, "\"transform\" must not be an empty list");
     Transform all;
     for (const Value step : value) all = read_one(document, step) * all;
     if (!all.is_usable()) throw document.error(value, unusable);
     return all;
+}
+
+ReadTransform read_transform(const Document& document, Value value, const Shutter& shutter) {
+    ReadTransform result{read_transform(at_moment(document, shutter, 0), value), std::nullopt};
+    std::vector<MovingTransform::Moment> moments;
+    bool moves = false;
+    for (const double moment : moments_of(document, value, shutter)) {
+        const Transform then = read_transform(at_moment(document, shutter, moment), value);
+        moments.push_back({moment, Pose::of(then)});
+        moves = moves || then != result.at_opening;
+    }
+    if (!moves) return result;
+    for (const auto& moment : moments)
+        if (moment.pose.mirrors() != moments.front().pose.mirrors())
+            throw document.error(value, "space would be turned inside out while the shutter is open");
+    result.moving.emplace(std::move(moments));
+    return result;
 }
 
 std::vector<Transform> read_transforms(const Document& document, Value list) {

@@ -23,8 +23,10 @@ std::vector<KindPage> pages_of_opaque(TypeList<Kinds...>) {
     return pages;
 }
 
-std::string schema_of_one_or_list(const std::string& one) {
-    return schema_of_either(one, R"({"type": "array", "minItems": 1, "items": )" + one + "}");
+// One, a list of such, or keys.
+std::string schema_of_transform(const std::string& one) {
+    return R"({"anyOf": [)" + one + R"(, {"type": "array", "minItems": 1, "items": )" + one + "}, " +
+           schema_reference("keys") + "]}";
 }
 
 }  // namespace
@@ -33,15 +35,21 @@ std::vector<Chapter> scene_chapters() {
     std::vector<Chapter> chapters{
         {"Scene file",
          "A scene is JSON with comments. z is up; lengths are in any one unit, which is called m here; colours are "
-         "linear `[r, g, b]` or sRGB `\"#rrggbb\"`.",
+         "linear `[r, g, b]` or sRGB `\"#rrggbb\"`. In place of any number that need not be whole, vector or colour "
+         "there may be `{\"keys\": [[seconds, value], …]}`: it changes with time, linearly between its keys, or with "
+         "`\"between\": \"smooth\"` slowly at both ends. A picture shows what is there at its time. While the shutter "
+         "is open, the camera and the transforms of objects and instances go on, and are blurred; all else stays.",
          {page_of<FileParts>()}}};
     chapters.push_back({"Objects and instances",
                         "A scene of several objects has \"objects\", and places them by \"instances\" and \"groups\".",
                         {page_of<ObjectParameters>(), page_of<InstanceParameters>()}});
-    chapters.push_back({"Transforms",
-                        "Where an object or an instance stands: one of these nodes' maps, or a list of them, of which "
-                        "the first comes first.",
-                        pages_of(TransformKinds())});
+    chapters.push_back(
+        {"Transforms",
+         "Where an object or an instance stands: one of these nodes' maps, or a list of them, of which "
+         "the first comes first. It moves with `{\"keys\": [[seconds, transform], …]}`: between two keys the "
+         "origin goes straight, scales change evenly, and it turns the shorter way, so a turn of more "
+         "than half a circle needs a key on its way, or an angle that has keys.",
+         pages_of(TransformKinds())});
     for (Chapter& chapter : node_chapters()) chapters.push_back(std::move(chapter));
     chapters.push_back(
         {"Materials", "A phase or a mesh is of one material, `{\"kind\": {parameters}}`.", pages_of(MaterialKinds())});
@@ -83,7 +91,7 @@ std::string scene_json_schema() {
         {"opaque_material", schema_of_one(pages_of_opaque(MaterialKinds()))},
         {"light", schema_of_one(pages_of(LightKinds()))},
         {"mesh", schema_of_one(pages_of(MeshKinds()))},
-        {"transform", schema_of_one_or_list(schema_of_one(pages_of(TransformKinds())))},
+        {"transform", schema_of_transform(schema_of_one(pages_of(TransformKinds())))},
         {"placed_object", schema_of(page_of<ObjectParameters>())},
         {"instance", schema_of(page_of<InstanceParameters>())},
         {"camera", schema_of_either(schema_of(page_of<ThinLensKind>()), schema_of_one(pages_of(CameraKinds())))},

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "camera/camera.hpp"
+#include "camera/moving_camera.hpp"
 #include "film/film.hpp"
 #include "lights/lights.hpp"
 #include "phasetree/io/tree.hpp"
@@ -48,6 +48,7 @@ struct RenderSettings {
     float photon_radius = 2;  // in which they are gathered in the first pass, in pixels
     float exposure_ev = 0.0f;
     std::optional<std::string> view;  // of the display transform
+    glm::vec2 shutter{0.0f};          // when it opens and closes, in seconds from the time at which the scene is read
 };
 
 // What a scene shows, without materials and all that surrounds it.
@@ -65,9 +66,13 @@ struct Scene {
     std::vector<Material> materials;  // by phase; [0] is the vacuum
     std::vector<Mesh> meshes;
     Lights lights;
-    AnyCameraParameters camera;
+    AnyCameraParameters camera;                // as the shutter opens
+    std::vector<CameraMoment> camera_moments;  // while it is open; none of a camera that stands still
     FilmSettings film;
     RenderSettings settings;
+
+    // Whether anything moves while the shutter is open.
+    bool moves() const { return !camera_moments.empty() || !placed.moving.empty(); }
 };
 
 // Reads a whole scene. Files it names are relative to it. Throws SceneError with the place in the text.

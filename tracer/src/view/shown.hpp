@@ -51,10 +51,10 @@ struct Shown {
     glm::ivec2 resolution{0};  ///< of the whole picture
     int samples = 0;           ///< that a pixel is to have in the end
     std::vector<ShownPhase> phases;
-    std::optional<CutPlane> cut;  ///< likewise
-    std::string layer;            ///< likewise; empty for the picture itself
-    std::vector<FilmLayer> layers;    ///< that there are
-    NumberEdits numbers;          ///< likewise, in place of those of the file
+    std::optional<CutPlane> cut;    ///< likewise
+    std::string layer;              ///< likewise; empty for the picture itself
+    std::vector<FilmLayer> layers;  ///< that there are
+    NumberEdits numbers;            ///< likewise, in place of those of the file
     /// Those of the file, and how often it has been read until they were there.
     std::shared_ptr<const TextNumbers> numbers_of_file = std::make_shared<TextNumbers>();
     std::uint64_t numbers_version = 0;

@@ -19,13 +19,24 @@ void bounds_of_place(const RTCBoundsFunctionArguments* arguments) {
                          static_cast<const Places*>(arguments->geometryUserPtr)->list[arguments->primID].bounds);
 }
 
+// The transform into the space of what stands at a place of a list; `then` is where it is kept if that moves.
+const Transform& inward_at(const Places& places, unsigned number, double time, Transform& then) {
+    const PlaceInEmbree& place = places.list[number];
+    if (!place.moves) return place.inward;
+    const Place& source = (*places.source)[number];
+    const Transform outward = places.placed->transform_of(source, time);
+    then = source.is_group ? outward.inverse()
+                           : (outward * places.placed->first_of(places.placed->objects[source.of], time)).inverse();
+    return then;
+}
+
 // Takes the ray into the space of what stands at a place, and back when this is destroyed.
 class InwardRay {
   public:
-    InwardRay(RTCRay& ray, PlacedQuery& query, const PlaceInEmbree& place, const Target& target)
+    InwardRay(RTCRay& ray, PlacedQuery& query, const Transform& inward, std::uint32_t first_copy, const Target& target)
         : ray_(ray), query_(query), outer_ray_(ray), outer_(query.here), outer_first_copy_(query.first_copy) {
-        query.here = place.inward * outer_;
-        query.first_copy = outer_first_copy_ + place.first_copy;
+        query.here = inward * outer_;
+        query.first_copy = outer_first_copy_ + first_copy;
         glm::vec3 origin(query.here(query.origin));
         if (target.cells) {
             query.query.context.instID[0] = query.first_copy;
@@ -72,7 +83,9 @@ void intersect_place(const RTCIntersectFunctionNArguments* arguments) noexcept {
     const float far_before = rayhit.ray.tfar;
     rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     {
-        const InwardRay inward(rayhit.ray, query, place, target);
+        Transform then;
+        const InwardRay inward(rayhit.ray, query, inward_at(places, arguments->primID, query.time, then),
+                               place.first_copy, target);
         embree::intersect(target.scene, query.query.context, rayhit);
         if (target.cells && embree::is_hit(rayhit)) query.hit = {query.first_copy, target.object, query.here};
     }
@@ -121,7 +134,9 @@ bool ask_place(RTCPointQueryFunctionArguments* arguments) {
     const PointOnItsWay before = on_its_way;
     const PlaceInEmbree& place = before.places->list[arguments->primID];
     const Target& target = (*before.places->targets)[place.target];
-    on_its_way.here = place.inward * before.here;
+    const auto time = static_cast<double>(before.found.time());
+    Transform then;
+    on_its_way.here = inward_at(*before.places, arguments->primID, time, then) * before.here;
     on_its_way.first_copy = before.first_copy + place.first_copy;
     if (target.cells) {
         const glm::vec3 p(on_its_way.here(on_its_way.point));
@@ -138,6 +153,25 @@ bool ask_place(RTCPointQueryFunctionArguments* arguments) {
 
 // Two interfaces that touch may be found this many resolutions of the cells apart, plus this share of the coordinates.
 constexpr double resolutions_apart = 2, relative_rounding = 4e-7;
+
+// Where what stands at a place that moves is while the shutter is open, and by how much it is made longer at most.
+struct Sweep {
+    Bounds bounds;
+    double stretch;
+};
+
+Sweep swept(const PlacedObjects& placed, const Place& place, const Bounds& of) {
+    Sweep sweep{of, 1};
+    const auto go_on = [&](std::uint32_t moving, const Transform& still) {
+        const bool moves = moving != stands_still;
+        sweep.bounds = moves ? placed.moving[moving].swept(sweep.bounds) : still.image(sweep.bounds);
+        sweep.stretch *= moves ? placed.moving[moving].stretch() : still.stretch();
+    };
+    if (!place.is_group) go_on(placed.objects[place.of].moving, placed.objects[place.of].first);
+    go_on(stands_still, place.transform);
+    if (place.moving != stands_still) go_on(place.moving, {});
+    return sweep;
+}
 
 double rounded_at(const glm::vec3& p) {
     return relative_rounding * static_cast<double>(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}));
@@ -184,19 +218,25 @@ std::unique_ptr<Places> PlacedGeometry::made(RTCDevice device, const PlacedObjec
                                              const std::vector<Place>& list) {
     auto places = std::make_unique<Places>();
     places->targets = &targets_;
+    places->placed = &placed;
+    places->source = &list;
     places->list.reserve(list.size());
     std::uint64_t copies = 0;
     for (const Place& place : list) {
         const std::uint32_t target =
             place.of + (place.is_group ? static_cast<std::uint32_t>(placed.objects.size()) : 0);
-        const Transform outward = place.is_group ? place.transform : place.transform * placed.objects[place.of].first;
-        const Bounds bounds = outward.image(targets_[target].bounds);
+        const PlacedObject* object = place.is_group ? nullptr : &placed.objects[place.of];
+        const Transform outward = object ? place.transform * object->first : place.transform;
+        const bool moves = place.moving != stands_still || (object && object->moving != stands_still);
+        const Sweep sweep = moves ? swept(placed, place, targets_[target].bounds)
+                                  : Sweep{outward.image(targets_[target].bounds), outward.stretch()};
+        const Bounds& bounds = sweep.bounds;
         for (int i = 0; i < 3 && !bounds.empty(); ++i)
             if (!(bounds.low[i] >= -farthest) || !(bounds.high[i] <= farthest))
                 throw ModelError("what instances place is too large or too far away");
-        places->list.push_back({outward.inverse(), bounds, target, static_cast<std::uint32_t>(copies)});
+        places->list.push_back({outward.inverse(), bounds, target, moves, static_cast<std::uint32_t>(copies)});
         places->bounds = unite(places->bounds, bounds);
-        places->resolution = std::max(places->resolution, outward.stretch() * targets_[target].resolution);
+        places->resolution = std::max(places->resolution, sweep.stretch * targets_[target].resolution);
         copies += placed.copies_at(place);
     }
     places->geometry.reset(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
@@ -208,8 +248,8 @@ std::unique_ptr<Places> PlacedGeometry::made(RTCDevice device, const PlacedObjec
     return places;
 }
 
-RayObjects PlacedGeometry::objects_at(RTCScene scene, const glm::vec3& p) const {
-    PointOnItsWay on_its_way{.places = root_.get(), .point = glm::dvec3(p)};
+RayObjects PlacedGeometry::objects_at(RTCScene scene, const glm::vec3& p, float time) const {
+    PointOnItsWay on_its_way{.places = root_.get(), .point = glm::dvec3(p), .found = RayObjects(time)};
     ask(scene, on_its_way);
     return on_its_way.found;
 }

@@ -45,6 +45,8 @@ struct PlacedQuery {
     Transform here{};
     glm::dvec3 origin{0}, direction{0};
     std::uint32_t first_copy = 0;
+    /// In: a share of the time in which the shutter is open.
+    double time = 0;
 };
 
 class PlacedGeometry {
@@ -63,8 +65,9 @@ class PlacedGeometry {
     const Bounds& bounds() const { return root_->bounds; }
     const std::vector<std::shared_ptr<const InterfaceCells>>& cells() const { return cells_; }
 
-    /// The objects that hold a point of the scene. `scene` is one to which the geometry is attached as the first.
-    RayObjects objects_at(RTCScene scene, const glm::vec3& p) const;
+    /// The objects that hold a point of the scene at a share of the time in which the shutter is open. `scene` is one
+    /// to which the geometry is attached as the first.
+    RayObjects objects_at(RTCScene scene, const glm::vec3& p, float time) const;
 
     /// How far apart two interfaces may be, in the scene's unit of length, to be one and the same as far as the cells
     /// of this copy can tell near a point: two resolutions, and what coordinates round away.
@@ -83,15 +86,18 @@ class PlacedGeometry {
         double resolution = 0;           ///< the coarsest there, in its space
     };
     struct PlaceInEmbree {
-        Transform inward;  ///< from the space of the list into that of what stands there
-        Bounds bounds;
+        Transform inward;  ///< from the space of the list into that of what stands there, if it stands still
+        Bounds bounds;     ///< while the shutter is open
         std::uint32_t target = 0;
+        bool moves = false;
         std::uint32_t first_copy = 0;  ///< of what stands here, among those of the list
     };
     /// A list of places: what the callbacks read.
     struct Places {
         std::vector<PlaceInEmbree> list;
         const std::vector<Target>* targets = nullptr;
+        const PlacedObjects* placed = nullptr;  ///< and the same list there, of which those that move are asked
+        const std::vector<Place>* source = nullptr;
         Bounds bounds{};
         double resolution = 0;  ///< the coarsest there, in the space of the list
         GeometryHandle geometry;

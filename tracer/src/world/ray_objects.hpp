@@ -1,4 +1,5 @@
-// The objects that a ray is in, of a scene that has several, with its phase in each. Elsewhere a ray is in vacuum.
+// The objects that a ray is in, of a scene that has several, with its phase in each, and the time at which it meets
+// them. Elsewhere a ray is in vacuum.
 #pragma once
 
 #include <array>
@@ -17,6 +18,11 @@ class RayObjects {
   public:
     static constexpr std::size_t most = 4;
 
+    /// None, at a share of the time in which the shutter is open.
+    explicit RayObjects(float time) : time_(time) {}
+    RayObjects() = default;
+
+    float time() const { return time_; }
     std::size_t size() const { return size_; }
     std::uint32_t copy(std::size_t i) const { return copies_[i]; }
     Phase phase(std::size_t i) const { return phases_[i]; }
@@ -55,6 +61,7 @@ class RayObjects {
     std::array<std::uint32_t, most> copies_{};
     std::array<Phase, most> phases_{};
     std::uint8_t size_ = 0;
+    float time_ = 0;
 };
 
 /// A ray that starts at an interface starts at one end of its bracket, which is in its phase. The world's coordinates

@@ -48,6 +48,7 @@ TracedGeometry::NextOfSeveral TracedGeometry::next_of_several(const Ray& ray, fl
     q.query.start = ray.hint;
     q.start = ray.start;
     q.far = far;
+    q.time = static_cast<double>(ray.in.time());
     q.origin = glm::dvec3(ray.origin);
     q.direction = glm::dvec3(ray.direction);
     RTCRayHit hit = embree::rayhit_of(ray.origin, ray.direction, 0, far);

@@ -215,9 +215,9 @@ CellStatistics TracedGeometry::statistics() const {
     return all;
 }
 
-TracedGeometry::Inside TracedGeometry::inside(const glm::vec3& p) const {
-    if (!placed_) return {object().label(p, Evaluator::thread_workspace()), {}};
-    const RayObjects in = placed_->objects_at(embree_.get(), p);
+TracedGeometry::Inside TracedGeometry::inside(const glm::vec3& p, float time) const {
+    if (!placed_) return {object().label(p, Evaluator::thread_workspace()), RayObjects()};
+    const RayObjects in = placed_->objects_at(embree_.get(), p, time);
     return {in.phase(), in};
 }
 

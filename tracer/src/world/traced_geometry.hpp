@@ -29,15 +29,15 @@ class TracedGeometry {
     /// What stands first in the way of light along a ray, before the distance `far`.
     Visibility visibility(const Ray& ray, float far, PathCounters& counters) const;
 
-    /// The phase at a point.
-    Phase label(const glm::vec3& p) const { return inside(p).phase; }
+    /// The phase at a point, at a share of the time in which the shutter is open.
+    Phase label(const glm::vec3& p, float time = 0) const { return inside(p, time).phase; }
     /// The phase at a point, and the objects that it is in if the scene has several: as a ray has them that starts
     /// there.
     struct Inside {
         Phase phase{};
         RayObjects in{};
     };
-    Inside inside(const glm::vec3& p) const;
+    Inside inside(const glm::vec3& p, float time = 0) const;
 
     /// The object of a scene of one tree.
     const InterfaceCells& object() const { return *cells_.front(); }

@@ -122,11 +122,20 @@ class Document {
     /// The file that a string of the text names, relative to the text's own file. SceneError at the value if it leaves
     /// the folder that the files must lie in; then nothing is said of the file, not even whether there is one.
     std::filesystem::path file(Value named) const;
-    /// Another document, whose file a string of the text names. Its own files must lie in the same folder, if any.
+    /// Another document, whose file a string of the text names, at the same time. Its own files must lie in the same
+    /// folder, if any.
     Document beside(Value named) const;
     /// The same text, whose files must lie in this folder or below it, symbolic links followed: for who reads the
     /// scenes of strangers. SceneError if there is no such folder.
     Document with_files_within(const std::filesystem::path& folder) const;
+
+    /// The time, in seconds, at which what changes with time is read (io/keys.hpp); 0 unless it was set.
+    double seconds() const { return seconds_; }
+    Document at(double seconds) const {
+        Document then = *this;
+        then.seconds_ = seconds;
+        return then;
+    }
 
     /// An error at a byte offset, or at the first character of a value.
     SceneError error(std::size_t offset, std::string message, std::optional<std::string> suggestion = {}) const;
@@ -137,6 +146,7 @@ class Document {
 
     std::shared_ptr<const DocumentData> data_;
     std::shared_ptr<const std::filesystem::path> files_within_;  ///< as it is without links; null for anywhere
+    double seconds_ = 0;
 };
 
 }  // namespace phasetree

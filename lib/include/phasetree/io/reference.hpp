@@ -82,7 +82,8 @@ std::string schema_reference(std::string_view definition);
 std::string schema_of_either(const std::string& one, const std::string& other);
 
 /// A whole schema with which an editor completes and checks scene files. `file` lists the keys of a file. Beside the
-/// program's own definitions (a name, and a schema) there are "field" and "object", which nodes make.
+/// program's own definitions (a name, and a schema) there are "field" and "object", which nodes make, and
+/// "keys".
 std::string scene_schema(const KindPage& file, std::span<const std::pair<std::string, std::string>> definitions);
 
 }  // namespace phasetree

@@ -32,6 +32,7 @@
 #include "phasetree/nodes/fields/intersection.hpp"
 #include "phasetree/nodes/fields/link.hpp"
 #include "phasetree/nodes/fields/merge.hpp"
+#include "phasetree/nodes/fields/mesh.hpp"
 #include "phasetree/nodes/fields/octahedron.hpp"
 #include "phasetree/nodes/fields/offset.hpp"
 #include "phasetree/nodes/fields/plane.hpp"
@@ -112,9 +113,9 @@ using PlainFields =
              SmoothUnion, SmoothIntersection, SmoothDifference, Offset, Shell, Merge, Ellipsoid, CappedTorus, Link,
              Tube, RoundedCylinder, RoundCone, SphericalCap, Prism, Wedge, Pyramid, Octahedron, Tetrahedron, Gyroid,
              SchwarzP, SchwarzD, Displace, FieldInstances, FieldPolarArray, FieldGrid, Polyline, FieldEndlessGrid, Blob,
-             VoronoiCells, Siren, HeightMap, FieldFibonacciDisk, FieldFibonacciSphere, FieldScatter, Extrude, Revolve,
-             Circle, Rectangle, Star, Slab, BoxFrame, Bowl, Dodecahedron, Icosahedron, Helix, Heightfield, Polygon,
-             Bezier, Formula, Polyhedron, FieldBoundingVolume, FieldProxy, FieldLevelOfDetail>;
+             VoronoiCells, Siren, HeightMap, Mesh, FieldFibonacciDisk, FieldFibonacciSphere, FieldScatter, Extrude,
+             Revolve, Circle, Rectangle, Star, Slab, BoxFrame, Bowl, Dodecahedron, Icosahedron, Helix, Heightfield,
+             Polygon, Bezier, Formula, Polyhedron, FieldBoundingVolume, FieldProxy, FieldLevelOfDetail>;
 
 using Objects =
     TypeList<Set, ThinShell, Under, Over, Layered, IntersectShape, SubtractShape, Change, Remove, Contact, Contacts,

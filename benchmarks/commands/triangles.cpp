@@ -1,0 +1,122 @@
+// A closed mesh as a field against the same triangles in Embree: what it costs that a mesh can be offset, hollowed out
+// and filled.
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <map>
+#include <utility>
+
+#include "commands/commands.hpp"
+#include "phasetree/io/mesh.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/mesh.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "rays/beside_mesh.hpp"
+#include "rays/camera_rays.hpp"
+
+namespace phasetree::bench {
+
+namespace {
+
+// Each triangle becomes four, with the middles of its edges.
+TriangleMesh divided(const TriangleMesh& mesh) {
+    TriangleMesh result{mesh.vertices, {}};
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+        const auto [at, is_new] = middles.try_emplace({std::min(a, b), std::max(a, b)}, result.vertices.size());
+        if (is_new) result.vertices.push_back(0.5f * (mesh.vertices[a] + mesh.vertices[b]));
+        return at->second;
+    };
+    for (const glm::uvec3& t : mesh.triangles) {
+        const std::uint32_t a = middle(t.x, t.y), b = middle(t.y, t.z), c = middle(t.z, t.x);
+        for (const glm::uvec3& part : {glm::uvec3(t.x, a, c), {a, t.y, b}, {c, b, t.z}, {a, b, c}})
+            result.triangles.push_back(part);
+    }
+    return result;
+}
+
+template <class Make>
+auto timed(Make&& make, double& taken) {
+    const double start = seconds(Clock::thread);
+    auto made = make();
+    taken = seconds(Clock::thread) - start;
+    return made;
+}
+
+void compare_both(const TriangleMesh& mesh, const Settings& settings, Report& report, Table& table) {
+    double field_seconds = 0, triangles_seconds = 0, preparing_seconds = 0;
+    FromFile<TriangleMesh> file;
+    file.content = std::make_shared<const TriangleMesh>(mesh);
+    const Phased object =
+        timed([&] { return Phased(Set{.phase = Phase{1}, .of = Mesh{.file = file}}); }, preparing_seconds);
+    const auto field = timed([&] { return std::make_unique<FieldScene>(object, PhaseSet{0b10}); }, field_seconds);
+    const auto triangles = timed(
+        [&] {
+            return std::make_unique<MeshScene>(Triangles{mesh.vertices, mesh.triangles}, RTC_BUILD_QUALITY_MEDIUM);
+        },
+        triangles_seconds);
+    const Rays primary = camera_rays(camera_for(field->cells().bounds()), settings.width, settings.height);
+    const SurfaceRays random = leaving(*field, *triangles, primary, settings.seed);
+    const auto contest = [&](const Rays& of_field, const Rays& of_mesh) {
+        return in_turn({{"triangles", [&] { return triangles->trace(of_mesh, settings.threads); }},
+                        {"field", [&] { return field->trace(of_field, settings.threads); }}},
+                       settings.timing());
+    };
+    const Turns on_primary = contest(primary, primary), on_random = contest(random.of_field, random.of_mesh);
+
+    const auto count = static_cast<double>(mesh.triangles.size());
+    const Agreement agreement = compare(*field, *triangles, primary);
+    const auto resolution = static_cast<double>(field->cells().resolution());
+    report.check(fmt::format("{:.0f} triangles: field and triangles are the same surface", count),
+                 agreement.share() > 0.999 && agreement.mean() < 2 * resolution,
+                 fmt::format("{:.3f} % of rays hit both, {:.2f} resolutions apart on average", 100 * agreement.share(),
+                             agreement.mean() / resolution));
+    const auto row = [&](std::size_t i, const std::string& what, double cells, double checks, double build,
+                         std::size_t bytes) {
+        const auto rate = [&](const Turns& turns) {
+            return static_cast<double>(turns.checksum(i).rays) / turns.seconds(i).median;
+        };
+        table.row({count, what, cells, checks, build, static_cast<double>(bytes), rate(on_primary), rate(on_random),
+                   on_primary.ratio(0, i), on_random.ratio(0, i)});
+    };
+    row(0, "triangles", 0, 0, triangles_seconds, triangles->bytes());
+    row(1, "field", static_cast<double>(field->cells().size()), preparing_seconds, field_seconds, field->bytes());
+}
+
+}  // namespace
+
+Report triangles(const Settings& settings) {
+    Report report("triangles", "a closed mesh as a field, and the same triangles in Embree");
+    report.say(fmt::format(
+        "scenes/assets/spot.ply, and the same with each triangle cut into 4 {}; Embree triangles of medium build "
+        "quality, not robust",
+        settings.quick ? "once" : "once and twice"));
+    report.say(
+        fmt::format("rays: {}×{} camera rays, one a pixel; as many random ones from what those hit into the open; {} "
+                    "thread(s)",
+                    settings.width, settings.height, settings.threads));
+    report.say(
+        "checks: that the mesh is a solid, with the field's own hierarchy; build: cells and Embree's hierarchy, or the "
+        "latter alone; both processor time on one thread");
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(settings.threads));
+    Table table({{"triangles", "triangles", "{:.0f}"},
+                 {"what", "", ""},
+                 {"cells", "cells", "{:.0f}"},
+                 {"checks_seconds", "checks s", "{:.2f}"},
+                 {"build_seconds", "build s", "{:.2f}"},
+                 {"bytes", "MB", "{:.1f}", 1e-6},
+                 {"primary_rays_per_second", "primary M/s", "{:.2f}", 1e-6},
+                 {"random_rays_per_second", "random M/s", "{:.2f}", 1e-6},
+                 {"primary_ratio", "primary ×", "{:.2f}"},
+                 {"random_ratio", "random ×", "{:.2f}"}});
+    TriangleMesh mesh = read_mesh(PHASETREE_SCENES "/assets/spot.ply");
+    for (int times = 0; times <= (settings.quick ? 1 : 2); ++times) {
+        if (times > 0) mesh = divided(mesh);
+        compare_both(mesh, settings, report, table);
+    }
+    report.table("meshes", table);
+    return report;
+}
+
+}  // namespace phasetree::bench

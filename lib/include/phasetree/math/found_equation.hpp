@@ -1,0 +1,15 @@
+#pragma once
+
+#include "phasetree/math/vec3.hpp"
+
+namespace phasetree {
+
+/// An equation whose constants a search finds: equation(search(p), p), where `search` is given plain numbers. It is for
+/// data of which so little matters at any one point that no loop should go over all of them. Other number types have
+/// functions of their own; one that cannot search calls otherwise(p), which is the same by a loop over all.
+template <class Search, class Equation, class Otherwise>
+float found_equation(const Vec3<float>& p, const Search& search, const Equation& equation, const Otherwise&) {
+    return equation(search(p), p);
+}
+
+}  // namespace phasetree

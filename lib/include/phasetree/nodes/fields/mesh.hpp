@@ -1,0 +1,90 @@
+#pragma once
+
+#include "phasetree/math/found_equation.hpp"
+#include "phasetree/model/from_file.hpp"
+#include "phasetree/nodes/fields/mesh_tree.hpp"
+#include "phasetree/nodes/fields/profile.hpp"
+#include "phasetree/nodes/fields/triangle_mesh.hpp"
+
+namespace phasetree {
+
+/// The solid within a surface of triangles, exact on both sides. The surface must be closed, must not cross or touch
+/// itself along edges, and its triangles must all be turned with their outside outward. That is
+/// checked, so the sign of the distance is known from the nearest piece of it (mesh_pieces.hpp).
+///
+/// Where two sheets of it are as near as floats round, either may be taken for the nearest, and the sign is uncertain
+/// also far from both.
+///
+/// A hierarchy of boxes finds that piece. In a small box few pieces can be nearest, and they are the data of the
+/// specialised primitive.
+struct Mesh {
+    static constexpr bool is_field_node = true;
+    static constexpr NodeInfo info{"mesh", "", "± min over the triangles of |p − nearest point|",
+                                   "The solid within a closed surface of triangles, exact."};
+    static constexpr std::size_t most_pieces_in_box = 64;
+
+    FromFile<TriangleMesh> file{};
+    std::vector<float> table{};  ///< derived: a PieceTree
+    Bounds box{};                ///< derived
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&Mesh::file, Parameter{"file", "",
+                                 "The triangles: OBJ, PLY or STL, in metres, closed, not crossing itself, and "
+                                 "counter-clockwise seen from outside. Corners at the same place are one; materials, "
+                                 "normals and the like are not looked at. Walls and gaps that are thinner than a "
+                                 "millionth of the mesh's size may be taken for each other."});
+    }
+    /// Throws ModelError, which says where the surface is wrong.
+    void prepare();
+
+    std::span<const float> data() const { return table; }
+    template <class T>
+    static T distance(const float* data, const Vec3<T>& p) {
+        return found_equation(
+            p, [&](const Vec3<float>& q) { return mesh::PieceTree::nearest(data, q); },
+            [&](const mesh::FoundPiece& found, const auto& q) {
+                return mesh::distance_to(found, data + mesh::piece_kinds, q);
+            },
+            [&](const auto& q) { return mesh::PieceList::distance(few_pieces(data), q); });
+    }
+
+    /// The data, if a loop over all pieces is bearable; else throws ModelError.
+    static const float* few_pieces(const float* data);
+    static constexpr std::size_t most_pieces_of_shader = 2000;
+
+    /// See LocalDataPrimitive.
+    struct Specialised {
+        std::vector<float> values{};
+
+        std::span<const float> data() const { return values; }
+        static std::size_t floats(const float* data) { return mesh::PieceList::floats(data); }
+        static unsigned half_works(const float* data) {
+            const auto count = [&](mesh::PieceKind k) {
+                return static_cast<unsigned>(mesh::PieceList::count(data, k));
+            };
+            return 8 + 10 * count(mesh::PieceKind::face) + 11 * count(mesh::PieceKind::edge) +
+                   5 * count(mesh::PieceKind::vertex);
+        }
+        template <class T>
+        static T distance(const float* data, const Vec3<T>& p) {
+            return mesh::PieceList::distance(data, p);
+        }
+        static bool is_sound(std::span<const float>);
+    };
+    using Parts = TypeList<Specialised>;
+    /// A rough estimate of the cost of a search for each of eight points, in halves of a simple instruction's.
+    static constexpr unsigned search_half_works = 3000;
+    static bool specialise(const float* data, const PointRange& range, std::span<const float> of,
+                           std::vector<float>& floats) {
+        return mesh::PieceTree::pieces_in(data, range, of, most_pieces_in_box, floats);
+    }
+
+    double support(const glm::dvec3& d, float level) const;
+    Bounds bounds(BoundsQuery&, float level) const {
+        const Bounds b = box.inflated(level);
+        return b.empty() ? Bounds{} : b;
+    }
+};
+
+}  // namespace phasetree

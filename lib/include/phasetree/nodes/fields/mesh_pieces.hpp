@@ -1,0 +1,139 @@
+// The surface of a mesh as a set of pieces: faces, edges and vertices. Each is nearest to the points of one region: a
+// face to those of the prism over it, an edge to those between the planes through its ends, a vertex to all that are in
+// no such region. The distance to the mesh is the least of the distances to pieces, each asked within its own region.
+//
+// Its sign is that of the normal's product with the vector from the nearest point, if an edge's normal is the sum of
+// its two faces' and a vertex's that of its faces', weighted by their angles (Baerentzen and Aanaes, "Signed Distance
+// Computation Using the Angle Weighted Pseudonormal", 2005).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "phasetree/math/vec3.hpp"
+
+namespace phasetree::mesh {
+
+enum class PieceKind : std::uint8_t { face, edge, vertex };
+inline constexpr std::size_t piece_kinds = 3;
+
+/// What a piece tells of a point: the squared distance, or `nowhere` if the point is not in its region; and a number
+/// with the sign of the distance, which for a face is the distance itself.
+template <class T>
+struct Told {
+    T squared, side;
+};
+inline constexpr float nowhere = 3e38f, farthest = 1.7e19f;  ///< about the root of `nowhere`
+
+template <class T>
+Vec3<T> from(const float* origin, const Vec3<T>& p) {
+    return {p.x - origin[0], p.y - origin[1], p.z - origin[2]};
+}
+template <class T>
+T along(const float* direction, const Vec3<T>& q) {
+    return q.x * direction[0] + q.y * direction[1] + q.z * direction[2];
+}
+
+/// A corner, the unit normal, for each side the unit vector in the plane that points inward, for the side opposite to
+/// the corner the height of the corner over it, which is negative, and how far beyond its sides its region reaches.
+///
+/// That is what rounding may be wrong by, so a point straight above a side is the face's: the vector from the side to a
+/// point as near as a rounding or two is itself mostly rounding, and would be a normal that no face about has.
+struct Face {
+    static constexpr PieceKind kind = PieceKind::face;
+    static constexpr std::size_t corner = 0, normal = 3, inward = 6, opposite = 15, slack = 16, floats = 17;
+
+    template <class T>
+    static Told<T> tell(const float* piece, const Vec3<T>& p) {
+        const Vec3<T> q = from(piece + corner, p);
+        const T height = along(piece + normal, q);
+        const T within = min(along(piece + inward, q),
+                             min(along(piece + inward + 3, q) - piece[opposite], along(piece + inward + 6, q)));
+        return {select(less(within, T(-piece[slack])), T(nowhere), height * height), height};
+    }
+};
+/// One end, the vector to the other, 1 over its squared length, the normal, the largest angle between that and a normal
+/// of the two faces, and how far beyond its ends its region reaches, as a share of its length.
+struct Edge {
+    static constexpr PieceKind kind = PieceKind::edge;
+    static constexpr std::size_t end = 0, vector = 3, inverse = 6, normal = 7, spread = 10, slack = 11, floats = 12;
+
+    template <class T>
+    static Told<T> tell(const float* piece, const Vec3<T>& p) {
+        const Vec3<T> q = from(piece + end, p);
+        const T t = along(piece + vector, q) * piece[inverse];
+        const Vec3<T> away{q.x - t * piece[vector], q.y - t * piece[vector + 1], q.z - t * piece[vector + 2]};
+        return {select(less(min(t, 1.f - t), T(-piece[slack])), T(nowhere), dot(away, away)),
+                along(piece + normal, away)};
+    }
+};
+/// The place, the normal, and the largest angle between that and a normal of the faces about the vertex.
+struct Vertex {
+    static constexpr PieceKind kind = PieceKind::vertex;
+    static constexpr std::size_t place = 0, normal = 3, spread = 6, floats = 7;
+
+    template <class T>
+    static Told<T> tell(const float* piece, const Vec3<T>& p) {
+        const Vec3<T> q = from(piece + place, p);
+        return {dot(q, q), along(piece + normal, q)};
+    }
+};
+
+/// Calls f.template operator()<Kind>() for Face, Edge and Vertex.
+template <class F>
+void for_each_kind(F&& f) {
+    f.template operator()<Face>();
+    f.template operator()<Edge>();
+    f.template operator()<Vertex>();
+}
+inline constexpr std::size_t piece_floats[piece_kinds] = {Face::floats, Edge::floats, Vertex::floats};
+
+/// The box about a mesh, as six floats: its centre and its half extents.
+inline constexpr std::size_t box_floats = 6;
+
+/// The signed distance, given what the nearest piece tells. Outside of the mesh's box the sign is known, and is not
+/// left to normals: from far away many pieces are equally far but for rounding.
+template <class T, class Condition>
+T signed_distance(const Told<T>& nearest, const Condition& is_face, const float* box, const Vec3<T>& p) {
+    const T length = sqrt(nearest.squared);
+    const T value = select(is_face, nearest.side, select(less(nearest.side, T(0.f)), -length, length));
+    const Vec3<T> q = from(box, p);
+    const T beyond = max(abs(q.x) - box[3], max(abs(q.y) - box[4], abs(q.z) - box[5]));
+    return select(less(T(0.f), beyond), abs(value), value);
+}
+
+/// Lists of pieces: how many of each kind there are, the box, and the pieces, kind after kind. Of pieces that are
+/// equally near the first one counts.
+struct PieceList {
+    static constexpr std::size_t head = piece_kinds + box_floats;
+
+    static std::size_t count(const float* data, PieceKind kind) {
+        return static_cast<std::size_t>(data[static_cast<std::size_t>(kind)]);
+    }
+    static std::size_t floats(const float* data) {
+        std::size_t sum = head;
+        for_each_kind([&]<class Kind>() { sum += count(data, Kind::kind) * Kind::floats; });
+        return sum;
+    }
+    template <class T>
+    static T distance(const float* data, const Vec3<T>& p) {
+        Told<T> nearest{T(nowhere), T(farthest)};
+        const float* piece = data + head;
+        const auto look_at = [&]<class Kind>() {
+            for (std::size_t left = count(data, Kind::kind); left > 0; --left, piece += Kind::floats) {
+                const Told<T> told = Kind::tell(piece, p);
+                const auto is_nearer = less(told.squared, nearest.squared);
+                nearest.squared = select(is_nearer, told.squared, nearest.squared);
+                nearest.side = select(is_nearer, told.side, nearest.side);
+            }
+        };
+        look_at.template operator()<Face>();
+        const T by_faces = nearest.squared;
+        look_at.template operator()<Edge>();
+        look_at.template operator()<Vertex>();
+        const T is_other = select(less(nearest.squared, by_faces), T(1.f), T(0.f));
+        return signed_distance(nearest, less(is_other, T(0.5f)), data + piece_kinds, p);
+    }
+};
+
+}  // namespace phasetree::mesh

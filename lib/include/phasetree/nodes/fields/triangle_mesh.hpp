@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace phasetree {
+
+/// Triangles in space, as files give them. The corners of each are indices of vertices, counter-clockwise seen from
+/// outside.
+struct TriangleMesh {
+    /// Readers and nodes take no more.
+    static constexpr std::size_t most_triangles = 2'000'000;
+
+    std::vector<glm::vec3> vertices;
+    std::vector<glm::uvec3> triangles;
+
+    std::size_t bytes() const {
+        return vertices.size() * sizeof(vertices[0]) + triangles.size() * sizeof(triangles[0]);
+    }
+};
+
+}  // namespace phasetree

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/words.hpp"
+#include "phasetree_support/reading.hpp"
+
+namespace phasetree::io {
+
+/// A PLY file, of words or of numbers in either order of bytes: a header that says which elements there are, each with
+/// its properties, and their rows one after the other. Throws SceneError, as the readers in mesh_file.hpp do.
+class Ply {
+  public:
+    enum class Type : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+    struct Property {
+        std::string name;
+        Type type;
+        std::optional<Type> count;  ///< of a list: the type of its length
+    };
+    struct Element {
+        std::string name;
+        std::uint64_t rows = 0;
+        std::vector<Property> properties;
+
+        /// The number of a property; nothing if there is none of that name.
+        std::optional<std::size_t> find(std::string_view property) const;
+    };
+    /// What a row has of a property: one number, or those of a list.
+    using Row = std::vector<std::vector<double>>;
+
+    /// Reads the header, and checks that the file is long enough for what it claims.
+    Ply(std::filesystem::path, std::string_view content);
+
+    const std::vector<Element>& elements() const { return elements_; }
+    /// Calls f(row) for each row of the next element. Elements must be asked for in their order.
+    template <class F>
+    void for_each_row(const Element& element, F&& f) {
+        Row row(element.properties.size());
+        for (row_ = 1; row_ <= element.rows; ++row_) {
+            read_row(element, row);
+            f(static_cast<const Row&>(row));
+            place_.reached(offset());
+        }
+    }
+    /// To be called when all elements that are wanted have been asked for.
+    void finish() { place_.finished(content_.size()); }
+    /// An error at the row that was read last.
+    [[noreturn]] void fail(const Element&, std::string_view what) const;
+
+  private:
+    enum class Format { words, little_endian, big_endian };
+
+    [[noreturn]] void fail(std::string_view what) const;
+    void read_header();
+    void add_property();
+    void check_claims() const;
+    void read_row(const Element&, Row&);
+    double read(const Element&, Type);
+    std::size_t offset() const { return format_ == Format::words ? words_.offset() : content_.size() - rest_.size(); }
+
+    std::filesystem::path path_;
+    std::string_view content_;
+    Words words_;
+    std::string_view rest_;  // the numbers that are not read yet
+    Format format_{};
+    std::vector<Element> elements_;
+    std::uint64_t row_ = 0;
+    support::ReadingPlace place_;
+};
+
+}  // namespace phasetree::io

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "phasetree/math/point_range.hpp"
+#include "phasetree/model/concepts.hpp"
+
+namespace phasetree {
+
+/// What LocalPrimitive is, of a primitive with data: of all that it has, few floats matter in a small box. Its
+/// specialise() is given its data. A search in them is as much work as search_half_works says, for eight points.
+template <class N>
+concept LocalDataPrimitive = DataPrimitive<N> &&
+    requires(const float* data, const PointRange& range, std::span<const float> of, std::vector<float>& floats) {
+    requires DataPrimitive<typename N::Specialised>;
+    { N::specialise(data, range, of, floats) } -> std::same_as<bool>;
+    { N::Specialised::floats(floats.data()) } -> std::same_as<std::size_t>;
+    { N::Specialised::half_works(floats.data()) } -> std::same_as<unsigned>;
+    { N::Specialised::is_sound(of) } -> std::same_as<bool>;  // whether these floats, from a file, can be such data
+    { N::search_half_works } -> std::convertible_to<unsigned>;
+};
+template <class N>
+concept AnyLocalPrimitive = LocalPrimitive<N> || LocalDataPrimitive<N>;
+
+}  // namespace phasetree

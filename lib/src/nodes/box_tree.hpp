@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "phasetree/math/bounds.hpp"
+
+namespace phasetree {
+
+/// A balanced hierarchy of boxes. Nodes stand in depth-first order: a node's first child follows it.
+struct BoxTree {
+    struct Node {
+        Bounds box;
+        std::uint32_t second_child = 0;      ///< 0 for a leaf
+        std::uint32_t first = 0, count = 0;  ///< a leaf's items: so many of `order` from this one on
+    };
+    std::vector<Node> nodes;
+    std::vector<std::uint32_t> order;  ///< the items' numbers, leaf after leaf
+
+    /// Divides at the median of the boxes' centres along the axis on which these are spread most, until there are no
+    /// more than `most` items in each leaf. There must be an item.
+    BoxTree(std::span<const Bounds> items, std::uint32_t most);
+
+    /// Calls visit(first, count) for each leaf whose box meets; meets(box) tells that.
+    template <class Meets, class Visit>
+    void for_each_leaf(const Meets& meets, const Visit& visit) const {
+        for (std::size_t i = 0; i < nodes.size();) {
+            const Node& n = nodes[i];
+            const bool is_met = meets(n.box);
+            if (is_met && n.second_child == 0) visit(n.first, n.count);
+            i = is_met || n.second_child == 0 ? i + 1 : behind_[i];
+        }
+    }
+
+  private:
+    void divide(std::span<const Bounds> items, std::uint32_t first, std::uint32_t count, std::uint32_t most);
+
+    std::vector<std::uint32_t> behind_;  // for each node the first that is not below it
+};
+
+}  // namespace phasetree

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace phasetree {
+
+/// Numbers 0 … n − 1 in disjoint sets, which are joined (union-find). The root of a set is its least member.
+class DisjointSets {
+  public:
+    explicit DisjointSets(std::size_t n) {
+        parent_.reserve(n);
+        while (parent_.size() < n) parent_.push_back(parent_.size());
+    }
+
+    std::size_t root(std::size_t i) {
+        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+        return i;
+    }
+    void join(std::size_t a, std::size_t b) {
+        a = root(a);
+        b = root(b);
+        parent_[a < b ? b : a] = a < b ? a : b;
+    }
+
+  private:
+    std::vector<std::size_t> parent_;
+};
+
+}  // namespace phasetree

@@ -1,0 +1,189 @@
+#include "phasetree/nodes/fields/mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "nodes/box_tree.hpp"
+#include "nodes/mesh_surface.hpp"
+
+namespace phasetree {
+
+using mesh::Edge, mesh::Face, mesh::for_each_kind, mesh::PieceTree, mesh::SharedEdge, mesh::Surface, mesh::Vertex;
+
+namespace {
+
+constexpr std::uint32_t most_in_leaf = 4;
+
+// What a product with a unit vector may be wrong by, as a share of the length of what is multiplied.
+constexpr double rounding = 0x1p-22;
+
+void append(std::vector<float>& floats, const glm::dvec3& v) {
+    for (int i = 0; i < 3; ++i) floats.push_back(static_cast<float>(v[i]));
+}
+glm::dvec3 unit(const glm::dvec3& v) {
+    const double length = glm::length(v);
+    return length > 0 ? v / length : v;
+}
+double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
+    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+// The table of a mesh, from its surface.
+class TableWriter {
+  public:
+    explicit TableWriter(const Surface& s) : s_(s), tree_(mesh::boxes_of(s), most_in_leaf), place_(s.triangles.size()) {
+        for (std::uint32_t i = 0; i < tree_.order.size(); ++i) place_[tree_.order[i]] = i;
+    }
+
+    std::vector<float> operator()() {
+        prepare_vertices();
+        prepare_edges();
+        std::vector<float> table{static_cast<float>(s_.triangles.size()), static_cast<float>(edges_.size()),
+                                 static_cast<float>(vertices_.size())};
+        const Bounds& box = tree_.nodes[0].box;
+        append(table, box.centre());
+        // The half extents reach the box's sides whichever way the centre was rounded.
+        for (int i = 0; i < 3; ++i)
+            table.push_back(std::max(box.high[i] - box.centre()[i], box.centre()[i] - box.low[i]));
+        for (const std::uint32_t t : tree_.order) append_face(t, table);
+        for (const std::uint32_t e : edges_) append_edge(s_.edges[e], table);
+        for (const std::uint32_t v : vertices_) append_vertex(v, table);
+        append_nodes(table);
+        return table;
+    }
+
+  private:
+    // An edge or a vertex is in the leaf of the first of its triangles.
+    void prepare_vertices() {
+        first_place_.assign(s_.vertices.size(), none);
+        normal_.assign(s_.vertices.size(), glm::dvec3(0));
+        spread_.assign(s_.vertices.size(), 0);
+        for (std::uint32_t t = 0; t < s_.triangles.size(); ++t)
+            for (int i = 0; i < 3; ++i) {
+                const std::uint32_t v = s_.triangles[t][i];
+                if (first_place_[v] == none) vertices_.push_back(v);
+                first_place_[v] = std::min(first_place_[v], place_[t]);
+                const glm::dvec3 p = s_.at(v);
+                normal_[v] +=
+                    angle_between(s_.corner(t, (i + 1) % 3) - p, s_.corner(t, (i + 2) % 3) - p) * s_.normals[t];
+            }
+        for (glm::dvec3& n : normal_) n = unit(n);
+        for (std::uint32_t t = 0; t < s_.triangles.size(); ++t)
+            for (int i = 0; i < 3; ++i) {
+                double& spread = spread_[s_.triangles[t][i]];
+                spread = std::max(spread, angle_between(normal_[s_.triangles[t][i]], s_.normals[t]));
+            }
+        std::ranges::sort(vertices_, {}, [&](std::uint32_t v) { return std::pair(first_place_[v], v); });
+    }
+    void prepare_edges() {
+        edges_.resize(s_.edges.size());
+        for (std::uint32_t e = 0; e < edges_.size(); ++e) edges_[e] = e;
+        std::ranges::sort(edges_, {}, [&](std::uint32_t e) { return std::pair(first_place(s_.edges[e]), e); });
+    }
+    std::uint32_t first_place(const SharedEdge& e) const {
+        return std::min(place_[e.triangles[0]], place_[e.triangles[1]]);
+    }
+
+    void append_face(std::uint32_t t, std::vector<float>& table) const {
+        const std::array<glm::dvec3, 3> p{s_.corner(t, 0), s_.corner(t, 1), s_.corner(t, 2)};
+        append(table, p[0]);
+        append(table, s_.normals[t]);
+        std::array<glm::dvec3, 3> inward;
+        for (std::size_t i = 0; i < 3; ++i) {
+            inward[i] = unit(glm::cross(s_.normals[t], p[(i + 1) % 3] - p[i]));
+            append(table, inward[i]);
+        }
+        table.push_back(static_cast<float>(glm::dot(inward[1], p[1] - p[0])));
+        const double longest =
+            std::max({glm::distance(p[0], p[1]), glm::distance(p[1], p[2]), glm::distance(p[2], p[0])});
+        table.push_back(static_cast<float>(rounding * longest));
+    }
+    void append_edge(const SharedEdge& e, std::vector<float>& table) const {
+        const glm::dvec3 a = s_.at(e.ends[0]), along = s_.at(e.ends[1]) - a;
+        const glm::dvec3 &m = s_.normals[e.triangles[0]], &n = s_.normals[e.triangles[1]];
+        append(table, a);
+        append(table, along);
+        table.push_back(static_cast<float>(1 / glm::dot(along, along)));
+        append(table, unit(m + n));
+        table.push_back(static_cast<float>(angle_between(m, n) / 2));
+        table.push_back(static_cast<float>(rounding));
+    }
+    void append_vertex(std::uint32_t v, std::vector<float>& table) const {
+        append(table, s_.at(v));
+        append(table, normal_[v]);
+        table.push_back(static_cast<float>(glm::length(normal_[v]) > 0 ? spread_[v] : std::numbers::pi));
+    }
+
+    void append_nodes(std::vector<float>& table) const {
+        table.push_back(static_cast<float>(tree_.nodes.size()));
+        std::size_t edge = 0, vertex = 0;
+        for (const BoxTree::Node& n : tree_.nodes) {
+            append(table, n.box.low);
+            append(table, n.box.high);
+            table.push_back(static_cast<float>(n.second_child));
+            const bool is_leaf = n.second_child == 0;
+            const std::uint32_t end = n.first + n.count;
+            const std::size_t first_edge = edge, first_vertex = vertex;
+            while (is_leaf && edge < edges_.size() && first_place(s_.edges[edges_[edge]]) < end) ++edge;
+            while (is_leaf && vertex < vertices_.size() && first_place_[vertices_[vertex]] < end) ++vertex;
+            for (const std::size_t count : {std::size_t{n.first}, std::size_t{is_leaf ? n.count : 0}, first_edge,
+                                            edge - first_edge, first_vertex, vertex - first_vertex})
+                table.push_back(static_cast<float>(count));
+        }
+    }
+
+    static constexpr std::uint32_t none = 0xffffffff;
+
+    const Surface& s_;
+    BoxTree tree_;
+    std::vector<std::uint32_t> place_;  // of each triangle in the order of leaves
+    std::vector<std::uint32_t> first_place_, vertices_, edges_;
+    std::vector<glm::dvec3> normal_;
+    std::vector<double> spread_;
+};
+
+}  // namespace
+
+void Mesh::prepare() {
+    const std::string name = file.path.empty() ? "it" : file.path;
+    if (file.content->triangles.size() > TriangleMesh::most_triangles)
+        throw ModelError(fmt::format("mesh: {} has more than {} triangles", name, TriangleMesh::most_triangles));
+    const Surface surface = mesh::surface_of(*file.content, name);
+    mesh::require_no_crossing(surface, name);
+    mesh::require_outward(surface, name);
+    table = TableWriter(surface)();
+    box = {};
+    for (const Bounds& b : mesh::boxes_of(surface)) box = unite(box, b);
+}
+
+double Mesh::support(const glm::dvec3& d, float level) const {
+    double most = -std::numeric_limits<double>::infinity();
+    for (const glm::vec3& v : file.content->vertices) most = std::max(most, glm::dot(d, glm::dvec3(v)));
+    return most + glm::length(d) * static_cast<double>(level);
+}
+
+const float* Mesh::few_pieces(const float* data) {
+    std::size_t count = 0;
+    for_each_kind([&]<class Kind>() { count += mesh::PieceList::count(data, Kind::kind); });
+    if (count > most_pieces_of_shader)
+        throw ModelError(
+            fmt::format("mesh: a shader takes meshes of at most {} faces, edges and vertices, but this has {}",
+                        most_pieces_of_shader, count));
+    return data;
+}
+
+bool Mesh::Specialised::is_sound(std::span<const float> data) {
+    if (data.size() < mesh::PieceList::head) return false;
+    for (std::size_t kind = 0; kind < mesh::piece_kinds; ++kind)
+        if (!(data[kind] >= 0 && data[kind] <= static_cast<float>(most_pieces_in_box)) ||
+            data[kind] != std::floor(data[kind]))
+            return false;
+    return floats(data.data()) <= data.size();
+}
+
+}  // namespace phasetree

@@ -1,0 +1,204 @@
+#include "nodes/mesh_surface.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numeric>
+#include <tuple>
+
+#include "nodes/disjoint_sets.hpp"
+#include "phasetree/model/handle.hpp"
+
+namespace phasetree::mesh {
+
+namespace {
+
+constexpr float farthest_coordinate = 1e9f;
+
+// Throws what is wrong with one mesh.
+class Complaint {
+  public:
+    explicit Complaint(const std::string& name) : name_(name) {}
+    [[noreturn]] void operator()(const std::string& what) const {
+        throw ModelError(fmt::format("mesh: {} {}", name_, what));
+    }
+
+  private:
+    const std::string& name_;
+};
+
+// The places at which vertices are, in rising order, and for each vertex the number of its place.
+struct Places {
+    std::vector<glm::vec3> places;
+    std::vector<std::uint32_t> of;
+};
+Places places_of(std::span<const glm::vec3> vertices) {
+    std::vector<std::uint32_t> order(vertices.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const auto key = [&](std::uint32_t i) { return std::tuple(vertices[i].x, vertices[i].y, vertices[i].z); };
+    std::ranges::sort(order, {}, key);
+    Places result{{}, std::vector<std::uint32_t>(vertices.size())};
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        // A sum with 0 is never −0, which would be the same place with other bits.
+        if (i == 0 || key(order[i]) != key(order[i - 1])) result.places.push_back(vertices[order[i]] + 0.f);
+        result.of[order[i]] = static_cast<std::uint32_t>(result.places.size() - 1);
+    }
+    return result;
+}
+
+// The triangles of places, in rising order and each from its least corner on.
+void add_triangles(Surface& s, const TriangleMesh& mesh, const Places& places, const Complaint& complain) {
+    std::vector<std::pair<std::array<std::uint32_t, 3>, std::uint32_t>> numbered;
+    numbered.reserve(mesh.triangles.size());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        std::array<std::uint32_t, 3> corners;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t vertex = mesh.triangles[t][static_cast<int>(i)];
+            if (vertex >= places.of.size())
+                complain(fmt::format("has a triangle ({}) with a vertex that does not exist", t + 1));
+            corners[i] = places.of[vertex];
+        }
+        if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
+        std::ranges::rotate(corners, std::ranges::min_element(corners));
+        numbered.emplace_back(corners, static_cast<std::uint32_t>(t + 1));
+    }
+    std::ranges::sort(numbered);
+    for (const auto& [corners, number] : numbered) {
+        s.triangles.push_back({corners[0], corners[1], corners[2]});
+        s.numbers.push_back(number);
+    }
+}
+
+// One triangle's use of an edge.
+struct EdgeUse {
+    std::uint32_t low, high, triangle;
+    bool is_rising;  // whether the triangle goes from the low to the high vertex
+};
+
+std::vector<EdgeUse> uses_of_edges(const Surface& s) {
+    std::vector<EdgeUse> uses;
+    uses.reserve(3 * s.triangles.size());
+    for (std::uint32_t t = 0; t < s.triangles.size(); ++t)
+        for (int i = 0; i < 3; ++i) {
+            const std::uint32_t a = s.triangles[t][i], b = s.triangles[t][(i + 1) % 3];
+            uses.push_back({std::min(a, b), std::max(a, b), t, a < b});
+        }
+    std::ranges::sort(uses, {}, [](const EdgeUse& u) { return std::tuple(u.low, u.high, !u.is_rising, u.triangle); });
+    return uses;
+}
+
+// Pairs the triangles at each edge.
+void join(Surface& s, const Complaint& complain) {
+    const std::vector<EdgeUse> uses = uses_of_edges(s);
+    const EdgeUse* open = nullptr;
+    std::size_t open_edges = 0;
+    for (std::size_t i = 0, next = 0; i < uses.size(); i = next) {
+        while (next < uses.size() && uses[next].low == uses[i].low && uses[next].high == uses[i].high) ++next;
+        const EdgeUse& u = uses[i];
+        const auto place = [&] {
+            return fmt::format("the edge from {} to {}", written(s.at(u.low)), written(s.at(u.high)));
+        };
+        if (next - i == 1) {
+            if (!open) open = &u;
+            ++open_edges;
+        } else if (next - i > 2) {
+            complain(fmt::format("touches itself: {} has {} triangles, among them {} and {}", place(), next - i,
+                                 s.numbers[u.triangle], s.numbers[uses[i + 2].triangle]));
+        } else if (u.is_rising == uses[i + 1].is_rising) {
+            complain(fmt::format("has triangles that are turned opposite ways: {} and {} at {}", s.numbers[u.triangle],
+                                 s.numbers[uses[i + 1].triangle], place()));
+        } else {
+            s.edges.push_back({{u.low, u.high}, {u.triangle, uses[i + 1].triangle}});
+        }
+    }
+    if (open)
+        complain(fmt::format("is not closed: the edge from {} to {} has a triangle ({}) on one side only{}",
+                             written(s.at(open->low)), written(s.at(open->high)), s.numbers[open->triangle],
+                             open_edges > 1 ? fmt::format(", as have {} more", open_edges - 1) : ""));
+}
+
+// The corner of a triangle at a vertex, as a number.
+std::size_t corner_at(const Surface& s, std::uint32_t triangle, std::uint32_t vertex) {
+    const glm::uvec3& t = s.triangles[triangle];
+    return 3 * std::size_t{triangle} + (t.x == vertex ? 0u : t.y == vertex ? 1u : 2u);
+}
+
+// The triangles about each vertex must be one ring.
+void require_single_rings(const Surface& s, const Complaint& complain) {
+    DisjointSets corners(3 * s.triangles.size());
+    for (const SharedEdge& e : s.edges)
+        for (const std::uint32_t v : e.ends)
+            corners.join(corner_at(s, e.triangles[0], v), corner_at(s, e.triangles[1], v));
+    constexpr auto none = static_cast<std::size_t>(-1);
+    std::vector<std::size_t> ring(s.vertices.size(), none);
+    for (std::uint32_t t = 0; t < s.triangles.size(); ++t)
+        for (int i = 0; i < 3; ++i) {
+            const std::uint32_t vertex = s.triangles[t][i];
+            const std::size_t root = corners.root(3 * std::size_t{t} + static_cast<std::size_t>(i));
+            if (ring[vertex] == none) ring[vertex] = root;
+            if (ring[vertex] != root)
+                complain(
+                    fmt::format("touches itself at {}, a corner of its triangles {} and {}, which are not joined "
+                                "around it",
+                                written(s.at(vertex)), s.numbers[ring[vertex] / 3], s.numbers[t]));
+        }
+}
+
+void add_normals(Surface& s, const Complaint& complain) {
+    for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
+        const glm::dvec3 a = s.corner(t, 0), u = s.corner(t, 1) - a, v = s.corner(t, 2) - a;
+        const glm::dvec3 n = glm::cross(u, v);
+        const double length = glm::length(n),
+                     longest = std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(u - v, u - v)});
+        if (!(length > 1e-12 * longest))
+            complain(fmt::format("has a triangle of no area: {}, with corners at {}, {} and {}", s.numbers[t],
+                                 written(a), written(s.corner(t, 1)), written(s.corner(t, 2))));
+        s.normals.push_back(n / length);
+    }
+}
+
+}  // namespace
+
+std::vector<Bounds> boxes_of(const Surface& s) {
+    std::vector<Bounds> boxes;
+    boxes.reserve(s.triangles.size());
+    for (const glm::uvec3& t : s.triangles) {
+        Bounds b;
+        for (int i = 0; i < 3; ++i) b = unite(b, {s.vertices[t[i]], s.vertices[t[i]]});
+        boxes.push_back(b);
+    }
+    return boxes;
+}
+
+std::string written(const glm::dvec3& p) {
+    return fmt::format("[{:.7g}, {:.7g}, {:.7g}]", p.x, p.y, p.z);
+}
+
+Surface surface_of(const TriangleMesh& mesh, const std::string& name) {
+    const Complaint complain(name);
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+        for (int k = 0; k < 3; ++k)
+            if (!(std::abs(mesh.vertices[i][k]) <= farthest_coordinate))
+                complain(
+                    fmt::format("has a vertex ({}) that is farther than 1e9 m from the origin, or no number", i + 1));
+    Places places = places_of(mesh.vertices);
+    Surface s;
+    add_triangles(s, mesh, places, complain);
+    s.vertices = std::move(places.places);
+    if (s.triangles.empty()) complain("has no triangles");
+    join(s, complain);
+    require_single_rings(s, complain);
+    add_normals(s, complain);
+    for (const SharedEdge& e : s.edges)
+        if (glm::length(s.normals[e.triangles[0]] + s.normals[e.triangles[1]]) < 1e-4)
+            complain(
+                fmt::format("is folded onto itself: its triangles {} and {} lie on each other at the edge from {} "
+                            "to {}",
+                            s.numbers[e.triangles[0]], s.numbers[e.triangles[1]], written(s.at(e.ends[0])),
+                            written(s.at(e.ends[1]))));
+    return s;
+}
+
+}  // namespace phasetree::mesh

@@ -1,0 +1,261 @@
+// Fields of meshes, against all their triangles one by one, and what no solid is within.
+#include "phasetree/nodes/fields/mesh.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <glm/geometric.hpp>
+
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/program/program.hpp"
+#include "support/random_mesh.hpp"
+#include "support/set_algebra.hpp"
+
+using namespace phasetree;
+using namespace phasetree::tests;
+
+namespace {
+
+void append(TriangleMesh& mesh, const TriangleMesh& part, const glm::vec3& offset, float scale = 1) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (const glm::vec3& v : part.vertices) mesh.vertices.push_back(offset + scale * v);
+    for (const glm::uvec3& t : part.triangles) mesh.triangles.push_back(t + first);
+}
+TriangleMesh turned(TriangleMesh mesh) {
+    for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
+    return mesh;
+}
+
+/// Points near and far, on vertices, edges and faces, and straight above vertices and edges.
+glm::vec3 point_about(const TriangleMesh& mesh, Random& rng) {
+    if (rng.chance(0.3)) return (rng.chance(0.1) ? 100.f : 1.5f) * rng.uniform(0, 1) * rng.direction();
+    const glm::uvec3 t = mesh.triangles[static_cast<std::size_t>(rng.below(static_cast<int>(mesh.triangles.size())))];
+    const glm::vec3 &a = mesh.vertices[t.x], &b = mesh.vertices[t.y], &c = mesh.vertices[t.z];
+    const float u = rng.chance(0.3) ? 0 : rng.uniform(0, 1), v = rng.chance(0.3) ? 0 : rng.uniform(0, 1 - u);
+    const glm::vec3 on = a + u * (b - a) + v * (c - a);
+    if (rng.chance(0.1)) return on;
+    const glm::vec3 away = rng.chance(0.5) ? glm::normalize(glm::cross(b - a, c - a)) : rng.direction();
+    return on + rng.uniform(-0.3f, 0.3f) * (rng.chance(0.5) ? 0.01f : 1.f) * away;
+}
+
+/// What is said of a mesh; "a solid" if it is one.
+std::string said_of(TriangleMesh mesh) {
+    try {
+        const Field field = Mesh{.file = held(std::move(mesh))};
+        (void)field;
+    } catch (const ModelError& e) {
+        return e.what();
+    }
+    return "a solid";
+}
+
+bool begins(const std::string& text, const std::string& with) {
+    CAPTURE(text);
+    CHECK(text.starts_with(with));
+    return text.starts_with(with);
+}
+
+}  // namespace
+
+TEST_CASE("the distance is that to the nearest triangle, with the sign of the winding number") {
+    Random rng(311);
+    std::size_t points = 0, inside = 0;
+    double worst = 0;
+    for (int n = 0; n < (long_tests() ? 2000 : 40); ++n) {
+        TriangleMesh mesh = random_mesh(rng, rng.below(4), rng.chance(0.5) ? 0.1f : 0.5f);
+        if (rng.chance(0.3)) append(mesh, random_mesh(rng, 1, 0.3f), {2.5f, 0, 0.5f});
+        if (rng.chance(0.3)) append(mesh, turned(octahedron_mesh()), {0, 0, 0}, 0.01f);  // a bubble
+        const Field field = Mesh{.file = held(mesh)};
+        for (int k = 0; k < 500; ++k) {
+            const glm::vec3 p = point_about(mesh, rng);
+            const double expected = tests::value(field, p);
+            const auto found = static_cast<double>(phasetree::distance(field, p));
+            const double rounding = 4e-7 * (1 + static_cast<double>(glm::length(p)));
+            worst = std::max(worst, std::abs(found - expected) / rounding);
+            if (std::abs(expected) > rounding) REQUIRE((found < 0) == (expected < 0));
+            ++points;
+            inside += expected < 0;
+        }
+    }
+    MESSAGE(points, " points, ", inside, " inside; the worst error is ", worst, " of what rounding may do");
+    CHECK(worst < 1);
+    CHECK(inside > points / 10);
+}
+
+TEST_CASE("of two points, the distances differ by no more than theirs") {
+    Random rng(312);
+    const TriangleMesh mesh = random_mesh(rng, 3, 0.2f);
+    const Field field = Mesh{.file = held(mesh)};
+    for (int n = 0; n < 20'000; ++n) {
+        const glm::vec3 p = point_about(mesh, rng), q = p + rng.uniform(0, 0.3f) * rng.direction();
+        const float change = std::abs(distance(field, p) - distance(field, q));
+        REQUIRE(change <= glm::length(p - q) + 1e-6f * (1 + glm::length(p)));
+    }
+}
+
+TEST_CASE("the search finds the piece that a loop over all of them would, to the last bit") {
+    Random rng(313);
+    for (int n = 0; n < 20; ++n) {
+        const TriangleMesh mesh = random_mesh(rng, 1 + n % 3, 0.3f);
+        Mesh node{.file = held(mesh)};
+        node.prepare();
+        for (int k = 0; k < 500; ++k) {
+            const glm::vec3 p = point_about(mesh, rng);
+            const Vec3<float> at{p.x, p.y, p.z};
+            const float searched = Mesh::distance(node.table.data(), at);
+            const float looped = mesh::PieceList::distance(node.table.data(), at);
+            REQUIRE(std::memcmp(&searched, &looped, sizeof searched) == 0);
+        }
+    }
+}
+
+TEST_CASE("in a box a mesh is few pieces, to the last bit") {
+    Random rng(314);
+    std::size_t boxes = 0, points = 0, refused = 0, beyond = 0, pieces = 0;
+    for (int n = 0; n < (long_tests() ? 400 : 20); ++n) {
+        const TriangleMesh mesh = random_mesh(rng, 2 + n % 3, 0.5f);
+        Mesh node{.file = held(mesh)};
+        node.prepare();
+        for (int b = 0; b < 40; ++b) {
+            const glm::vec3 middle = point_about(mesh, rng);
+            PointRange box;
+            for (std::size_t i = 0; i < 3; ++i) {
+                box.centre[i] = static_cast<double>(middle[static_cast<int>(i)]);
+                box.reach[i] = static_cast<double>(std::exp2(rng.uniform(-10, -3)));
+            }
+            ++boxes;
+            std::vector<float> list, part;
+            if (!Mesh::specialise(node.table.data(), box, {}, list)) {
+                ++refused;
+                continue;
+            }
+            REQUIRE(Mesh::Specialised::is_sound(list));
+            PointRange half = box;
+            for (double& r : half.reach) r /= 2;
+            REQUIRE(Mesh::specialise(node.table.data(), half, list, part));
+            for (int kind = 0; kind < 3; ++kind)
+                pieces += static_cast<std::size_t>(list[static_cast<std::size_t>(kind)]);
+            const auto compare = [&](const std::vector<float>& floats, const PointRange& in, double larger) {
+                Vec3<float> p;
+                float* axes[] = {&p.x, &p.y, &p.z};
+                for (std::size_t i = 0; i < 3; ++i) {
+                    const double u = rng.chance(0.5) ? (rng.chance(0.5) ? 1 : -1) : rng.uniform(-1, 1);
+                    *axes[i] = static_cast<float>(in.centre[i] + u * larger * in.reach[i]);
+                }
+                const float whole = Mesh::distance(node.table.data(), p);
+                const float few = Mesh::Specialised::distance(floats.data(), p);
+                return std::memcmp(&whole, &few, sizeof whole) == 0;
+            };
+            for (int k = 0; k < 20; ++k) {
+                ++points;
+                REQUIRE(compare(list, box, 1));
+                REQUIRE(compare(part, half, 1));
+                beyond += !compare(list, box, 8);
+            }
+        }
+    }
+    MESSAGE(boxes, " boxes, ", refused, " refused, ",
+            static_cast<double>(pieces) / static_cast<double>(boxes - refused),
+            " pieces; in boxes eight times as large ", beyond, " of ", points, " points would be different");
+    CHECK(refused < boxes / 2);
+    CHECK(beyond > points / 100);
+}
+
+TEST_CASE("what is no closed surface is refused, with the place") {
+    const TriangleMesh solid = octahedron_mesh();
+    CHECK(said_of(solid) == "a solid");
+    TriangleMesh mesh = solid;
+    mesh.triangles.pop_back();
+    CHECK(
+        said_of(mesh) ==
+        "mesh: it is not closed: the edge from [0, -1, 0] to [0, 0, -1] has a triangle (7) on one side only, as have 2 "
+        "more");
+    mesh = solid;
+    std::swap(mesh.triangles[7].y, mesh.triangles[7].z);
+    begins(said_of(mesh), "mesh: it has triangles that are turned opposite ways: ");
+    CHECK(said_of(turned(solid)) == "mesh: it is inside out: its triangles are clockwise seen from outside");
+    mesh = solid;
+    append(mesh, solid, {0.25f, 0.1f, 0.3f});
+    begins(said_of(mesh), "mesh: it crosses or touches itself: its triangles ");
+    // Another solid stands on one of its sides, mirrored about that and a little moved within it.
+    mesh = {};
+    for (const float up : {1.f, -1.f}) {
+        const TriangleMesh part{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, up}},
+                                {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+        append(mesh, up > 0 ? part : turned(part), {up > 0 ? 0.f : 0.125f, 0.0625f, 0});
+    }
+    begins(said_of(mesh), "mesh: it crosses or touches itself: its triangles 1 and 7, near [0.125, 0.5625, 0]");
+    mesh = solid;
+    append(mesh, solid, {2, 0, 0});
+    begins(said_of(mesh), "mesh: it touches itself at [1, 0, 0], a corner of its triangles ");
+    mesh = solid;
+    append(mesh, solid, {0, 0, 0}, 0.25f);
+    begins(said_of(mesh), "mesh: it has a part that is within its solid: ");
+    mesh = solid;
+    append(mesh, turned(solid), {5, 0, 0});
+    begins(said_of(mesh), "mesh: it has a part that is inside out: ");
+    CHECK(said_of({}) == "mesh: it has no triangles");
+    // Two triangles on each other; a sheet of no thickness.
+    CHECK(said_of({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}})
+              .starts_with("mesh: it is folded onto itself"));
+    // Four corners on a line.
+    begins(said_of({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}}),
+           "mesh: it has a triangle of no area: ");
+    mesh = solid;
+    mesh.triangles[0].x = 99;
+    CHECK(said_of(mesh) == "mesh: it has a triangle (1) with a vertex that does not exist");
+    mesh = solid;
+    mesh.vertices[2].y = std::numeric_limits<float>::quiet_NaN();
+    begins(said_of(mesh), "mesh: it has a vertex (3) that is farther than 1e9 m from the origin, or no number");
+}
+
+TEST_CASE("corners at the same place are one, and triangles with two equal corners are not looked at") {
+    TriangleMesh soup;
+    const TriangleMesh solid = octahedron_mesh();
+    for (const glm::uvec3& t : solid.triangles) {
+        for (int i = 0; i < 3; ++i) soup.vertices.push_back(solid.vertices[t[i]]);
+        const auto n = static_cast<std::uint32_t>(soup.vertices.size());
+        soup.triangles.push_back({n - 3, n - 2, n - 1});
+        soup.triangles.push_back({n - 3, n - 1, n - 1});
+    }
+    const Field whole = Mesh{.file = held(solid)}, parts = Mesh{.file = held(soup)};
+    Random rng(315);
+    for (int n = 0; n < 1000; ++n) {
+        const glm::vec3 p = point_about(solid, rng);
+        REQUIRE(distance(whole, p) == distance(parts, p));
+    }
+}
+
+TEST_CASE(
+    "the distance is the same to the last bit in whatever order a file has vertices, triangles and their corners") {
+    Random rng(316);
+    for (int n = 0; n < 20; ++n) {
+        const TriangleMesh mesh = random_mesh(rng, 1 + n % 2, 0.3f);
+        TriangleMesh other{{mesh.vertices.rbegin(), mesh.vertices.rend()}, {}};
+        const auto last = static_cast<std::uint32_t>(mesh.vertices.size() - 1);
+        for (const glm::uvec3& t : mesh.triangles) {
+            const glm::uvec3 u = last - t;
+            other.triangles.push_back(
+                std::array{u, glm::uvec3(u.y, u.z, u.x), glm::uvec3(u.z, u.x, u.y)}[rng.below(3)]);
+        }
+        for (std::size_t i = other.triangles.size() - 1; i > 0; --i)
+            std::swap(other.triangles[i],
+                      other.triangles[static_cast<std::size_t>(rng.below(static_cast<int>(i + 1)))]);
+        const Field one = Mesh{.file = held(mesh)}, two = Mesh{.file = held(other)};
+        for (int k = 0; k < 500; ++k) {
+            const glm::vec3 p = point_about(mesh, rng);
+            REQUIRE(distance(one, p) == distance(two, p));
+        }
+    }
+}
+
+TEST_CASE("far away and where coordinates are infinite, the distance is positive") {
+    const Field field = Mesh{.file = held(octahedron_mesh())};
+    const float infinity = std::numeric_limits<float>::infinity();
+    for (const float far : {1e3f, 1e9f, 1e18f, 1e30f, infinity})
+        for (const glm::vec3& p : {glm::vec3(far, 0, 0), {-far, far, 0}, {0, far, -far}}) CHECK(distance(field, p) > 0);
+}

@@ -1,0 +1,19 @@
+#include "scene/placed.hpp"
+
+namespace phasetree::tracer {
+
+std::vector<bool> PlacedObjects::moving_objects() const {
+    std::vector<bool> objects_move(objects.size()), groups_move(groups.size());
+    for (std::size_t i = 0; i < objects.size(); ++i) objects_move[i] = objects[i].moving != stands_still;
+    const auto go_through = [&](const std::vector<Place>& list, bool list_moves) {
+        for (const Place& place : list)
+            if (list_moves || place.moving != stands_still)
+                (place.is_group ? groups_move : objects_move)[place.of] = true;
+    };
+    go_through(places, false);
+    // The groups in which a group stands have greater numbers.
+    for (std::size_t i = groups.size(); i-- > 0;) go_through(groups[i].places, groups_move[i]);
+    return objects_move;
+}
+
+}  // namespace phasetree::tracer
