@@ -1,6 +1,6 @@
 """Makes the recording of the live view that the README shows: the page in Chromium, turned, asked, edited and cut.
 
-    PHASETREE_COMMAND=build/release/tracer/phasetree python3 tests/view/recording.py scenes/gallery/live_view.webp
+    PHASETREE_COMMAND=build/release/tracer/phasetree python3 tests/view/recording.py scenes/film/live_view.webp
 
 It needs Chromium and Debian's package webp. Each picture of it is taken when the page says that it is ready, so the
 recording does not show how long that takes; benchmarks/view_latency.py tells."""
@@ -83,7 +83,7 @@ def record(r):
 
 def main():
     out = pathlib.Path(sys.argv[1])
-    view = subprocess.Popen([os.path.abspath(os.environ["PHASETREE_COMMAND"]), "view", SCENE, "--width", str(PICTURE), "--spp", "48"],
+    view = subprocess.Popen([os.path.abspath(os.environ["PHASETREE_COMMAND"]), "view", SCENE, "--width", str(PICTURE), "--spp", "32"],
                             stdout=subprocess.PIPE, text=True, cwd=ROOT)
     try:
         url = view.stdout.readline().strip()
