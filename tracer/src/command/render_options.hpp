@@ -33,6 +33,7 @@ struct RenderOptions {
     std::optional<int> frame;           // the one of them that these options are for
     bool skips_existing = false;        // frames whose files are there
     bool may_start = false;             // where there is nothing to resume
+    bool denoises = false;
     bool quiet = false;
 };
 
