@@ -3,7 +3,10 @@
 // Zwicker, Robust Denoising using Feature and Color Information, Computer Graphics Forum 32(7), 2013, section 4.
 #pragma once
 
+#include <vector>
+
 #include "denoise/regression.hpp"
+#include "film/pixel_range.hpp"
 
 namespace phasetree::tracer {
 
