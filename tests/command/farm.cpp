@@ -102,9 +102,9 @@ echo 1
 TEST_CASE("a farm's picture is denoised when it is merged") {
     const Shell shell;
     write_text(shell.directory / "scene.json", cut_scene(16));
-    REQUIRE(shell.run({"render", "scene.json", "--denoise", "--quiet", "-o", "whole.png"}).code == 0);
+    REQUIRE(shell.run({"render", "scene.json", "--denoise=regression", "--quiet", "-o", "whole.png"}).code == 0);
     const Outcome o = shell.run({"farm", "list", "scene.json", "--shares", "3", "-o", "merged.png", "--program",
-                                 PHASETREE_COMMAND, "--", "--denoise", "--quiet"});
+                                 PHASETREE_COMMAND, "--", "--denoise=regression", "--quiet"});
     REQUIRE_MESSAGE(o.code == 0, o.err);
     write_text(shell.directory / "list.sh", "set -e\n" + o.out);
     CHECK(run_by_shell(shell, "bash list.sh 2>/dev/null") == 0);

@@ -1,10 +1,14 @@
 #include "command/denoising.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 
 #include "command/streams.hpp"
 #include "denoise/denoise.hpp"
+#include "denoise/open_image_denoise.hpp"
 #include "output/error.hpp"
 #include "output/interrupt.hpp"
 #include "output/late_progress.hpp"
@@ -25,10 +29,20 @@ void keep_noisy(Image& image) {
 
 }  // namespace
 
-void add_denoise(CLI::App& command, bool& denoises) {
-    command.add_flag("--denoise", denoises,
+void add_denoise(CLI::App& command, std::optional<std::string>& denoise) {
+    command.add_flag("--denoise{best}", denoise,
                      "Take noise out of the finished picture, guided by what the surfaces are like that it shows; the "
-                     "result is smoother and biased. A .exr keeps what was sampled as noisy.R, noisy.G and noisy.B");
+                     "result is smoother and biased. A .exr keeps what was sampled as noisy.R, noisy.G and noisy.B. By "
+                     "Open Image Denoise where phasetree was "
+                     "built with it, or --denoise=regression, which gives the same bits everywhere");
+}
+
+Denoiser denoiser_of(const std::string& text) {
+    if (text == "best") return Denoiser::best;
+    if (text == "regression") return Denoiser::regression;
+    if (text != "oidn") throw OutputError(fmt::format("--denoise: \"regression\" or \"oidn\", not \"{}\"", text));
+    if (!has_open_image_denoise()) throw OutputError("--denoise=oidn: phasetree was built without Open Image Denoise");
+    return Denoiser::network;
 }
 
 void check_denoising(const Planes::Choice& kept, bool has_pictures) {
@@ -44,6 +58,7 @@ void denoise_picture(Image& image, const Denoising& how) {
     }
     LateProgress progress(ProgressOutput::standard_error(how.quiet), "denoising");
     DenoiseJob job;
+    job.by = how.by;
     job.threads = how.threads;
     job.progress = [&](double done) { progress.tell(done); };
     job.cancelled = [] { return interrupted(); };

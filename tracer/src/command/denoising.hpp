@@ -1,6 +1,10 @@
 // Pictures with less noise, as --denoise makes them.
 #pragma once
 
+#include <optional>
+#include <string>
+
+#include "denoise/denoise.hpp"
 #include "film/image.hpp"
 #include "film/planes.hpp"
 
@@ -10,12 +14,16 @@ class App;
 
 namespace phasetree::tracer {
 
-void add_denoise(CLI::App& command, bool& denoises);
+// Where it is not asked for there is none.
+void add_denoise(CLI::App& command, std::optional<std::string>& denoise);
+// How it is asked for. Throws OutputError.
+Denoiser denoiser_of(const std::string& text);
 
 // Makes sure that a film of these planes can be denoised, and that there is to be a picture of it. Throws OutputError.
 void check_denoising(const Planes::Choice& kept, bool has_pictures);
 
 struct Denoising {
+    Denoiser by = Denoiser::best;
     int threads = 0;
     bool quiet = false;
     bool was_interrupted = false;  ///< then nobody is to wait any longer

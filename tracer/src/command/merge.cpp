@@ -21,7 +21,8 @@ struct Options {
     std::vector<std::string> parts, outputs;
     std::optional<float> exposure;
     std::optional<std::string> display, view;
-    bool may_have_gaps = false, denoises = false, quiet = false;
+    std::optional<std::string> denoise;
+    bool may_have_gaps = false, quiet = false;
 };
 
 // The joined film as an image, and as film files if there are to be any. The image has no pixels if nobody wants it.
@@ -104,7 +105,8 @@ int merge_parts(const Options& options) {
                         parts.header().samples_in_all));
     if (!film_files.empty() && !parts.are_joined())
         throw OutputError("a .part cannot be made of parts between which something is missing");
-    if (options.denoises) check_denoising(parts.header().film.planes, !images.empty());
+    const Denoiser denoiser = denoiser_of(options.denoise.value_or("best"));
+    if (options.denoise) check_denoising(parts.header().film.planes, !images.empty());
     const std::optional<std::string> view = options.view ? options.view : parts.header().view;
     const DisplayTransform display(options.display, view, options.exposure.value_or(parts.header().exposure_ev));
     Progress progress(static_cast<std::uint64_t>(parts.header().bands()), ProgressOutput::standard_error(options.quiet),
@@ -116,7 +118,7 @@ int merge_parts(const Options& options) {
         return interrupting_signal() == SIGINT ? interrupted_by_person : 1;
     }
     say_faults(joined.faults);
-    if (options.denoises) denoise_picture(joined.image, {threads.count(), options.quiet});
+    if (options.denoise) denoise_picture(joined.image, {denoiser, threads.count(), options.quiet});
     return write_pictures(options, parts, images, joined, display) ? 0 : 1;
 }
 
@@ -131,7 +133,7 @@ void add_merge(CLI::App& app, Run& run) {
     command->add_flag(
         "--allow-gaps", o->may_have_gaps,
         "Make a picture of the samples that there are, though some are missing or parts are not finished");
-    add_denoise(*command, o->denoises);
+    add_denoise(*command, o->denoise);
     add_display_options(*command, o->exposure, o->display, o->view);
     command->add_flag("--quiet", o->quiet, "No progress, errors only");
     command->callback([o, &run] { run = [o] { return merge_parts(*o); }; });

@@ -129,8 +129,9 @@ bool write_all(const Everything& e, Rendering& rendering) {
     // The checkpoint is written first, should there be no time for the rest; one that is an output, too, in its turn.
     const bool is_output = e.options.checkpoint && std::ranges::count(e.outputs, *e.options.checkpoint) > 0;
     if (e.options.checkpoint && !is_output) write_film_file(*e.options.checkpoint);
-    if (e.options.denoises && !std::ranges::all_of(e.outputs, is_film_file)) {
-        denoise_picture(rendering.image, {rendering.threads, e.options.quiet, rendering.cancelled});
+    if (e.options.denoise && !std::ranges::all_of(e.outputs, is_film_file)) {
+        denoise_picture(rendering.image,
+                        {denoiser_of(*e.options.denoise), rendering.threads, e.options.quiet, rendering.cancelled});
         leave_out(rendering.image, e.header.film.planes, e.wanted_planes, e.header.subjects);
     }
     for (const std::string& output : e.outputs) {
@@ -255,6 +256,7 @@ void say_what_is_missing(const RenderOptions& options, const Scene& scene, const
 }
 
 void keep_denoising_planes(const RenderOptions& options, Scene& scene) {
+    (void)denoiser_of(*options.denoise);
     // A share is denoised when it has been merged with the others.
     if (!options.share && scene.settings.samples < fewest_samples_to_denoise)
         throw OutputError(fmt::format("--denoise needs {} samples a pixel at least, and the picture is to have {}",
@@ -272,7 +274,7 @@ int render_scene(const RenderOptions& options) {
     Scene& scene = read_scene.scene;
     apply(options, scene);
     const Planes::Choice wanted_planes = film_settings(scene).planes;
-    if (options.denoises) keep_denoising_planes(options, scene);
+    if (options.denoise) keep_denoising_planes(options, scene);
     if (!scene.placed.empty() && (options.detail || options.cells))
         throw OutputError(fmt::format("{} is for scenes of one tree, and this one has \"objects\"",
                                       options.detail ? "--detail" : "--cells"));

@@ -183,7 +183,7 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
     command.add_option("--planes", o.planes,
                        "Planes that .exr files hold beside the picture: names with commas between them, such as "
                        "depth,normal,crypto_phase, or all");
-    add_denoise(command, o.denoises);
+    add_denoise(command, o.denoise);
     command.add_option("--stats", o.stats, "Write what rendering cost, as JSON");
     command.add_flag("--quiet", o.quiet, "No progress, errors only");
 }

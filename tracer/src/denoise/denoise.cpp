@@ -1,5 +1,6 @@
 #include "denoise/denoise.hpp"
 
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -8,6 +9,7 @@
 #include <mutex>
 
 #include "denoise/features.hpp"
+#include "denoise/open_image_denoise.hpp"
 #include "denoise/regression.hpp"
 #include "denoise/similarity.hpp"
 #include "film/half_plane.hpp"
@@ -170,7 +172,11 @@ Planes::Choice denoising_planes() {
 }
 
 std::optional<std::vector<glm::vec3>> denoise(const Image& image, const DenoiseJob& job) {
-    tbb::task_arena arena(job.threads > 0 ? job.threads : tbb::task_arena::automatic);
+    if (job.by == Denoiser::network || (job.by == Denoiser::best && has_open_image_denoise()))
+        return denoise_by_network(image, job);
+    const int threads = job.threads > 0 ? job.threads : tbb::this_task_arena::max_concurrency();
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    tbb::task_arena arena(threads);
     return arena.execute([&] { return filtered(image, job); });
 }
 

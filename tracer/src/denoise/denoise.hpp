@@ -37,7 +37,15 @@ inline constexpr int fewest_samples_to_denoise = 8;
 /// What a film has to keep to be denoised.
 Planes::Choice denoising_planes();
 
+/// How it is done.
+enum class Denoiser {
+    best,        ///< by the network if there is one, else by regression
+    regression,  ///< as above
+    network      ///< open_image_denoise.hpp
+};
+
 struct DenoiseJob {
+    Denoiser by = Denoiser::best;
     int threads = 0;  ///< 0: as many as there are cores
     /// Called with how much is done, from 0 to 1, by one thread at a time.
     std::function<void(double)> progress = [](double) {};

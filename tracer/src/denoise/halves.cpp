@@ -2,24 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <span>
 #include <string_view>
 #include <vector>
 
-#include "denoise/denoise.hpp"
+#include "denoise/channels.hpp"
 #include "film/half_plane.hpp"
 
 namespace phasetree::tracer {
 
 namespace {
-
-std::span<const float> channel(const Image& image, std::string_view name) {
-    const auto found = std::ranges::find(image.further, name, &Channel::name);
-    if (found == image.further.end())
-        throw DenoiseError(fmt::format("denoising needs the channel {}, which the film does not have", name));
-    return found->values;
-}
 
 // The names of the features' channels by all samples are those of the half without "half_".
 std::string_view name_by_all(std::string_view of_half) {
@@ -70,14 +62,14 @@ void check_halves(std::span<const float> samples, std::span<const float> in_firs
 }  // namespace
 
 Halves halves_of(const Image& image) {
-    const std::span<const float> samples = channel(image, "samples.X");
-    const std::span<const float> in_first = channel(image, HalfPlane::channel_names.back());
+    const std::span<const float> samples = channel_of(image, "samples.X");
+    const std::span<const float> in_first = channel_of(image, HalfPlane::channel_names.back());
     check_halves(samples, in_first);
     Halves halves(image.width, image.height);
     std::vector<std::span<const float>> first, all;
     for (std::size_t c = 0; c < HalfPlane::values; ++c) {
-        first.push_back(channel(image, HalfPlane::channel_names[c]));
-        if (c >= 3) all.push_back(channel(image, name_by_all(HalfPlane::channel_names[c])));
+        first.push_back(channel_of(image, HalfPlane::channel_names[c]));
+        if (c >= 3) all.push_back(channel_of(image, name_by_all(HalfPlane::channel_names[c])));
     }
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
