@@ -5,8 +5,9 @@ const radiansAcross = Math.PI; // for a drag over the picture's height
 const step = Math.PI / 24;     // for a key
 
 export function listen(canvas, act) {
-  const pointers = new Map();
-  let hasMoved = false, spread = 0;
+  const pointers = new Map(); // those that are down, and where each was last
+  let isClick = false;        // whether what is being done may still be a click: one pointer that has not moved
+  let spread = 0;             // the distance of two fingers
 
   const distance = () => {
     const [a, b] = [...pointers.values()];
@@ -16,7 +17,7 @@ export function listen(canvas, act) {
     canvas.setPointerCapture(event.pointerId);
     canvas.focus();
     pointers.set(event.pointerId, event);
-    if (pointers.size === 1) hasMoved = false;
+    isClick = pointers.size === 1;
     if (pointers.size === 2) spread = distance();
   });
   canvas.addEventListener("pointermove", (event) => {
@@ -25,9 +26,10 @@ export function listen(canvas, act) {
     const height = canvas.getBoundingClientRect().height;
     const right = (event.clientX - last.clientX) / height, down = (event.clientY - last.clientY) / height;
     // A hand that clicks trembles.
-    if (!hasMoved && Math.hypot(right, down) * height < 4) return;
-    hasMoved = true;
+    if (isClick && Math.hypot(right, down) * height < 4) return;
+    isClick = false;
     pointers.set(event.pointerId, event);
+    if (pointers.size > 2) return;
     if (pointers.size === 2) {
       const now = distance();
       if (spread > 0 && now > 0) act.zoom(spread / now);
@@ -42,9 +44,11 @@ export function listen(canvas, act) {
     }
   });
   const release = (event) => {
-    const isClick = event.type === "pointerup" && pointers.size === 1 && !hasMoved && event.button === 0;
+    const asks = isClick && event.type === "pointerup" && event.button === 0;
     pointers.delete(event.pointerId);
-    if (isClick) act.ask(event);
+    isClick = false;
+    if (pointers.size === 2) spread = distance();
+    if (asks) act.ask(event);
   };
   canvas.addEventListener("pointerup", release);
   canvas.addEventListener("pointercancel", release);
