@@ -195,6 +195,41 @@ TEST_CASE("a camera that is wished while a file with another is read stays") {
     CHECK(is_there("[0, -5, 0]"));
 }
 
+TEST_CASE("what changes nothing of the object keeps its cells, and the picture is right all the same") {
+    Bench bench;
+    Session& session = bench.begin();
+    REQUIRE(bench.is_ready());
+    const auto cells = [&] { return session.shown()->picture->prepared->world().geometry().objects().front().get(); };
+    const InterfaceCells* const first = cells();
+    const auto pixels = session.shown()->picture->pixels;
+
+    Change change;
+    change.looks = {{"wood", {.color = glm::vec3(0.1f, 0.2f, 0.8f)}}};
+    session.change(change);
+    REQUIRE(bench.is_ready());
+    CHECK(cells() == first);
+    CHECK(session.shown()->picture->prepared->quality() == BuildQuality::medium);
+    CHECK(session.shown()->picture->pixels != pixels);
+    bench.position = "[0, -4, 0]";
+    bench.save();
+    REQUIRE(bench.is_seen());
+    REQUIRE(bench.is_ready());
+    CHECK(cells() == first);
+
+    // What is clear has rays within, so other cells are needed; a cut makes another object.
+    change.looks = {{"wood", {.is_clear = true}}};
+    session.change(change);
+    REQUIRE(bench.is_ready());
+    const InterfaceCells* const clear = cells();
+    CHECK(clear != first);
+    change.looks.reset();
+    change.has_cut = true;
+    change.cut = CutPlane{{0, 0, 1}, 0.125f};
+    session.change(change);
+    REQUIRE(bench.is_ready());
+    CHECK(cells() != clear);
+}
+
 TEST_CASE("a camera is not written before there is one") {
     Bench bench;
     std::string written = "nothing";

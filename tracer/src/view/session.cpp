@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "output/quantise.hpp"
+#include "phasetree/cells/file.hpp"
 #include "phasetree/io/error.hpp"
 #include "scene/camera_text.hpp"
 
@@ -271,17 +272,17 @@ void Session::read(Wishes& wishes) {
 void Session::build(const Wishes& wishes) {
     show([](Shown& shown) { shown.doing = "Building cells"; });
     const Clock::time_point begun = Clock::now();
-    const WorldOptions options{.quality = BuildQuality::low,
-                               .cancelled =
-                                   [&] {
-                                       const bool is_over = Clock::now() - begun > first_cells_deadline;
-                                       return is_of_another_reading(wishes) ||
-                                              (is_over && is_of_another_object(wishes));
-                                   },
-                               .most_bytes = options_.most_bytes};
+    WorldOptions options{.quality = BuildQuality::low,
+                         .cancelled =
+                             [&] {
+                                 const bool is_over = Clock::now() - begun > first_cells_deadline;
+                                 return is_of_another_reading(wishes) || (is_over && is_of_another_object(wishes));
+                             },
+                         .most_bytes = options_.most_bytes};
     std::shared_ptr<Scene> scene;
     try {
         scene = std::make_shared<Scene>(edited(viewed_->scene, wishes.edits));
+        keep_cells(*scene, options);
         prepared_ = std::make_shared<const Prepared>(scene, options);
     } catch (const BuildCancelled&) {
         built_for_ = {};
@@ -311,6 +312,16 @@ void Session::build(const Wishes& wishes) {
         shown.centre = bounds.centre();
         shown.radius = 0.5f * bounds.diagonal();
     });
+}
+
+// What shows the same object, of other materials or from elsewhere, keeps the cells that there are.
+void Session::keep_cells(const Scene& scene, WorldOptions& options) const {
+    if (!prepared_) return;
+    options.known_cells = prepared_->world().geometry().objects().front();
+    WorldOptions better = options;
+    better.quality = options_.quality;
+    if (are_cells_of(*options.known_cells, scene.object, cell_options(scene, better)))
+        options.quality = options_.quality;
 }
 
 // Returns whether the picture has all its samples.

@@ -119,6 +119,7 @@ class Session {
     void follow(Wishes wishes);
     void read(Wishes& wishes);
     void build(const Wishes& wishes);
+    void keep_cells(const Scene& scene, WorldOptions& options) const;
     bool draw(const Wishes& wishes);
     bool draw_coarser(const Wishes& wishes, int scale);
     bool draw_whole(const Wishes& wishes, int samples);

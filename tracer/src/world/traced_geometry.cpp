@@ -8,6 +8,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "phasetree/cells/file.hpp"
 #include "world/kept_cells.hpp"
 
 namespace phasetree::tracer {
@@ -22,18 +23,10 @@ constexpr unsigned first_mesh_id = object_id + 1;
 // coordinate (which counts as 1 m at least), whichever is more.
 constexpr float relative_surface_epsilon = 1e-5f;
 
-CellOptions cell_options(const Scene& scene, const WorldOptions& wanted) {
-    CellOptions options;
-    options.quality = wanted.quality;
-    options.cancelled = wanted.cancelled;
-    options.progress = wanted.progress;
-    options.most_bytes = wanted.most_bytes;
-    options.opaque = opaque_phases(scene.materials);
-    return options;
-}
-
 std::vector<std::shared_ptr<const InterfaceCells>> prepared(const Scene& scene, const WorldOptions& wanted) {
     CellOptions options = cell_options(scene, wanted);
+    if (scene.placed.empty() && wanted.known_cells && are_cells_of(*wanted.known_cells, scene.object, options))
+        return {wanted.known_cells};
     if (scene.placed.empty())
         return {wanted.kept_cells ? kept_cells(*wanted.kept_cells, scene.object, options)
                                   : std::make_shared<const InterfaceCells>(scene.object, options)};
@@ -87,6 +80,16 @@ std::optional<glm::vec2> uv_at(const Mesh& mesh, const RTCRayHit& hit) {
 }
 
 }  // namespace
+
+CellOptions cell_options(const Scene& scene, const WorldOptions& wanted) {
+    CellOptions options;
+    options.quality = wanted.quality;
+    options.cancelled = wanted.cancelled;
+    options.progress = wanted.progress;
+    options.most_bytes = wanted.most_bytes;
+    options.opaque = opaque_phases(scene.materials);
+    return options;
+}
 
 TracedGeometry::TracedGeometry(const Scene& scene, const WorldOptions& options)
     : TracedGeometry(scene, options, SharedSurfaces()) {}

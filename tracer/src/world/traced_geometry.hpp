@@ -18,6 +18,9 @@
 
 namespace phasetree::tracer {
 
+/// How the cells of a scene's objects are built.
+CellOptions cell_options(const Scene&, const WorldOptions&);
+
 class TracedGeometry {
   public:
     /// Refers to the scene, which must outlive it. Throws ModelError for an object that cannot be traced, and

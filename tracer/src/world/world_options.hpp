@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "phasetree/cells/cells.hpp"
@@ -15,6 +16,8 @@ struct WorldOptions {
     std::function<bool()> cancelled{};
     std::function<void(float)> progress{};
     std::size_t most_bytes = 0;
+    /// Cells that may be those of the scene's one tree. If they are, they are not built again.
+    std::shared_ptr<const InterfaceCells> known_cells{};
     std::optional<std::filesystem::path> kept_cells{};  ///< a file for the object's cells: see kept_cells.hpp
 };
 
