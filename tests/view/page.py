@@ -65,7 +65,14 @@ class Page(unittest.TestCase):
             self.browser.screenshot(pathlib.Path(folder) / f"{name}.png")
 
     def camera(self):
-        return json.loads("{" + self.browser.run(CAMERA) + "}")["camera"]
+        """The camera, once all that was done to it has been sent and shown: when it has been the same for a while."""
+        last, since = None, time.monotonic()
+        while time.monotonic() - since < 0.4:
+            now = self.browser.wait_for(f"{READY} && {CAMERA}")
+            if now != last:
+                last, since = now, time.monotonic()
+            time.sleep(0.05)
+        return json.loads("{" + last + "}")["camera"]
 
     def reset(self):
         self.browser.run("document.getElementById('reset').click()")

@@ -12,6 +12,7 @@ const element = (id) => document.getElementById(id);
 const canvas = element("picture"), exposure = element("exposure");
 
 let state = null, camera = null;
+let grabbed = null; // the camera when two fingers came down
 let refusal = ""; // what was wrong with the last thing that was tried here; the scene's own error is state.error
 const changes = new Changes(() => refuse(""), (error) => refuse(error.message));
 
@@ -126,6 +127,9 @@ const act = {
   turn: (right, up) => camera && look(turned(camera, state.centre, right, up)),
   move: (right, up) => camera && look(moved(camera, state.centre, right, up)),
   zoom: (factor) => camera && look(zoomed(camera, state.centre, state.radius, factor)),
+  // Each finger tells of its way alone, so what both do is reckoned from the beginning and not added up.
+  grab: () => { grabbed = camera; },
+  pinch: (factor, right, up) => grabbed && look(moved(zoomed(grabbed, state.centre, state.radius, factor), state.centre, right, up)),
   reset: () => changes.make({camera: null}),
   cut: (right, up) => camera && cut.isOn && cut.move(followed(camera, state.centre, cut.normal, right, up)),
   stepCut: (direction) => cut.move(0.02 * direction * state.radius),
