@@ -140,9 +140,9 @@ TEST_CASE("nodes stand where their files have them, also those whose phases get 
         return result;
     };
     CHECK(path(0, "a.gold") == " over under:other:2:14 set:other:3:25 sphere:other:3:57");
-    CHECK(path(1.5f, "a.glass") == " over under:other:2:14 set:other:2:25 sphere:other:2:58");
+    CHECK(path(1.75f, "a.glass") == " over under:other:2:14 set:other:2:25 sphere:other:2:58");
     CHECK(path(9, "b.gold") == " over translate under:other:2:14 set:other:3:25 sphere:other:3:57");
-    CHECK(path(-9, "c.glass") == " over set:7:19 translate:7:51 sphere:2:33");
+    CHECK(path(-9, "c.glass") == " over set:8:19 translate:8:52 sphere:2:30");
 }
 
 TEST_CASE("instances and groups: each copy stands where its chain of transforms puts it") {

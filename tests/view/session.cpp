@@ -230,6 +230,33 @@ TEST_CASE("what changes nothing of the object keeps its cells, and the picture i
     CHECK(cells() != clear);
 }
 
+TEST_CASE("a camera that is wished is told at once and by whatever is shown from then on") {
+    Bench bench;
+    Session& session = bench.begin();
+    REQUIRE(bench.is_ready());
+    std::atomic<bool> is_held{false}, is_released{false};
+    bench.before_display = [&](float) {
+        is_held = true;
+        (void)comes([&] { return is_released.load(); });
+    };
+    session.change(camera_at("[1, -3, 0]"));
+    // The picture of that one is still to be shown when another is wished, so it is told with the newer one.
+    REQUIRE(comes([&] { return is_held.load(); }));
+    const std::uint64_t version = session.change(camera_at("[2, -3, 0]"));
+    CHECK(session.shown()->version == version);
+    CHECK(session.shown()->camera_text.find("[2, -3, 0]") != std::string::npos);
+    CHECK(session.shown()->doing == "Taking the picture");
+    is_released = true;
+    const std::uint64_t before = session.shown()->picture->number;
+    REQUIRE(comes([&] { return session.shown()->picture->number > before; }));
+    CHECK(session.shown()->camera_text.find("[2, -3, 0]") != std::string::npos);
+    Change back;
+    back.has_camera = true;
+    session.change(back);
+    CHECK(session.shown()->camera_text.find("[0, -3, 0]") != std::string::npos);
+    REQUIRE(bench.is_ready());
+}
+
 TEST_CASE("a camera is not written before there is one") {
     Bench bench;
     std::string written = "nothing";

@@ -110,6 +110,7 @@ void Session::show_locked(Edit&& edit) {
     edit(*next);
     show_wishes(wishes_.edits, wishes_.numbers, *next);
     next->layer = wishes_.layer;
+    next->camera_text = wishes_.camera ? camera_text(*wishes_.camera, filter_in_file_) : camera_in_file_;
     ++next->version;
     shown_ = std::move(next);
     changed_.notify_all();
@@ -164,6 +165,7 @@ std::uint64_t Session::change(const Change& change) {
         // Before the thread can have done it, or the page would be told of what is over.
         if (change.is_of_object()) show_locked([](Shown& shown) { shown.doing = "Building cells"; });
         if (change.numbers) show_locked([](Shown& shown) { shown.doing = "Reading the scene"; });
+        if (change.has_camera || change.layer) show_locked([](Shown& shown) { shown.doing = "Taking the picture"; });
     }
     if (change.exposure_ev) expose();
     return shown()->version;
@@ -222,7 +224,7 @@ void Session::follow(Wishes wishes) {
         last_read_ = text;
         read(wishes);
     }
-    if (!viewed_) return;
+    if (!viewed_) return stop_by_error();
     const ObjectNumber object{last_read_well_, wishes.object};
     if (object != built_for_) {
         // Set first: what cannot be built is not tried again before another object is wished for.
@@ -230,7 +232,8 @@ void Session::follow(Wishes wishes) {
         build(wishes);
     }
     const PictureNumber picture{object, wishes.view};
-    if (!prepared_ || picture == finished_for_) return;
+    if (!prepared_) return stop_by_error();
+    if (picture == finished_for_) return;
     if (draw(wishes)) finished_for_ = picture;
 }
 
@@ -300,6 +303,8 @@ void Session::build(const Wishes& wishes) {
     if (!warning.empty()) options_.tell(warning);
     warning_ = warning;
     show([&](Shown& shown) {
+        camera_in_file_ = camera_text(viewed_->scene.camera, viewed_->scene.film.filter);
+        filter_in_file_ = viewed_->scene.film.filter;
         shown.error.clear();
         shown.scene = options_.name;
         shown.resolution = scene->film.resolution();
@@ -331,12 +336,10 @@ bool Session::draw(const Wishes& wishes) {
     scene_->camera = wishes.camera.value_or(file.camera);
     scene_->film.planes = planes_with(file, wishes.layer);
     show([&](Shown& shown) {
-        shown.camera = scene_->camera;
-        shown.camera_text = camera_text(scene_->camera, file.film.filter);
         // What went wrong with an earlier picture is over; that the file cannot be read is not.
         if (last_read_well_ == last_read_) shown.error.clear();
         shown.warning = warning_ + warning_of_camera();
-        shown.doing = "Taking the first picture";
+        shown.doing = "Taking the picture";
     });
     for (const int scale : ladder_.scales(file.film.resolution()))
         if (scale > 1 && !draw_coarser(wishes, scale)) return false;
@@ -462,10 +465,12 @@ void Session::expose() {
 
 void Session::fail(const std::string& error) {
     options_.tell(error + "\n");
-    show([&](Shown& shown) {
-        shown.error = error;
-        shown.doing = "Stopped by an error";
-    });
+    show([&](Shown& shown) { shown.error = error; });
+    stop_by_error();
+}
+
+void Session::stop_by_error() {
+    show([](Shown& shown) { shown.doing = "Stopped by an error"; });
 }
 
 }  // namespace phasetree::tracer::view

@@ -127,6 +127,7 @@ class Session {
     void show_picture(const Wishes& wishes, Image image, int scale, int samples);
     void expose();
     void fail(const std::string& error);
+    void stop_by_error();
     bool is_stale(const Wishes& wishes) const { return stopped_ || number_ != wishes.number(); }
     bool is_of_another_object(const Wishes& wishes) const {
         return stopped_ || number_of_object_ != wishes.number_of_object();
@@ -152,6 +153,8 @@ class Session {
     mutable std::mutex writing_;               // while the scene's file is written
     Wishes wishes_;
     std::shared_ptr<const Shown> shown_ = std::make_shared<Shown>();
+    std::string camera_in_file_;  // empty until there is an object to look at
+    PixelFilter filter_in_file_;
     WatchedFiles files_;
     std::optional<WatchedFiles> changed_files_;  // These are the files as they were when a change was last seen.
     bool is_to_be_read_ = true;
