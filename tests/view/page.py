@@ -258,7 +258,7 @@ class Page(unittest.TestCase):
         self.assertEqual(self.text("copied"), "Written.")
 
     def test_a_number_that_is_refused_is_told_where_it_stands(self):
-        self.browser.wait_for("document.querySelector('#number-rows input')")
+        self.browser.wait_for("document.querySelector('#number-rows input') !== null")
         self.set_input("#number-filter", "ball radius")
         self.set_input("#number-rows input[type=number]", "-1", "change")
         error = self.wait_for_error("scene.json:3:42: ")
