@@ -359,15 +359,15 @@ class Files(unittest.TestCase):
         with View() as view:
             before = view.ready()
             view.file.write_text(ENDLESS, encoding="utf-8")
-            view.wait_for(lambda s: s["doing"] == "Building cells")
+            view.wait_for(lambda s: s["doing"] == "Building better cells")
             time.sleep(0.5)
-            self.assertEqual(view.get("picture").state["doing"], "Building cells")
+            self.assertEqual(view.get("picture").state["doing"], "Building better cells")
             view.file.write_text(SCENE + "\n", encoding="utf-8")
             self.assertEqual(view.ready().pixels, before.pixels)
 
     def test_control_c_leaves_it_too(self):
         with View(ENDLESS) as view:
-            view.wait_for(lambda s: s["doing"] == "Building cells")
+            view.wait_for(lambda s: s["doing"] == "Building better cells")
             self.assertEqual(view.end(signal.SIGINT), 0)
 
 

@@ -20,6 +20,9 @@ namespace {
 // coarse picture is finished all the same, until so long after it was begun, and so are its cells.
 constexpr std::chrono::milliseconds first_picture_deadline{250};
 constexpr std::chrono::milliseconds first_cells_deadline{1000};
+// The first picture of an object is taken with cells that are not divided further: they are there at once, also where a
+// tree is so slow that good ones take seconds, and a picture of few pixels has few rays.
+constexpr int divisions_of_first_cells = 5;
 // Pictures that follow each other faster than this are not shown one by one.
 constexpr std::chrono::milliseconds between_pictures{100};
 
@@ -276,16 +279,19 @@ void Session::build(const Wishes& wishes) {
     show([](Shown& shown) { shown.doing = "Building cells"; });
     const Clock::time_point begun = Clock::now();
     WorldOptions options{.quality = BuildQuality::low,
+                         .deepest = divisions_of_first_cells,
                          .cancelled =
                              [&] {
                                  const bool is_over = Clock::now() - begun > first_cells_deadline;
                                  return is_of_another_reading(wishes) || (is_over && is_of_another_object(wishes));
                              },
-                         .most_bytes = options_.most_bytes};
+                         .most_bytes = options_.most_bytes,
+                         .surfaces = surfaces_};
     std::shared_ptr<Scene> scene;
     try {
         scene = std::make_shared<Scene>(edited(viewed_->scene, wishes.edits));
         keep_cells(*scene, options);
+        surfaces_->begin_scene();
         prepared_ = std::make_shared<const Prepared>(scene, options);
     } catch (const BuildCancelled&) {
         built_for_ = {};
@@ -325,8 +331,8 @@ void Session::keep_cells(const Scene& scene, WorldOptions& options) const {
     options.known_cells = prepared_->world().geometry().objects().front();
     WorldOptions better = options;
     better.quality = options_.quality;
-    if (are_cells_of(*options.known_cells, scene.object, cell_options(scene, better)))
-        options.quality = options_.quality;
+    better.deepest.reset();
+    if (are_cells_of(*options.known_cells, scene.object, cell_options(scene, better))) options = better;
 }
 
 // Returns whether the picture has all its samples.
@@ -344,11 +350,12 @@ bool Session::draw(const Wishes& wishes) {
     for (const int scale : ladder_.scales(file.film.resolution()))
         if (scale > 1 && !draw_coarser(wishes, scale)) return false;
     if (prepared_->quality() != options_.quality) {
-        if (!draw_whole(wishes, 1)) return false;
         show([](Shown& shown) { shown.doing = "Building better cells"; });
+        surfaces_->begin_scene();
         prepared_ = std::make_shared<const Prepared>(scene_, WorldOptions{.quality = options_.quality,
                                                                           .cancelled = [&] { return is_stale(wishes); },
-                                                                          .most_bytes = options_.most_bytes});
+                                                                          .most_bytes = options_.most_bytes,
+                                                                          .surfaces = surfaces_});
     }
     if (!draw_whole(wishes, file.settings.samples)) return false;
     show([&](Shown& shown) {

@@ -165,6 +165,7 @@ class Session {
     std::shared_ptr<const ViewedScene> viewed_;
     std::shared_ptr<Scene> scene_;  // as it is edited
     std::shared_ptr<const Prepared> prepared_;
+    std::shared_ptr<SharedSurfaces> surfaces_ = std::make_shared<SharedSurfaces>();  // Their tables take long.
     TextNumber last_read_, last_read_well_;
     std::string warning_;                      // The object's.
     ObjectNumber built_for_;                   // The last object whose build was tried, with success or without.

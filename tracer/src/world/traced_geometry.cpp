@@ -84,6 +84,7 @@ std::optional<glm::vec2> uv_at(const Mesh& mesh, const RTCRayHit& hit) {
 CellOptions cell_options(const Scene& scene, const WorldOptions& wanted) {
     CellOptions options;
     options.quality = wanted.quality;
+    if (wanted.deepest) options.deepest = *wanted.deepest;
     options.cancelled = wanted.cancelled;
     options.progress = wanted.progress;
     options.most_bytes = wanted.most_bytes;
@@ -92,16 +93,17 @@ CellOptions cell_options(const Scene& scene, const WorldOptions& wanted) {
 }
 
 TracedGeometry::TracedGeometry(const Scene& scene, const WorldOptions& options)
-    : TracedGeometry(scene, options, SharedSurfaces()) {}
+    : TracedGeometry(scene, options, options.surfaces ? options.surfaces : std::make_shared<SharedSurfaces>()) {}
 
-TracedGeometry::TracedGeometry(const Scene& scene, const WorldOptions& options, SharedSurfaces&& shared)
+TracedGeometry::TracedGeometry(const Scene& scene, const WorldOptions& options,
+                               const std::shared_ptr<SharedSurfaces>& shared)
     : scene_(scene),
       cells_(prepared(scene, options)),
       device_(started_embree()),
       embree_(rtcNewScene(device_.get())),
       first_mesh_(static_cast<std::uint32_t>(std::max<std::size_t>(scene.placed.objects.size(), 1))),
-      interfaces_(scene.materials, shared),
-      mesh_interfaces_(interfaces_of(scene.meshes, scene.materials, shared)) {
+      interfaces_(scene.materials, *shared),
+      mesh_interfaces_(interfaces_of(scene.meshes, scene.materials, *shared)) {
     // Without this flag Embree may miss a triangle that is met near its edge: exactness comes before speed.
     rtcSetSceneFlags(embree_.get(), RTC_SCENE_FLAG_ROBUST);
     if (scene.placed.empty()) {
