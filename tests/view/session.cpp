@@ -145,6 +145,7 @@ TEST_CASE("after a build that failed the camera turns no picture of the old obje
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
     CHECK(session.shown()->picture->number == number);
     CHECK(!session.shown()->error.empty());
+    CHECK(session.shown()->doing == "Stopped by an error");
 
     bench.is_endless = false;
     bench.save();
