@@ -80,7 +80,8 @@ TEST_CASE("check and render name objects that overlap, and a point of both") {
     }
 }
 
-TEST_CASE("check and render name groups that no instance names, where they stand in the file, and what is lost by that") {
+TEST_CASE(
+    "check and render name groups that no instance names, where they stand in the file, and what is lost by that") {
     const Shell shell;
     const auto scene = [](const std::string& instances) {
         return std::string(head) + R"("objects": [
@@ -89,7 +90,8 @@ TEST_CASE("check and render name groups that no instance names, where they stand
             {"name": "table", "tree": {"set": {"phase": "water", "of": {"box": {"size": [9, 9, 0.1]}}}},
              "transform": {"translate": {"by": [0, 0, -3]}}}],
         "groups": {"pair": [{"of": "cup", "transforms": [[-1, 0, 0], [1, 0, 0]]}],
-            "set": [{"of": "pair"}, {"of": "drop"}]})" + instances + "}";
+            "set": [{"of": "pair"}, {"of": "drop"}]})" +
+               instances + "}";
     };
     write_text(shell.directory / "lost.json", scene(""));
     write_text(shell.directory / "part.json", scene(R"(, "instances": [{"of": "cup"}])"));

@@ -19,7 +19,10 @@ assert pt.phase("a")(pt.sphere(1)).label([(0, 0, 0)])[0] == 1
 """
 
 # Without the package of the build, which the tests are otherwise run with.
-PLAIN = {**{k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "PHASETREE_BUILD_DIR")}, "PIP_DISABLE_PIP_VERSION_CHECK": "1"}
+PLAIN = {
+    **{k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "PHASETREE_BUILD_DIR", "PHASETREE_LONG_TESTS")},
+    "PIP_DISABLE_PIP_VERSION_CHECK": "1",
+}
 OFFLINE = ("--no-build-isolation", "--no-deps", "--no-index")
 HAS_PIP = unittest.skipUnless(
     all(importlib.util.find_spec(m) for m in ("pip", "setuptools", "wheel", "ensurepip")),

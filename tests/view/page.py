@@ -125,9 +125,10 @@ class Page(unittest.TestCase):
 
     def test_what_is_under_the_pointer_stays_there_when_the_picture_is_moved(self):
         # The ball of wood is 0.6 to the right; the picture is 2.68 high and 4.02 wide where the balls are.
-        self.browser.drag(self.at(0.65, 0.5), self.at(0.5, 0.5), SHIFT)
+        self.browser.drag(self.at(0.65, 0.5), self.at(0.5, 0.2), SHIFT)
         self.wait_for_another(self.before)
-        self.browser.click(*self.at(0.5, 0.5))
+        self.camera()
+        self.browser.click(*self.at(0.5, 0.2))
         self.browser.wait_for("document.getElementById('point').textContent.includes('wood at')")
 
     def with_fingers(self):
@@ -160,12 +161,12 @@ class Page(unittest.TestCase):
     def test_two_fingers_move_what_is_between_them(self):
         self.with_fingers()
         # The ball of wood is 0.6 to the right, and is moved into the middle.
-        self.browser.touch(*([self.at(x - 0.1, 0.4), self.at(x + 0.1, 0.6)] for x in (0.65, 0.6, 0.55, 0.5)))
+        self.browser.touch(*([self.at(x - 0.1, y - 0.1), self.at(x + 0.1, y + 0.1)] for x, y in ((0.65, 0.5), (0.6, 0.6), (0.55, 0.7), (0.5, 0.8))))
         self.wait_for_another(self.before)
         camera = self.camera()
         self.assertAlmostEqual(camera["position"][0], camera["look_at"][0], places=3)
         self.assertAlmostEqual(math.dist(camera["position"], camera["look_at"]), 5, places=3)
-        self.browser.touch([self.at(0.5, 0.5)])
+        self.browser.touch([self.at(0.5, 0.8)])
         self.browser.wait_for("document.getElementById('point').textContent.includes('wood at')")
 
     def test_a_tap_asks_and_what_more_fingers_do_is_no_tap(self):
@@ -303,6 +304,9 @@ class Page(unittest.TestCase):
 
     def test_it_fits_small_windows_and_large_ones(self):
         self.addCleanup(self.browser.resize, 1100, 800)
+        self.view.file.write_text(SCENE.replace('"width": 96, "height": 64', '"width": 900, "height": 1200'), encoding="utf-8")
+        self.browser.wait_for(f"{READY} && document.getElementById('picture').width === 900")
+        self.box = json.loads(self.browser.run("JSON.stringify(document.getElementById('picture').getBoundingClientRect())"))
         self.browser.click(*self.at(0.65, 0.5))
         self.browser.wait_for("document.querySelectorAll('#point li').length === 4")
         self.browser.run("document.querySelectorAll('#phases details').forEach((d) => { d.open = true; })")

@@ -231,6 +231,18 @@ TEST_CASE("what changes nothing of the object keeps its cells, and the picture i
     CHECK(cells() != clear);
 }
 
+TEST_CASE("cells that are known are taken for the object that they are of and for no other") {
+    const Scene scene = scene_with_camera("[0, -3, 0]");
+    const World first(scene);
+    const auto& known = first.geometry().objects().front();
+    CHECK(World(scene, {.known_cells = known}).geometry().objects().front() == known);
+    CHECK(World(scene, {.quality = BuildQuality::low, .known_cells = known}).geometry().objects().front() != known);
+    CHECK(World(scene, {.deepest = 5, .known_cells = known}).geometry().objects().front() != known);
+    Scene clear = scene;
+    clear.materials[1] = Clear{.ior = 1.5f};
+    CHECK(World(clear, {.known_cells = known}).geometry().objects().front() != known);
+}
+
 TEST_CASE("a camera that is wished is told at once and by whatever is shown from then on") {
     Bench bench;
     Session& session = bench.begin();

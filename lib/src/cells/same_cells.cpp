@@ -10,8 +10,7 @@ bool are_cells_of(const InterfaceCells& cells, const Phased& object, const CellO
     const auto [tables, program, settings] = CellsFile::contents(cells);
     const CellsFileHeader own = header_of(program, tables.recorded_constants, settings);
     const Program recorded = record(object);
-    const CellsFileHeader wanted =
-        header_of(recorded, recorded.constants.size(), CellsFile::settings(object, options));
+    const CellsFileHeader wanted = header_of(recorded, recorded.constants.size(), CellsFile::settings(object, options));
     const bool has_same_limit =
         tables.is_coarser ? own.most_bytes == wanted.most_bytes : own.most_bytes <= wanted.most_bytes;
     return own.program == wanted.program && own.resolution == wanted.resolution && own.quality == wanted.quality &&

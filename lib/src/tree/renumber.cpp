@@ -12,8 +12,7 @@ namespace {
 // Makes each node anew whose parameters change; a tree of one field is the same handle as before.
 class Renumbering {
   public:
-    Renumbering(std::span<const Phase> numbers, const NodeCopied& copied)
-        : numbers_(numbers), copied_(copied) {
+    Renumbering(std::span<const Phase> numbers, const NodeCopied& copied) : numbers_(numbers), copied_(copied) {
         PhaseSet used;
         for (std::size_t i = 1; i < numbers.size(); ++i) {
             const Phase to = numbers[i];

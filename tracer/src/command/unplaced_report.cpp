@@ -34,8 +34,7 @@ void warn_of_unplaced_groups(const Document& document, const PlacedObjects& plac
             warning += fmt::format("; so {} {} not there", names_of(placed, lost), lost.size() == 1 ? "is" : "are");
         say("{}\n", document.error(group.offset, warning).what());
     }
-    if (unplaced.more > 0)
-        say("{}: warning: {} more of its groups stand nowhere\n", document.name(), unplaced.more);
+    if (unplaced.more > 0) say("{}: warning: {} more of its groups stand nowhere\n", document.name(), unplaced.more);
 }
 
 }  // namespace phasetree::tracer

@@ -175,8 +175,7 @@ class ObjectsReader {
         }
         try {
             if (is_changed)
-                found.object.tree = with_numbers(found.object.tree,
-                                                 std::span(numbers).first(found.names.names.size()));
+                found.object.tree = with_numbers(found.object.tree, std::span(numbers).first(found.names.names.size()));
             (void)prepare_to_trace(found.object.tree);  // This only asks whether the tree can be traced.
         } catch (const ModelError& e) {
             throw document_.error(found.at, fmt::format("\"{}\": {}", found.object.name, e.what()));
@@ -188,8 +187,7 @@ class ObjectsReader {
     // A node stands where it stood, whatever numbers its phases have.
     Phased with_numbers(const Phased& tree, std::span<const Phase> numbers) const {
         if (!node_places_) return renumbered(tree, numbers);
-        return renumbered(tree, numbers,
-                          [&](const void* of, const auto& copy) { node_places_->add_copy(of, copy); });
+        return renumbered(tree, numbers, [&](const void* of, const auto& copy) { node_places_->add_copy(of, copy); });
     }
 
     void read_groups() {

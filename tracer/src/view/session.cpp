@@ -350,7 +350,8 @@ bool Session::draw(const Wishes& wishes) {
     for (const int scale : ladder_.scales(file.film.resolution()))
         if (scale > 1 && !draw_coarser(wishes, scale)) return false;
     if (prepared_->quality() != options_.quality) {
-        // Where the whole picture is quick there is no coarser one, and something is to be seen before better cells are.
+        // Where the whole picture is quick there is no coarser one, and something is to be seen before better cells
+        // are.
         if (is_first_of(wishes) && !draw_whole(wishes, 1)) return false;
         show([](Shown& shown) { shown.doing = "Building better cells"; });
         surfaces_->begin_scene();
