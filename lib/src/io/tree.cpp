@@ -167,7 +167,7 @@ class Reader {
             read_parameters(node, member);
         try {
             Handle made(std::move(node));
-            if (places_) places_->add(made.node(), document_, member.key_offset());
+            if (places_) places_->add(made, document_, member.key_offset());
             return made;
         } catch (const TextError& e) {
             const Value text = member.is_string() ? member : member.find(e.parameter()).value();

@@ -20,6 +20,7 @@
 #include "command/pictures.hpp"
 #include "command/reading.hpp"
 #include "command/render_options.hpp"
+#include "command/unplaced_report.hpp"
 #include "denoise/denoise.hpp"
 #include "film_file/read.hpp"
 #include "output/interrupt.hpp"
@@ -217,6 +218,7 @@ void warn_of_object(const RenderOptions& options, const Document& document, cons
     if (world.geometry().statistics().is_coarser)
         say("phasetree: the object would take more memory than --max-memory allows: rays are slower\n");
     for (const auto& object : world.geometry().objects()) print_warning(document.name(), object->warning());
+    warn_of_unplaced_groups(document, scene.placed);
     warn_of_overlaps(document, scene.placed);
 }
 
