@@ -1,0 +1,216 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "phasetree/math/bounds.hpp"
+#include "phasetree/math/found_equation.hpp"
+#include "phasetree/math/number.hpp"
+#include "phasetree/math/vec3.hpp"
+
+namespace phasetree {
+
+/// Where the voxels of a grid are: their number along x, y and z, the centre of the first one, and from one to the
+/// next.
+struct VoxelLattice {
+    std::array<int, 3> size{};
+    glm::dvec3 first{0};
+    glm::dvec3 spacing{1};
+};
+
+/// Values at the centres of voxels, in blocks of 8³ of which those that hold one value alone take no room but that. The
+/// table is what an instruction of a program carries, so all that reads it is given floats:
+///
+///     the number of voxels, then of blocks, along x, y and z; the first voxel's centre; 1/spacing
+///     for each block, x fastest: the number of its values among those of blocks with several, or −1; its least value,
+///         and its greatest, which are the value if it is one
+///     the values of the blocks that have several, x fastest
+///
+/// Beyond its border voxels the grid goes on with their values.
+struct VoxelGrid {
+    static constexpr int block_side = 8;
+    static constexpr std::size_t block_values = 512;
+    /// Readers and nodes take no more: of values that are kept, which is half a gigabyte, and of voxels along an axis.
+    static constexpr std::size_t most_values = 120'000'000;
+    static constexpr int most_along_axis = 8192;
+
+    VoxelLattice lattice{};
+    std::vector<float> table{};
+    /// By how much the values of whoever made the grid are larger than those in the table.
+    double divided_by = 1;
+
+    /// Makes a grid from the values of its blocks, which are asked for in their order. `fill` is given the first voxel
+    /// of a block; values beyond the last voxels of an axis must be those of the last. Throws ModelError, which `who`
+    /// begins, if there are too many values, or one that is no number.
+    using Fill = std::function<void(const std::array<int, 3>& first, std::span<float, block_values>)>;
+    static VoxelGrid make(std::string_view who, const VoxelLattice&, const Fill& fill);
+
+    /// The greatest slope of what linear() or spline() makes of the values.
+    double steepest_linear() const;
+    double steepest_spline() const;
+    void divide_by(double);
+
+    /// A box around all places whose value is made of a voxel in a block that has a value of at most `level`; nothing
+    /// if there are none.
+    Bounds blocks_below(float level) const;
+    /// From half a voxel before the first voxels' centres to half a voxel behind the last ones'.
+    Bounds extent() const;
+
+    std::size_t bytes() const { return table.size() * sizeof(float); }
+};
+
+namespace voxels {
+
+/// Places in the table.
+inline constexpr std::size_t size = 0, blocks = 3, first = 6, inverse_spacing = 9, head = 12, entry = 3;
+
+/// The table as whoever looks up whole numbers of voxels reads it.
+struct Table {
+    const float* directory;
+    const float* values;
+    std::array<int, 3> size, blocks;
+
+    explicit Table(const float* data);
+    float operator()(int x, int y, int z) const;
+    /// The entry of the block of a voxel.
+    const float* block_of(int x, int y, int z) const;
+};
+
+/// The voxels of which the value at a point is made: the number of the first (linear) or of the middle one (spline),
+/// and their values. N is float, or another number if the voxels are not known beforehand.
+template <class N, std::size_t count>
+struct Neighbours {
+    std::array<N, 3> index;
+    std::array<N, count> value;
+};
+using EightVoxels = Neighbours<float, 8>;
+using TwentySevenVoxels = Neighbours<float, 27>;
+
+EightVoxels eight_voxels(const float* data, const Vec3<float>&);
+TwentySevenVoxels twenty_seven_voxels(const float* data, const Vec3<float>&);
+
+/// How many voxels a coordinate is behind the first one's centre, at most `beyond` outside of the centres.
+template <class T>
+[[gnu::always_inline]] inline T place(const float* data, std::size_t axis, const T& coordinate, float beyond) {
+    return clamp((coordinate - data[first + axis]) * data[inverse_spacing + axis], T(-beyond),
+                 T(data[size + axis] - 1.f + beyond));
+}
+template <class T>
+[[gnu::always_inline]] inline std::array<T, 3> places(const float* data, const Vec3<T>& p, float beyond) {
+    return {place(data, 0, p.x, beyond), place(data, 1, p.y, beyond), place(data, 2, p.z, beyond)};
+}
+
+/// Of eight voxels: the last but one is the first of two at the border.
+template <class T>
+[[gnu::always_inline]] inline T first_of_two(const float* data, std::size_t axis, const T& at) {
+    return max(min(floor(at), T(data[size + axis] - 2.f)), T(0.f));
+}
+template <class T>
+[[gnu::always_inline]] inline T middle_of_three(const float* data, std::size_t axis, const T& at) {
+    return min(floor(at + 0.5f), T(data[size + axis] - 1.f));
+}
+
+/// The trilinear interpolation, which is continuous and has the voxels' values at their centres.
+template <class T, class N>
+[[gnu::always_inline]] inline T linear(const Neighbours<N, 8>& at, const float* data, const Vec3<T>& p) {
+    const std::array<T, 3> u = places(data, p, 0.f);
+    const T x = u[0] - at.index[0], y = u[1] - at.index[1], z = u[2] - at.index[2];
+    std::array<T, 4> along_x;
+    for (std::size_t i = 0; i < 4; ++i) along_x[i] = x * (at.value[2 * i + 1] - at.value[2 * i]) + at.value[2 * i];
+    const T low = (along_x[1] - along_x[0]) * y + along_x[0], high = (along_x[3] - along_x[2]) * y + along_x[2];
+    return (high - low) * z + low;
+}
+
+/// The triquadratic B-spline, which is smooth: its slopes are continuous.
+template <class T, class N>
+[[gnu::always_inline]] inline T spline(const Neighbours<N, 27>& at, const float* data, const Vec3<T>& p) {
+    const std::array<T, 3> u = places(data, p, 0.5f);
+    std::array<std::array<T, 3>, 3> weight;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const T t = u[axis] - at.index[axis], before = 0.5f - t, behind = t + 0.5f;
+        weight[axis] = {before * before * 0.5f, 0.75f - t * t, behind * behind * 0.5f};
+    }
+    T sum(0.f);
+    for (std::size_t k = 0; k < 3; ++k) {
+        T slice(0.f);
+        for (std::size_t j = 0; j < 3; ++j) {
+            const N* v = &at.value[9 * k + 3 * j];
+            slice = slice + (weight[0][0] * v[0] + weight[0][1] * v[1] + weight[0][2] * v[2]) * weight[1][j];
+        }
+        sum = sum + slice * weight[2][k];
+    }
+    return sum;
+}
+
+/// The value of a voxel that is not known beforehand.
+template <class T>
+T looked_up(const float* data, const T& x, const T& y, const T& z) {
+    const auto block = [](const T& i) { return floor(i * 0.125f); };
+    const T bx = block(x), by = block(y), bz = block(z);
+    const T number = bx + (by + bz * data[blocks + 1]) * data[blocks];
+    const float* directory = data + head;
+    const float* values =
+        directory + entry * static_cast<std::size_t>(data[blocks] * data[blocks + 1] * data[blocks + 2]);
+    const T own = lookup(directory, number * 3.f);
+    const T within = (x - bx * 8.f) + ((y - by * 8.f) + (z - bz * 8.f) * 8.f) * 8.f;
+    return select(less(own, T(0.f)), lookup(directory + 1, number * 3.f),
+                  lookup(values, max(own, T(0.f)) * 512.f + within));
+}
+
+/// The data, if a shader can carry them; else throws ModelError, which begins with `who`.
+const float* for_shader(std::string_view who, const float* data);
+
+/// A primitive whose data are the table of a grid (VoxelGrid), interpolated linearly.
+template <class T>
+T linear_at(const float* data, const Vec3<T>& p) {
+    return found_equation(
+        p, [&](const Vec3<float>& q) { return eight_voxels(data, q); },
+        [&](const EightVoxels& at, const auto& q) { return linear(at, data, q); },
+        [&](const auto& q) {
+            using Number = std::remove_cvref_t<decltype(q.x)>;
+            for_shader("volume", data);
+            const std::array<Number, 3> u = places(data, q, 0.f);
+            Neighbours<Number, 8> at;
+            for (std::size_t axis = 0; axis < 3; ++axis) at.index[axis] = first_of_two(data, axis, u[axis]);
+            for (std::size_t i = 0; i < 8; ++i) {
+                std::array<Number, 3> index;
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                    index[axis] =
+                        min(at.index[axis] + static_cast<float>((i >> axis) & 1), Number(data[size + axis] - 1.f));
+                at.value[i] = looked_up(data, index[0], index[1], index[2]);
+            }
+            return linear(at, data, q);
+        });
+}
+
+/// The same with splines.
+template <class T>
+T spline_at(const float* data, const Vec3<T>& p) {
+    return found_equation(
+        p, [&](const Vec3<float>& q) { return twenty_seven_voxels(data, q); },
+        [&](const TwentySevenVoxels& at, const auto& q) { return spline(at, data, q); },
+        [&](const auto& q) {
+            using Number = std::remove_cvref_t<decltype(q.x)>;
+            for_shader("labels", data);
+            const std::array<Number, 3> u = places(data, q, 0.5f);
+            Neighbours<Number, 27> at;
+            std::array<std::array<Number, 3>, 3> index;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const Number middle = at.index[axis] = middle_of_three(data, axis, u[axis]);
+                index[axis] = {max(middle - 1.f, Number(0.f)), middle,
+                               min(middle + 1.f, Number(data[size + axis] - 1.f))};
+            }
+            for (std::size_t k = 0; k < 3; ++k)
+                for (std::size_t j = 0; j < 3; ++j)
+                    for (std::size_t i = 0; i < 3; ++i)
+                        at.value[9 * k + 3 * j + i] = looked_up(data, index[0][i], index[1][j], index[2][k]);
+            return spline(at, data, q);
+        });
+}
+
+}  // namespace voxels
+}  // namespace phasetree
