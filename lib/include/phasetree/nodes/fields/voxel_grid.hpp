@@ -5,6 +5,8 @@
 #include <functional>
 #include <glm/vec3.hpp>
 #include <span>
+#include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "phasetree/math/bounds.hpp"
