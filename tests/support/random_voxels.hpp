@@ -22,8 +22,7 @@ VoxelGrid sampled_grid(const VoxelLattice& lattice, F&& f) {
                 const std::array<int, 3> within{i & 7, (i >> 3) & 7, i >> 6};
                 for (int a = 0; a < 3; ++a) {
                     const auto k = static_cast<std::size_t>(a);
-                    p[a] = lattice.first[a] +
-                           lattice.spacing[a] * std::min(first[k] + within[k], lattice.size[k] - 1);
+                    p[a] = lattice.first[a] + lattice.spacing[a] * std::min(first[k] + within[k], lattice.size[k] - 1);
                 }
                 values[static_cast<std::size_t>(i)] = static_cast<float>(f(p));
             }

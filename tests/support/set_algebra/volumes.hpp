@@ -16,7 +16,8 @@ double by_basis(const VoxelGrid& grid, const dvec3& p, double beyond, const Basi
     const voxels::Table at(grid.table.data());
     dvec3 u;
     for (int a = 0; a < 3; ++a)
-        u[a] = std::clamp((p[a] - l.first[a]) / l.spacing[a], -beyond, l.size[static_cast<std::size_t>(a)] - 1 + beyond);
+        u[a] =
+            std::clamp((p[a] - l.first[a]) / l.spacing[a], -beyond, l.size[static_cast<std::size_t>(a)] - 1 + beyond);
     const auto near = [](double x) { return static_cast<int>(std::floor(x)); };
     const auto voxel = [&](int i, std::size_t a) { return std::clamp(i, 0, l.size[a] - 1); };
     double sum = 0;
