@@ -36,8 +36,8 @@ def smooth_noise(p, rng, waves):
 
 def to_membranes(p, rng):
     """How far a point is from the nearest of the walls between chambers, which meet in the axis."""
-    angle = np.arctan2(p[..., 1], p[..., 0]) + 0.10 * smooth_noise(p, rng, 3 / RADIUS)
-    around = np.hypot(p[..., 0], p[..., 1])
+    angle = np.arctan2(p[..., 1] + 5, p[..., 0] - 3) + 0.3 * smooth_noise(p, rng, 2.2 / RADIUS)
+    around = np.hypot(p[..., 0] - 3, p[..., 1] + 5)
     sector = 2 * np.pi / CHAMBERS
     off = np.abs((angle / sector) % 1 - 0.5)  # 0.5 on a wall
     return around * np.sin((0.5 - off) * sector)
@@ -62,7 +62,7 @@ def make():
     r = np.sqrt(p[..., 0] ** 2 + p[..., 1] ** 2 + (p[..., 2] * 1.12) ** 2) / bulge
     rind = 7.0 + 1.5 * smooth_noise(p, rng, 6 / RADIUS)
     walls = to_membranes(p, rng)
-    core = np.hypot(p[..., 0], p[..., 1]) - (5 + 2 * smooth_noise(p, rng, 5 / RADIUS))
+    core = np.hypot(p[..., 0] - 3, p[..., 1] + 5) - (4 + 3 * smooth_noise(p, rng, 5 / RADIUS))
 
     fruit = (r < RADIUS) & (p[..., 2] < CUT + 1.5 * smooth_noise(p, rng, 3 / RADIUS))
     label = np.zeros(SIZE, np.uint8)

@@ -21,13 +21,14 @@
 
 using namespace phasetree;
 using namespace phasetree::tests;
+using phasetree::support::bytes_of;
 
 namespace {
 
 namespace fs = std::filesystem;
 
 struct Folder {
-    support::TemporaryDirectory directory{"phasetree-vdb"};
+    support::TemporaryDirectory directory;
 
     fs::path write(const std::string& name, const openvdb::GridCPtrVec& grids, std::uint32_t compression = 6) {
         const fs::path path = directory.path() / name;
@@ -42,11 +43,6 @@ struct Folder {
         return path;
     }
 };
-
-std::string bytes_of(const fs::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 openvdb::FloatGrid::Ptr ball(double radius, const openvdb::Vec3f& at, float voxel, const std::string& name) {
     auto grid = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(static_cast<float>(radius), at, voxel);
