@@ -24,7 +24,8 @@ constexpr OpTraits& traits_of(auto& all, Op op) {
 template <class... Ps>
 constexpr void mark_patterns(TypeList<Ps...>, auto& all) {
     const auto mark = [&]<class P>() {
-        if constexpr (PatternPrimitive<P>) traits_of(all, op_of<P>()).is_pattern = true;
+        if constexpr (PatternPrimitive<P> || PatternDataPrimitive<P>) traits_of(all, op_of<P>()).is_pattern = true;
+        if constexpr (PatternDataPrimitive<P>) traits_of(all, op_of<P>()).is_grid = true;
         if constexpr (AnyLocalPrimitive<P>) {
             OpTraits& local = traits_of(all, op_of<P>());
             local.is_local = true;

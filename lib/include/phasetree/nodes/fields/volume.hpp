@@ -29,7 +29,8 @@ struct Volume {
 
     /// The primitive f/λ.
     struct Samples {
-        static constexpr unsigned search_half_works = 500;
+        static constexpr unsigned search_half_works = 400;
+        static float period(const float* data) { return voxels::feature_size(data); }
         std::shared_ptr<const VoxelGrid> grid{};
 
         std::span<const float> data() const { return grid->table; }

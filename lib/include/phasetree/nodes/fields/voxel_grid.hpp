@@ -82,6 +82,11 @@ struct Table {
     const float* block_of(int x, int y, int z) const;
 };
 
+/// How large what changes in a grid may be: a few voxels.
+inline float feature_size(const float* data) {
+    return 6.f / max(data[inverse_spacing], max(data[inverse_spacing + 1], data[inverse_spacing + 2]));
+}
+
 /// The voxels of which the value at a point is made: the number of the first (linear) or of the middle one (spline),
 /// and their values. N is float, or another number if the voxels are not known beforehand.
 template <class N, std::size_t count>

@@ -42,7 +42,8 @@ struct Labels {
 
     /// The primitive Dₖ.
     struct Depth {
-        static constexpr unsigned search_half_works = 1200;
+        static constexpr unsigned search_half_works = 800;
+        static float period(const float* data) { return voxels::feature_size(data); }
         std::shared_ptr<const VoxelGrid> grid{};
 
         std::span<const float> data() const { return grid->table; }
