@@ -30,6 +30,8 @@ namespace fs = std::filesystem;
 struct Folder {
     support::TemporaryDirectory directory;
 
+    Folder() { openvdb::initialize(); }
+
     fs::path write(const std::string& name, const openvdb::GridCPtrVec& grids, std::uint32_t compression = 6) {
         const fs::path path = directory.path() / name;
         openvdb::io::File file(path.string());
@@ -66,10 +68,6 @@ std::string said_of(const fs::path& path, const std::string& grid = "") {
 std::string said_of_labels(const fs::path& path, const std::string& grid = "") {
     return said_by([&] { return tracer::read_label_grid(path, grid); });
 }
-
-struct Ready {
-    Ready() { openvdb::initialize(); }
-} const ready;
 
 }  // namespace
 

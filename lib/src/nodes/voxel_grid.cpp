@@ -240,36 +240,57 @@ Bounds VoxelGrid::extent() const {
 
 namespace voxels {
 
-EightVoxels eight_voxels(const float* data, const Vec3<float>& p) {
-    const Table at(data);
-    const std::array<float, 3> u = places(data, p, 0.f);
-    EightVoxels found;
-    std::array<std::array<int, 2>, 3> index;
-    for (std::size_t a = 0; a < 3; ++a) {
-        found.index[a] = first_of_two(data, a, u[a]);
-        const int i = static_cast<int>(found.index[a]);
-        index[a] = {i, std::min(i + 1, at.size[a] - 1)};
+namespace {
+
+// Writes the values of count³ voxels. Mostly they are in one block.
+template <std::size_t count>
+void gather(const Table& at, const std::array<std::array<int, count>, 3>& index, float* to, std::size_t stride) {
+    const auto [x, y, z] = index;
+    const bool is_one_block =
+        x[0] >> 3 == x[count - 1] >> 3 && y[0] >> 3 == y[count - 1] >> 3 && z[0] >> 3 == z[count - 1] >> 3;
+    if (!is_one_block) {
+        for (std::size_t k = 0; k < count; ++k)
+            for (std::size_t j = 0; j < count; ++j)
+                for (std::size_t i = 0; i < count; ++i, to += stride) *to = at(x[i], y[j], z[k]);
+        return;
     }
-    for (std::size_t i = 0; i < 8; ++i)
-        found.value[i] = at(index[0][i & 1], index[1][(i >> 1) & 1], index[2][(i >> 2) & 1]);
-    return found;
+    const float* block = at.block_of(x[0], y[0], z[0]);
+    if (block[0] < 0) {
+        for (std::size_t i = 0; i < count * count * count; ++i, to += stride) *to = block[1];
+        return;
+    }
+    const float* values = at.values + VoxelGrid::block_values * static_cast<std::size_t>(block[0]);
+    for (std::size_t k = 0; k < count; ++k)
+        for (std::size_t j = 0; j < count; ++j) {
+            const float* row = values + 8 * ((y[j] & 7) + 8 * (z[k] & 7));
+            for (std::size_t i = 0; i < count; ++i, to += stride) *to = row[x[i] & 7];
+        }
 }
 
-TwentySevenVoxels twenty_seven_voxels(const float* data, const Vec3<float>& p) {
+}  // namespace
+
+void gather_eight(const float* data, const Vec3<float>& p, float* to, std::size_t stride) {
+    const Table at(data);
+    const std::array<float, 3> u = places(data, p, 0.f);
+    std::array<std::array<int, 2>, 3> index;
+    for (std::size_t a = 0; a < 3; ++a) {
+        to[a * stride] = first_of_two(data, a, u[a]);
+        const int i = static_cast<int>(to[a * stride]);
+        index[a] = {i, std::min(i + 1, at.size[a] - 1)};
+    }
+    gather(at, index, to + 3 * stride, stride);
+}
+
+void gather_twenty_seven(const float* data, const Vec3<float>& p, float* to, std::size_t stride) {
     const Table at(data);
     const std::array<float, 3> u = places(data, p, 0.5f);
-    TwentySevenVoxels found;
     std::array<std::array<int, 3>, 3> index;
     for (std::size_t a = 0; a < 3; ++a) {
-        found.index[a] = middle_of_three(data, a, u[a]);
-        const int i = static_cast<int>(found.index[a]);
+        to[a * stride] = middle_of_three(data, a, u[a]);
+        const int i = static_cast<int>(to[a * stride]);
         index[a] = {std::max(i - 1, 0), i, std::min(i + 1, at.size[a] - 1)};
     }
-    for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t j = 0; j < 3; ++j)
-            for (std::size_t i = 0; i < 3; ++i)
-                found.value[9 * k + 3 * j + i] = at(index[0][i], index[1][j], index[2][k]);
-    return found;
+    gather(at, index, to + 3 * stride, stride);
 }
 
 const float* for_shader(std::string_view who, const float* data) {

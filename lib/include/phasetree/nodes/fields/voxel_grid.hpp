@@ -87,18 +87,17 @@ inline float feature_size(const float* data) {
     return 6.f / max(data[inverse_spacing], max(data[inverse_spacing + 1], data[inverse_spacing + 2]));
 }
 
-/// The voxels of which the value at a point is made: the number of the first (linear) or of the middle one (spline),
-/// and their values. N is float, or another number if the voxels are not known beforehand.
-template <class N, std::size_t count>
-struct Neighbours {
-    std::array<N, 3> index;
-    std::array<N, count> value;
-};
-using EightVoxels = Neighbours<float, 8>;
-using TwentySevenVoxels = Neighbours<float, 27>;
+/// The numbers of which the value at a point is made: the three indices of the first voxel (linear) or of the middle
+/// one (spline), and the values of all voxels, x fastest. N is float, or another number if the voxels are not known
+/// beforehand.
+template <class N>
+using EightVoxels = std::array<N, 3 + 8>;
+template <class N>
+using TwentySevenVoxels = std::array<N, 3 + 27>;
 
-EightVoxels eight_voxels(const float* data, const Vec3<float>&);
-TwentySevenVoxels twenty_seven_voxels(const float* data, const Vec3<float>&);
+/// Finds them, as gathered_equation() wants.
+void gather_eight(const float* data, const Vec3<float>&, float* to, std::size_t stride);
+void gather_twenty_seven(const float* data, const Vec3<float>&, float* to, std::size_t stride);
 
 /// How many voxels a coordinate is behind the first one's centre, at most `beyond` outside of the centres.
 template <class T>
@@ -123,29 +122,29 @@ template <class T>
 
 /// The trilinear interpolation, which is continuous and has the voxels' values at their centres.
 template <class T, class N>
-[[gnu::always_inline]] inline T linear(const Neighbours<N, 8>& at, const float* data, const Vec3<T>& p) {
+[[gnu::always_inline]] inline T linear(const EightVoxels<N>& at, const float* data, const Vec3<T>& p) {
     const std::array<T, 3> u = places(data, p, 0.f);
-    const T x = u[0] - at.index[0], y = u[1] - at.index[1], z = u[2] - at.index[2];
+    const T x = u[0] - at[0], y = u[1] - at[1], z = u[2] - at[2];
     std::array<T, 4> along_x;
-    for (std::size_t i = 0; i < 4; ++i) along_x[i] = x * (at.value[2 * i + 1] - at.value[2 * i]) + at.value[2 * i];
+    for (std::size_t i = 0; i < 4; ++i) along_x[i] = x * (at[2 * i + 4] - at[2 * i + 3]) + at[2 * i + 3];
     const T low = (along_x[1] - along_x[0]) * y + along_x[0], high = (along_x[3] - along_x[2]) * y + along_x[2];
     return (high - low) * z + low;
 }
 
 /// The triquadratic B-spline, which is smooth: its slopes are continuous.
 template <class T, class N>
-[[gnu::always_inline]] inline T spline(const Neighbours<N, 27>& at, const float* data, const Vec3<T>& p) {
+[[gnu::always_inline]] inline T spline(const TwentySevenVoxels<N>& at, const float* data, const Vec3<T>& p) {
     const std::array<T, 3> u = places(data, p, 0.5f);
     std::array<std::array<T, 3>, 3> weight;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const T t = u[axis] - at.index[axis], before = 0.5f - t, behind = t + 0.5f;
+        const T t = u[axis] - at[axis], before = 0.5f - t, behind = t + 0.5f;
         weight[axis] = {before * before * 0.5f, 0.75f - t * t, behind * behind * 0.5f};
     }
     T sum(0.f);
     for (std::size_t k = 0; k < 3; ++k) {
         T slice(0.f);
         for (std::size_t j = 0; j < 3; ++j) {
-            const N* v = &at.value[9 * k + 3 * j];
+            const N* v = &at[3 + 9 * k + 3 * j];
             slice = slice + (weight[0][0] * v[0] + weight[0][1] * v[1] + weight[0][2] * v[2]) * weight[1][j];
         }
         sum = sum + slice * weight[2][k];
@@ -174,21 +173,20 @@ const float* for_shader(std::string_view who, const float* data);
 /// A primitive whose data are the table of a grid (VoxelGrid), interpolated linearly.
 template <class T>
 T linear_at(const float* data, const Vec3<T>& p) {
-    return found_equation(
-        p, [&](const Vec3<float>& q) { return eight_voxels(data, q); },
-        [&](const EightVoxels& at, const auto& q) { return linear(at, data, q); },
+    return gathered_equation<3 + 8>(
+        p, [&](const Vec3<float>& q, float* to, std::size_t stride) { gather_eight(data, q, to, stride); },
+        [&](const auto& at, const auto& q) { return linear(at, data, q); },
         [&](const auto& q) {
             using Number = std::remove_cvref_t<decltype(q.x)>;
             for_shader("volume", data);
             const std::array<Number, 3> u = places(data, q, 0.f);
-            Neighbours<Number, 8> at;
-            for (std::size_t axis = 0; axis < 3; ++axis) at.index[axis] = first_of_two(data, axis, u[axis]);
+            EightVoxels<Number> at;
+            for (std::size_t axis = 0; axis < 3; ++axis) at[axis] = first_of_two(data, axis, u[axis]);
             for (std::size_t i = 0; i < 8; ++i) {
                 std::array<Number, 3> index;
                 for (std::size_t axis = 0; axis < 3; ++axis)
-                    index[axis] =
-                        min(at.index[axis] + static_cast<float>((i >> axis) & 1), Number(data[size + axis] - 1.f));
-                at.value[i] = looked_up(data, index[0], index[1], index[2]);
+                    index[axis] = min(at[axis] + static_cast<float>((i >> axis) & 1), Number(data[size + axis] - 1.f));
+                at[3 + i] = looked_up(data, index[0], index[1], index[2]);
             }
             return linear(at, data, q);
         });
@@ -197,24 +195,24 @@ T linear_at(const float* data, const Vec3<T>& p) {
 /// The same with splines.
 template <class T>
 T spline_at(const float* data, const Vec3<T>& p) {
-    return found_equation(
-        p, [&](const Vec3<float>& q) { return twenty_seven_voxels(data, q); },
-        [&](const TwentySevenVoxels& at, const auto& q) { return spline(at, data, q); },
+    return gathered_equation<3 + 27>(
+        p, [&](const Vec3<float>& q, float* to, std::size_t stride) { gather_twenty_seven(data, q, to, stride); },
+        [&](const auto& at, const auto& q) { return spline(at, data, q); },
         [&](const auto& q) {
             using Number = std::remove_cvref_t<decltype(q.x)>;
             for_shader("labels", data);
             const std::array<Number, 3> u = places(data, q, 0.5f);
-            Neighbours<Number, 27> at;
+            TwentySevenVoxels<Number> at;
             std::array<std::array<Number, 3>, 3> index;
             for (std::size_t axis = 0; axis < 3; ++axis) {
-                const Number middle = at.index[axis] = middle_of_three(data, axis, u[axis]);
+                const Number middle = at[axis] = middle_of_three(data, axis, u[axis]);
                 index[axis] = {max(middle - 1.f, Number(0.f)), middle,
                                min(middle + 1.f, Number(data[size + axis] - 1.f))};
             }
             for (std::size_t k = 0; k < 3; ++k)
                 for (std::size_t j = 0; j < 3; ++j)
                     for (std::size_t i = 0; i < 3; ++i)
-                        at.value[9 * k + 3 * j + i] = looked_up(data, index[0][i], index[1][j], index[2][k]);
+                        at[3 + 9 * k + 3 * j + i] = looked_up(data, index[0][i], index[1][j], index[2][k]);
             return spline(at, data, q);
         });
 }
