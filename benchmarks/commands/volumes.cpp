@@ -43,15 +43,9 @@ void for_each_voxel(const VoxelLattice& l, F&& f) {
 FromFile<VoxelGrid> level_set(int n) {
     const VoxelLattice lattice = cube_of(n);
     const double h = lattice.spacing.x;
-    VoxelGrid grid =
-        VoxelGrid::make("volume", lattice, [&](const std::array<int, 3>& first, std::span<float, 512> values) {
-            for (int i = 0; i < 512; ++i) {
-                const glm::dvec3 p =
-                    lattice.first + h * glm::dvec3(first[0] + (i & 7), first[1] + (i >> 3 & 7), first[2] + (i >> 6));
-                values[static_cast<std::size_t>(i)] =
-                    static_cast<float>(std::clamp(distance_to_solid(p), -3 * h, 3 * h));
-            }
-        });
+    VoxelGrid grid = VoxelGrid::of_voxels("volume", lattice, [&](int x, int y, int z) {
+        return std::clamp(distance_to_solid(lattice.first + h * glm::dvec3(x, y, z)), -3 * h, 3 * h);
+    });
     grid.divide_by(std::max(grid.steepest_linear(), 1.0) * (1 + 1e-6));
     FromFile<VoxelGrid> file;
     file.content = std::make_shared<const VoxelGrid>(std::move(grid));

@@ -42,10 +42,8 @@ Phased read_example(const std::filesystem::path& example) {
                               [](const std::filesystem::path& volume, const std::string&) {
                                   if (!std::filesystem::exists(volume))
                                       throw std::runtime_error("there is no such file");
-                                  return VoxelGrid::make("volume", {{1, 1, 1}, glm::dvec3(0), glm::dvec3(1)},
-                                                         [](const std::array<int, 3>&, std::span<float, 512> v) {
-                                                             std::ranges::fill(v, -1.f);
-                                                         });
+                                  return VoxelGrid::of_voxels("volume", {{1, 1, 1}, glm::dvec3(0), glm::dvec3(1)},
+                                                              [](int, int, int) { return -1; });
                               },
                               [](const std::filesystem::path&, const std::string&) {
                                   LabelGrid grid;

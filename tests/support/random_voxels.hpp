@@ -2,6 +2,7 @@
 
 /// Grids of voxels for tests: random ones, and those of functions.
 
+#include <bit>
 #include <cmath>
 #include <memory>
 
@@ -15,18 +16,9 @@ namespace phasetree::tests {
 /// The samples of a function f(dvec3) at the voxels' centres, divided by the steepest slope of their interpolation.
 template <class F>
 VoxelGrid sampled_grid(const VoxelLattice& lattice, F&& f) {
-    VoxelGrid grid =
-        VoxelGrid::make("volume", lattice, [&](const std::array<int, 3>& first, std::span<float, 512> values) {
-            for (int i = 0; i < 512; ++i) {
-                glm::dvec3 p;
-                const std::array<int, 3> within{i & 7, (i >> 3) & 7, i >> 6};
-                for (int a = 0; a < 3; ++a) {
-                    const auto k = static_cast<std::size_t>(a);
-                    p[a] = lattice.first[a] + lattice.spacing[a] * std::min(first[k] + within[k], lattice.size[k] - 1);
-                }
-                values[static_cast<std::size_t>(i)] = static_cast<float>(f(p));
-            }
-        });
+    VoxelGrid grid = VoxelGrid::of_voxels("volume", lattice, [&](int x, int y, int z) {
+        return f(lattice.first + lattice.spacing * glm::dvec3(x, y, z));
+    });
     if (const double steepest = grid.steepest_linear(); steepest > 1) grid.divide_by(steepest * (1 + 1e-6));
     return grid;
 }
@@ -50,16 +42,23 @@ inline VoxelLattice random_lattice(Random& rng) {
     return lattice;
 }
 
+/// A number from −0.5 to 0.5 that depends on the place alone: blocks ask for the voxels between them more than once.
+inline double hashed_noise(const glm::dvec3& p, std::uint64_t salt) {
+    for (int a = 0; a < 3; ++a) salt = Random(salt ^ std::bit_cast<std::uint64_t>(p[a])).bits();
+    return static_cast<double>(Random(salt).uniform(-0.5f, 0.5f));
+}
+
 /// Planes, balls with a narrow band, or noise.
 inline VoxelGrid random_level_set(Random& rng) {
     const VoxelLattice lattice = random_lattice(rng);
     const glm::dvec3 direction(rng.direction());
     const int kind = rng.below(3);
     const auto radius = static_cast<double>(rng.uniform(0.3f, 0.6f));
+    const std::uint64_t salt = rng.bits();
     return sampled_grid(lattice, [&](const glm::dvec3& p) {
         if (kind == 0) return glm::dot(direction, p) - 0.1;
         if (kind == 1) return std::clamp(glm::length(p) - radius, -0.3, 0.3);
-        return static_cast<double>(rng.uniform(-0.5f, 0.5f));
+        return hashed_noise(p, salt);
     });
 }
 

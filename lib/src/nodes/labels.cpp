@@ -194,21 +194,16 @@ class LabelDepths {
         const double h = std::min({lattice_.spacing.x, lattice_.spacing.y, lattice_.spacing.z});
         const auto scale = static_cast<float>(-h);
         const Size& n = lattice_.size;
-        return VoxelGrid::make("labels", lattice_, [&](const Size& first, std::span<float, 512> block) {
-            std::size_t at = 0;
-            for (int k = 0; k < VoxelGrid::block_side; ++k)
-                for (int j = 0; j < VoxelGrid::block_side; ++j)
-                    for (int i = 0; i < VoxelGrid::block_side; ++i, ++at) {
-                        const auto x = static_cast<std::size_t>(std::min(first[0] + i, n[0] - 1)),
-                                   y = static_cast<std::size_t>(std::min(first[1] + j, n[1] - 1)),
-                                   z = static_cast<std::size_t>(std::min(first[2] + k, n[2] - 1));
-                        block[at] =
-                            depths[x + static_cast<std::size_t>(n[0]) * (y + static_cast<std::size_t>(n[1]) * z)];
-                    }
-            for (const float most : {-depth_of_.most(), depth_of_.most()})
-                if (std::ranges::all_of(block, [&](float d) { return std::abs(d - most) < all_the_same; }))
-                    std::ranges::fill(block, most);
-            for (float& d : block) d *= scale;
+        // Blocks that are deep in the phase, or far from it, hold one value.
+        const float most = depth_of_.most();
+        for (float& d : depths)
+            for (const float limit : {-most, most})
+                if (std::abs(d - limit) < all_the_same) d = limit;
+        return VoxelGrid::of_voxels("labels", lattice_, [&](int x, int y, int z) {
+            return scale * depths[static_cast<std::size_t>(x) +
+                                  static_cast<std::size_t>(n[0]) *
+                                      (static_cast<std::size_t>(y) +
+                                       static_cast<std::size_t>(n[1]) * static_cast<std::size_t>(z))];
         });
     }
 

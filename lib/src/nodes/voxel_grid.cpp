@@ -38,34 +38,16 @@ void for_each_block(const std::array<int, 3>& size, F&& f) {
             for (int x = 0; x < size[0]; x += side) f(std::array{x, y, z});
 }
 
-// Whether a block and those that touch it hold the same value alone, so that nothing changes in it.
-bool is_flat(const Table& table, const std::array<int, 3>& at) {
-    const float* own = table.block_of(at[0], at[1], at[2]);
-    if (own[0] >= 0) return false;
-    for (int k = -side; k <= side; k += side)
-        for (int j = -side; j <= side; j += side)
-            for (int i = -side; i <= side; i += side) {
-                const std::array to{at[0] + i, at[1] + j, at[2] + k};
-                bool is_there = true;
-                for (std::size_t a = 0; a < 3; ++a) is_there = is_there && to[a] >= 0 && to[a] < table.size[a];
-                if (!is_there) continue;
-                const float* other = table.block_of(to[0], to[1], to[2]);
-                if (other[0] >= 0 || other[1] != own[1]) return false;
-            }
-    return true;
-}
-
-// Calls f(x, y, z) for the voxels near which values change.
+// Calls f(values about a voxel) for the voxels of all blocks that are kept; the neighbours along x, y and z are 1, 10
+// and 100 places before and behind. In other blocks, and next to them, nothing changes. Voxels behind the grid's last
+// ones are copies of them, and neither steeper nor flatter.
 template <class F>
-void for_each_voxel_of_change(const Table& table, F&& f) {
-    for_each_block(table.size, [&](const std::array<int, 3>& at) {
-        if (is_flat(table, at)) return;
-        std::array<int, 3> end;
-        for (std::size_t i = 0; i < 3; ++i) end[i] = std::min(at[i] + side, table.size[i]);
-        for (int z = at[2]; z < end[2]; ++z)
-            for (int y = at[1]; y < end[1]; ++y)
-                for (int x = at[0]; x < end[0]; ++x) f(x, y, z);
-    });
+void for_each_kept_voxel(const std::vector<float>& table, F&& f) {
+    for (const float* block = Table(table.data()).values; block < table.data() + table.size();
+         block += VoxelGrid::kept_values)
+        for (int z = 1; z <= side; ++z)
+            for (int y = 1; y <= side; ++y)
+                for (int x = 1; x <= side; ++x) f(block + x + 10 * y + 100 * z);
 }
 
 double squared(double x) {
@@ -95,8 +77,8 @@ const float* Table::block_of(int x, int y, int z) const {
 float Table::operator()(int x, int y, int z) const {
     const float* block = block_of(x, y, z);
     if (block[0] < 0) return block[1];
-    const auto within = static_cast<std::size_t>((x & 7) + 8 * ((y & 7) + 8 * (z & 7)));
-    return values[VoxelGrid::block_values * static_cast<std::size_t>(block[0]) + within];
+    const int within = (x & 7) + 1 + 10 * ((y & 7) + 1) + 100 * ((z & 7) + 1);
+    return values[VoxelGrid::kept_values * static_cast<std::size_t>(block[0]) + static_cast<std::size_t>(within)];
 }
 
 VoxelGrid VoxelGrid::make(std::string_view who, const VoxelLattice& lattice, const Fill& fill) {
@@ -119,16 +101,17 @@ VoxelGrid VoxelGrid::make(std::string_view who, const VoxelLattice& lattice, con
     };
     if (count > most_values / 8) throw too_many();
     grid.table.resize(voxels::head + voxels::entry * count);
-    std::array<float, block_values> values;
+    std::array<float, kept_values> values;
     std::size_t entry = voxels::head, kept = 0;
     for_each_block(lattice.size, [&](const std::array<int, 3>& at) {
-        fill(at, values);
+        fill({at[0] - 1, at[1] - 1, at[2] - 1}, values);
         float low = values[0], high = values[0];
         for (std::size_t i = 0; i < values.size(); ++i) {
             if (!(std::abs(values[i]) <= 1e9f)) {
                 const auto n = static_cast<int>(i);
                 throw ModelError(fmt::format("{}: the value at the voxel ({}, {}, {}) is too large, or no number", who,
-                                             at[0] + n % side, at[1] + n / side % side, at[2] + n / side / side));
+                                             at[0] - 1 + n % kept_side, at[1] - 1 + n / kept_side % kept_side,
+                                             at[2] - 1 + n / kept_side / kept_side));
             }
             low = std::min(low, values[i]);
             high = std::max(high, values[i]);
@@ -139,11 +122,11 @@ VoxelGrid VoxelGrid::make(std::string_view who, const VoxelLattice& lattice, con
         entry += voxels::entry;
         if (!(low < high)) return;
         ++kept;
-        if (kept * block_values > most_values) throw too_many();
+        if (kept * kept_values > most_values) throw too_many();
         grid.table.insert(grid.table.end(), values.begin(), values.end());
     });
     // Shaders look up the values of some block also where they do not use them.
-    if (kept == 0) grid.table.insert(grid.table.end(), block_values, grid.table[voxels::head + 1]);
+    if (kept == 0) grid.table.insert(grid.table.end(), kept_values, grid.table[voxels::head + 1]);
     return grid;
 }
 
@@ -151,50 +134,38 @@ VoxelGrid VoxelGrid::make(std::string_view who, const VoxelLattice& lattice, con
 // square of the slope is convex along each axis, and largest at one of the eight voxels, where the derivatives are
 // the differences to the neighbours.
 double VoxelGrid::steepest_linear() const {
-    const Table at(table.data());
     double steepest = 0;
-    for_each_voxel_of_change(at, [&](int x, int y, int z) {
-        const std::array<int, 3> here{x, y, z};
-        const float own = at(x, y, z);
+    for_each_kept_voxel(table, [&](const float* v) {
         double sum = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            double most = 0;
-            for (const int step : {-1, 1}) {
-                std::array<int, 3> to = here;
-                to[axis] += step;
-                if (to[axis] < 0 || to[axis] >= at.size[axis]) continue;
-                most =
-                    std::max(most, std::abs(static_cast<double>(at(to[0], to[1], to[2])) - static_cast<double>(own)));
-            }
-            sum += squared(most / lattice.spacing[static_cast<glm::length_t>(axis)]);
-        }
-        steepest = std::max(steepest, sum);
-    });
-    return std::sqrt(steepest);
-}
-
-// The derivative along x is an average of the differences along x between the 27 voxels.
-double VoxelGrid::steepest_spline() const {
-    const Table at(table.data());
-    double steepest = 0;
-    for_each_voxel_of_change(at, [&](int x, int y, int z) {
-        std::array<std::array<int, 3>, 3> index;
-        const std::array<int, 3> here{x, y, z};
-        for (std::size_t a = 0; a < 3; ++a)
-            index[a] = {std::max(here[a] - 1, 0), here[a], std::min(here[a] + 1, at.size[a] - 1)};
-        std::array<float, 27> v;
-        for (std::size_t i = 0; i < 27; ++i) v[i] = at(index[0][i % 3], index[1][i / 3 % 3], index[2][i / 9]);
-        double sum = 0;
-        constexpr std::array<std::size_t, 3> stride{1, 3, 9};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            float most = 0;
-            for (std::size_t i = 0; i < 27; ++i)
-                if (i / stride[axis] % 3 < 2) most = std::max(most, std::abs(v[i + stride[axis]] - v[i]));
+            const int step = std::array{1, 10, 100}[axis];
+            const float most = std::max(std::abs(v[step] - v[0]), std::abs(v[-step] - v[0]));
             sum += squared(static_cast<double>(most) / lattice.spacing[static_cast<glm::length_t>(axis)]);
         }
         steepest = std::max(steepest, sum);
     });
-    return std::sqrt(steepest);
+    return std::sqrt(steepest) * (1 + 1e-6);
+}
+
+// The derivative along x is an average of the differences along x between the 27 voxels.
+double VoxelGrid::steepest_spline() const {
+    double steepest = 0;
+    for_each_kept_voxel(table, [&](const float* v) {
+        double sum = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::array<int, 3> stride{1, 10, 100};
+            const int step = stride[axis], across = stride[(axis + 1) % 3], down = stride[(axis + 2) % 3];
+            float most = 0;
+            for (int k = -down; k <= down; k += down)
+                for (int j = -across; j <= across; j += across) {
+                    const float* row = v + j + k;
+                    most = std::max(most, std::max(std::abs(row[step] - row[0]), std::abs(row[0] - row[-step])));
+                }
+            sum += squared(static_cast<double>(most) / lattice.spacing[static_cast<glm::length_t>(axis)]);
+        }
+        steepest = std::max(steepest, sum);
+    });
+    return std::sqrt(steepest) * (1 + 1e-6);
 }
 
 void VoxelGrid::divide_by(double by) {
@@ -242,55 +213,66 @@ namespace voxels {
 
 namespace {
 
-// Writes the values of count³ voxels. Mostly they are in one block.
-template <std::size_t count>
-void gather(const Table& at, const std::array<std::array<int, count>, 3>& index, float* to, std::size_t stride) {
-    const auto [x, y, z] = index;
-    const bool is_one_block =
-        x[0] >> 3 == x[count - 1] >> 3 && y[0] >> 3 == y[count - 1] >> 3 && z[0] >> 3 == z[count - 1] >> 3;
-    if (!is_one_block) {
-        for (std::size_t k = 0; k < count; ++k)
-            for (std::size_t j = 0; j < count; ++j)
-                for (std::size_t i = 0; i < count; ++i, to += stride) *to = at(x[i], y[j], z[k]);
-        return;
-    }
-    const float* block = at.block_of(x[0], y[0], z[0]);
-    if (block[0] < 0) {
-        for (std::size_t i = 0; i < count * count * count; ++i, to += stride) *to = block[1];
-        return;
-    }
-    const float* values = at.values + VoxelGrid::block_values * static_cast<std::size_t>(block[0]);
-    for (std::size_t k = 0; k < count; ++k)
-        for (std::size_t j = 0; j < count; ++j) {
-            const float* row = values + 8 * ((y[j] & 7) + 8 * (z[k] & 7));
-            for (std::size_t i = 0; i < count; ++i, to += stride) *to = row[x[i] & 7];
-        }
+// Where a point is, as whole numbers of voxels, and the values from there on; a null pointer stands for one value.
+struct Around {
+    const float* values;
+    float only;
+};
+[[gnu::always_inline]] inline Around around(const float* data, const std::array<int, 3>& voxel) {
+    const auto blocks = [&](std::size_t axis) { return static_cast<std::size_t>(data[voxels::blocks + axis]); };
+    const auto of = [&](std::size_t axis) { return static_cast<std::size_t>(voxel[axis] >> 3); };
+    const std::size_t nx = blocks(0), ny = blocks(1), nz = blocks(2);
+    const float* directory = data + head;
+    const float* block = directory + entry * (of(0) + nx * (of(1) + ny * of(2)));
+    if (block[0] < 0) return {nullptr, block[1]};
+    const int within = (voxel[0] & 7) + 1 + 10 * ((voxel[1] & 7) + 1) + 100 * ((voxel[2] & 7) + 1);
+    return {directory + entry * (nx * ny * nz) + VoxelGrid::kept_values * static_cast<std::size_t>(block[0]) + within,
+            0};
 }
 
 }  // namespace
 
 void gather_eight(const float* data, const Vec3<float>& p, float* to, std::size_t stride) {
-    const Table at(data);
     const std::array<float, 3> u = places(data, p, 0.f);
-    std::array<std::array<int, 2>, 3> index;
+    std::array<int, 3> voxel;
     for (std::size_t a = 0; a < 3; ++a) {
-        to[a * stride] = first_of_two(data, a, u[a]);
-        const int i = static_cast<int>(to[a * stride]);
-        index[a] = {i, std::min(i + 1, at.size[a] - 1)};
+        // The place is not negative, so this is its floor.
+        voxel[a] = std::max(std::min(static_cast<int>(u[a]), static_cast<int>(data[size + a]) - 2), 0);
+        to[a * stride] = static_cast<float>(voxel[a]);
     }
-    gather(at, index, to + 3 * stride, stride);
+    to += 3 * stride;
+    const Around at = around(data, voxel);
+    if (!at.values) {
+        for (std::size_t i = 0; i < 8; ++i) to[i * stride] = at.only;
+        return;
+    }
+    for (const int offset : {0, 1, 10, 11, 100, 101, 110, 111}) {
+        *to = at.values[offset];
+        to += stride;
+    }
 }
 
 void gather_twenty_seven(const float* data, const Vec3<float>& p, float* to, std::size_t stride) {
-    const Table at(data);
     const std::array<float, 3> u = places(data, p, 0.5f);
-    std::array<std::array<int, 3>, 3> index;
+    std::array<int, 3> voxel;
     for (std::size_t a = 0; a < 3; ++a) {
-        to[a * stride] = middle_of_three(data, a, u[a]);
-        const int i = static_cast<int>(to[a * stride]);
-        index[a] = {std::max(i - 1, 0), i, std::min(i + 1, at.size[a] - 1)};
+        voxel[a] = std::min(static_cast<int>(u[a] + 0.5f), static_cast<int>(data[size + a]) - 1);
+        to[a * stride] = static_cast<float>(voxel[a]);
     }
-    gather(at, index, to + 3 * stride, stride);
+    to += 3 * stride;
+    const Around at = around(data, voxel);
+    if (!at.values) {
+        for (std::size_t i = 0; i < 27; ++i) to[i * stride] = at.only;
+        return;
+    }
+    for (int k = -100; k <= 100; k += 100)
+        for (int j = -10; j <= 10; j += 10) {
+            const float* row = at.values + (j + k);
+            to[0] = row[-1];
+            to[stride] = row[0];
+            to[2 * stride] = row[1];
+            to += 3 * stride;
+        }
 }
 
 const float* for_shader(std::string_view who, const float* data) {
@@ -301,9 +283,9 @@ const float* for_shader(std::string_view who, const float* data) {
     // Numbers of places are floats there.
     if (static_cast<std::size_t>(at.values - at.directory) > most)
         throw ModelError(fmt::format("{}: the grid has too many voxels for a shader", who));
-    if (kept * VoxelGrid::block_values > most)
+    if (kept * VoxelGrid::kept_values > most)
         throw ModelError(fmt::format("{}: a shader carries at most {} values of a grid, but this has {}", who, most,
-                                     kept * VoxelGrid::block_values));
+                                     kept * VoxelGrid::kept_values));
     return data;
 }
 

@@ -23,11 +23,8 @@ HeightGrid some_heights(const std::filesystem::path&) {
 }
 
 VoxelGrid some_level_set(const std::filesystem::path&, const std::string&) {
-    return VoxelGrid::make("volume", {{9, 4, 3}, glm::dvec3(-0.4), glm::dvec3(0.1)},
-                           [](const std::array<int, 3>& first, std::span<float, 512> values) {
-                               for (std::size_t i = 0; i < 512; ++i)
-                                   values[i] = 0.02f * static_cast<float>((first[0] + static_cast<int>(i & 7)) % 5 - 2);
-                           });
+    return VoxelGrid::of_voxels("volume", {{9, 4, 3}, glm::dvec3(-0.4), glm::dvec3(0.1)},
+                                [](int x, int y, int) { return 0.02f * static_cast<float>((x + y) % 5 - 2); });
 }
 
 LabelGrid some_labels(const std::filesystem::path&, const std::string&) {

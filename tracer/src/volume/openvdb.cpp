@@ -150,16 +150,21 @@ VoxelGrid level_set_of(const Grid& grid) {
     if (!(static_cast<double>(grid.background()) > 0))
         throw std::runtime_error("its background is not positive, so that it has no outside");
     const auto at = grid.getConstAccessor();
-    return VoxelGrid::make("volume", lattice, [&](const std::array<int, 3>& first, std::span<float, 512> values) {
-        const openvdb::Coord corner = box.min().offsetBy(first[0], first[1], first[2]);
-        if (const auto* leaf = at.probeConstLeaf(corner)) {
-            // A leaf's values are in the order of x, y and z, with z fastest.
-            for (std::size_t i = 0; i < 512; ++i)
-                values[i] = static_cast<float>(
-                    leaf->getValue(static_cast<openvdb::Index>((i & 7) << 6 | (i & 56) | (i >> 6 & 7))));
-        } else {
-            std::ranges::fill(values, static_cast<float>(at.getValue(corner)));
+    // All leaves are within the box, and what is next to it is the background.
+    return VoxelGrid::make("volume", lattice, [&](const std::array<int, 3>& before, std::span<float, 1000> values) {
+        const openvdb::Coord corner = box.min().offsetBy(before[0], before[1], before[2]);
+        const auto first = static_cast<float>(at.getValue(corner.offsetBy(1)));
+        bool is_flat = true;
+        for (int i = 0; i < 27 && is_flat; ++i) {
+            const openvdb::Coord there =
+                corner.offsetBy(1 + 8 * (i % 3 - 1), 1 + 8 * (i / 3 % 3 - 1), 1 + 8 * (i / 9 - 1));
+            is_flat = !at.probeConstLeaf(there) && static_cast<float>(at.getValue(there)) == first;
         }
+        if (is_flat) return std::ranges::fill(values, first);
+        float* to = values.data();
+        for (int z = 0; z < 10; ++z)
+            for (int y = 0; y < 10; ++y)
+                for (int x = 0; x < 10; ++x) *to++ = static_cast<float>(at.getValue(corner.offsetBy(x, y, z)));
     });
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <functional>
@@ -24,18 +25,19 @@ struct VoxelLattice {
     glm::dvec3 spacing{1};
 };
 
-/// Values at the centres of voxels, in blocks of 8³ of which those that hold one value alone take no room but that. The
-/// table is what an instruction of a program carries, so all that reads it is given floats:
+/// Values at the centres of voxels, in blocks of 8³. Each block is kept with the voxels next to it, 10³ values, so that
+/// whatever a value is interpolated from is in one block; and those in which all of these are one value take no room
+/// but that. The table is what an instruction of a program carries, so all that reads it is given floats:
 ///
 ///     the number of voxels, then of blocks, along x, y and z; the first voxel's centre; 1/spacing
-///     for each block, x fastest: the number of its values among those of blocks with several, or −1; its least value,
-///         and its greatest, which are the value if it is one
-///     the values of the blocks that have several, x fastest
+///     for each block, x fastest: its number among the blocks that are kept, or −1; its least value, and its greatest,
+///         which are the value if it is one
+///     the values of the blocks that are kept, x fastest, each from the voxels before its first on
 ///
 /// Beyond its border voxels the grid goes on with their values.
 struct VoxelGrid {
-    static constexpr int block_side = 8;
-    static constexpr std::size_t block_values = 512;
+    static constexpr int block_side = 8, kept_side = 10;
+    static constexpr std::size_t kept_values = 1000;
     /// Readers and nodes take no more: of values that are kept, which is half a gigabyte, and of voxels along an axis.
     static constexpr std::size_t most_values = 120'000'000;
     static constexpr int most_along_axis = 8192;
@@ -45,11 +47,26 @@ struct VoxelGrid {
     /// By how much the values of whoever made the grid are larger than those in the table.
     double divided_by = 1;
 
-    /// Makes a grid from the values of its blocks, which are asked for in their order. `fill` is given the first voxel
-    /// of a block; values beyond the last voxels of an axis must be those of the last. Throws ModelError, which `who`
-    /// begins, if there are too many values, or one that is no number.
-    using Fill = std::function<void(const std::array<int, 3>& first, std::span<float, block_values>)>;
+    /// Makes a grid from the values of its blocks, which are asked for in their order. `fill` is given the voxel before
+    /// the first of a block along each axis, and room for 10³ values from there on; for voxels that are not there it
+    /// gives those of the border. Throws ModelError, which `who` begins, if there are too many values, or one that is
+    /// no number.
+    using Fill = std::function<void(const std::array<int, 3>& before, std::span<float, kept_values>)>;
     static VoxelGrid make(std::string_view who, const VoxelLattice&, const Fill& fill);
+    /// The same from f(x, y, z), the value at a voxel.
+    template <class F>
+    static VoxelGrid of_voxels(std::string_view who, const VoxelLattice& lattice, F&& f) {
+        return make(who, lattice, [&](const std::array<int, 3>& before, std::span<float, kept_values> values) {
+            std::array<std::array<int, kept_side>, 3> index;
+            for (std::size_t a = 0; a < 3; ++a)
+                for (int i = 0; i < kept_side; ++i)
+                    index[a][static_cast<std::size_t>(i)] = std::max(std::min(before[a] + i, lattice.size[a] - 1), 0);
+            float* to = values.data();
+            for (const int z : index[2])
+                for (const int y : index[1])
+                    for (const int x : index[0]) *to++ = static_cast<float>(f(x, y, z));
+        });
+    }
 
     /// The greatest slope of what linear() or spline() makes of the values.
     double steepest_linear() const;
@@ -162,9 +179,9 @@ T looked_up(const float* data, const T& x, const T& y, const T& z) {
     const float* values =
         directory + entry * static_cast<std::size_t>(data[blocks] * data[blocks + 1] * data[blocks + 2]);
     const T own = lookup(directory, number * 3.f);
-    const T within = (x - bx * 8.f) + ((y - by * 8.f) + (z - bz * 8.f) * 8.f) * 8.f;
+    const T within = ((x + 1.f) - bx * 8.f) + (((y + 1.f) - by * 8.f) + ((z + 1.f) - bz * 8.f) * 10.f) * 10.f;
     return select(less(own, T(0.f)), lookup(directory + 1, number * 3.f),
-                  lookup(values, max(own, T(0.f)) * 512.f + within));
+                  lookup(values, max(own, T(0.f)) * 1000.f + within));
 }
 
 /// The data, if a shader can carry them; else throws ModelError, which begins with `who`.
