@@ -8,6 +8,7 @@
 #include <openvdb/math/Maps.h>
 #include <openvdb/openvdb.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -160,7 +161,10 @@ VoxelGrid level_set_of(const Grid& grid) {
                 corner.offsetBy(1 + 8 * (i % 3 - 1), 1 + 8 * (i / 3 % 3 - 1), 1 + 8 * (i / 9 - 1));
             is_flat = !at.probeConstLeaf(there) && static_cast<float>(at.getValue(there)) == first;
         }
-        if (is_flat) return std::ranges::fill(values, first);
+        if (is_flat) {
+            std::ranges::fill(values, first);
+            return;
+        }
         float* to = values.data();
         for (int z = 0; z < 10; ++z)
             for (int y = 0; y < 10; ++y)
