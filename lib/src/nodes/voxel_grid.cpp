@@ -108,10 +108,15 @@ VoxelGrid VoxelGrid::make(std::string_view who, const VoxelLattice& lattice, con
         float low = values[0], high = values[0];
         for (std::size_t i = 0; i < values.size(); ++i) {
             if (!(std::abs(values[i]) <= 1e9f)) {
-                const auto n = static_cast<int>(i);
+                // What is beyond the border is the border's.
+                const std::array<int, 3> within{static_cast<int>(i) % kept_side,
+                                                static_cast<int>(i) / kept_side % kept_side,
+                                                static_cast<int>(i) / kept_side / kept_side};
+                std::array<int, 3> voxel;
+                for (std::size_t a = 0; a < 3; ++a)
+                    voxel[a] = std::clamp(at[a] - 1 + within[a], 0, lattice.size[a] - 1);
                 throw ModelError(fmt::format("{}: the value at the voxel ({}, {}, {}) is too large, or no number", who,
-                                             at[0] - 1 + n % kept_side, at[1] - 1 + n / kept_side % kept_side,
-                                             at[2] - 1 + n / kept_side / kept_side));
+                                             voxel[0], voxel[1], voxel[2]));
             }
             low = std::min(low, values[i]);
             high = std::max(high, values[i]);
