@@ -34,8 +34,10 @@ struct Counted {
                          high = std::clamp(centre + reach, 0.0, size - 1);
             const double from = is_spline ? std::floor(low + 0.5) - 1 : std::floor(low);
             const double to = std::floor(is_spline ? high + 0.5 : high) + 1;
-            first[i] = static_cast<int>(std::max(from, 0.0));
-            last[i] = static_cast<int>(std::min(to, size - 1));
+            // A spline also has the copies next to the border voxels, where the differences are zero.
+            const double copies = is_spline ? 1 : 0;
+            first[i] = static_cast<int>(std::max(from, -copies));
+            last[i] = static_cast<int>(std::min(to, size - 1 + copies));
             // At the border the last cell of two voxels goes on.
             if (!is_spline) first[i] = std::max(std::min(first[i], static_cast<int>(size) - 2), 0);
         }
@@ -46,10 +48,11 @@ struct Counted {
 
 Range range_of_blocks(const Table& table, const Counted& counted) {
     Range values{Range::most, -Range::most};
-    const auto first = [&](std::size_t axis) { return counted.first[axis] & ~7; };
-    for (int z = first(2); z <= counted.last[2]; z += 8)
-        for (int y = first(1); y <= counted.last[1]; y += 8)
-            for (int x = first(0); x <= counted.last[0]; x += 8) {
+    const auto first = [&](std::size_t axis) { return std::max(counted.first[axis], 0) & ~7; };
+    const auto last = [&](std::size_t axis) { return std::min(counted.last[axis], table.size[axis] - 1); };
+    for (int z = first(2); z <= last(2); z += 8)
+        for (int y = first(1); y <= last(1); y += 8)
+            for (int x = first(0); x <= last(0); x += 8) {
                 const float* block = table.block_of(x, y, z);
                 values.low = std::min(values.low, static_cast<double>(block[1]));
                 values.high = std::max(values.high, static_cast<double>(block[2]));
@@ -61,10 +64,12 @@ Range range_of_blocks(const Table& table, const Counted& counted) {
 class Differences {
   public:
     Differences(const Table& table, const Counted& counted) : counted_(counted) {
+        const auto there = [&](int n, std::size_t axis) { return std::clamp(n, 0, table.size[axis] - 1); };
         std::size_t i = 0;
         for (int z = counted.first[2]; z <= counted.last[2]; ++z)
             for (int y = counted.first[1]; y <= counted.last[1]; ++y)
-                for (int x = counted.first[0]; x <= counted.last[0]; ++x) values_[i++] = table(x, y, z);
+                for (int x = counted.first[0]; x <= counted.last[0]; ++x)
+                    values_[i++] = table(there(x, 0), there(y, 1), there(z, 2));
         stride_ = {1, counted.along(0), counted.along(0) * counted.along(1)};
     }
     Range values() const {

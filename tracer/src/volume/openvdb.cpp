@@ -74,7 +74,8 @@ GridBase::Ptr read_grid(const std::filesystem::path& path, const std::string& na
     std::vector<std::string> wanted;
     std::optional<std::string> refused;
     std::size_t all = 0;
-    for (const GridBase::Ptr& grid : *file.readAllGridMetadata()) {
+    const openvdb::GridPtrVecPtr grids = file.readAllGridMetadata();
+    for (const GridBase::Ptr& grid : *grids) {
         ++all;
         if (!name.empty() && grid->getName() != name) continue;
         if (is_wanted(*grid))
