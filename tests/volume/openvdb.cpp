@@ -217,15 +217,15 @@ TEST_CASE("a file that is cut off anywhere, or damaged anywhere, is refused or r
     for (const std::uint32_t compression : {0u, 3u, 6u}) {
         const std::string whole = bytes_of(folder.write("whole.vdb", {grid}, compression));
         Random rng(633);
-        for (int k = 0; k < 400; ++k) {
-            const std::size_t length = k < 200 ? static_cast<std::size_t>(k) * 7
+        for (int k = 0; k < 200; ++k) {
+            const std::size_t length = k < 100 ? static_cast<std::size_t>(k) * 7
                                                : static_cast<std::size_t>(rng.below(static_cast<int>(whole.size())));
             if (length >= whole.size()) continue;
             CAPTURE(length);
             CHECK(said_of(folder.write_bytes("cut.vdb", whole.substr(0, length))) != "nothing");
         }
         std::size_t refused = 0;
-        for (int k = 0; k < 1500; ++k) {
+        for (int k = 0; k < 400; ++k) {
             std::string bytes = whole;
             // Mostly in the head, where claims are; whole words of ones claim most.
             const std::size_t most = k % 3 == 0 ? whole.size() : std::min<std::size_t>(whole.size(), 2000);
@@ -236,8 +236,8 @@ TEST_CASE("a file that is cut off anywhere, or damaged anywhere, is refused or r
                 std::memset(&bytes[at], k % 4 == 1 ? 0xff : 0x7f, 4);
             refused += said_of(folder.write_bytes("damaged.vdb", bytes)) != "nothing";
         }
-        MESSAGE("of 1500 damaged files ", refused, " were refused");
-        CHECK(refused > 300);
+        MESSAGE("of 400 damaged files ", refused, " were refused");
+        CHECK(refused > 80);
     }
 }
 
