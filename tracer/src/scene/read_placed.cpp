@@ -90,7 +90,7 @@ class ObjectsReader {
             }
         }
         const std::vector<Phased> read =
-            phasetree::read_objects(document_, model_.phases, trees, {.height_grid = read_height_grid}, node_places_);
+            phasetree::read_objects(document_, model_.phases, trees, file_readers(), node_places_);
         for (std::size_t i = 0; i < read.size(); ++i) found_[of[i]].object.tree = read[i];
     }
 
@@ -109,7 +109,7 @@ class ObjectsReader {
                 throw document_.error(named, fmt::format("\"{}\" has no \"tree\"", name));
             known =
                 files_
-                    .emplace(name, TakenFile{other, read_tree(other, {.height_grid = read_height_grid}, node_places_)})
+                    .emplace(name, TakenFile{other, read_tree(other, file_readers(), node_places_)})
                     .first;
         }
         found.document = known->second.document;
