@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # What planes of the film cost: time of rendering, memory, and the size of files, as a table in Markdown.
 #
-#   benchmarks/planes_cost.py build/release/tracer/phasetree [ROUNDS]
+#   benchmarks/planes_cost.py build/release/tracer/phasetree [ROUNDS [PLANES…]]
 #
 # Time is processor time against the picture alone, the median of rounds in each of which all are run in turn, one thread
 # each. Memory is the peak against the picture alone, and the file what it is larger by; both a million pixels.
@@ -42,6 +42,8 @@ def run(program, planes, words, output):
 
 def main():
     program, rounds = os.path.abspath(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 5
+    if wanted := sys.argv[3:]:  # only some, against the picture alone
+        ROWS[:] = [row for row in ROWS if not row[0] or row[0] in wanted]
     with tempfile.TemporaryDirectory() as folder:
         times, memory, size = {}, {}, {}
         for _ in range(rounds):

@@ -12,6 +12,7 @@
 
 #include "phasetree/io/tree.hpp"
 #include "source_directory.hpp"
+#include "support/random_voxels.hpp"
 
 namespace phasetree::tests {
 
@@ -22,7 +23,7 @@ inline std::string content(const std::filesystem::path& file) {
     return text.str();
 }
 
-/// Hills, for an image of heights: this library knows no images.
+/// Hills, for an image of heights.
 inline HeightGrid hills() {
     HeightGrid grid{24, 20, {}};
     for (int y = 0; y < grid.height; ++y)
@@ -38,7 +39,16 @@ inline Phased read_example(const std::filesystem::path& example) {
     const std::string mark = "@TREE@";
     std::string scene = content(folder / "studio.json");
     scene.replace(scene.find(mark), mark.size(), content(example));
-    const FileReaders readers{[](const std::filesystem::path&) { return hills(); }};
+    // This library reads neither images nor OpenVDB files.
+    const FileReaders readers{[](const std::filesystem::path&) { return hills(); },
+                              [](const std::filesystem::path&, const std::string&) {
+                                  Random rng(1);
+                                  return random_level_set(rng);
+                              },
+                              [](const std::filesystem::path&, const std::string&) {
+                                  Random rng(2);
+                                  return random_labels(rng, 3);
+                              }};
     return read_tree(Document::from_text(scene, (folder / "studio.json").string()), readers).object;
 }
 

@@ -43,6 +43,7 @@ TEST_CASE("every scene of the gallery without images loads from its file") {
         CAPTURE(entry.path().string());
         const Document document = Document::from_file(entry.path());
         if (document.text().find("height_map") != std::string::npos) continue;
+        if (document.text().find("\"labels\"") != std::string::npos) continue;
         const embree::Tree tree = embree::Tree::from_file(entry.path().string());
         CHECK(tree.phase_count() > 1);
         CHECK(tree.phase_name(0) == "vacuum");

@@ -105,6 +105,8 @@ NamedConfig current_config() {
     if (std::filesystem::is_directory(path, ignored)) throw refuse("it is a directory");
     try {
         return {ocio::Config::CreateFromEnv(), fmt::format("the color configuration \"{}\"", path)};
+    } catch (const std::bad_alloc&) {
+        throw;  // which says nothing of the configuration
     } catch (const std::exception& error) {
         throw refuse(one_line(error.what()));
     }
@@ -193,6 +195,8 @@ DisplayTransform::DisplayTransform(std::optional<std::string> display, std::opti
             static_cast<ocio::OptimizationFlags>(ocio::OPTIMIZATION_DEFAULT & ~ocio::OPTIMIZATION_FAST_LOG_EXP_POW);
         const auto processor = config->getProcessor(chain, ocio::TRANSFORM_DIR_FORWARD);
         processor_ = std::make_shared<const Processor>(Processor{processor->getOptimizedCPUProcessor(flags)});
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const DisplayError& error) {
         throw DisplayError(fmt::format("{}: {}", current.name, error.what()));
     } catch (const std::exception& error) {  // ocio::Exception among them

@@ -49,6 +49,11 @@ struct Affine {
         std::vector<double> entries;
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j) entries.push_back(g[i][j]);
+        // Squares of the entries, and their products with lengths, have to be finite floats.
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j)
+                if (!(std::abs(back[i][j]) < 1e18))
+                    throw ModelError("affine: \"x\", \"y\" and \"z\" are too small, or too different in length");
         inverse = glm::mat3(back);
         scale = static_cast<float>((1 - 2e-7) / std::sqrt(largest_eigenvalue(std::move(entries), 3)));
     }
