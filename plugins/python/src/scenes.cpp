@@ -50,10 +50,9 @@ py::object as_python(Value value, const Document* document = nullptr) {
     py::dict dict;
     const bool follows = document != nullptr && value.find("ramp");
     for (const Value member : value)
-        dict[py::str(std::string(member.key()))] =
-            follows && member.key() == "of"
-                ? py::cast(read_field(*document, member, tracer::file_readers()))
-                : as_python(member, document);
+        dict[py::str(std::string(member.key()))] = follows && member.key() == "of"
+                                                       ? py::cast(read_field(*document, member, tracer::file_readers()))
+                                                       : as_python(member, document);
     return dict;
 }
 

@@ -131,10 +131,11 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
                  "Stop at the last whole pass that ends within such a time as 90s, 5m or 1h from the start of the "
                  "command, preparing included; without --spp no number of samples ends it");
     command
-        .add_option("--noise", o.noise,
-                    "Blocks of 8x8 pixels stop before they have all samples where their estimated relative error is "
-                    "at most this, 0.02 for example; adds the planes noise and samples. 0: none stops. Where bright paths are "
-                    "rare and were missed a block stops too soon, so the picture gets a little darker")
+        .add_option(
+            "--noise", o.noise,
+            "Blocks of 8x8 pixels stop before they have all samples where their estimated relative error is "
+            "at most this, 0.02 for example; adds the planes noise and samples. 0: none stops. Where bright paths are "
+            "rare and were missed a block stops too soon, so the picture gets a little darker")
         ->check(CLI::Range(0.0, 1.0))
         ->option_text("ERROR");
     command

@@ -107,10 +107,7 @@ class ObjectsReader {
                                                          name));
             if (!root.is_object() || !root.find("tree"))
                 throw document_.error(named, fmt::format("\"{}\" has no \"tree\"", name));
-            known =
-                files_
-                    .emplace(name, TakenFile{other, read_tree(other, file_readers(), node_places_)})
-                    .first;
+            known = files_.emplace(name, TakenFile{other, read_tree(other, file_readers(), node_places_)}).first;
         }
         found.document = known->second.document;
         found.names = known->second.tree.phases;
