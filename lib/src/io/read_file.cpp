@@ -12,6 +12,7 @@
 
 #include "phasetree/io/document.hpp"
 #include "phasetree/io/suggest.hpp"
+#include "phasetree_support/folder.hpp"
 
 namespace phasetree::io {
 
@@ -38,11 +39,10 @@ std::optional<std::string> neighbour(const std::filesystem::path& missing) {
     constexpr std::size_t max_looked_at = 1000;
     const std::filesystem::path folder = missing.has_parent_path() ? missing.parent_path() : ".";
     std::vector<std::string> names;
-    std::error_code error;
-    for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-        if (names.size() == max_looked_at) break;
-        names.push_back(it->path().filename().string());
-    }
+    (void)support::each_entry(folder, [&](const std::filesystem::path& path) {
+        names.push_back(path.filename().string());
+        return names.size() < max_looked_at;
+    });
     std::sort(names.begin(), names.end());  // the folder's order is arbitrary
     const auto name = closest(missing.filename().string(), names);
     if (!name) return std::nullopt;

@@ -14,6 +14,8 @@
 #include <system_error>
 #include <utility>
 
+#include "phasetree_support/folder.hpp"
+
 namespace phasetree::support {
 
 namespace {
@@ -89,15 +91,15 @@ bool is_temporary_of(const fs::path& target, const std::string& name) {
 /// Takes away the temporary files of processes that were killed. One that is still being written is locked by its
 /// writer, on whatever machine; where there are no locks everything stays.
 void remove_abandoned(const fs::path& target) {
-    std::error_code error;
-    fs::directory_iterator at(folder_of(target), error);
-    for (const fs::directory_iterator end; !error && at != end; at.increment(error)) {
-        if (!is_temporary_of(target, at->path().filename().string())) continue;
-        const int file = ::open(at->path().c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
-        if (file < 0) continue;
-        if (::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlink(at->path().c_str());
+    // A folder that cannot be read is the trouble of whoever opens files in it.
+    (void)each_entry(folder_of(target), [&](const fs::path& path) {
+        if (!is_temporary_of(target, path.filename().string())) return true;
+        const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+        if (file < 0) return true;
+        if (::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlink(path.c_str());
         ::close(file);
-    }
+        return true;
+    });
 }
 
 /// Whether an open file still has that name.

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "image/read_image.hpp"
+#include "phasetree_support/folder.hpp"
 #include "volume/formats.hpp"
 #include "volume/label_numbers.hpp"
 
@@ -52,13 +53,14 @@ std::vector<fs::path> layers_of(const fs::path& path) {
     const Pattern pattern(name);
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     std::map<long, fs::path> found;
-    std::error_code problem;
-    for (fs::directory_iterator entry(folder, problem), end; !problem && entry != end; entry.increment(problem))
-        if (const long n = pattern.number_in(entry->path().filename().string()); n >= 0) {
-            found.emplace(n, entry->path());
+    (void)support::each_entry(folder, [&](const fs::path& file) {
+        if (const long n = pattern.number_in(file.filename().string()); n >= 0) {
+            found.emplace(n, file);
             if (found.size() > static_cast<std::size_t>(VoxelGrid::most_along_axis))
                 throw std::runtime_error(fmt::format("there are more than {} images", VoxelGrid::most_along_axis));
         }
+        return true;
+    });
     if (found.empty()) throw std::runtime_error("there is no file of such a name with digits in place of #");
     std::vector<fs::path> layers;
     long next = found.begin()->first;
