@@ -131,5 +131,7 @@ TEST_CASE("what makes no farm is refused") {
     refused({"list", "-", "--shares", "2"}, "must be a file");
     refused({"list", "scene.json", "--shares", "2", "--program", "a\nb"}, "line feed");
     refused({"list", "scene.json", "--shares", "2", "--merge-width", "1"}, "--merge-width");
+    refused({"list", "scene.json", "--shares", "2", "--", "--denoise"}, "8 samples");
+    refused({"list", "scene.json", "--shares", "2", "--", "--spp", "9", "--denoise=magic"}, "not \"magic\"");
     refused({"list", "absent.json", "--shares", "2"}, "absent.json");
 }

@@ -45,6 +45,13 @@ Denoiser denoiser_of(const std::string& text) {
     return Denoiser::network;
 }
 
+void check_denoising(const std::string& denoise, int samples) {
+    (void)denoiser_of(denoise);
+    if (samples < fewest_samples_to_denoise)
+        throw OutputError(fmt::format("--denoise needs {} samples a pixel at least, and the picture is to have {}",
+                                      fewest_samples_to_denoise, samples));
+}
+
 void check_denoising(const Planes::Choice& kept, bool has_pictures) {
     if (!has_pictures) throw OutputError("--denoise is for pictures, and all outputs are .part files");
     if ((kept & denoising_planes()) != denoising_planes())

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "command/commands.hpp"
+#include "command/denoising.hpp"
 #include "command/farm_scripts.hpp"
 #include "command/load.hpp"
 #include "command/pictures.hpp"
@@ -91,7 +92,10 @@ int write_farm(const Options& options) {
          {std::pair("--display", render.display), std::pair("--view", render.view),
           std::pair("--exposure", render.exposure ? std::optional(fmt::format("{}", *render.exposure)) : std::nullopt)})
         if (value) farm.merge_options.insert(farm.merge_options.end(), {name, *value});
-    if (render.denoise) farm.merge_options.push_back("--denoise=" + *render.denoise);
+    if (render.denoise) {
+        check_denoising(*render.denoise, scene.settings.samples);
+        farm.merge_options.push_back("--denoise=" + *render.denoise);
+    }
     const std::string text = options.kind == "slurm" ? slurm_script(farm) : command_list(farm);
     const auto has_line_feed = [](const std::string& word) { return word.find('\n') != std::string::npos; };
     std::vector<std::string> all{farm.program, farm.scene, farm.parts};

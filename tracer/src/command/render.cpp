@@ -257,15 +257,6 @@ void say_what_is_missing(const RenderOptions& options, const Scene& scene, const
     }
 }
 
-void keep_denoising_planes(const RenderOptions& options, Scene& scene) {
-    (void)denoiser_of(*options.denoise);
-    // A share is denoised when it has been merged with the others.
-    if (!options.share && scene.settings.samples < fewest_samples_to_denoise)
-        throw OutputError(fmt::format("--denoise needs {} samples a pixel at least, and the picture is to have {}",
-                                      fewest_samples_to_denoise, scene.settings.samples));
-    scene.film.planes |= denoising_planes();
-}
-
 int render_scene(const RenderOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     expect_checkpoint_requests();
@@ -276,7 +267,10 @@ int render_scene(const RenderOptions& options) {
     Scene& scene = read_scene.scene;
     apply(options, scene);
     const Planes::Choice wanted_planes = film_settings(scene).planes;
-    if (options.denoise) keep_denoising_planes(options, scene);
+    if (options.denoise) {
+        check_denoising(*options.denoise, scene.settings.samples);
+        scene.film.planes |= denoising_planes();
+    }
     if (!scene.placed.empty() && (options.detail || options.cells))
         throw OutputError(fmt::format("{} is for scenes of one tree, and this one has \"objects\"",
                                       options.detail ? "--detail" : "--cells"));
