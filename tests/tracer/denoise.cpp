@@ -119,6 +119,28 @@ TEST_CASE("the mean of the picture stays, also where bright samples are rare") {
     CHECK(mean_of(*regressed(rare)) == doctest::Approx(mean_of(rare.pixels)).epsilon(0.015));
 }
 
+TEST_CASE("halves of unequal size, and the variance that their difference tells of") {
+    // The same at all pixels: three of four samples have 2 in the mean and the fourth has 6, so all have 3.
+    Image image = made(textured, 0, 1);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        image.pixels[i] = glm::vec3(3);
+        channel(image, "half.G")[i] = 2;
+        channel(image, "half_samples.X")[i] = 48;
+        channel(image, "normal.Y")[i] = 3;
+        channel(image, "half_normal.Y")[i] = 2;
+    }
+    const Halves halves = halves_of(image);
+    CHECK(halves.shares.at(9, 7) == doctest::Approx(0.75));
+    CHECK(halves.pictures[0].at(9, 7).mean[1] == doctest::Approx(2));
+    CHECK(halves.pictures[1].at(9, 7).mean[1] == doctest::Approx(6));
+    // (6 − 2)² is σ² (1/48 + 1/16), so σ²/64 is 3, σ²/48 is 4 and σ²/16 is 12.
+    CHECK(halves.features.at(9, 7).variance[4] == doctest::Approx(3));
+    CHECK(halves.pictures[0].at(9, 7).variance[1] == doctest::Approx(4));
+    CHECK(halves.pictures[1].at(9, 7).variance[1] == doctest::Approx(12));
+    // They are joined as they were divided.
+    CHECK((*regressed(image))[200].g == doctest::Approx(3).epsilon(1e-4));
+}
+
 TEST_CASE("features lose their noise and keep their edges") {
     Grid<Estimate<feature_count>> features(width, height);
     Uniform random(8);
