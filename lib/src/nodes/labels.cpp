@@ -14,10 +14,12 @@ namespace phasetree {
 
 namespace {
 
-// In voxels: what a phase's own depth at its voxel is above others' at least, and the most by which it is raised
-// where a voxel would be lost.
+// In voxels: by how much a voxel's own phase is deeper there than all others, at least. Where blurring has made another
+// phase deeper by some amount, the own one leads by that amount afterwards, but by most_margin at most; else thin walls
+// and threads would vanish.
 constexpr float least_margin = 0.02f, most_margin = 0.3f;
-// Depths that differ from the greatest depth by less are the greatest, so that most blocks hold one value.
+// Depths nearer than this to the greatest or least depth are set to it, so that most blocks hold one value and take no
+// room.
 constexpr float all_the_same = 1e-4f;
 constexpr int no_phase = -1;
 
@@ -39,8 +41,8 @@ double inverse_normal(double u) {
     return x;
 }
 
-// The depth, in voxels, in a phase of which this share is left after blurring. It is tabulated: of 512³ voxels each has
-// a share of each phase.
+// How deep in a phase a point is, in voxels, by what blurring has left there of the phase's indicator, its share: the
+// distance to a flat interface with that share, σ Φ⁻¹(share). It is asked for at each voxel and phase, hence tabulated.
 class DepthOfShare {
   public:
     explicit DepthOfShare(float sigma) : most_(sigma > 0 ? 2.5f * sigma : 0.5f) {
@@ -156,6 +158,7 @@ class LabelDepths {
             }
         }
         for (Own& own : own_) {
+            // The own depth takes half of what is lacking; depth_in() lowers the others by the rest.
             const float ahead = own.depth - own.margin;
             own.margin = std::max(least_margin, std::min(-ahead, most_margin));
             own.depth += 0.5f * std::max(own.margin - ahead, 0.f);
@@ -168,6 +171,7 @@ class LabelDepths {
         }
         std::vector<Labels::Part> parts;
         for (std::size_t i = 0; i < present.size(); ++i) {
+            // One divisor for all, so that each is 1-Lipschitz and their differences keep their signs.
             if (steepest > 0) grids[i].divide_by(steepest * (1 + 1e-6));
             parts.push_back({present[i], std::make_shared<const VoxelGrid>(std::move(grids[i]))});
         }

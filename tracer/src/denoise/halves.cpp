@@ -13,12 +13,12 @@ namespace phasetree::tracer {
 
 namespace {
 
-// The names of the features' channels by all samples are those of the half without "half_".
+// A feature's channel of all samples is called like that of the half, but for "half_" before it.
 std::string_view name_by_all(std::string_view of_half) {
     return of_half.substr(std::string_view("half_").size());
 }
 
-// The halves' means at a pixel, and how many samples they have.
+// The means of both halves, of one channel at one pixel.
 struct Split {
     float first, second;
 };
@@ -49,7 +49,7 @@ void smooth_variances(Grid<Estimate<N>>& grid) {
     grid.fill_margin();
 }
 
-// Features without noise differ by their rounding.
+// It is added to the features' variances, because features without noise differ by their rounding.
 constexpr float least_variance_of_features = 1e-8f;
 
 void check_halves(std::span<const float> samples, std::span<const float> in_first) {
