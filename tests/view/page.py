@@ -387,6 +387,24 @@ class Page(unittest.TestCase):
         self.browser.wait_for("!document.querySelector('#number-rows .changed')")
         self.assertEqual(self.view.file.read_text(encoding="utf-8"), LARGER.replace('"radius": 0.5', '"radius": 0.3'))
 
+    def test_numbers_that_come_late_do_not_replace_those_of_a_later_reading(self):
+        # The answer for the second reading comes first.
+        self.browser.run("""(async () => {
+            const {Numbers} = await import("./numbers.js");
+            const [filter, rows, said] = ["input", "div", "p"].map((name) => document.createElement(name));
+            const numbers = new Numbers({filter, rows, said}, () => {});
+            const answers = [];
+            const shown = [1, 2].map((version) => numbers.show({numbers: {}, numbers_version: version},
+                () => new Promise((resolve) => answers.push(resolve))));
+            answers[1]({numbers: [{pointer: "/second", value: 2, line: 1}], has_more: false});
+            await shown[1];
+            answers[0]({numbers: [{pointer: "/first", value: 1, line: 1}], has_more: false});
+            await shown[0];
+            window.told = rows.textContent;
+        })()""")
+        self.browser.wait_for("window.told !== undefined")
+        self.assertEqual(self.browser.run("window.told"), "second (line 1)")
+
     def test_planes_of_the_film_are_shown(self):
         layers = self.browser.run("[...document.getElementById('layer').options].map((o) => o.value)")
         for layer in ("depth", "normal", "position_behind", "phase_entered", "length_glass", "CryptoPhase00", "variance"):

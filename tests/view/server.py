@@ -1,6 +1,7 @@
 """The live view's server: what it shows, whom it refuses, and that it outlives what it is sent."""
 
 import json
+import os
 import pathlib
 import signal
 import subprocess
@@ -334,6 +335,47 @@ class Files(unittest.TestCase):
             self.assertNotEqual(there.pixels, before.pixels)
             (view.file.parent / "leaf.obj").write_text(leaf.replace("1 1 -1", "3 1 -1"), encoding="utf-8")
             view.wait_for(lambda s: is_ready(s) and s["version"] > there.state["version"] + 2)
+
+    def test_an_image_of_a_stack_is_watched(self):
+        def image(numbers):
+            return b"P5\n2 2\n255\n" + bytes(numbers)
+
+        def save(file, numbers):
+            file.write_bytes(image(numbers))
+            # Long ago, so that what the reading made of it is kept.
+            os.utime(file, ns=(time.time_ns() - 10**11, time.time_ns() - 10**11))
+
+        class Stack(View):
+            def prepare(self):
+                for n in range(2):
+                    save(self.file.parent / f"layer_{n}.pgm", [1, 1, 0, 1])
+
+        labels = '{"labels": {"file": "layer_#.pgm", "phases": ["wood"], "spacing": [0.5, 0.5, 0.5]}}'
+        text = SCENE[:SCENE.index('"shapes": ')] + '"tree": ' + labels + SCENE[SCENE.index(',\n"lights"'):]
+        with Stack(text) as view:
+            before = view.ready()
+            save(view.file.parent / "layer_1.pgm", [1, 1, 1, 1])
+            saved = view.wait_for(lambda s: is_ready(s) and s["version"] > before.state["version"] + 2)
+            self.assertNotEqual(saved.pixels, before.pixels)
+            # One more, in the folder that is watched, and then what was there at first.
+            save(view.file.parent / "layer_2.pgm", [1, 1, 1, 1])
+            more = view.wait_for(lambda s: is_ready(s) and s["version"] > saved.state["version"] + 2)
+            self.assertNotEqual(more.pixels, saved.pixels)
+            (view.file.parent / "layer_2.pgm").unlink()
+            save(view.file.parent / "layer_1.pgm", [1, 1, 0, 1])
+            back = view.wait_for(lambda s: is_ready(s) and s["version"] > more.state["version"] + 2)
+            self.assertEqual(back.pixels, before.pixels)
+
+    def test_groups_that_stand_nowhere_are_warned_of(self):
+        ball = SCENE[SCENE.index('"tree": '):SCENE.index(',\n"lights"')]
+        groups = '"groups": {"lost": [{"of": "balls"}]}'
+        text = changed(SCENE, ball, '"objects": [{"name": "balls", ' + ball + "}], " + groups + ', "instances": [{"of": "balls"}]')
+        with View(text) as view:
+            warning = view.ready().state["warning"]
+            checked = subprocess.run([COMMAND, "check", str(view.file)], capture_output=True, text=True, check=False, timeout=60)
+            self.assertIn('the group "lost" stands nowhere', checked.stderr)
+            self.assertIn(checked.stderr.splitlines()[0], warning)
+            self.assertIn(warning.strip(), view.said())
 
     def test_the_camera_is_written_into_the_file_and_nothing_else_changes(self):
         old = '{"position": [0, -5, 0], "look_at": [0, 0, 0], "fov": 30}'

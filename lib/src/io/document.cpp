@@ -155,6 +155,7 @@ std::filesystem::path Document::file(Value named) const {
 Document Document::beside(Value named) const {
     Document other = from_file(file(named));
     other.files_within_ = files_within_;
+    other.kept_nodes_ = kept_nodes_;
     other.seconds_ = seconds_;
     return other;
 }

@@ -4,9 +4,11 @@
 
 #include <map>
 
+#include "io/node_source.hpp"
 #include "io/string_offset.hpp"
 #include "model/preparation.hpp"
 #include "model/text_error.hpp"
+#include "phasetree/io/kept_nodes.hpp"
 #include "phasetree/io/keys.hpp"
 #include "phasetree/io/mesh.hpp"
 #include "phasetree/io/object_reader.hpp"
@@ -166,7 +168,7 @@ class Reader {
         else if (!(member.is_string() && read_text(node, member)))
             read_parameters(node, member);
         try {
-            Handle made(std::move(node));
+            Handle made = made_of<Handle>(node, member);
             if (places_) places_->add(made, document_, member.key_offset());
             return made;
         } catch (const TextError& e) {
@@ -175,6 +177,46 @@ class Reader {
         } catch (const ModelError& e) {
             throw document_.error(member.key_offset(), e.what());
         }
+    }
+
+    // Makes the node of its parameters and its file, if it has one, or takes the one that an earlier reading made of
+    // the same.
+    template <class Handle, class N>
+    Handle made_of(N& node, Value member) {
+        if constexpr (io::MadeFromFile<N>) {
+            const Value file = member.find("file").value();
+            KeptNodes* const kept = document_.kept_nodes();
+            const std::optional<KeptNodes::Source> source = kept ? source_of(node, file) : std::nullopt;
+            if (source) {
+                if (std::optional<KeptNodes::Node> known = kept->take(*source)) {
+                    PreparationTogether::pay(N::info.name, known->steps);
+                    kept->keep(*source, *known);
+                    return std::get<Handle>(known->handle);
+                }
+            }
+            std::string part;
+            if constexpr (requires { node.part_of_file(); }) part = node.part_of_file();
+            read_file(node.file, part, file);
+            const std::uint64_t paid = preparation_.paid();
+            Handle made(std::move(node));
+            if (source) kept->keep(*source, {made, preparation_.paid() - paid});
+            return made;
+        } else {
+            return Handle(std::move(node));
+        }
+    }
+
+    // Nothing where the node cannot be known again.
+    template <class N>
+    std::optional<KeptNodes::Source> source_of(N& node, Value file) const {
+        const std::filesystem::path path = document_.file(file);
+        std::vector<std::filesystem::path> files{path};
+        try {
+            if (files_.files_of) files = files_.files_of(path);
+        } catch (const std::exception&) {
+            return std::nullopt;  // Whoever reads them says what is wrong.
+        }
+        return io::source_of(node, path, files);
     }
 
     template <class N>
@@ -186,14 +228,6 @@ class Reader {
         for_each_parameter(node, [&](auto& target, const Parameter& p) {
             if (p.optional && !reader.value(p.name)) return;
             read_value(target, reader.required_value(p.name), p);
-        });
-        // Which part of a file is wanted another parameter may say.
-        for_each_parameter(node, [&](auto& target, const Parameter& p) {
-            if constexpr (requires { target.content; }) {
-                std::string part;
-                if constexpr (requires { node.part_of_file(); }) part = node.part_of_file();
-                read_file(target, part, reader.required_value(p.name));
-            }
         });
     }
 

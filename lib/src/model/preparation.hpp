@@ -38,6 +38,9 @@ class PreparationTogether {
     /// if it is too much.
     static void pay(std::string_view node, std::uint64_t steps);
 
+    /// What was paid so far from this budget.
+    std::uint64_t paid() const { return paid_; }
+
     static constexpr std::uint64_t most = 10 * Preparation::most;
 
   private:

@@ -24,17 +24,25 @@ std::string names_of(const PlacedObjects& placed, const std::vector<std::uint32_
 
 }  // namespace
 
-void warn_of_unplaced_groups(const Document& document, const PlacedObjects& placed) {
+std::vector<std::string> warnings_of_unplaced_groups(const Document& document, const PlacedObjects& placed) {
     const UnplacedGroups unplaced = find_unplaced_groups(placed);
+    std::vector<std::string> warnings;
     for (const auto& [number, lost] : unplaced.found) {
         const PlacedGroup& group = placed.groups[number];
         std::string warning =
             fmt::format("warning: the group \"{}\" stands nowhere, because no instance names it", group.name);
         if (!lost.empty())
             warning += fmt::format("; so {} {} not there", names_of(placed, lost), lost.size() == 1 ? "is" : "are");
-        say("{}\n", document.error(group.offset, warning).what());
+        warnings.emplace_back(document.error(group.offset, warning).what());
     }
-    if (unplaced.more > 0) say("{}: warning: {} more of its groups stand nowhere\n", document.name(), unplaced.more);
+    if (unplaced.more > 0)
+        warnings.push_back(
+            fmt::format("{}: warning: {} more of its groups stand nowhere", document.name(), unplaced.more));
+    return warnings;
+}
+
+void warn_of_unplaced_groups(const Document& document, const PlacedObjects& placed) {
+    for (const std::string& warning : warnings_of_unplaced_groups(document, placed)) say("{}\n", warning);
 }
 
 }  // namespace phasetree::tracer

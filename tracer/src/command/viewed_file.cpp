@@ -5,19 +5,33 @@
 #include <utility>
 
 #include "command/load.hpp"
+#include "command/unplaced_report.hpp"
 #include "output/file.hpp"
+#include "phasetree/io/kept_nodes.hpp"
 #include "scene/camera_text.hpp"
+#include "volume/read_volume.hpp"
 
 namespace phasetree::tracer {
 
 namespace {
 
 // Files that the scene names. Which strings are names of files the readers know; every string with a dot in it that may
-// be read as one is watched, which costs a look now and then.
+// be read as one is watched, which costs a look now and then. Of a stack of images its folder is watched, too, in which
+// images come and go.
+void add_file(const std::filesystem::path& path, view::WatchedFiles& files) {
+    if (path.filename().string().find('#') == std::string::npos) return files.add(path);
+    files.add(path.has_parent_path() ? path.parent_path() : ".");
+    try {
+        for (const std::filesystem::path& layer : layers_of_stack(path)) files.add(layer);
+    } catch (const std::runtime_error&) {
+        // There is no such stack, which the reader says if it should be one.
+    }
+}
+
 void add_named_files(const Document& document, Value value, view::WatchedFiles& files) {
     if (value.is_string() && value.string().find('.') != std::string_view::npos && value.string().size() < 1024) {
         try {
-            files.add(document.file(value));
+            add_file(document.file(value), files);
         } catch (const SceneError&) {
             // It leaves the folder that files must lie in, which the reader says if it is a file.
         }
@@ -32,13 +46,18 @@ Document with_edits(const SceneFile& scene, const Document& document, const view
     return scene.assets_within ? edited.with_files_within(*scene.assets_within) : edited;
 }
 
-view::ViewedScene read_viewed(const ViewedFile& file, view::WatchedFiles& files, const view::NumberEdits& numbers) {
+view::ViewedScene read_viewed(const ViewedFile& file, const std::shared_ptr<KeptNodes>& kept, view::WatchedFiles& files,
+                              const view::NumberEdits& numbers) {
     files.add(file.scene.name);
+    kept->start();
     const Document in_file = read_document(file.scene);
-    const Document document = with_edits(file.scene, in_file, numbers);
+    const Document document = with_edits(file.scene, in_file, numbers).with_kept_nodes(kept);
     add_named_files(document, document.root(), files);
     NodePlaces places;
     Scene scene = load_scene(document, &places);
+    kept->finish();
+    std::string warnings;
+    for (const std::string& warning : warnings_of_unplaced_groups(document, scene.placed)) warnings += warning + "\n";
     make_one_tree(document, scene);
     scene.camera_moments.clear();  // The page turns the camera, and shows what is there as the shutter opens.
     // A name that is wrong is said now.
@@ -51,7 +70,8 @@ view::ViewedScene read_viewed(const ViewedFile& file, view::WatchedFiles& files,
             in_file,
             numbers,
             view::numbers_of(in_file),
-            std::move(places)};
+            std::move(places),
+            std::move(warnings)};
 }
 
 // The file keeps who may read and write it.
@@ -69,10 +89,11 @@ view::ReadScene ViewedFile::reader() const {
         view::WatchedFiles files;
     };
     const auto first = std::make_shared<First>();
-    first->scene = read_viewed(*this, first->files, {});
-    return [file = *this, first](view::WatchedFiles& files, const view::NumberEdits& numbers) {
+    const auto kept = std::make_shared<KeptNodes>();
+    first->scene = read_viewed(*this, kept, first->files, {});
+    return [file = *this, first, kept](view::WatchedFiles& files, const view::NumberEdits& numbers) {
         std::optional<view::ViewedScene> known = std::exchange(first->scene, std::nullopt);
-        if (!known || !numbers.empty()) return read_viewed(file, files, numbers);
+        if (!known || !numbers.empty()) return read_viewed(file, kept, files, numbers);
         files = first->files;
         return std::move(*known);
     };

@@ -21,7 +21,10 @@ HeightGrid read_height_grid(const std::filesystem::path& path) {
 }
 
 FileReaders file_readers() {
-    return {.height_grid = read_height_grid, .level_set = read_level_set, .label_grid = read_label_grid};
+    return {.height_grid = read_height_grid,
+            .level_set = read_level_set,
+            .label_grid = read_label_grid,
+            .files_of = layers_of_stack};
 }
 
 }  // namespace phasetree::tracer

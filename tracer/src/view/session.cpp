@@ -302,8 +302,8 @@ void Session::build(const Wishes& wishes) {
     }
     scene_ = scene;
     const InterfaceCells& object = prepared_->world().geometry().object();
-    std::string warning = object.warning();
-    if (!warning.empty()) warning = fmt::format("{}: warning: {}\n", options_.name, warning);
+    std::string warning = viewed_->warnings;
+    if (!object.warning().empty()) warning += fmt::format("{}: warning: {}\n", options_.name, object.warning());
     if (object.size() == 0)
         warning += fmt::format("{}: warning: the object is empty, so no ray meets it\n", options_.name);
     if (!warning.empty()) options_.tell(warning);

@@ -19,8 +19,9 @@ struct ViewedScene {
     std::function<DisplayTransform(float exposure_ev)> display;
     std::optional<Document> file{};  ///< of the scene, without the numbers that stand in place of its own:
     NumberEdits edits{};
-    TextNumbers numbers{};  ///< of the file
-    NodePlaces places{};    ///< of the object's nodes, with those numbers
+    TextNumbers numbers{};   ///< of the file
+    NodePlaces places{};     ///< of the object's nodes, with those numbers
+    std::string warnings{};  ///< of the reader, each with a newline behind it
 
     /// Where a node stands in its file, as that is; nothing for one that stands in none.
     std::optional<NodePlace> place_of(const void* node) const;

@@ -46,8 +46,9 @@ struct Pattern {
     }
 };
 
-// The files, from the lowest layer to the highest. A number that is left out between two is an error.
-std::vector<fs::path> layers_of(const fs::path& path) {
+}  // namespace
+
+std::vector<fs::path> layers_of_stack(const fs::path& path) {
     const std::string name = path.filename().string();
     if (name.find('#') == std::string::npos) return {path};
     const Pattern pattern(name);
@@ -73,6 +74,8 @@ std::vector<fs::path> layers_of(const fs::path& path) {
     }
     return layers;
 }
+
+namespace {
 
 void add_layer(const fs::path& file, bool is_first, LabelGrid& grid, LabelNumbers& numbers) {
     const std::string name = file.filename().string();
@@ -107,7 +110,7 @@ void add_layer(const fs::path& file, bool is_first, LabelGrid& grid, LabelNumber
 }  // namespace
 
 LabelGrid labels_of_images(const fs::path& path) {
-    const std::vector<fs::path> layers = layers_of(path);
+    const std::vector<fs::path> layers = layers_of_stack(path);
     LabelGrid grid;
     grid.lattice.size[2] = static_cast<int>(layers.size());
     LabelNumbers numbers(grid);

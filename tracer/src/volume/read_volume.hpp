@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "phasetree/nodes/fields/voxel_grid.hpp"
 #include "phasetree/nodes/phased/label_grid.hpp"
@@ -18,6 +19,10 @@ namespace phasetree::tracer {
 VoxelGrid read_level_set(const std::filesystem::path& path, const std::string& grid);
 
 LabelGrid read_label_grid(const std::filesystem::path& path, const std::string& grid);
+
+// The images that a name with # in place of a number stands for, from the lowest layer to the highest; a name without
+// is one image. std::runtime_error where there is none, or where a number is left out between two.
+std::vector<std::filesystem::path> layers_of_stack(const std::filesystem::path& path);
 
 // Whether this program was built with OpenVDB.
 bool can_read_openvdb();

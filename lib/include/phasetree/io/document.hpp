@@ -15,6 +15,7 @@
 namespace phasetree {
 
 struct DocumentData;
+class KeptNodes;
 class ValueIterator;
 
 /// What a JSON value is.
@@ -137,6 +138,16 @@ class Document {
         return then;
     }
 
+    /// The same text, whose nodes are taken from those that an earlier reading made, where nothing of them changed, and
+    /// are kept for the next (io/kept_nodes.hpp). What is read beside it does the same.
+    Document with_kept_nodes(std::shared_ptr<KeptNodes> nodes) const {
+        Document then = *this;
+        then.kept_nodes_ = std::move(nodes);
+        return then;
+    }
+    /// Null unless it was set.
+    KeptNodes* kept_nodes() const { return kept_nodes_.get(); }
+
     /// An error at a byte offset, or at the first character of a value.
     SceneError error(std::size_t offset, std::string message, std::optional<std::string> suggestion = {}) const;
     SceneError error(Value value, std::string message, std::optional<std::string> suggestion = {}) const;
@@ -146,6 +157,7 @@ class Document {
 
     std::shared_ptr<const DocumentData> data_;
     std::shared_ptr<const std::filesystem::path> files_within_;  ///< as it is without links; null for anywhere
+    std::shared_ptr<KeptNodes> kept_nodes_;
     double seconds_ = 0;
 };
 

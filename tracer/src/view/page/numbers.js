@@ -78,11 +78,14 @@ export class Numbers {
   async show(state, ask) {
     this.#edits = state.numbers;
     if (state.numbers_version !== this.#version) {
-      this.#version = state.numbers_version;
+      const version = state.numbers_version;
+      this.#version = version;
       const told = await ask().catch((error) => {
-        this.#version = null; // They are asked for again.
+        if (this.#version === version) this.#version = null; // They are asked for again.
         throw error;
       });
+      // The file has been read once more, and what was asked for since may have come already.
+      if (this.#version !== version) return;
       this.#all = told.numbers;
       this.#hasMore = told.has_more;
       this.#make();
