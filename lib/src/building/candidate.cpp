@@ -22,7 +22,7 @@ class CandidateSearch {
           context_(context),
           worker_(worker),
           region_(node.box.inflated(context.reach)),
-          encloser_(context.program, region_, node.specialisations, worker.scratch) {}
+          encloser_(context.program, region_, node.specialisations, node.required, worker.scratch) {}
 
     // The candidate with what is left of a program; nothing if no ray can meet an interface in the box.
     //
@@ -78,7 +78,7 @@ class CandidateSearch {
     Encloser* narrower_encloser(const Bounds& box) {
         return std::construct_at(worker_.scratch.allocate<Encloser>(1).data(), context_.program,
                                  intersect(region_, box.inflated(context_.reach)), std::span<const Specialisation>(),
-                                 worker_.scratch);
+                                 std::span<const RequiredOfLocal>(), worker_.scratch);
     }
     void price(Candidate& cell) const {
         // A ray passes through many of the copies of a fold, and through many blocks of a pattern of which nothing is

@@ -7,7 +7,7 @@
 
 namespace phasetree::building {
 
-using rewriting::Specialisation;
+using rewriting::RequiredOfLocal, rewriting::Specialisation;
 
 /// A cell that a box could become.
 struct Candidate {
@@ -24,6 +24,7 @@ struct BuildNode {
     Bounds box;
     WorkingProgram program;
     std::span<const Specialisation> specialisations{};  ///< in this box; until prepare(), in the box around it
+    std::span<const RequiredOfLocal> required{};        ///< of local primitives, in this box
     int depth = 0;
     /// How many divisions in a row have had no gain. The count starts again at a box that is divided in any case.
     int futile_divisions = 0;

@@ -105,11 +105,13 @@ CellCosts find_cells(const BuildNode& node, const BuildContext& context, Worker&
 
 // Evaluates a node's program at the centres of boxes, one in each lane. The result reads lane 0, which has the values
 // for the first box; Division::prepare_part() reads the lanes of the others.
-ValuesAtPoint values_at_centres(const BuildNode& node, const SubBoxes& boxes, const BuildContext& context,
-                                Worker& worker) {
-    std::vector<float>& constants = worker.constants;
-    if (constants.empty()) constants.assign(context.program.constants.begin(), context.program.constants.end());
-    const WorkingProgram program = specialised(node.program, node.specialisations, constants, worker.scratch);
+ValuesAtPoint values_at_centres(const BuildNode& node, const SubBoxes& boxes, Worker& worker) {
+    SharedConstants& constants = worker.pool.constants();
+    std::size_t count = 0;
+    for (const Specialisation& s : node.specialisations) count += s.data.size();
+    worker.specialised.clear();
+    const WorkingProgram program = specialised(node.program, node.specialisations, worker.specialised, worker.scratch,
+                                               constants.first_behind(worker.number, count));
     const ReadableSteps steps = readable_steps(program, worker.scratch);
     static_assert(batch_size >= SubBoxes::most, "each part has a lane of its own");
     BatchOfFloats x, y, z;
@@ -120,9 +122,9 @@ ValuesAtPoint values_at_centres(const BuildNode& node, const SubBoxes& boxes, co
         z[i] = c.z;
     }
     const std::span<BatchOfFloats> registers = worker.scratch.allocate<BatchOfFloats>(steps.slots);
-    active_kernel().evaluate(steps.routine(constants.data()), x.lane.data(), y.lane.data(), z.lane.data(),
+    const float* const all = constants.with(worker.specialised, worker.number, worker.constants);
+    active_kernel().evaluate(steps.routine(all), x.lane.data(), y.lane.data(), z.lane.data(),
                              registers.data()->lane.data(), nullptr);
-    constants.resize(context.program.constants.size());
     return {registers.data(), steps.slot, 0};
 }
 
@@ -134,7 +136,7 @@ class Division {
           context_(context),
           worker_(worker),
           boxes_(node.box),
-          values_(values_at_centres(node, boxes_, context, worker)),
+          values_(values_at_centres(node, boxes_, worker)),
           parts_(worker.scratch.allocate<BuildNode>(boxes_.count)),
           has_jumps_(context.program.has_folds && may_jump(node.program)) {
         if (node.depth < parallel_depth)
@@ -188,10 +190,11 @@ class Division {
             has_jumps_ ? slopes_in_ball(node_.program, centre, radius, context_.program, own.scratch)
                        : node_.program.lipschitz;
         const RangesInBall ranges{centre, slope, radius, context_.program.value_error};
-        const auto program = prune(node_.program, ranges, context_.program, own.arenas());
+        std::span<const RequiredOfLocal> required;
+        const auto program = prune(node_.program, ranges, context_.program, own.arenas(), required);
         if (!program) return false;
-        BuildNode& part =
-            *std::construct_at(&parts_[i], BuildNode{boxes_.box[i], *program, node_.specialisations, node_.depth + 1});
+        BuildNode& part = *std::construct_at(
+            &parts_[i], BuildNode{boxes_.box[i], *program, node_.specialisations, required, node_.depth + 1});
         if (std::isfinite(node_.fold_period)) part.fold_period = finest_jump(part.program, context_.program.constants);
         if (std::isfinite(node_.pattern_period))
             part.pattern_period = finest_pattern(part.program, context_.program.constants);
@@ -247,7 +250,7 @@ CellBuffers divide_into_cells(const Bounds& box, const WorkingProgram& program, 
     BuildNode root{box, program};
     root.fold_period = finest_jump(program, context.program.constants);
     root.pattern_period = finest_pattern(program, context.program.constants);
-    WorkerPool pool(budget);
+    WorkerPool pool(budget, context.program.constants);
     Worker worker{pool};
     if (!prepare(root, context, worker)) return {};
     // The root is divided whenever the budget allows, without a comparison with a single cell, because boxes that are

@@ -7,6 +7,7 @@
 #include "io/string_offset.hpp"
 #include "model/preparation.hpp"
 #include "model/text_error.hpp"
+#include "phasetree/io/balls.hpp"
 #include "phasetree/io/keys.hpp"
 #include "phasetree/io/mesh.hpp"
 #include "phasetree/io/object_reader.hpp"
@@ -289,6 +290,8 @@ class Reader {
             return read_siren(path);
         } else if constexpr (std::is_same_v<Content, TriangleMesh>) {
             return read_mesh(path);
+        } else if constexpr (std::is_same_v<Content, BallList>) {
+            return read_balls(path);
         } else {
             if (!files_.height_grid) throw std::runtime_error("this program reads no images");
             return files_.height_grid(path);
@@ -346,7 +349,8 @@ class Reader {
     NodePlaces* places_;
     template <class Content>
     using KnownFiles = std::map<std::string, std::shared_ptr<const Content>, std::less<>>;
-    std::tuple<KnownFiles<SirenNetwork>, KnownFiles<HeightGrid>, KnownFiles<TriangleMesh>> known_files_;
+    std::tuple<KnownFiles<SirenNetwork>, KnownFiles<HeightGrid>, KnownFiles<TriangleMesh>, KnownFiles<BallList>>
+        known_files_;
     std::map<std::string, Field, std::less<>> fields_;
     std::map<std::string, Phased, std::less<>> objects_;
     std::vector<std::string> open_;  // shapes being read, to find cycles

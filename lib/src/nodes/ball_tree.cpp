@@ -13,7 +13,7 @@ namespace phasetree::balls {
 namespace {
 
 constexpr std::size_t most_in_leaf = 8;
-constexpr std::size_t tallest = 64;           // The tree is balanced, so that it is never so tall.
+constexpr std::size_t tallest = 64;                // The tree is balanced, so that it is never so tall.
 constexpr std::size_t few = std::size_t{1} << 15;  // Fewer balls are not worth a task of their own.
 
 // How many balls the first child of a node has.

@@ -34,8 +34,9 @@ std::vector<std::uint8_t> phases_of_balls(const Particles& n, std::size_t balls)
     const std::vector<std::uint8_t>& numbers = n.file.content->phases;
     if (numbers.empty()) {
         if (listed != 1)
-            throw ModelError(fmt::format("particles: {} has no column \"phase\", so \"phases\" must be one for all balls",
-                                         n.file.path.empty() ? "the file" : n.file.path));
+            throw ModelError(
+                fmt::format("particles: {} has no column \"phase\", so \"phases\" must be one for all balls",
+                            n.file.path.empty() ? "the file" : n.file.path));
         std::ranges::fill(result, n.of_phases[0].index);
         return result;
     }
@@ -63,9 +64,10 @@ std::vector<glm::vec4> detail::given_balls(std::string_view node, const std::vec
     if (places.size() > BallList::most_balls)
         throw ModelError(fmt::format("{}: there are more than {} balls", node, BallList::most_balls));
     if (sizes.size() != 1 && sizes.size() != places.size())
-        throw ModelError(sizes.empty() ? fmt::format("{}: \"radii\" is missing{}", node,
-                                                     file.content ? ", and the file has none of its own" : "")
-                                       : fmt::format("{}: \"radii\" needs an entry for each ball, or one for all", node));
+        throw ModelError(sizes.empty()
+                             ? fmt::format("{}: \"radii\" is missing{}", node,
+                                           file.content ? ", and the file has none of its own" : "")
+                             : fmt::format("{}: \"radii\" needs an entry for each ball, or one for all", node));
     std::vector<glm::vec4> balls(places.size());
     for (std::size_t i = 0; i < balls.size(); ++i) {
         const float r = sizes[sizes.size() == 1 ? 0 : i];

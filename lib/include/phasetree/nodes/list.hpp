@@ -11,6 +11,7 @@
 #include "phasetree/nodes/copies/instances.hpp"
 #include "phasetree/nodes/copies/polar_array.hpp"
 #include "phasetree/nodes/copies/scatter.hpp"
+#include "phasetree/nodes/fields/balls.hpp"
 #include "phasetree/nodes/fields/blob.hpp"
 #include "phasetree/nodes/fields/bowl.hpp"
 #include "phasetree/nodes/fields/box.hpp"
@@ -70,6 +71,7 @@
 #include "phasetree/nodes/phased/layered_sequence.hpp"
 #include "phasetree/nodes/phased/layers.hpp"
 #include "phasetree/nodes/phased/over.hpp"
+#include "phasetree/nodes/phased/particles.hpp"
 #include "phasetree/nodes/phased/remove.hpp"
 #include "phasetree/nodes/phased/set.hpp"
 #include "phasetree/nodes/phased/smooth_intersect_shape.hpp"
@@ -115,14 +117,14 @@ using PlainFields =
              SchwarzP, SchwarzD, Displace, FieldInstances, FieldPolarArray, FieldGrid, Polyline, FieldEndlessGrid, Blob,
              VoronoiCells, Siren, HeightMap, Mesh, FieldFibonacciDisk, FieldFibonacciSphere, FieldScatter, Extrude,
              Revolve, Circle, Rectangle, Star, Slab, BoxFrame, Bowl, Dodecahedron, Icosahedron, Helix, Heightfield,
-             Polygon, Bezier, Formula, Polyhedron, FieldBoundingVolume, FieldProxy, FieldLevelOfDetail>;
+             Polygon, Bezier, Formula, Polyhedron, Balls, FieldBoundingVolume, FieldProxy, FieldLevelOfDetail>;
 
 using Objects =
     TypeList<Set, ThinShell, Under, Over, Layered, IntersectShape, SubtractShape, Change, Remove, Contact, Contacts,
              LayeredSequence, SmoothLayered, UniteShapeBelow, SmoothUniteShape, SmoothUniteShapeBelow,
              SmoothIntersectShape, SmoothSubtractShape, Interface, Interfaces, Checker, Layers, Strata, PhasedInstances,
              PhasedPolarArray, PhasedGrid, PhasedEndlessGrid, Voronoi, PhasedFibonacciDisk, PhasedFibonacciSphere,
-             PhasedScatter, PhasedBoundingVolume, PhasedProxy, PhasedLevelOfDetail>;
+             PhasedScatter, Particles, PhasedBoundingVolume, PhasedProxy, PhasedLevelOfDetail>;
 
 // What follows is derived.
 

@@ -41,9 +41,9 @@ struct Balls {
     template <class V>
     static void parameters(V&& v) {
         v(&Balls::centres, Parameter{"centres", "m", "Of the balls; absent if they are in a file.", limits::any, true});
-        v(&Balls::radii, Parameter{"radii", "m",
-                                   "Of the balls: one number for all, or one for each centre. A file may have its own.",
-                                   limits::positive, true, true});
+        v(&Balls::radii,
+          Parameter{"radii", "m", "Of the balls: one number for all, or one for each centre. A file may have its own.",
+                    limits::positive, true, true});
         v(&Balls::file, detail::file_of_balls);
     }
     /// Throws ModelError, which says what is missing.

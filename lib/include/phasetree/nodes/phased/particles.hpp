@@ -11,12 +11,14 @@ namespace phasetree {
 ///
 ///     φₖ = max(Dₖ, (Dₖ − min over m ≠ k of Dₘ)/2),    φ₀ = −min over k of Dₖ.
 ///
-/// Both operands are 1-Lipschitz because the D are. For i ≠ k, φᵢ + φₖ is at least the sum of the second operands, which
-/// is (Dᵢ − min over m ≠ i of Dₘ + Dₖ − min over m ≠ k of Dₘ)/2 ≥ (Dᵢ − Dₖ + Dₖ − Dᵢ)/2 = 0; and φ₀ + φₖ ≥ Dₖ − min D ≥ 0.
+/// Both operands are 1-Lipschitz because the D are. For i ≠ k, φᵢ + φₖ is at least the sum of the second operands,
+/// which is (Dᵢ − min over m ≠ i of Dₘ + Dₖ − min over m ≠ k of Dₘ)/2 ≥ (Dᵢ − Dₖ + Dₖ − Dᵢ)/2 = 0; and φ₀ + φₖ ≥ Dₖ −
+/// min D ≥ 0.
 struct Particles {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{
-        "particles", "", "φₖ = max(Dₖ, (Dₖ − min over m ≠ k of Dₘ)/2),  φ₀ = −min Dₖ,  Dₖ = min over its balls of |p − c| − r",
+        "particles", "",
+        "φₖ = max(Dₖ, (Dₖ − min over m ≠ k of Dₘ)/2),  φ₀ = −min Dₖ,  Dₖ = min over its balls of |p − c| − r",
         "Up to sixteen million balls of several phases: a packing, a molecule, a foam. Where balls of different phases "
         "overlap, a point belongs to the one with the least |p − c| − r."};
 
