@@ -68,10 +68,17 @@ Report balls(const Settings& settings) {
         const CellStatistics s = objects[i].scene->statistics();
         const TraceCounters counters = objects[i].scene->counters(rays);
         const double rate = static_cast<double>(rays.size()) / turns.seconds(i).median;
-        table.row({sizes[i], objects[i].preparing_seconds, objects[i].seconds, double(s.cells),
-                   static_cast<double>(objects[i].scene->bytes()) * 1e-6, objects[i].peak,
-                   100 * double(turns.checksum(i).hits) / double(turns.checksum(i).rays),
-                   double(counters.batches) / double(rays.size()), rate, turns.ratio(i, 0).median});
+        const std::vector<double> numbers{sizes[i],
+                                          objects[i].preparing_seconds,
+                                          objects[i].seconds,
+                                          double(s.cells),
+                                          static_cast<double>(objects[i].scene->bytes()) * 1e-6,
+                                          objects[i].peak,
+                                          100 * double(turns.checksum(i).hits) / double(turns.checksum(i).rays),
+                                          double(counters.batches) / double(rays.size()),
+                                          rate,
+                                          turns.ratio(i, 0).median};
+        table.row({numbers.begin(), numbers.end()});
     }
     report.table("counts", table);
     report.at_most("slowdown of camera rays over the whole range", turns.ratio(objects.size() - 1, 0).median, 2);

@@ -1,5 +1,6 @@
 #include "building/candidate.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -89,7 +90,18 @@ class CandidateSearch {
         const float blocks = has_blocks ? std::max(1.f, size / node_.pattern_period) : 1.f;
         const float repetitions = (1 + 4 * size / node_.fold_period) * blocks;
         cell.work = work(cell.program, context_.program.constants, cell.specialisations, worker_.scratch);
+        cell.is_searched = has_many_parts(cell);
         cell.cost = repetitions * cost(cell.facts, cell.program, cell.work, context_.program.opaque);
+    }
+
+    bool has_many_parts(const Candidate& cell) const {
+        if (!context_.program.has_local_primitives) return false;
+        const std::span<const Instruction> code = cell.program.code;
+        for (std::uint32_t i = 1; i < code.size(); ++i)
+            if (program::traits(code[i].op).is_many &&
+                std::ranges::find(cell.specialisations, i, &Specialisation::value) == cell.specialisations.end())
+                return true;
+        return false;
     }
 
     const BuildNode& node_;

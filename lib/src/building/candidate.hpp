@@ -17,6 +17,8 @@ struct Candidate {
     std::span<const Specialisation> specialisations{};
     Work work{};
     float cost = 0;
+    /// Whether each sample in it is a search among many parts (OpTraits::is_many), because too many are in the box.
+    bool is_searched = false;
 };
 
 /// A box of the recursive subdivision, with what is left of the object's program in it.

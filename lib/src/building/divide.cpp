@@ -97,7 +97,9 @@ CellCosts find_cells(const BuildNode& node, const BuildContext& context, Worker&
     const Bounds& box = node.cell.facts.box;
     const float excess_area = std::max(0.f, divided.interface_area - interface_area(box));
     const float starting = cost_model::starting_rays * excess_area / surface(box);
-    if (divided.all < node.cell.cost * (1 + starting)) return divided;
+    // The cost takes a ray to pass one interface or two in a cell. Where a cell has many parts it passes many, or stops
+    // at the first, and cells of few parts are better in any case.
+    if (node.cell.is_searched || divided.all < node.cell.cost * (1 + starting)) return divided;
     worker.cells.discard_from(before);
     worker.account.reset_to(bytes_before);
     return add_cell(node, worker);
@@ -220,7 +222,8 @@ class Division {
             bound.slack < Bounds::infinity && bound.spread > part.policy.uneven * glm::length(bound.normal);
         // Nothing may be known of a pattern until boxes are smaller than its features.
         const bool is_unknown = !(bound.spread < 1) && diagonal > 0.5f * part.pattern_period;
-        return diagonal > large || is_unknown || (is_uneven && diagonal > part.policy.fine * context_.size);
+        return part.cell.is_searched || diagonal > large || is_unknown ||
+               (is_uneven && diagonal > part.policy.fine * context_.size);
     }
 
     const BuildNode& node_;

@@ -30,6 +30,7 @@ constexpr void mark_patterns(TypeList<Ps...>, auto& all) {
             local.is_local = true;
             local.half_works = 800;  // a rough estimate of the cost of all sites of a Voronoi pattern
             if constexpr (LocalDataPrimitive<P>) local.half_works = P::search_half_works;
+            local.is_many = RequiredDataPrimitive<P>;
             traits_of(all, op_of<typename P::Specialised>()).is_specialised = true;
         }
     };
