@@ -91,9 +91,17 @@ class CandidateSearch {
         const float repetitions = (1 + 4 * size / node_.fold_period) * blocks;
         cell.work = work(cell.program, context_.program.constants, cell.specialisations, worker_.scratch);
         cell.is_searched = has_many_parts(cell);
+        cell.parts = cell.is_searched ? 0 : listed_parts(cell);
         cell.cost = repetitions * cost(cell.facts, cell.program, cell.work, context_.program.opaque);
     }
 
+    // The parts of a specialised list are its larger half of work, two simple instructions a part (Balls::Specialised).
+    std::size_t listed_parts(const Candidate& cell) const {
+        std::size_t sum = 0;
+        for (const Specialisation& s : cell.specialisations)
+            if (program::traits(cell.program.code[s.value].op).is_many) sum += static_cast<std::size_t>(s.data[0]);
+        return 2 * static_cast<float>(2 * sum) >= cell.work.all ? sum : 0;
+    }
     bool has_many_parts(const Candidate& cell) const {
         if (!context_.program.has_local_primitives) return false;
         const std::span<const Instruction> code = cell.program.code;

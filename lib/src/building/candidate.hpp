@@ -19,6 +19,8 @@ struct Candidate {
     float cost = 0;
     /// Whether each sample in it is a search among many parts (OpTraits::is_many), because too many are in the box.
     bool is_searched = false;
+    /// How many of such parts are in the box, if most of its work is theirs and none is searched; else 0.
+    std::size_t parts = 0;
 };
 
 /// A box of the recursive subdivision, with what is left of the object's program in it.

@@ -73,11 +73,16 @@ bool is_final(const BuildNode& node, const BuildContext& context, CellBudget& bu
     const float saving = required_saving(
         context.options.quality,
         {diagonal / context.size, cell.program.outputs.size() > 2, cell.facts.curvature.bound[0] < Curvature::unknown});
+    // Lists of millions would be divided until they took all memory there is; a list as short as this costs a ray about
+    // what entering another cell does.
+    constexpr std::size_t few_parts = 16;
+    constexpr int divided_in_any_case = 3;  // levels
+    const bool has_few_parts = cell.parts > 0 && cell.parts <= few_parts && node.depth >= divided_in_any_case;
     const bool is_small = diagonal < 64 * context.reach;
     // is_worth_dividing() must come last, because it notes the saving that it refuses: that of a box which would be
     // divided if there were more memory.
     return node.futile_divisions >= node.policy.most_futile_divisions || node.depth >= context.options.deepest ||
-           is_small || cell.cost < (1 + saving) * least + cost_model::traversal * surface(node.box) ||
+           is_small || has_few_parts || cell.cost < (1 + saving) * least + cost_model::traversal * surface(node.box) ||
            !budget.is_worth_dividing(node.box, cell.cost - least);
 }
 
