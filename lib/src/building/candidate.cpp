@@ -95,12 +95,13 @@ class CandidateSearch {
         cell.cost = repetitions * cost(cell.facts, cell.program, cell.work, context_.program.opaque);
     }
 
-    // The parts of a specialised list are its larger half of work, two simple instructions a part (Balls::Specialised).
+    // The parts of specialised lists, two simple instructions each (Balls::Specialised), unless they are less than
+    // about a quarter of the work; what joins the lists of several phases is some two dozen instructions.
     std::size_t listed_parts(const Candidate& cell) const {
         std::size_t sum = 0;
         for (const Specialisation& s : cell.specialisations)
             if (program::traits(cell.program.code[s.value].op).is_many) sum += static_cast<std::size_t>(s.data[0]);
-        return 2 * static_cast<float>(2 * sum) >= cell.work.all ? sum : 0;
+        return static_cast<float>(8 * sum + 24) >= cell.work.all ? sum : 0;
     }
     bool has_many_parts(const Candidate& cell) const {
         if (!context_.program.has_local_primitives) return false;

@@ -19,7 +19,7 @@ struct Candidate {
     float cost = 0;
     /// Whether each sample in it is a search among many parts (OpTraits::is_many), because too many are in the box.
     bool is_searched = false;
-    /// How many of such parts are in the box, if most of its work is theirs and none is searched; else 0.
+    /// How many of such parts are in the box, if much of its work is theirs and none is searched; else 0.
     std::size_t parts = 0;
 };
 
