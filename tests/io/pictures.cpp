@@ -79,7 +79,7 @@ void check_example(const std::string& chapter, std::string_view node, std::set<s
 }  // namespace
 
 TEST_CASE("every node has a picture, of an example that uses it, and no picture is left of a node that went") {
-    std::set<std::string> files{"fields/height_map.png", "fields/mesh.obj"};
+    std::set<std::string> files{"fields/height_map.png", "fields/mesh.obj", "objects/particles.csv"};
     for_each_type(PlainFields(), [&]<class N>() { check_example("fields", N::info.name, files); });
     for_each_type(Objects(), [&]<class N>() { check_example("objects", N::info.name, files); });
     for_each_type(detail::Map<WarpedPhased, Warps>::type(),
