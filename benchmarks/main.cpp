@@ -30,6 +30,7 @@ const std::vector<Command>& commands() {
         {"quality", "objects built for a quick look and as usual", quality},
         {"mesh", "fields against the triangles that would replace them", mesh},
         {"triangles", "closed meshes as fields against the same triangles", triangles},
+        {"volumes", "grids of voxels as fields against triangles of the same surface", volumes},
         {"naive", "interface cells against the paper's way", naive},
         {"phases", "the same geometry with 1 to 32 phases (Figure 20)", phases},
         {"simd", "instruction sets and threads", simd},

@@ -22,6 +22,7 @@ ROWS = [
     ("lights", " (one group)"),
     ("variance", ""),
     ("noise,samples", ""),
+    ("half", ""),
     ("crypto_phase,crypto_object,crypto_material", ""),
     ("all", ""),
 ]

@@ -4,8 +4,8 @@
 #
 #   bash tracer/quickstart.sh [ARGUMENT…]
 #
-# The arguments go to "phasetree render" in place of --time 2m: --spp 16 is a quick look, --size 1920x1080 --time 20m a
-# large picture. The more cores there are, the less noise is left after that time.
+# The arguments go to "phasetree render" in place of --time 2m --denoise: --spp 16 is a quick look, --size 1920x1080
+# --time 20m a large picture. The more cores there are, the less noise there is after that time.
 set -uo pipefail
 
 # shellcheck source=SCRIPTDIR/packages.sh
@@ -15,7 +15,7 @@ install_packages "$root/build/packages.log" "${packages_to_build[@]}"
 configure quickstart || exit 1
 build quickstart phasetree-command || exit 1
 
-[ $# -gt 0 ] || set -- --time 2m
+[ $# -gt 0 ] || set -- --time 2m --denoise
 phasetree=$root/build/quickstart/tracer/phasetree
 "$phasetree" render "$root/scenes/hourglass.json" -o hourglass.exr -o hourglass.png "$@" || exit $?
 

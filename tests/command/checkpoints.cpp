@@ -78,7 +78,14 @@ TEST_CASE("SIGTERM and SIGHUP say \"resume me\", and Ctrl-C does not; each leave
             if (processor_seconds(child) - *ready < 0.3) return;
             is_sent = ::kill(child, s) == 0;
         };
-        const Outcome o = shell.run(joined(render, {"--checkpoint", "a.part"}), "", send);
+        // On a busy machine the signal may find the render at its end. Then there is another.
+        Outcome o;
+        for (int attempts = 0; attempts < 5 && o.code != code; ++attempts) {
+            is_sent = false;
+            ready.reset();
+            o = shell.run(joined(render, {"--checkpoint", "a.part"}), "", send);
+            if (o.code != 0) break;
+        }
         CAPTURE(o.err);
         CHECK(is_sent);
         CHECK(o.code == code);

@@ -58,6 +58,60 @@ TEST_CASE("the script for Slurm is one that bash reads, and submits what the opt
           std::string::npos);
 }
 
+TEST_CASE("more shares than one merge reads are merged in steps, and the bytes are those of one process") {
+    const Shell shell;
+    write_text(shell.directory / "scene.json", cut_scene(11));
+    REQUIRE(shell.run({"render", "scene.json", "--quiet", "-o", "whole.exr"}).code == 0);
+    const std::vector<std::string> words{"scene.json", "--shares",    "9",         "--merge-width",   "2",
+                                         "-o",         "{plane}.exr", "--program", PHASETREE_COMMAND, "--",
+                                         "--quiet"};
+    const auto farm = [&](const char* kind) {
+        std::vector<std::string> all{"farm", kind};
+        all.insert(all.end(), words.begin(), words.end());
+        const Outcome o = shell.run(all);
+        REQUIRE_MESSAGE(o.code == 0, o.err);
+        return o.out;
+    };
+    const auto check_picture = [&] {
+        const bool same = bytes_of(shell.directory / "beauty.exr") == bytes_of(shell.directory / "whole.exr");
+        CHECK(same);
+    };
+    // Nine shares become five parts, three and two, which the last line reads.
+    const std::string list = farm("list");
+    CHECK(std::ranges::count(list, '\n') == 9 + 5 + 3 + 2 + 1);
+    write_text(shell.directory / "list.sh", "set -e\n" + list);
+    CHECK(run_by_shell(shell, "bash list.sh 2>/dev/null && rm *.part") == 0);
+    check_picture();
+    // An sbatch that runs what it is given at once, task after task.
+    write_text(shell.directory / "farm.sh", farm("slurm"));
+    write_text(shell.directory / "sbatch", R"(#!/bin/bash
+cat >script
+last=0 after=no
+for word in "$@"; do
+    case $word in --array=0-*) last=${word#--array=0-} ;; --dependency=afterok:1) after=yes ;; esac
+done
+echo "$last $after" >>submitted
+for ((i = 0; i <= last; ++i)); do SLURM_ARRAY_TASK_ID=$i bash script >&2 || exit 1; done
+echo 1
+)");
+    CHECK(run_by_shell(shell, "chmod +x sbatch && rm beauty.exr && PATH=$PWD:$PATH bash farm.sh >/dev/null 2>&1") == 0);
+    CHECK(bytes_of(shell.directory / "submitted") == "8 no\n4 yes\n2 yes\n1 yes\n0 yes\n");
+    check_picture();
+}
+
+TEST_CASE("a farm's picture is denoised when it is merged") {
+    const Shell shell;
+    write_text(shell.directory / "scene.json", cut_scene(16));
+    REQUIRE(shell.run({"render", "scene.json", "--denoise=regression", "--quiet", "-o", "whole.png"}).code == 0);
+    const Outcome o = shell.run({"farm", "list", "scene.json", "--shares", "3", "-o", "merged.png", "--program",
+                                 PHASETREE_COMMAND, "--", "--denoise=regression", "--quiet"});
+    REQUIRE_MESSAGE(o.code == 0, o.err);
+    write_text(shell.directory / "list.sh", "set -e\n" + o.out);
+    CHECK(run_by_shell(shell, "bash list.sh 2>/dev/null") == 0);
+    const bool same = bytes_of(shell.directory / "merged.png") == bytes_of(shell.directory / "whole.png");
+    CHECK(same);
+}
+
 TEST_CASE("what makes no farm is refused") {
     const Shell shell;
     write_text(shell.directory / "scene.json", cut_scene(4));
@@ -76,5 +130,6 @@ TEST_CASE("what makes no farm is refused") {
     refused({"list", "scene.json", "--shares", "2", "--", "--crop", "9,9,1,1"}, "--crop");
     refused({"list", "-", "--shares", "2"}, "must be a file");
     refused({"list", "scene.json", "--shares", "2", "--program", "a\nb"}, "line feed");
+    refused({"list", "scene.json", "--shares", "2", "--merge-width", "1"}, "--merge-width");
     refused({"list", "absent.json", "--shares", "2"}, "absent.json");
 }

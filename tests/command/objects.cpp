@@ -80,6 +80,43 @@ TEST_CASE("check and render name objects that overlap, and a point of both") {
     }
 }
 
+TEST_CASE(
+    "check and render name groups that no instance names, where they stand in the file, and what is lost by that") {
+    const Shell shell;
+    const auto scene = [](const std::string& instances) {
+        return std::string(head) + R"("objects": [
+            {"name": "cup", "tree": {"set": {"phase": "glass", "of": {"sphere": {"radius": 0.3}}}}},
+            {"name": "drop", "tree": {"set": {"phase": "water", "of": {"sphere": {"radius": 0.2}}}}},
+            {"name": "table", "tree": {"set": {"phase": "water", "of": {"box": {"size": [9, 9, 0.1]}}}},
+             "transform": {"translate": {"by": [0, 0, -3]}}}],
+        "groups": {"pair": [{"of": "cup", "transforms": [[-1, 0, 0], [1, 0, 0]]}],
+            "set": [{"of": "pair"}, {"of": "drop"}]})" +
+               instances + "}";
+    };
+    write_text(shell.directory / "lost.json", scene(""));
+    write_text(shell.directory / "part.json", scene(R"(, "instances": [{"of": "cup"}])"));
+    write_text(shell.directory / "there.json", scene(R"(, "instances": [{"of": "set"}])"));
+    for (const char* const command : {"check", "render"}) {
+        const Outcome lost = shell.run({command, "lost.json"});
+        CHECK(lost.code == 0);
+        CHECK(lost.err.find("lost.json:9:13: warning: the group \"set\" stands nowhere, because no instance names it; "
+                            "so \"cup\", \"drop\" are not there\n") != std::string::npos);
+        // "pair" stands as soon as "set" does.
+        CHECK(lost.err.find("\"pair\" stands") == std::string::npos);
+        CHECK(shell.run({command, "part.json"}).err.find("; so \"drop\" is not there\n") != std::string::npos);
+        CHECK(shell.run({command, "there.json"}).err.find("stands nowhere") == std::string::npos);
+    }
+    CHECK(shell.run({"render", "--quiet", "lost.json"}).err == "");
+    std::string groups = R"(, "instances": [{"of": "set"}], "groups": {"set": [{"of": "cup"}])";
+    for (int i = 0; i < 100; ++i) groups += fmt::format(R"(, "g{}": [{{"of": "drop"}}])", i);
+    std::string many = scene("");
+    many = many.substr(0, many.find(",\n        \"groups\"")) + groups + "}}";
+    write_text(shell.directory / "many.json", many);
+    const std::string said = shell.run({"check", "many.json"}).err;
+    CHECK(said.find("the group \"g0\" stands nowhere") != std::string::npos);
+    CHECK(said.find("many.json: warning: 92 more of its groups stand nowhere\n") != std::string::npos);
+}
+
 TEST_CASE("what is for one tree says so, and the picture is the same for any number of threads") {
     const Shell shell;
     write_text(shell.directory / "scene.json", scene_of());

@@ -33,12 +33,17 @@ cat >"$scene" <<'END'
 "camera": {"position": [0, -5, 0], "look_at": [0, 0, 0]},
 "render": {"width": 48, "height": 40, "samples": 1600, "caustics": true}}
 END
-"$phasetree" render "$scene" --planes all --quiet -o whole.exr
+"$phasetree" render "$scene" --planes all --quiet -o whole.exr -o 'whole.{plane}.exr'
 
-"$phasetree" farm slurm "$scene" --shares 4 --parts "$folder" -o farm.exr --program "$phasetree" \
+"$phasetree" farm slurm "$scene" --shares 4 --merge-width 2 --parts "$folder" -o farm.exr \
+    -o 'farm.{plane}.exr' --program "$phasetree" \
     --sbatch=--cpus-per-task=1 -- --planes all --checkpoint-interval 0.3 --quiet >farm.sh
 merge=$(bash farm.sh)
-array=$(scontrol --oneliner show job "$merge" | sed -n 's/.* Dependency=afterok:\([0-9]*\).*/\1/p')
+# The picture waits for merges of two shares each, and those for the shares.
+before() { scontrol --oneliner show job "$1" | sed -n 's/.* Dependency=afterok:\([0-9]*\).*/\1/p' | sort -u; }
+pairs=$(before "$merge")
+array=$(before "$pairs")
+[ -n "$array" ] || fail "the merges wait for nothing"
 
 state_of() { scontrol --oneliner show job "$1" | sed -n 's/.* JobState=\([A-Z]*\).*/\1/p' | sort | uniq -c; }
 restarts() { scontrol --oneliner show job | sed -n 's/.* Restarts=\([0-9]*\).*/\1/p' | awk '{ n += $1 } END { print n }'; }
@@ -66,7 +71,7 @@ for ((i = 0; i < 1500; ++i)); do
         *FAILED* | *CANCELLED*) fail "the merge failed" ;;
     esac
     case $(squeue --noheader --format=%r --jobs="$merge" 2>/dev/null) in
-        *NeverSatisfied*) fail "a share failed" ;;
+        *NeverSatisfied*) fail "a share or a merge failed" ;;
     esac
     sleep 0.2
 done
@@ -75,4 +80,8 @@ done
 again=$(restarts)
 [ "$again" -ge 2 ] || fail "tasks were restarted $again times"
 cmp whole.exr farm.exr || fail "the bytes differ"
+for plane in beauty depth CryptoPhase; do
+    cmp "whole.$plane.exr" "farm.$plane.exr" || fail "the bytes of the plane $plane differ"
+done
+[ -e scene.0-800.part ] && [ -e scene.800-1600.part ] || fail "there was no first step of merging"
 printf 'the same bytes from four shares, one of which was killed and one preempted (%s restarts)\n' "$again"

@@ -18,6 +18,7 @@ constexpr Target list[] = {
     {"part", Inputs::bytes, 8192, 3000, "", run_part},
     {"scene", Inputs::json, 8192, 10000, "scenes", run_scene},
     {"settings", Inputs::json, 8192, 500, "", run_settings},
+    {"volume", Inputs::bytes, 32768, 1000, "", run_volume},
     {"weights", Inputs::json, 8192, 10000, "", run_weights},
 };
 

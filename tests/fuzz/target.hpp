@@ -51,6 +51,7 @@ void run_obj(Bytes);
 void run_part(Bytes);
 void run_scene(Bytes);
 void run_settings(Bytes);
+void run_volume(Bytes);
 void run_weights(Bytes);
 
 }  // namespace phasetree::fuzz

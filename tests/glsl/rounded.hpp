@@ -124,5 +124,9 @@ template <class Search, class Equation, class Otherwise>
 Rounded found_equation(const Vec3<Rounded>& p, const Search&, const Equation&, const Otherwise& otherwise) {
     return otherwise(p);
 }
+template <std::size_t count, class Search, class Equation, class Otherwise>
+Rounded gathered_equation(const Vec3<Rounded>& p, const Search&, const Equation&, const Otherwise& otherwise) {
+    return otherwise(p);
+}
 
 }  // namespace phasetree::tests

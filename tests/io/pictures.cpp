@@ -1,6 +1,7 @@
 // Every node has a picture in the reference, of an example that uses it. Both are made as scenes/nodes/render.sh says.
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <filesystem>
 #include <fstream>
@@ -34,9 +35,23 @@ Phased read_example(const std::filesystem::path& example) {
     std::string scene = content(folder() / "studio.json");
     scene.replace(scene.find(mark), mark.size(), content(example));
     const FileReaders readers{[](const std::filesystem::path& image) {
-        if (!std::filesystem::exists(image)) throw std::runtime_error("there is no such file");
-        return HeightGrid{2, 2, {0.f, 0.2f, 0.4f, 1.f}};  // this library knows no images
-    }};
+                                  if (!std::filesystem::exists(image))
+                                      throw std::runtime_error("there is no such file");
+                                  return HeightGrid{2, 2, {0.f, 0.2f, 0.4f, 1.f}};  // this library knows no images
+                              },
+                              [](const std::filesystem::path& volume, const std::string&) {
+                                  if (!std::filesystem::exists(volume))
+                                      throw std::runtime_error("there is no such file");
+                                  return VoxelGrid::of_voxels("volume", {{1, 1, 1}, glm::dvec3(0), glm::dvec3(1)},
+                                                              [](int, int, int) { return -1; });
+                              },
+                              [](const std::filesystem::path&, const std::string&) {
+                                  LabelGrid grid;
+                                  grid.lattice.size = {1, 1, 1};
+                                  grid.numbers = {1};
+                                  grid.voxels = {0};
+                                  return grid;
+                              }};
     return read_tree(Document::from_text(scene, (folder() / "studio.json").string()), readers).object;
 }
 
@@ -79,7 +94,9 @@ void check_example(const std::string& chapter, std::string_view node, std::set<s
 }  // namespace
 
 TEST_CASE("every node has a picture, of an example that uses it, and no picture is left of a node that went") {
-    std::set<std::string> files{"fields/height_map.png", "fields/mesh.obj", "objects/particles.csv"};
+    std::set<std::string> files{"fields/height_map.png", "fields/mesh.obj", "fields/volume.vdb",
+                                "objects/particles.csv"};
+    for (int layer = 0; layer < 16; ++layer) files.insert(fmt::format("objects/labels_{:02}.png", layer));
     for_each_type(PlainFields(), [&]<class N>() { check_example("fields", N::info.name, files); });
     for_each_type(Objects(), [&]<class N>() { check_example("objects", N::info.name, files); });
     for_each_type(detail::Map<WarpedPhased, Warps>::type(),

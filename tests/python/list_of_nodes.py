@@ -39,6 +39,7 @@ class ListOfNodes(unittest.TestCase):
                     argument = inspect.signature(function).parameters[_reference.python_name(p["name"])]
                     is_required = argument.default is argument.empty
                     self.assertEqual(is_required, not p["optional"], f"{page['name']}: {p['name']}")
+                    hash(argument.default)  # Nobody can change it for all others.
                     if p["optional"] and p["type"] == "number":
                         self.assertEqual(argument.default, json.loads(p["default"]))
 

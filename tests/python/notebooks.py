@@ -1,14 +1,19 @@
-"""The notebooks run, and what their last lines give can be shown. In the long form nbconvert runs them as Jupyter does."""
+"""The notebooks run, and what their last lines give can be shown. In the long form nbconvert runs them as Jupyter does.
+The README's tentacle runs, too."""
 
 import ast
 import json
 import os
+import pathlib
+import re
 import subprocess
 import sys
 import tempfile
 import unittest
 
-from support import SCENES
+import numpy as np
+import phasetree as pt
+from support import ROOT, SCENES
 
 os.environ.setdefault("MPLBACKEND", "Agg")
 NOTEBOOKS = sorted((SCENES / "notebooks").glob("*.ipynb"))
@@ -62,28 +67,41 @@ class Notebooks(unittest.TestCase):
                 )
 
 
-class Scripts(unittest.TestCase):
-    def test_tentacle_has_the_labels_of_its_file(self):
-        import numpy as np
-        import phasetree as pt
+class Tentacle(unittest.TestCase):
+    """The sixty lines that the package's README shows."""
 
-        sys.path.insert(0, str(SCENES / "python"))
-        import tentacle
+    @classmethod
+    def setUpClass(cls):
+        readme = (ROOT / "plugins/python/README.md").read_text(encoding="utf-8")
+        (cls.text,) = (t for t in re.findall(r"^```python\n(.*?)^```$", readme, re.S | re.M) if "tentacle.png" in t)
 
-        text = (SCENES / "python/tentacle.py").read_text(encoding="utf-8")
-        self.assertLessEqual(len(text.splitlines()), 60)
-        file = pt.load(SCENES / "tentacle.json").object
-        low, high = np.array(file.bounds)
-        points = np.random.default_rng(1).uniform(low, high, (200_000, 3)).astype(np.float32)
-        self.assertEqual(tentacle.tentacle.names, file.names)
-        self.assertTrue(np.array_equal(tentacle.tentacle.label(points), file.label(points)))
-        self.assertEqual(tentacle.tentacle.phases, file_phases(SCENES / "tentacle.json"))
+    def test_they_are_the_script_and_sixty_at_most(self):
+        self.assertEqual(self.text, (SCENES / "python/tentacle.py").read_text(encoding="utf-8"))
+        self.assertLessEqual(len(self.text.splitlines()), 60)
 
+    def test_they_make_a_tentacle_as_large_in_each_phase_as_that_of_the_gallery(self):
+        names = {"__name__": "tentacle"}
+        exec(self.text, names)
+        made, other = names["tentacle"], pt.load(SCENES / "tentacle.json").object
+        self.assertEqual(sorted(made.names), sorted(other.names))
+        low, high = np.array(other.bounds)
+        points = np.random.default_rng(1).uniform(low - 0.5, high + 0.5, (400_000, 3)).astype(np.float32)
+        for name in other.names[1:]:
+            share, wanted = (np.mean(o.label(points) == o.index(name)) for o in (made, other))
+            self.assertAlmostEqual(share / wanted, 1, delta=0.35, msg=name)
+        # Each layer touches what is within it: along rays through the arm nothing is between skin, fat and flesh.
+        crossings = made.trace(np.array([[-3, 0, z] for z in np.linspace(3, 5, 40)]), (1, 0, 0))
+        met = [tuple(made.names[p] for p in pair) for pair in zip(crossings.before, crossings.after)]
+        self.assertIn(("skin", "fat"), met)
+        self.assertIn(("fat", "flesh"), met)
+        self.assertFalse({("skin", "flesh"), ("fat", "vacuum")} & set(met))
 
-def file_phases(path):
-    import phasetree as pt
-
-    return pt.load(path).object.phases
+    def test_they_run_and_make_a_picture(self):
+        with tempfile.TemporaryDirectory() as folder:
+            script, picture = pathlib.Path(folder) / "tentacle.py", pathlib.Path(folder) / "tentacle.png"
+            script.write_text(self.text, encoding="utf-8")
+            subprocess.run([sys.executable, script, picture, "1"], check=True, cwd=folder, stderr=subprocess.DEVNULL)
+            self.assertEqual(picture.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
 
 
 if __name__ == "__main__":

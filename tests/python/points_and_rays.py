@@ -57,6 +57,10 @@ class Points(unittest.TestCase):
         for shape in ((), (3, 2), (2,)):
             with self.assertRaisesRegex(pt.Error, "the shape"):
                 ball.label(np.zeros(shape))
+        hits = ball.intersect(np.zeros((2, 4, 3)), (0, 0, 1))
+        self.assertEqual([a.shape for a in hits], [(2, 4), (2, 4), (2, 4), (2, 4, 3)])
+        closest = ball.closest(np.zeros((2, 4, 3)))
+        self.assertEqual([a.shape for a in closest], [(2, 4), (2, 4, 3), (2, 4), (2, 4)])
         self.assertEqual(pt.sphere(1).distance((0, 0, 3)), 2)
         self.assertEqual(ball.label([(0, 0, 0)]).dtype, np.uint8)
         self.assertEqual(ball.phi([(0, 0, 0)]).dtype, np.float32)

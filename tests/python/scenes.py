@@ -115,6 +115,12 @@ class Files(unittest.TestCase):
         self.folder = pathlib.Path(tempfile.mkdtemp())
         self.addCleanup(shutil.rmtree, self.folder)
 
+    def test_what_cannot_be_saved_leaves_nothing_behind(self):
+        (self.folder / "scene.json").mkdir()
+        with self.assertRaises(OSError):
+            small_scene().save(self.folder / "scene.json")
+        self.assertEqual([p.name for p in self.folder.iterdir()], ["scene.json"])
+
     def test_scenes_are_equal_when_read_back(self):
         for path in gallery_scenes():
             scene = pt.load(path)

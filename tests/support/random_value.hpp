@@ -21,6 +21,7 @@
 #include "phasetree/nodes/phased/intersect_shape.hpp"
 #include "support/random_mesh.hpp"
 #include "support/random_tree.hpp"
+#include "support/random_voxels.hpp"
 
 namespace phasetree::tests::detail {
 
@@ -129,6 +130,10 @@ void fill(Random& rng, Value& value, const Parameter& p, int depth, bool needs_b
             if (has_phases) list.phases.push_back(static_cast<std::uint8_t>(rng.below(2)));
         }
         value.content = std::make_shared<const BallList>(std::move(list));
+    } else if constexpr (std::is_same_v<Value, FromFile<VoxelGrid>>) {
+        value = held_content(random_level_set(rng));
+    } else if constexpr (std::is_same_v<Value, FromFile<LabelGrid>>) {
+        value = held_content(random_labels(rng, 2 + rng.below(3)));
     } else if constexpr (std::is_same_v<Value, FromFile<HeightGrid>>) {
         HeightGrid grid{2 + rng.below(4), 2 + rng.below(4), {}};
         for (int i = 0; i < grid.width * grid.height; ++i) grid.values.push_back(rng.uniform(0, 1));

@@ -13,6 +13,7 @@
 #include "support/set_algebra/proxies.hpp"
 #include "support/set_algebra/regions.hpp"
 #include "support/set_algebra/textures.hpp"
+#include "support/set_algebra/volumes.hpp"
 #include "support/set_algebra/warps.hpp"
 
 namespace phasetree::tests {

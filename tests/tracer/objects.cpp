@@ -3,9 +3,12 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 
+#include "phasetree/io/node_places.hpp"
 #include "phasetree/model/handle.hpp"
+#include "phasetree/tree/value_source.hpp"
 #include "phasetree_support/temporary_directory.hpp"
 #include "scene/one_tree.hpp"
 #include "scene/overlaps.hpp"
@@ -109,6 +112,37 @@ TEST_CASE("an object of another file brings its phases, each file once, and may 
     CHECK(phase_at(2, 0) == "c.gold");
     CHECK(phase_at(2, 1.5f) == "a.glass");
     CHECK(phase_at(3, 0) == "glass");
+}
+
+TEST_CASE("nodes stand where their files have them, also those whose phases get other numbers") {
+    const Document document = document_of(R"("objects": [
+        {"name": "a", "file": "other.json"},
+        {"name": "b", "file": "other.json", "transform": {"translate": {"by": [9, 0, 0]}},
+         "phases": {"gold": {"conductor": {"metal": "iron"}}}},
+        {"name": "c", "phases": {"glass": {"clear": {"ior": 1.4}}},
+         "tree": {"set": {"phase": "glass", "of": {"translate": {"by": [-9, 0, 0], "of": "round"}}}}}])");
+    NodePlaces places;
+    const Scene scene = read_scene(document, &places);
+    // Of the node that chooses among the objects and of what places them nobody has written a line.
+    const Phased whole = as_one_tree(scene.placed);
+    const auto path = [&](float x, const char* phase) {
+        const auto number = std::ranges::find(scene.phases.names, phase) - scene.phases.names.begin();
+        std::string result;
+        for (const NodeOnPath& step : value_source(whole, {x, 0, 0}, Phase{static_cast<std::uint8_t>(number)})) {
+            const auto place = places.find(step.node);
+            result += fmt::format(" {}", step.name);
+            if (!place) continue;
+            const bool is_of_scene = place->file == document.name();
+            result += fmt::format(":{}{}:{}", is_of_scene ? "" : "other:", place->line, place->column);
+            const std::string text = is_of_scene ? document.text() : other_scene;
+            CHECK(text.substr(place->offset + 1, step.name.size()) == step.name);
+        }
+        return result;
+    };
+    CHECK(path(0, "a.gold") == " over under:other:2:14 set:other:3:25 sphere:other:3:57");
+    CHECK(path(1.75f, "a.glass") == " over under:other:2:14 set:other:2:25 sphere:other:2:58");
+    CHECK(path(9, "b.gold") == " over translate under:other:2:14 set:other:3:25 sphere:other:3:57");
+    CHECK(path(-9, "c.glass") == " over set:8:19 translate:8:52 sphere:2:30");
 }
 
 TEST_CASE("instances and groups: each copy stands where its chain of transforms puts it") {

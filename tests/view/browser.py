@@ -44,7 +44,7 @@ class Browser:
         self.session = self.call("Target.attachToTarget", targetId=page["targetId"], flatten=True)["sessionId"]
         for domain in ("Page", "Runtime", "Log", "Network"):
             self.call(f"{domain}.enable")
-        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+        self.resize(width, height)
 
     def __enter__(self):
         return self
@@ -114,6 +114,15 @@ class Browser:
             self.mouse("mouseMoved", x, y, button="left", buttons=1, modifiers=modifiers)
         self.mouse("mouseReleased", *end, button="left", clickCount=1, modifiers=modifiers)
 
+    def touch(self, *moments):
+        """Fingers on the glass: at each moment the list of where they are, at the last of which they are lifted."""
+        down = 0
+        for places in moments:
+            points = [{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(places)]
+            self.call("Input.dispatchTouchEvent", type="touchStart" if len(places) > down else "touchMove", touchPoints=points)
+            down = len(places)
+        self.call("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
+
     def click(self, x, y):
         self.mouse("mousePressed", x, y, button="left", clickCount=1)
         self.mouse("mouseReleased", x, y, button="left", clickCount=1)
@@ -124,6 +133,9 @@ class Browser:
         parameters = {"key": key, "code": code, "modifiers": modifiers, "windowsVirtualKeyCode": numbers.get(key, 0)}
         self.call("Input.dispatchKeyEvent", type="keyDown" if text else "rawKeyDown", text=text, **parameters)
         self.call("Input.dispatchKeyEvent", type="keyUp", **parameters)
+
+    def resize(self, width, height):
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
 
     def screenshot(self, file):
         data = self.call("Page.captureScreenshot", format="png")["data"]

@@ -3,21 +3,26 @@
 PHASETREE_SCREENSHOTS names a folder for pictures of it."""
 
 import json
+import math
 import os
 import pathlib
+import subprocess
 import sys
+import tempfile
+import time
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 
 import browser  # noqa: E402
-from support import SCENE, View, skip  # noqa: E402
+from support import COMMAND, SCENE, View, skip  # noqa: E402
 
 LARGER = SCENE.replace('"width": 96, "height": 64', '"width": 240, "height": 160')
 READY = "document.getElementById('status')?.textContent.startsWith('Ready')"
 SEEN = "document.getElementById('picture').toDataURL()"
 CAMERA = "document.getElementById('camera').value"
 SHIFT, CONTROL = 8, 2
+ORIGIN = [0, 0, 0]
 
 
 class Page(unittest.TestCase):
@@ -35,6 +40,7 @@ class Page(unittest.TestCase):
             cls.view.__exit__()
 
     def setUp(self):
+        self.expected = ()  # what the browser may say on its console
         self.view.file.write_text(LARGER, encoding="utf-8")
         self.view.post("change", {"camera": None, "hidden": [], "looks": {}, "cut": None, "numbers": {}, "layer": "", "exposure": 0})
         self.browser.events.clear()
@@ -45,7 +51,7 @@ class Page(unittest.TestCase):
         self.box = json.loads(box)
 
     def tearDown(self):
-        self.assertEqual(self.browser.complaints(), [])
+        self.assertEqual([c for c in self.browser.complaints() if not c.startswith(self.expected)], [])
 
     def at(self, x, y):
         """Where a place of the picture, by shares of its sides, is in the window."""
@@ -57,6 +63,33 @@ class Page(unittest.TestCase):
     def shoot(self, name):
         if folder := os.environ.get("PHASETREE_SCREENSHOTS"):
             self.browser.screenshot(pathlib.Path(folder) / f"{name}.png")
+
+    def camera(self):
+        """The camera, once all that was done to it has been sent and shown: when it has been the same for a while."""
+        last, since = None, time.monotonic()
+        while time.monotonic() - since < 0.4:
+            now = self.browser.wait_for(f"{READY} && {CAMERA}")
+            if now != last:
+                last, since = now, time.monotonic()
+            time.sleep(0.05)
+        return json.loads("{" + last + "}")["camera"]
+
+    def reset(self):
+        self.browser.run("document.getElementById('reset').click()")
+        self.browser.wait_for(f"{READY} && {SEEN} === {json.dumps(self.before)}")
+
+    def said_in_terminal(self):
+        """What `check` says of the scene's file."""
+        checked = subprocess.run([COMMAND, "check", str(self.view.file)], capture_output=True, text=True, check=False, timeout=60)
+        return checked.stderr.removesuffix("\n")
+
+    def wait_for_error(self, text=""):
+        self.browser.wait_for(f"document.getElementById('error').textContent.includes({json.dumps(text)})"
+                              " && !document.getElementById('error').hidden")
+        return self.text("error")
+
+    def wait_for_no_error(self):
+        self.browser.wait_for("document.getElementById('error').hidden && document.getElementById('error').textContent === ''")
 
     def wait_for_another(self, than, where=SEEN):
         self.browser.wait_for(f"{READY} && {where} !== {json.dumps(than)}")
@@ -75,10 +108,10 @@ class Page(unittest.TestCase):
         self.browser.call("Emulation.setEmulatedMedia", features=[])
 
     def test_dragging_turns_moves_and_the_wheel_zooms(self):
-        camera = json.loads("{" + self.browser.run(CAMERA) + "}")["camera"]
+        camera = self.camera()
         self.browser.drag(self.at(0.5, 0.5), self.at(0.7, 0.4))
         self.wait_for_another(self.before)
-        turned = json.loads("{" + self.browser.run(CAMERA) + "}")["camera"]
+        turned = self.camera()
         # Around the object's centre: as far away as before.
         self.assertNotEqual(turned["position"], camera["position"])
         self.assertAlmostEqual(sum(x * x for x in turned["position"]), 25, places=2)
@@ -87,31 +120,68 @@ class Page(unittest.TestCase):
         self.assertNotEqual(moved["look_at"], turned["look_at"])
         self.browser.mouse("mouseWheel", *self.at(0.5, 0.5), deltaX=0, deltaY=-200)
         text = self.browser.wait_for(f"{CAMERA} !== {json.dumps('x')} && {READY} && {CAMERA}")
-        self.browser.run("document.getElementById('reset').click()")
-        self.browser.wait_for(f"{READY} && {SEEN} === {json.dumps(self.before)}")
+        self.reset()
         self.assertIn("position", text)
 
     def test_what_is_under_the_pointer_stays_there_when_the_picture_is_moved(self):
         # The ball of wood is 0.6 to the right; the picture is 2.68 high and 4.02 wide where the balls are.
-        self.browser.drag(self.at(0.65, 0.5), self.at(0.5, 0.5), SHIFT)
+        self.browser.drag(self.at(0.65, 0.5), self.at(0.5, 0.2), SHIFT)
         self.wait_for_another(self.before)
-        self.browser.click(*self.at(0.5, 0.5))
+        self.camera()
+        self.browser.click(*self.at(0.5, 0.2))
         self.browser.wait_for("document.getElementById('point').textContent.includes('wood at')")
 
+    def with_fingers(self):
+        self.browser.call("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=3)
+        self.addCleanup(self.browser.call, "Emulation.setTouchEmulationEnabled", enabled=False)
+
+    def test_a_finger_turns_as_the_mouse_does(self):
+        self.browser.drag(self.at(0.5, 0.5), self.at(0.7, 0.4))
+        seen = self.wait_for_another(self.before)
+        by_mouse = self.camera()
+        self.reset()
+        self.with_fingers()
+        self.browser.touch(*([self.at(0.5 + 0.04 * i, 0.5 - 0.02 * i)] for i in range(6)))
+        self.browser.wait_for(f"{READY} && {SEEN} !== {json.dumps(self.before)}")
+        for by_finger, there in zip(self.camera()["position"], by_mouse["position"]):
+            self.assertAlmostEqual(by_finger, there, places=3)
+        self.assertNotEqual(seen, self.before)
+        self.assertEqual(self.browser.run("[scrollX, scrollY, visualViewport.scale]"), [0, 0, 1])
+
     def test_two_fingers_zoom(self):
+        self.with_fingers()
         x, y = self.at(0.5, 0.5)
-        def touch(kind, spread):
-            points = [{"x": x - spread, "y": y, "id": 1}, {"x": x + spread, "y": y, "id": 2}] if spread else []
-            self.browser.call("Input.dispatchTouchEvent", type=kind, touchPoints=points)
-        self.browser.call("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=2)
-        touch("touchStart", 20)
-        for spread in (30, 40):
-            touch("touchMove", spread)
-        touch("touchEnd", 0)
+        self.browser.touch(*([(x - spread, y), (x + spread, y)] for spread in (20, 30, 40)))
         self.wait_for_another(self.before)
-        position = json.loads("{" + self.browser.run(CAMERA) + "}")["camera"]["position"]
-        self.assertLess(abs(position[1]), 4.5)
-        self.browser.call("Emulation.setTouchEmulationEnabled", enabled=False)
+        # Twice as far apart: half as far away.
+        self.assertAlmostEqual(math.dist(self.camera()["position"], ORIGIN), 2.5, delta=0.01)
+        self.assertEqual(self.camera()["look_at"], ORIGIN)
+        self.assertEqual(self.browser.run("visualViewport.scale"), 1)
+
+    def test_two_fingers_move_what_is_between_them(self):
+        self.with_fingers()
+        # The ball of wood is 0.6 to the right, and is moved into the middle.
+        self.browser.touch(*([self.at(x - 0.1, y - 0.1), self.at(x + 0.1, y + 0.1)] for x, y in ((0.65, 0.5), (0.6, 0.6), (0.55, 0.7), (0.5, 0.8))))
+        self.wait_for_another(self.before)
+        camera = self.camera()
+        self.assertAlmostEqual(camera["position"][0], camera["look_at"][0], places=3)
+        self.assertAlmostEqual(math.dist(camera["position"], camera["look_at"]), 5, places=3)
+        self.browser.touch([self.at(0.5, 0.8)])
+        self.browser.wait_for("document.getElementById('point').textContent.includes('wood at')")
+
+    def test_a_tap_asks_and_what_more_fingers_do_is_no_tap(self):
+        self.with_fingers()
+        told = self.text("point")
+        a, b, c = self.at(0.65, 0.5), self.at(0.5, 0.5), self.at(0.6, 0.6)
+        for fingers in ([a], [a, b]), ([a], [a, b], [a, b, c]):
+            self.browser.touch(*fingers)
+        # A third finger turns nothing.
+        self.browser.touch([a], [a, b], [a, b, c], [a, b, self.at(0.9, 0.9)])
+        time.sleep(0.3)
+        self.assertEqual(self.text("point"), told)
+        self.assertEqual(self.browser.run(SEEN), self.before)
+        self.browser.touch([a])
+        self.browser.wait_for("document.getElementById('point').textContent.includes('wood at')")
 
     def test_a_click_tells_what_is_there(self):
         self.browser.click(*self.at(0.65, 0.5))
@@ -148,8 +218,8 @@ class Page(unittest.TestCase):
         nodes = self.browser.call("Accessibility.getFullAXTree")["nodes"]
         told = {(n["role"]["value"], n["name"]["value"]) for n in nodes if n.get("name", {}).get("value")}
         for role, name in (("checkbox", "glass"), ("checkbox", "wood"), ("group", "Phases"), ("button", "Turn left"),
-                           ("application", "Picture of the scene"), ("link", "Save the picture"),
-                           ("textbox", "Text of the camera"), ("button", "glass as in the file"), ("link", "Save it as EXR"),
+                           ("application", "Picture of the scene"), ("button", "Save the picture"),
+                           ("textbox", "Text of the camera"), ("button", "glass as in the file"), ("button", "Save it as EXR"),
                            ("group", "Cut"), ("combobox", "Cut away what lies towards"), ("spinbutton", "x of the normal")):
             self.assertIn((role, name), told)
         for slider in ("Exposure", "Place", "Index", "Roughness"):
@@ -161,11 +231,96 @@ class Page(unittest.TestCase):
         error = self.text("error")
         self.assertIn("scene.json:3:", error)
         self.assertIn('did you mean "radius"?', error)
+        self.assertEqual(error, self.said_in_terminal())
+        self.assertEqual(self.browser.run("getComputedStyle(document.getElementById('error')).whiteSpaceCollapse"), "preserve")
         self.assertEqual(self.browser.run(SEEN), self.before)
         self.shoot("error")
         self.view.file.write_text(LARGER.replace('"radius": 0.5', '"radius": 0.4'), encoding="utf-8")
         self.browser.wait_for("document.getElementById('error').hidden")
         self.wait_for_another(self.before)
+
+    def test_a_file_that_vanishes_is_told_and_waited_for(self):
+        self.view.file.unlink()
+        error = self.wait_for_error("scene.json")
+        self.assertEqual(error, self.said_in_terminal())
+        self.assertEqual(self.browser.run(SEEN), self.before)
+        # What cannot be written is told, too, and once.
+        self.expected = "Failed to load resource"
+        self.browser.run("document.getElementById('write').click()")
+        time.sleep(0.3)
+        self.assertEqual(self.text("error"), error)
+        self.assertEqual(self.text("copied"), "")
+        self.view.file.write_text(LARGER, encoding="utf-8")
+        self.browser.wait_for(READY)
+        # What was refused stays until something else is tried.
+        self.assertEqual(self.text("error"), error)
+        self.browser.run("document.getElementById('write').click()")
+        self.wait_for_no_error()
+        self.assertEqual(self.text("copied"), "Written.")
+
+    def test_a_number_that_is_refused_is_told_where_it_stands(self):
+        self.browser.wait_for("document.querySelector('#number-rows input') !== null")
+        self.set_input("#number-filter", "ball radius")
+        self.set_input("#number-rows input[type=number]", "-1", "change")
+        error = self.wait_for_error("scene.json:3:42: ")
+        self.assertIn("-1", error)
+        self.assertEqual(self.browser.run(SEEN), self.before)
+        self.assertEqual(self.browser.run("document.querySelector('#number-rows input[type=number]').value"), "-1")
+        self.shoot("refused")
+        # Neither that nor a number that is none is written.
+        self.expected = "Failed to load resource"
+        self.set_input("#number-rows input[type=number]", "", "change")
+        self.browser.run("document.getElementById('numbers-reset').click()")
+        self.wait_for_no_error()
+        self.browser.wait_for(f"{READY} && {SEEN} === {json.dumps(self.before)}")
+        self.assertEqual(self.view.file.read_text(encoding="utf-8"), LARGER)
+
+    def test_the_picture_is_saved_by_its_buttons(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.browser.call("Page.setDownloadBehavior", behavior="allow", downloadPath=folder)
+            for button, name in (("save", "scene.png"), ("save-exr", "scene.exr")):
+                self.browser.run(f"document.getElementById('{button}').click()")
+                saved = pathlib.Path(folder) / name
+                end = time.monotonic() + 30
+                while not saved.exists() and time.monotonic() < end:
+                    time.sleep(0.05)
+                self.assertEqual(saved.read_bytes(), self.view.get(f"picture.{name[-3:]}").body)
+        self.assertTrue(self.browser.run("document.getElementById('error').hidden"))
+
+    def test_a_server_that_is_gone_is_told(self):
+        self.expected = "Failed to load resource"
+        with View(LARGER) as view:
+            self.browser.open(view.url)
+            self.browser.wait_for(READY)
+            seen = self.browser.run(SEEN)
+            view.end()
+            self.browser.wait_for("document.getElementById('status').textContent.includes('does not answer')")
+            self.assertEqual(self.browser.run(SEEN), seen)
+            for button in ("save", "write", "reset"):
+                self.browser.run("document.getElementById('error').textContent = ''")
+                self.browser.run(f"document.getElementById('{button}').click()")
+                self.wait_for_error("The server does not answer")
+            self.shoot("gone")
+
+    def test_it_fits_small_windows_and_large_ones(self):
+        self.addCleanup(self.browser.resize, 1100, 800)
+        self.view.file.write_text(SCENE.replace('"width": 96, "height": 64', '"width": 900, "height": 1200'), encoding="utf-8")
+        self.browser.wait_for(f"{READY} && document.getElementById('picture').width === 900")
+        self.box = json.loads(self.browser.run("JSON.stringify(document.getElementById('picture').getBoundingClientRect())"))
+        self.browser.click(*self.at(0.65, 0.5))
+        self.browser.wait_for("document.querySelectorAll('#point li').length === 4")
+        self.browser.run("document.querySelectorAll('#phases details').forEach((d) => { d.open = true; })")
+        for scheme in ("light", "dark"):
+            self.browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
+            for name, width, height in (("phone", 360, 740), ("tablet", 800, 1100), ("desk", 1920, 1080)):
+                self.browser.resize(width, height)
+                # Nothing sticks out to the right, and some of the page can be taken to scroll it beside the picture.
+                self.assertLessEqual(self.browser.run("document.documentElement.scrollWidth"), width)
+                box = json.loads(self.browser.run("JSON.stringify(document.getElementById('picture').getBoundingClientRect())"))
+                self.assertLess(box["height"], 0.9 * height)
+                self.assertGreater(box["height"], 100)
+                self.shoot(f"{name}-{scheme}")
+        self.browser.call("Emulation.setEmulatedMedia", features=[])
 
     def set_input(self, selector, value, event="input"):
         self.browser.run(f"""(() => {{ const e = document.querySelector({json.dumps(selector)}); e.value = {json.dumps(value)};

@@ -186,6 +186,41 @@ class Pictures(unittest.TestCase):
             view.wait_for(lambda s: is_ready(s) and s["cut"])
             self.assertEqual(places(64, 32), [("intersect_shape", 0, 0, ""), ("plane", 0, 0, "")])
 
+    def test_nodes_of_objects_with_phases_of_their_own_stand_where_their_files_have_them(self):
+        objects = """"objects": [
+  {"name": "taken", "file": "ball.json", "transform": {"translate": {"by": [0.6, 0, 0]}}},
+  {"name": "own", "phases": {"wood": {"diffuse": {"color": [0.1, 0.1, 0.5]}}},
+   "tree": {"set": {"phase": "wood", "of": {"translate": {"by": [-0.6, 0, 0], "of": "ball"}}}}}]"""
+        text = SCENE[:SCENE.index('"tree"')] + objects + SCENE[SCENE.index(',\n"lights"'):]
+
+        class WithBall(View):
+            def prepare(self):
+                ball = '{"version": 1, "phases": {"wood": {"clear": {"ior": 1.5}}},\n"tree": {"set": {"phase": "wood", "of": {"sphere": {"radius": 0.5}}}}}'
+                (self.file.parent / "ball.json").write_text(ball, encoding="utf-8")
+
+        with WithBall(text) as view:
+            view.ready()
+
+            def places(x, y):
+                told = json.loads(view.post("ask", {"x": x, "y": y}).body)
+                return told["met"], [(n["name"], pathlib.Path(n["file"]).name, n["line"], n["column"], n["pointer"]) for n in told["path"]]
+            # What holds the objects together and what places them is in no file.
+            self.assertEqual(places(64, 32), ("taken.wood", [("over", "", 0, 0, ""), ("translate", "", 0, 0, ""),
+                                                             ("set", "ball.json", 2, 10, ""), ("sphere", "ball.json", 2, 42, "")]))
+            own = [("over", "", 0, 0, ""), ("set", "scene.json", 7, 13, "/objects/1/tree/set"),
+                   ("translate", "scene.json", 7, 45, "/objects/1/tree/set/of/translate"),
+                   ("sphere", "scene.json", 3, 21, "/shapes/ball/sphere")]
+            self.assertEqual(places(32, 32), ("own.wood", own))
+            # Nodes of which nothing is left are not taken for others that are made where they were.
+            for by in (0.61, 0.625, 0.7):
+                view.post("change", {"numbers": {"/objects/0/transform/translate/by/0": by}})
+                view.wait_for(lambda s, v=by: is_ready(s) and v in s["numbers"].values())
+                self.assertEqual(places(32, 32), ("own.wood", own))
+            # Numbers that stand there for the file's own, but longer, shift no place of the file.
+            view.post("change", {"numbers": {"/objects/1/tree/set/of/translate/by/0": -0.5625, "/phases/glass/clear/ior": 1.50001}})
+            view.wait_for(lambda s: is_ready(s) and -0.5625 in s["numbers"].values())
+            self.assertEqual(places(32, 32), ("own.wood", own))
+
     def test_a_clear_phase_has_its_colour_after_half_the_diagonal_of_the_object(self):
         with View() as view:
             view.ready()
@@ -273,6 +308,20 @@ class Files(unittest.TestCase):
             right = view.wait_for(lambda s: is_ready(s) and not s["error"] and "fov" in s["camera"])
             self.assertNotEqual(right.pixels, before.pixels)
 
+    def test_a_file_that_vanishes_leaves_the_last_picture_until_it_is_there_again(self):
+        with View() as view:
+            before = view.ready()
+            view.file.unlink()
+            gone = view.wait_for(lambda s: s["error"])
+            self.assertEqual(gone.pixels, before.pixels)
+            checked = subprocess.run([COMMAND, "check", str(view.file)], capture_output=True, text=True, check=False, timeout=60)
+            self.assertEqual(gone.state["error"] + "\n", checked.stderr)
+            self.assertEqual(view.post("write", {}).status, 400)
+            self.assertFalse(view.file.exists())
+            view.file.write_text(SCENE, encoding="utf-8")
+            back = view.wait_for(lambda s: is_ready(s) and not s["error"])
+            self.assertEqual(back.pixels, before.pixels)
+
     def test_a_file_that_the_scene_names_is_watched_even_before_it_is_there(self):
         text = changed(SCENE, '"lights"', '"meshes": [{"obj": {"file": "leaf.obj", "material": {"diffuse": {"color": [0.2, 0.6, 0.2]}}}}], "lights"')
         leaf = "v -1 1 -1\nv 1 1 -1\nv 0 1 1\nf 1 2 3\n"
@@ -310,15 +359,15 @@ class Files(unittest.TestCase):
         with View() as view:
             before = view.ready()
             view.file.write_text(ENDLESS, encoding="utf-8")
-            view.wait_for(lambda s: s["doing"] == "Building cells")
+            view.wait_for(lambda s: s["doing"] == "Building better cells")
             time.sleep(0.5)
-            self.assertEqual(view.get("picture").state["doing"], "Building cells")
+            self.assertEqual(view.get("picture").state["doing"], "Building better cells")
             view.file.write_text(SCENE + "\n", encoding="utf-8")
             self.assertEqual(view.ready().pixels, before.pixels)
 
     def test_control_c_leaves_it_too(self):
         with View(ENDLESS) as view:
-            view.wait_for(lambda s: s["doing"] == "Building cells")
+            view.wait_for(lambda s: s["doing"] == "Building better cells")
             self.assertEqual(view.end(signal.SIGINT), 0)
 
 

@@ -145,6 +145,7 @@ TEST_CASE("after a build that failed the camera turns no picture of the old obje
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
     CHECK(session.shown()->picture->number == number);
     CHECK(!session.shown()->error.empty());
+    CHECK(session.shown()->doing == "Stopped by an error");
 
     bench.is_endless = false;
     bench.save();
@@ -193,6 +194,80 @@ TEST_CASE("a camera that is wished while a file with another is read stays") {
     bench.save();
     REQUIRE(bench.is_seen());
     CHECK(is_there("[0, -5, 0]"));
+}
+
+TEST_CASE("what changes nothing of the object keeps its cells, and the picture is right all the same") {
+    Bench bench;
+    Session& session = bench.begin();
+    REQUIRE(bench.is_ready());
+    const auto cells = [&] { return session.shown()->picture->prepared->world().geometry().objects().front().get(); };
+    const InterfaceCells* const first = cells();
+    const auto pixels = session.shown()->picture->pixels;
+
+    Change change;
+    change.looks = {{"wood", {.color = glm::vec3(0.1f, 0.2f, 0.8f)}}};
+    session.change(change);
+    REQUIRE(bench.is_ready());
+    CHECK(cells() == first);
+    CHECK(session.shown()->picture->prepared->quality() == BuildQuality::medium);
+    CHECK(session.shown()->picture->pixels != pixels);
+    bench.position = "[0, -4, 0]";
+    bench.save();
+    REQUIRE(bench.is_seen());
+    REQUIRE(bench.is_ready());
+    CHECK(cells() == first);
+
+    // What is clear has rays within, so other cells are needed; a cut makes another object.
+    change.looks = {{"wood", {.is_clear = true}}};
+    session.change(change);
+    REQUIRE(bench.is_ready());
+    const InterfaceCells* const clear = cells();
+    CHECK(clear != first);
+    change.looks.reset();
+    change.has_cut = true;
+    change.cut = CutPlane{{0, 0, 1}, 0.125f};
+    session.change(change);
+    REQUIRE(bench.is_ready());
+    CHECK(cells() != clear);
+}
+
+TEST_CASE("cells that are known are taken for the object that they are of and for no other") {
+    const Scene scene = scene_with_camera("[0, -3, 0]");
+    const World first(scene);
+    const auto& known = first.geometry().objects().front();
+    CHECK(World(scene, {.known_cells = known}).geometry().objects().front() == known);
+    CHECK(World(scene, {.quality = BuildQuality::low, .known_cells = known}).geometry().objects().front() != known);
+    CHECK(World(scene, {.deepest = 5, .known_cells = known}).geometry().objects().front() != known);
+    Scene clear = scene;
+    clear.materials[1] = Clear{.ior = 1.5f};
+    CHECK(World(clear, {.known_cells = known}).geometry().objects().front() != known);
+}
+
+TEST_CASE("a camera that is wished is told at once and by whatever is shown from then on") {
+    Bench bench;
+    Session& session = bench.begin();
+    REQUIRE(bench.is_ready());
+    std::atomic<bool> is_held{false}, is_released{false};
+    bench.before_display = [&](float) {
+        is_held = true;
+        (void)comes([&] { return is_released.load(); });
+    };
+    session.change(camera_at("[1, -3, 0]"));
+    // The picture of that one is still to be shown when another is wished, so it is told with the newer one.
+    REQUIRE(comes([&] { return is_held.load(); }));
+    const std::uint64_t version = session.change(camera_at("[2, -3, 0]"));
+    CHECK(session.shown()->version == version);
+    CHECK(session.shown()->camera_text.find("[2, -3, 0]") != std::string::npos);
+    CHECK(session.shown()->doing == "Taking the picture");
+    is_released = true;
+    const std::uint64_t before = session.shown()->picture->number;
+    REQUIRE(comes([&] { return session.shown()->picture->number > before; }));
+    CHECK(session.shown()->camera_text.find("[2, -3, 0]") != std::string::npos);
+    Change back;
+    back.has_camera = true;
+    session.change(back);
+    CHECK(session.shown()->camera_text.find("[0, -3, 0]") != std::string::npos);
+    REQUIRE(bench.is_ready());
 }
 
 TEST_CASE("a camera is not written before there is one") {

@@ -7,6 +7,7 @@
 #include "bounding/convex_in_box.hpp"
 #include "bounding/mesh_in_box.hpp"
 #include "bounding/network_in_box.hpp"
+#include "bounding/voxels_in_box.hpp"
 #include "enclosure/enclosure.hpp"
 #include "evaluation/interpret.hpp"
 #include "rewriting/specialise.hpp"
@@ -44,8 +45,9 @@ float value_by_specialisation(const float* constants, const Region& at, Speciali
 
 /// The enclosure of a long primitive. Noise has an enclosure of its own, and a network has one inside of its cube,
 /// beyond which points are projected onto the cube (Siren::Network). The few pieces of a mesh in a small box bound its
-/// gradient, and few balls are enclosed one by one. Of all others (an image, Voronoi cells), and of those elsewhere,
-/// only the value at the centre is used and that their slope is at most 1 in their own space.
+/// gradient, and so do few voxels, with more of which the values' range is known; few balls are enclosed one by one. Of all
+/// others (an image, Voronoi cells), and of those elsewhere, only the value at the centre is used and that their slope is
+/// at most 1 in their own space.
 template <class P>
 Enclosure enclose_long_primitive(const float* constants, const Vec3<Enclosure>& q, const Enclosure::Vector& half,
                                  SpecialisationInBox& specialisation) {
@@ -71,11 +73,17 @@ Enclosure enclose_long_primitive(const float* constants, const Vec3<Enclosure>& 
     if constexpr (std::is_same_v<P, Mesh>) pieces = specialisation.found.data.data();
     if (pieces)
         if (const auto known = mesh_in_box(pieces, at)) return enclose(*known, at).tightened(half);
+    Range values = Range::all();
+    if constexpr (std::is_same_v<P, Volume::Samples> || std::is_same_v<P, Labels::Depth>) {
+        const VoxelsInBox known = voxels_in_box(constants, at, std::is_same_v<P, Labels::Depth>);
+        if (known.field) return enclose(*known.field, at).tightened(half);
+        values = known.values;
+    }
     const auto slope = enclosure::detail::each_axis([&](std::size_t i) {
         return within(
             std::hypot(q.x.gradient[i].magnitude(), q.y.gradient[i].magnitude(), q.z.gradient[i].magnitude()));
     });
-    return Enclosure(value, Range::all(), slope, enclosure::detail::no_gradient, Range::all()).tightened(half);
+    return Enclosure(value, values, slope, enclosure::detail::no_gradient, Range::all()).tightened(half);
 }
 
 /// The enclosure of any other primitive, by its equation.

@@ -11,7 +11,7 @@ namespace phasetree::building {
 
 using bounding::Encloser, bounding::InterfaceBounds, bounding::ValueRanges;
 using pruning::prune, pruning::without_far_bounds;
-using rewriting::ArenaScope, rewriting::has_local_primitive;
+using rewriting::ArenaScope, rewriting::has_grid, rewriting::has_local_primitive;
 
 namespace {
 
@@ -85,8 +85,8 @@ class CandidateSearch {
         // A ray passes through many of the copies of a fold, and through many blocks of a pattern of which nothing is
         // known in the box. So the cost is multiplied by the expected numbers of copies and of blocks.
         const float size = node_.box.diagonal();
-        const bool has_blocks =
-            std::isfinite(node_.pattern_period) && !(cell.facts.bound.spread < 1) && has_local_primitive(cell.program);
+        const bool has_blocks = std::isfinite(node_.pattern_period) && !(cell.facts.bound.spread < 1) &&
+                                (has_local_primitive(cell.program) || has_grid(cell.program));
         const float blocks = has_blocks ? std::max(1.f, size / node_.pattern_period) : 1.f;
         const float repetitions = (1 + 4 * size / node_.fold_period) * blocks;
         cell.work = work(cell.program, context_.program.constants, cell.specialisations, worker_.scratch);

@@ -56,6 +56,10 @@ CellsFile::Contents CellsFile::contents(const InterfaceCells& cells) {
     return {d, d.whole->program(), d.settings()};
 }
 
+cells::BuildSettings CellsFile::settings(const Phased& object, const CellOptions& options) {
+    return InterfaceCells::Data(object, options).settings();
+}
+
 std::shared_ptr<const InterfaceCells> CellsFile::read(const Phased& object, const CellOptions& options,
                                                       const Reader& reader) {
     const Stopwatch stopwatch;

@@ -25,6 +25,8 @@ struct CellsFile {
         BuildSettings settings;
     };
     static Contents contents(const InterfaceCells&);
+    /// What building the cells of an object with these options would have. Throws ModelError.
+    static BuildSettings settings(const Phased&, const CellOptions&);
 
     /// Returns the tables, and appends the cells' constants to those of the object's program.
     using Reader = std::function<CellTables(Program&, const BuildSettings&)>;

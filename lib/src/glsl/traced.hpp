@@ -148,6 +148,10 @@ template <class Search, class Equation, class Otherwise>
 Traced found_equation(const Vec3<Traced>& p, const Search&, const Equation&, const Otherwise& otherwise) {
     return otherwise(p);
 }
+template <std::size_t count, class Search, class Equation, class Otherwise>
+Traced gathered_equation(const Vec3<Traced>& p, const Search&, const Equation&, const Otherwise& otherwise) {
+    return otherwise(p);
+}
 inline Traced value_noise(const Vec3<Traced>& p) {
     return write_call(SharedFunction::space_noise, p.x, p.y, p.z);
 }

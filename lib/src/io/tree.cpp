@@ -168,7 +168,7 @@ class Reader {
             read_parameters(node, member);
         try {
             Handle made(std::move(node));
-            if (places_) places_->add(made.node(), document_, member.key_offset());
+            if (places_) places_->add(made, document_, member.key_offset());
             return made;
         } catch (const TextError& e) {
             const Value text = member.is_string() ? member : member.find(e.parameter()).value();
@@ -187,6 +187,14 @@ class Reader {
         for_each_parameter(node, [&](auto& target, const Parameter& p) {
             if (p.optional && !reader.value(p.name)) return;
             read_value(target, reader.required_value(p.name), p);
+        });
+        // Which part of a file is wanted another parameter may say.
+        for_each_parameter(node, [&](auto& target, const Parameter& p) {
+            if constexpr (requires { target.content; }) {
+                std::string part;
+                if constexpr (requires { node.part_of_file(); }) part = node.part_of_file();
+                read_file(target, part, reader.required_value(p.name));
+            }
         });
     }
 
@@ -253,7 +261,6 @@ class Reader {
         } else if constexpr (requires { target.content; }) {
             target.path = as<std::string>(document_, value, what);
             if (target.path.empty()) throw document_.error(value, fmt::format("{} must not be empty", what));
-            read_file(target, value);
         } else if constexpr (std::is_same_v<T, PhaseSet>) {
             if (value.is_string()) {
                 target = PhaseSet::of(phase_or_vacuum(value, what));
@@ -267,31 +274,38 @@ class Reader {
         }
     }
 
-    // Each file once.
+    // Each file once, or each part of it.
     template <class Content>
-    void read_file(FromFile<Content>& target, Value value) {
+    void read_file(FromFile<Content>& target, const std::string& part, Value value) {
         const std::filesystem::path path = document_.file(value);
         auto& known = std::get<KnownFiles<Content>>(known_files_);
-        if (const auto found = known.find(target.path); found != known.end()) {
+        const std::pair key{target.path, part};
+        if (const auto found = known.find(key); found != known.end()) {
             target.content = found->second;
             return;
         }
         try {
-            target.content = std::make_shared<const Content>(content_of<Content>(path));
+            target.content = std::make_shared<const Content>(content_of<Content>(path, part));
         } catch (const std::exception& e) {
             throw document_.error(value, e.what());
         }
-        known.emplace(target.path, target.content);
+        known.emplace(key, target.content);
     }
 
     template <class Content>
-    Content content_of(const std::filesystem::path& path) const {
+    Content content_of(const std::filesystem::path& path, const std::string& part) const {
         if constexpr (std::is_same_v<Content, SirenNetwork>) {
             return read_siren(path);
         } else if constexpr (std::is_same_v<Content, TriangleMesh>) {
             return read_mesh(path);
         } else if constexpr (std::is_same_v<Content, BallList>) {
             return read_balls(path);
+        } else if constexpr (std::is_same_v<Content, VoxelGrid>) {
+            if (!files_.level_set) throw std::runtime_error("this program reads no OpenVDB files");
+            return files_.level_set(path, part);
+        } else if constexpr (std::is_same_v<Content, LabelGrid>) {
+            if (!files_.label_grid) throw std::runtime_error("this program reads neither OpenVDB files nor images");
+            return files_.label_grid(path, part);
         } else {
             if (!files_.height_grid) throw std::runtime_error("this program reads no images");
             return files_.height_grid(path);
@@ -348,8 +362,9 @@ class Reader {
     const FileReaders& files_;
     NodePlaces* places_;
     template <class Content>
-    using KnownFiles = std::map<std::string, std::shared_ptr<const Content>, std::less<>>;
-    std::tuple<KnownFiles<SirenNetwork>, KnownFiles<HeightGrid>, KnownFiles<TriangleMesh>, KnownFiles<BallList>>
+    using KnownFiles = std::map<std::pair<std::string, std::string>, std::shared_ptr<const Content>>;
+    std::tuple<KnownFiles<SirenNetwork>, KnownFiles<HeightGrid>, KnownFiles<TriangleMesh>, KnownFiles<VoxelGrid>,
+               KnownFiles<LabelGrid>, KnownFiles<BallList>>
         known_files_;
     std::map<std::string, Field, std::less<>> fields_;
     std::map<std::string, Phased, std::less<>> objects_;

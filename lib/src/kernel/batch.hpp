@@ -3,6 +3,7 @@
 #pragma once
 
 #include <hwy/highway.h>
+#include <array>
 #include <cstring>
 
 #include "phasetree/math/vec3.hpp"
@@ -151,6 +152,19 @@ HWY_INLINE Batch found_equation(const Vec3<Batch>& p, const Search& search, cons
         x[i] = equation(search(q), q);
     }
     return load(x);
+}
+
+template <std::size_t count, class Search, class Equation, class Otherwise>
+HWY_INLINE Batch gathered_equation(const Vec3<Batch>& p, const Search& search, const Equation& equation,
+                                   const Otherwise&) {
+    alignas(Batch) float x[batch_size], y[batch_size], z[batch_size], found[count][batch_size];
+    store(p.x, x);
+    store(p.y, y);
+    store(p.z, z);
+    for (std::size_t i = 0; i < batch_size; ++i) search(Vec3<float>{x[i], y[i], z[i]}, &found[0][i], batch_size);
+    std::array<Batch, count> numbers;
+    for (std::size_t k = 0; k < count; ++k) numbers[k] = load(found[k]);
+    return equation(numbers, p);
 }
 
 /// The numbers of the lanes, 0 … 7.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <glm/vec3.hpp>
 
 #include "phasetree/math/arc_tangent.hpp"
@@ -106,6 +107,12 @@ class Dual {
 template <class Search, class Equation, class Otherwise>
 Dual found_equation(const Vec3<Dual>& p, const Search& search, const Equation& equation, const Otherwise&) {
     return equation(search(Vec3<float>{p.x.value(), p.y.value(), p.z.value()}), p);
+}
+template <std::size_t count, class Search, class Equation, class Otherwise>
+Dual gathered_equation(const Vec3<Dual>& p, const Search& search, const Equation& equation, const Otherwise&) {
+    std::array<float, count> numbers;
+    search(Vec3<float>{p.x.value(), p.y.value(), p.z.value()}, numbers.data(), std::size_t{1});
+    return equation(numbers, p);
 }
 /// The derivative is (x dy − y dx)/(x² + y²), and zero at the origin. That of the equation itself, which is evaluated
 /// with the ratio of the lesser to the greater coordinate, would be wrong where both are equal.

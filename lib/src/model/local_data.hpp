@@ -33,4 +33,10 @@ concept RequiredDataPrimitive = LocalDataPrimitive<N> &&
 template <class N>
 concept AnyLocalPrimitive = LocalPrimitive<N> || LocalDataPrimitive<N>;
 
+/// What PatternPrimitive is, of a primitive with data: its features are about as large as period(data).
+template <class N>
+concept PatternDataPrimitive = DataPrimitive<N> && requires(const float* data) {
+    { N::period(data) } -> std::same_as<float>;
+};
+
 }  // namespace phasetree

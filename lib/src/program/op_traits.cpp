@@ -24,15 +24,16 @@ constexpr OpTraits& traits_of(auto& all, Op op) {
 template <class... Ps>
 constexpr void mark_patterns(TypeList<Ps...>, auto& all) {
     const auto mark = [&]<class P>() {
-        if constexpr (PatternPrimitive<P>) traits_of(all, op_of<P>()).is_pattern = true;
+        if constexpr (PatternPrimitive<P> || PatternDataPrimitive<P>) traits_of(all, op_of<P>()).is_pattern = true;
+        if constexpr (PatternDataPrimitive<P>) traits_of(all, op_of<P>()).is_grid = true;
         if constexpr (AnyLocalPrimitive<P>) {
             OpTraits& local = traits_of(all, op_of<P>());
             local.is_local = true;
             local.half_works = 800;  // a rough estimate of the cost of all sites of a Voronoi pattern
-            if constexpr (LocalDataPrimitive<P>) local.half_works = P::search_half_works;
             local.is_many = RequiredDataPrimitive<P>;
             traits_of(all, op_of<typename P::Specialised>()).is_specialised = true;
         }
+        if constexpr (requires { P::search_half_works; }) traits_of(all, op_of<P>()).half_works = P::search_half_works;
     };
     (mark.template operator()<Ps>(), ...);
 }

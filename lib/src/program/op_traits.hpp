@@ -16,7 +16,8 @@ struct OpTraits {
     bool is_long_primitive = false;  ///< a primitive whose equation is long (concepts.hpp)
     bool is_network = false;         ///< a neural field: Siren::Network
     bool is_fold = false;            ///< it folds space, so it is not continuous
-    bool is_pattern = false;         ///< a PatternPrimitive
+    bool is_pattern = false;         ///< a PatternPrimitive, or one with data
+    bool is_grid = false;            ///< a PatternDataPrimitive
     bool is_local = false;           ///< a LocalPrimitive
     bool is_many = false;            ///< a RequiredDataPrimitive, whose data are many parts
     bool is_specialised = false;     ///< the form that a LocalPrimitive takes in a small box

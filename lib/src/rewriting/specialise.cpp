@@ -26,6 +26,10 @@ float finest_pattern(const WorkingProgram& program, std::span<const float> const
     for (const Instruction& in : program.code) {
         if (!traits(in.op).is_pattern) continue;
         const auto op = static_cast<std::uint32_t>(in.op) - static_cast<std::uint32_t>(Op::first_primitive);
+        program::dispatch(DataPrimitives(), op - static_cast<std::uint32_t>(Primitives::size), [&]<class P>() {
+            if constexpr (PatternDataPrimitive<P>)
+                finest = std::min(finest, P::period(&constants[in.data]) / program.lipschitz[in.a]);
+        });
         program::dispatch(Primitives(), op, [&]<class P>() {
             if constexpr (PatternPrimitive<P>) {
                 P primitive;

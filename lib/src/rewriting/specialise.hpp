@@ -50,6 +50,11 @@ inline bool has_local_primitive(const WorkingProgram& program) {
 WorkingProgram specialised(const WorkingProgram&, std::span<const Specialisation>, std::vector<float>& floats,
                            Arena& scratch, std::uint32_t first = 0);
 
+/// Whether a program has a grid of voxels (PatternDataPrimitive).
+inline bool has_grid(const WorkingProgram& program) {
+    return std::ranges::any_of(program.code, [](const Instruction& in) { return traits(in.op).is_grid; });
+}
+
 /// The size of the smallest features among a program's patterns, in the object's space: a pattern's period is divided
 /// by the slope of the map into the pattern's own space. Infinity if the program has no pattern.
 float finest_pattern(const WorkingProgram&, std::span<const float> constants);

@@ -12,7 +12,7 @@ namespace {
 // Makes each node anew whose parameters change; a tree of one field is the same handle as before.
 class Renumbering {
   public:
-    explicit Renumbering(std::span<const Phase> numbers) : numbers_(numbers) {
+    Renumbering(std::span<const Phase> numbers, const NodeCopied& copied) : numbers_(numbers), copied_(copied) {
         PhaseSet used;
         for (std::size_t i = 1; i < numbers.size(); ++i) {
             const Phase to = numbers[i];
@@ -34,7 +34,10 @@ class Renumbering {
                 bool is_changed = false;
                 for_each_parameter(copy,
                                    [&](auto& value, const Parameter&) { is_changed = change(value) || is_changed; });
-                return is_changed ? Handle(std::move(copy)) : handle;
+                if (!is_changed) return handle;
+                Handle made(std::move(copy));
+                if (copied_) copied_(handle.node(), made);
+                return made;
             },
             handle.node()->node);
         known.emplace(handle.node(), result);
@@ -89,18 +92,19 @@ class Renumbering {
     }
 
     std::span<const Phase> numbers_;
+    const NodeCopied& copied_;
     std::unordered_map<const void*, Field> fields_;
     std::unordered_map<const void*, Phased> objects_;
 };
 
 }  // namespace
 
-Phased renumbered(const Phased& object, std::span<const Phase> numbers) {
-    return Renumbering(numbers)(object);
+Phased renumbered(const Phased& object, std::span<const Phase> numbers, const NodeCopied& copied) {
+    return Renumbering(numbers, copied)(object);
 }
 
-Field renumbered(const Field& field, std::span<const Phase> numbers) {
-    return Renumbering(numbers)(field);
+Field renumbered(const Field& field, std::span<const Phase> numbers, const NodeCopied& copied) {
+    return Renumbering(numbers, copied)(field);
 }
 
 }  // namespace phasetree

@@ -976,8 +976,9 @@ class Scene:
 
     object: its phases need materials to be rendered. Or objects: {name: object}, or {name: (object, map)} with a position or
     a 3x4 or 4x4 matrix where it stands; instances: pt.places(name, transforms), one or several, the places of objects, which
-    then stand there alone, and of groups; groups: {name: places}. Objects may touch and must not overlap. camera: pt.camera(…) or one of pt.cameras. lights, meshes: one or
-    several. background: the colour that the camera sees in place of the lights at infinity. image: pt.image(…)."""
+    then stand there alone, and of groups; groups: {name: places}. Objects may touch and must not overlap. camera:
+    pt.camera(…) or one of pt.cameras. lights, meshes: one or several. background: the colour that the camera sees in place
+    of the lights at infinity. image: pt.image(…)."""
     def __init__(self, object=..., camera=..., lights=..., meshes=..., background=..., image=..., name=..., *, objects=..., groups=..., instances=...):
         r"""Initialize self.  See help(type(self)) for accurate signature."""
     def with_(self, **parts):
@@ -1541,6 +1542,15 @@ def mesh(file: str | PathLike[str]) -> Field:
         ± min over the triangles of |p − nearest point|
 
     file: The triangles: OBJ, PLY or STL, in metres, closed, not crossing itself, and counter-clockwise seen from outside. Corners at the same place are one; materials, normals and the like are not looked at. Walls and gaps that are thinner than a millionth of the mesh's size may be taken for each other. (name of a file)
+    """
+
+def volume(file: str | PathLike[str], grid: str | Expression | None = ...) -> Field:
+    r"""The solid of a level set in an OpenVDB file, at its place in the file. Beyond the file's narrow band the field does not grow.
+
+        max(b, f/λ),  f the trilinear interpolation of the voxels, λ = max(1, sup |∇f|), b the grid's box
+
+    file: The OpenVDB file. Its grid must be a level set of floats or doubles whose voxels lie along the axes; lengths in it are metres. (name of a file)
+    grid: Which of the file's grids; needed if it has several level sets. (text; default "")
     """
 
 @overload
@@ -2147,6 +2157,20 @@ def voronoi(phases: Sequence[Phase | str], size: float, jitter: float | None = .
     size: Of the cubes that have a site each. (number in m; positive)
     jitter: How irregular: 0 for sites on a cubic lattice, 1 for any place in their cubes. (number; at least 0 and at most 1; default 0.9)
     seed: Another number, another pattern. (number; at least 0 and at most 288; default 0)
+    """
+
+def labels(file: str | PathLike[str], phases: Sequence[Phase | str], values: Sequence[float] | np.ndarray | None = ..., empty: Sequence[float] | np.ndarray | None = ..., spacing: Sequence[float] | np.ndarray | None = ..., smoothing: float | None = ..., grid: str | Expression | None = ...) -> Object:
+    r"""A segmented scan: whole numbers at voxels, from images or OpenVDB, as an object of many phases. Each voxel's centre is of the phase of its number, and interfaces between are smooth. Distances are told up to about two voxels, and do not grow beyond.
+
+        φₖ = (Dₖ − min over m ≠ k of Dₘ)/2,  Dₖ = −σ Φ⁻¹(blurred share of phase k)/λ, within the box of the voxels
+
+    file: An OpenVDB file with a grid of whole numbers, or images, one for each layer from the lowest z to the highest: a name in which #### stands for their numbers, such as "layer_###.png". Images are grey, of 8 or 16 bits, are seen from above as height_map's are, and the object stands about the origin. (name of a file)
+    phases: The phases that there are. (list of phases)
+    values: The whole numbers of the phases, in their order: 1, 2, 3 … if left out. (list of numbers; at least -16777216 and at most 16777216; default [])
+    empty: The whole numbers of the vacuum, unless they are a phase's; 0 if left out. (list of numbers; at least -16777216 and at most 16777216; default [])
+    spacing: From voxel to voxel along x, y and z: of images. A grid of OpenVDB has its own. ([x, y, z] in m; zero or more; default [0, 0, 0])
+    smoothing: σ of the blur: 0 for none, when interfaces show the voxels' steps. (number in voxels; at least 0 and at most 4; default 1)
+    grid: Which of an OpenVDB file's grids; needed if it has several of whole numbers. (text; default "")
     """
 
 @overload

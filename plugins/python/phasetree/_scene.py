@@ -66,8 +66,9 @@ class Scene:
 
     object: its phases need materials to be rendered. Or objects: {name: object}, or {name: (object, map)} with a position or
     a 3x4 or 4x4 matrix where it stands; instances: pt.places(name, transforms), one or several, the places of objects, which
-    then stand there alone, and of groups; groups: {name: places}. Objects may touch and must not overlap. camera: pt.camera(…) or one of pt.cameras. lights, meshes: one or
-    several. background: the colour that the camera sees in place of the lights at infinity. image: pt.image(…).
+    then stand there alone, and of groups; groups: {name: places}. Objects may touch and must not overlap. camera:
+    pt.camera(…) or one of pt.cameras. lights, meshes: one or several. background: the colour that the camera sees in place
+    of the lights at infinity. image: pt.image(…).
     """
 
     def __init__(

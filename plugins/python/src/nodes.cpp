@@ -62,7 +62,7 @@ template <class Handle>
 Handle made(const std::string& text, const std::vector<std::string>& phases, const py::dict& parts) {
     KnownShapes known = known_shapes(parts);
     const Document document = Document::from_text(text);
-    const FileReaders files{.height_grid = tracer::read_height_grid};
+    const FileReaders files = tracer::file_readers();
     try {
         if constexpr (std::is_same_v<Handle, Field>)
             return read_field(document, names_of(phases), std::move(known), files);

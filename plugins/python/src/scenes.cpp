@@ -52,7 +52,7 @@ py::object as_python(Value value, const Document* document = nullptr) {
     for (const Value member : value)
         dict[py::str(std::string(member.key()))] =
             follows && member.key() == "of"
-                ? py::cast(read_field(*document, member, {.height_grid = tracer::read_height_grid}))
+                ? py::cast(read_field(*document, member, tracer::file_readers()))
                 : as_python(member, document);
     return dict;
 }

@@ -22,6 +22,21 @@ HeightGrid some_heights(const std::filesystem::path&) {
     return {3, 2, {0, 0.5f, 1, 0.25f, 0, 0.75f}};
 }
 
+VoxelGrid some_level_set(const std::filesystem::path&, const std::string&) {
+    return VoxelGrid::of_voxels("volume", {{9, 4, 3}, glm::dvec3(-0.4), glm::dvec3(0.1)},
+                                [](int x, int y, int) { return 0.02f * static_cast<float>((x + y) % 5 - 2); });
+}
+
+LabelGrid some_labels(const std::filesystem::path&, const std::string&) {
+    LabelGrid grid;
+    grid.lattice.size = {3, 2, 2};
+    grid.numbers = {0, 1, 2};
+    grid.voxels = {0, 1, 1, 2, 2, 0, 1, 0, 1, 2, 1, 0};
+    return grid;
+}
+
+const FileReaders readers{.height_grid = some_heights, .level_set = some_level_set, .label_grid = some_labels};
+
 // Files are sought beside the gallery's scenes.
 Document document_of(std::string_view text) {
     return Document::from_text(std::string(text), source_directory() + "/scenes/input.json");
@@ -102,9 +117,9 @@ void run_scene(Bytes input) {
     try {
         const Document document = document_of(text_of(input));
         if (!is_modest(document.root())) return;
-        const SceneTree tree = read_tree(document, {.height_grid = some_heights});
+        const SceneTree tree = read_tree(document, readers);
         const std::string text = write_tree(tree);
-        const SceneTree again = read_tree(document_of(text), {.height_grid = some_heights});
+        const SceneTree again = read_tree(document_of(text), readers);
         promised(write_tree(again) == text, "what is written and read again is the same");
         (void)statistics(tree.object);
         (void)phases(tree.object);

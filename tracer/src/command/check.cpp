@@ -5,6 +5,7 @@
 #include "command/load.hpp"
 #include "command/overlap_report.hpp"
 #include "command/streams.hpp"
+#include "command/unplaced_report.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/trace/tracer.hpp"
@@ -18,6 +19,7 @@ namespace {
 int check_without_camera(const Document& document, const std::string& shown) {
     const SceneModel model = read_scene_without_camera(document);
     if (!model.placed.empty()) {
+        warn_of_unplaced_groups(document, model.placed);
         warn_of_overlaps(document, model.placed);
         put("{}: the objects are sound, for eval, info and trace; the scene has no \"camera\", so it cannot be "
             "rendered\n",
@@ -44,6 +46,7 @@ int check(const SceneFile& file) {
         return check_without_camera(document, file.shown());
     const Scene scene = load_scene(document);
     if (!scene.placed.empty()) {
+        warn_of_unplaced_groups(document, scene.placed);
         warn_of_overlaps(document, scene.placed);
         return 0;
     }

@@ -16,7 +16,7 @@ namespace {
 struct Options {
     std::string kind;
     std::shared_ptr<SceneFile> scene;
-    int shares = 0;
+    int shares = 0, most_parts = 64;
     std::vector<std::string> outputs, sbatch, render_words;
     std::string folder, program = "phasetree";
 };
@@ -83,6 +83,7 @@ int write_farm(const Options& options) {
     farm.sbatch_options = options.sbatch;
     farm.samples = scene.settings.samples;
     farm.shares = options.shares;
+    farm.most_parts = options.most_parts;
     if (farm.shares > farm.samples)
         throw OutputError(
             fmt::format("--shares {}: there are only {} samples a pixel to share", farm.shares, farm.samples));
@@ -90,6 +91,7 @@ int write_farm(const Options& options) {
          {std::pair("--display", render.display), std::pair("--view", render.view),
           std::pair("--exposure", render.exposure ? std::optional(fmt::format("{}", *render.exposure)) : std::nullopt)})
         if (value) farm.merge_options.insert(farm.merge_options.end(), {name, *value});
+    if (render.denoise) farm.merge_options.push_back("--denoise=" + *render.denoise);
     const std::string text = options.kind == "slurm" ? slurm_script(farm) : command_list(farm);
     const auto has_line_feed = [](const std::string& word) { return word.find('\n') != std::string::npos; };
     std::vector<std::string> all{farm.program, farm.scene, farm.parts};
@@ -115,6 +117,12 @@ void add_farm(CLI::App& app, Run& run) {
     command->add_option("--shares", o->shares, "Among how many the samples a pixel are divided")
         ->required()
         ->check(CLI::Range(1, 1 << 20));
+    command
+        ->add_option("--merge-width", o->most_parts,
+                     "How many parts one merge reads at most: of more shares neighbours are merged first, several at a "
+                     "time (default: 64)")
+        ->check(CLI::Range(2, 1 << 20))
+        ->option_text("PARTS");
     add_outputs(*command, o->outputs, "the scene's name, .exr and .png");
     command->add_option("--parts", o->folder, "The folder, which must be there, for the parts (default: this one)")
         ->option_text("DIR");

@@ -29,15 +29,74 @@ std::string render_tail(const Farm& farm) {
     return (farm.render_options.empty() ? "" : " ") + words(farm.render_options);
 }
 
-std::string merge_command(const Farm& farm) {
+// The first of the shares of which a step's part is made.
+int first_share(const std::vector<int>& steps, std::size_t step, int part) {
+    for (; step > 0; --step) part = static_cast<int>(std::int64_t{part} * steps[step - 1] / steps[step]);
+    return part;
+}
+
+std::string part_name(const Farm& farm, int from_share, int to_share) {
+    return fmt::format("{}.{}-{}.part", farm.parts, first_of_share(farm, from_share), first_of_share(farm, to_share));
+}
+
+std::string part_of_step(const Farm& farm, const std::vector<int>& steps, std::size_t step, int part) {
+    return part_name(farm, first_share(steps, step, part), first_share(steps, step, part + 1));
+}
+
+// What makes the picture of the last step's parts.
+std::string last_merge(const Farm& farm, const std::vector<int>& steps) {
     std::vector<std::string> all{farm.program, "merge"};
-    for (int i = 0; i < farm.shares; ++i) all.push_back(part_of_share(farm, i));
+    for (int i = 0; i < steps.back(); ++i) all.push_back(part_of_step(farm, steps, steps.size() - 1, i));
     for (const std::string& output : farm.outputs) {
         all.push_back("-o");
         all.push_back(output);
     }
     all.insert(all.end(), farm.merge_options.begin(), farm.merge_options.end());
     return words(all);
+}
+
+// A line for each merge of a step before the last.
+std::string merges_of_step(const Farm& farm, const std::vector<int>& steps, std::size_t step) {
+    std::string lines;
+    for (int i = 0; i < steps[step]; ++i) {
+        std::vector<std::string> all{farm.program, "merge"};
+        const auto begin = [&](int part) {
+            return static_cast<int>(std::int64_t{part} * steps[step - 1] / steps[step]);
+        };
+        for (int j = begin(i); j < begin(i + 1); ++j) all.push_back(part_of_step(farm, steps, step - 1, j));
+        all.insert(all.end(), {"--quiet", "-o", part_of_step(farm, steps, step, i)});
+        lines += words(all) + "\n";
+    }
+    return lines;
+}
+
+// The number of the first sample of a step's part, as bash computes it.
+std::string first_in_bash(const Farm& farm, const std::vector<int>& steps, std::size_t step, std::string part) {
+    for (; step > 0; --step) part = fmt::format("({} * {} / {})", part, steps[step - 1], steps[step]);
+    return fmt::format("{} * {} / {}", part, farm.samples, farm.shares);
+}
+
+// What submits the merges of a step before the last as an array.
+std::string array_of_step(const Farm& farm, const std::vector<int>& steps, std::size_t step,
+                          const std::string& options) {
+    return fmt::format(
+        R"(array=$(sbatch --parsable --job-name=phasetree-merge --array=0-{last} --requeue --dependency="afterok:$array"{options} <<'END'
+#!/bin/bash
+# Merges neighbours, so that no merge has more than {most} parts to read.
+i=$SLURM_ARRAY_TASK_ID parts=()
+for ((j = i * {before} / {count}; j < (i + 1) * {before} / {count}; ++j)); do
+    parts+=({parts}.$(({first}))-$(({next})).part)
+done
+exec {program} merge "${{parts[@]}}" --quiet -o {parts}.$(({whole_first}))-$(({whole_next})).part
+END
+)
+)",
+        fmt::arg("last", steps[step] - 1), fmt::arg("options", options), fmt::arg("most", farm.most_parts),
+        fmt::arg("before", steps[step - 1]), fmt::arg("count", steps[step]), fmt::arg("parts", shell_word(farm.parts)),
+        fmt::arg("first", first_in_bash(farm, steps, step - 1, "j")),
+        fmt::arg("next", first_in_bash(farm, steps, step - 1, "(j + 1)")),
+        fmt::arg("program", shell_word(farm.program)), fmt::arg("whole_first", first_in_bash(farm, steps, step, "i")),
+        fmt::arg("whole_next", first_in_bash(farm, steps, step, "(i + 1)")));
 }
 
 }  // namespace
@@ -59,7 +118,13 @@ int first_of_share(const Farm& farm, int share) {
 }
 
 std::string part_of_share(const Farm& farm, int share) {
-    return fmt::format("{}.{}-{}.part", farm.parts, first_of_share(farm, share), first_of_share(farm, share + 1));
+    return part_name(farm, share, share + 1);
+}
+
+std::vector<int> parts_of_steps(const Farm& farm) {
+    std::vector<int> steps{farm.shares};
+    while (steps.back() > farm.most_parts) steps.push_back((steps.back() + farm.most_parts - 1) / farm.most_parts);
+    return steps;
 }
 
 std::string command_list(const Farm& farm) {
@@ -69,15 +134,20 @@ std::string command_list(const Farm& farm) {
         list += fmt::format("{} --samples {}:{} --checkpoint {} --resume {} --or-start -o {}{}\n", render_head(farm),
                             first_of_share(farm, i), first_of_share(farm, i + 1), part, part, part, render_tail(farm));
     }
-    return list + merge_command(farm) + "\n";
+    const std::vector<int> steps = parts_of_steps(farm);
+    for (std::size_t step = 1; step < steps.size(); ++step) list += merges_of_step(farm, steps, step);
+    return list + last_merge(farm, steps) + "\n";
 }
 
 std::string slurm_script(const Farm& farm) {
     const std::string options = (farm.sbatch_options.empty() ? "" : " ") + words(farm.sbatch_options);
+    const std::vector<int> steps = parts_of_steps(farm);
+    std::string steps_between;
+    for (std::size_t step = 1; step < steps.size(); ++step) steps_between += array_of_step(farm, steps, step, options);
     return fmt::format(
         R"(#!/bin/bash
-# Run by hand where sbatch is: submits {shares} shares of {samples} samples a pixel as an array, and a job that merges them
-# when all are done. Prints the number of that job.
+# Run by hand where sbatch is: submits {shares} shares of {samples} samples a pixel as an array, and what merges them when all
+# are done. Prints the number of the last job, which makes the picture.
 set -eu
 array=$(sbatch --parsable --job-name=phasetree --array=0-{last} --requeue --open-mode=append --signal=B:TERM@60{options} <<'END'
 #!/bin/bash
@@ -108,7 +178,7 @@ fi
 exit "$code"
 END
 )
-sbatch --parsable --job-name=phasetree-merge --dependency="afterok:$array"{options} <<'END'
+{between}sbatch --parsable --job-name=phasetree-merge --dependency="afterok:$array"{options} <<'END'
 #!/bin/bash
 exec {merge}
 END
@@ -117,7 +187,7 @@ END
         fmt::arg("options", options), fmt::arg("parts", shell_word(farm.parts)), fmt::arg("head", render_head(farm)),
         fmt::arg("tail", render_tail(farm)),
         fmt::arg("threads", farm.has_threads ? "" : R"( ${SLURM_CPUS_PER_TASK:+--threads "$SLURM_CPUS_PER_TASK"})"),
-        fmt::arg("merge", merge_command(farm)));
+        fmt::arg("between", steps_between), fmt::arg("merge", last_merge(farm, steps)));
 }
 
 }  // namespace phasetree::tracer

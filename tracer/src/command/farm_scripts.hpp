@@ -17,6 +17,7 @@ struct Farm {
     std::string parts;  // the beginning of the parts' names
     std::vector<std::string> sbatch_options;
     int samples = 1, shares = 1;  // samples a pixel, divided among so many
+    int most_parts = 64;          // that one merge reads, at least 2; more shares are merged in steps
 };
 
 // A word as a shell reads it, whatever is in it.
@@ -26,9 +27,14 @@ std::string shell_word(const std::string& word);
 int first_of_share(const Farm& farm, int share);
 std::string part_of_share(const Farm& farm, int share);
 
-// The commands of the shares, and last that of the merge.
+// How many parts there are at each step: first the shares, then those that merges of neighbours leave, until one merge
+// can read all. Merge i of n has the parts from i·m/n on, rounded down, of the m before.
+std::vector<int> parts_of_steps(const Farm& farm);
+
+// The commands of the shares, then those of each step of merging, the picture's last.
 std::string command_list(const Farm& farm);
-// A script for bash that submits an array of the shares and a job that waits for them and merges.
+// A script for bash that submits an array of the shares, one for each step of merging between, and a job that merges
+// the rest. Each waits for the one before.
 std::string slurm_script(const Farm& farm);
 
 }  // namespace phasetree::tracer

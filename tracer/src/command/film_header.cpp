@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "command/reading.hpp"
 #include "phasetree/building/options.hpp"
 #include "phasetree/version.hpp"
 #include "scene/fingerprint.hpp"
@@ -20,7 +21,7 @@ std::vector<std::pair<std::string, std::string>> settings_of(const RenderOptions
         if (chosen[i]) planes.push_back(Planes::names[i]);
     std::vector<std::pair<std::string, std::string>> settings{
         {"version", fmt::format("{} with Embree {}", version(), PHASETREE_EMBREE_MAJOR)},
-        {"scene", fmt::format("{:016x}", fingerprint(document))},
+        {"scene", fmt::format("{:016x}", fingerprint_showing(document, options.quiet))},
         {"size", fmt::format("{}x{}", scene.film.width, scene.film.height)},
         {"crop", fmt::format("{},{},{},{}", pixels.x0, pixels.y0, pixels.x1, pixels.y1)},
         {"planes", fmt::format("{}", fmt::join(planes, ","))},

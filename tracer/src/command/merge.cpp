@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "command/commands.hpp"
+#include "command/denoising.hpp"
 #include "command/pictures.hpp"
 #include "command/reading.hpp"
 #include "command/render_options.hpp"
@@ -20,6 +21,7 @@ struct Options {
     std::vector<std::string> parts, outputs;
     std::optional<float> exposure;
     std::optional<std::string> display, view;
+    std::optional<std::string> denoise;
     bool may_have_gaps = false, quiet = false;
 };
 
@@ -103,17 +105,20 @@ int merge_parts(const Options& options) {
                         parts.header().samples_in_all));
     if (!film_files.empty() && !parts.are_joined())
         throw OutputError("a .part cannot be made of parts between which something is missing");
+    const Denoiser denoiser = denoiser_of(options.denoise.value_or("best"));
+    if (options.denoise) check_denoising(parts.header().film.planes, !images.empty());
     const std::optional<std::string> view = options.view ? options.view : parts.header().view;
     const DisplayTransform display(options.display, view, options.exposure.value_or(parts.header().exposure_ev));
     Progress progress(static_cast<std::uint64_t>(parts.header().bands()), ProgressOutput::standard_error(options.quiet),
                       "merging");
-    const Joined joined = join(parts, film_files, !images.empty(), progress);
+    Joined joined = join(parts, film_files, !images.empty(), progress);
     progress.finish();
     if (!joined.is_complete) {
         say("phasetree: interrupted; nothing is written\n");
         return interrupting_signal() == SIGINT ? interrupted_by_person : 1;
     }
     say_faults(joined.faults);
+    if (options.denoise) denoise_picture(joined.image, {denoiser, threads.count(), options.quiet});
     return write_pictures(options, parts, images, joined, display) ? 0 : 1;
 }
 
@@ -128,6 +133,7 @@ void add_merge(CLI::App& app, Run& run) {
     command->add_flag(
         "--allow-gaps", o->may_have_gaps,
         "Make a picture of the samples that there are, though some are missing or parts are not finished");
+    add_denoise(*command, o->denoise);
     add_display_options(*command, o->exposure, o->display, o->view);
     command->add_flag("--quiet", o->quiet, "No progress, errors only");
     command->callback([o, &run] { run = [o] { return merge_parts(*o); }; });

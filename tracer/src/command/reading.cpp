@@ -8,6 +8,7 @@
 #include "command/load.hpp"
 #include "output/late_progress.hpp"
 #include "phasetree_support/reading.hpp"
+#include "scene/fingerprint.hpp"
 #include "scene/named_files.hpp"
 
 namespace phasetree::tracer {
@@ -47,6 +48,10 @@ Document read_document_showing(const SceneFile& file, bool quiet) {
 
 Scene load_scene_showing(const Document& document, bool quiet) {
     return showing("reading its files", bytes_of_named_files(document), quiet, [&] { return load_scene(document); });
+}
+
+std::uint64_t fingerprint_showing(const Document& document, bool quiet) {
+    return showing("checking its files", bytes_of_named_files(document), quiet, [&] { return fingerprint(document); });
 }
 
 }  // namespace phasetree::tracer

@@ -10,6 +10,7 @@
 #include "command/cells_report.hpp"
 #include "command/checkpoints.hpp"
 #include "command/commands.hpp"
+#include "command/denoising.hpp"
 #include "command/detail.hpp"
 #include "command/empty_object.hpp"
 #include "command/film_header.hpp"
@@ -19,6 +20,8 @@
 #include "command/pictures.hpp"
 #include "command/reading.hpp"
 #include "command/render_options.hpp"
+#include "command/unplaced_report.hpp"
+#include "denoise/denoise.hpp"
 #include "film_file/read.hpp"
 #include "output/interrupt.hpp"
 #include "output/late_progress.hpp"
@@ -109,11 +112,12 @@ struct Everything {
     const std::vector<std::string>& outputs;
     const FilmFileHeader& header;
     const Film& film;
+    Planes::Choice wanted_planes;  // by people, of which denoising may need more
     bool is_finished;
 };
 
 // Returns whether all could be written.
-bool write_all(const Everything& e, const Rendering& rendering) {
+bool write_all(const Everything& e, Rendering& rendering) {
     Metadata metadata;
     metadata.scene = e.header.scene;
     metadata.samples_per_pixel = rendering.samples;
@@ -126,6 +130,11 @@ bool write_all(const Everything& e, const Rendering& rendering) {
     // The checkpoint is written first, should there be no time for the rest; one that is an output, too, in its turn.
     const bool is_output = e.options.checkpoint && std::ranges::count(e.outputs, *e.options.checkpoint) > 0;
     if (e.options.checkpoint && !is_output) write_film_file(*e.options.checkpoint);
+    if (e.options.denoise && !std::ranges::all_of(e.outputs, is_film_file)) {
+        denoise_picture(rendering.image,
+                        {denoiser_of(*e.options.denoise), rendering.threads, e.options.quiet, rendering.cancelled});
+        leave_out(rendering.image, e.header.film.planes, e.wanted_planes, e.header.subjects);
+    }
     for (const std::string& output : e.outputs) {
         const bool is_written = is_film_file(output)
                                     ? write_film_file(output)
@@ -209,6 +218,7 @@ void warn_of_object(const RenderOptions& options, const Document& document, cons
     if (world.geometry().statistics().is_coarser)
         say("phasetree: the object would take more memory than --max-memory allows: rays are slower\n");
     for (const auto& object : world.geometry().objects()) print_warning(document.name(), object->warning());
+    warn_of_unplaced_groups(document, scene.placed);
     warn_of_overlaps(document, scene.placed);
 }
 
@@ -247,6 +257,15 @@ void say_what_is_missing(const RenderOptions& options, const Scene& scene, const
     }
 }
 
+void keep_denoising_planes(const RenderOptions& options, Scene& scene) {
+    (void)denoiser_of(*options.denoise);
+    // A share is denoised when it has been merged with the others.
+    if (!options.share && scene.settings.samples < fewest_samples_to_denoise)
+        throw OutputError(fmt::format("--denoise needs {} samples a pixel at least, and the picture is to have {}",
+                                      fewest_samples_to_denoise, scene.settings.samples));
+    scene.film.planes |= denoising_planes();
+}
+
 int render_scene(const RenderOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     expect_checkpoint_requests();
@@ -256,6 +275,8 @@ int render_scene(const RenderOptions& options) {
     const Document& document = read_scene.document;
     Scene& scene = read_scene.scene;
     apply(options, scene);
+    const Planes::Choice wanted_planes = film_settings(scene).planes;
+    if (options.denoise) keep_denoising_planes(options, scene);
     if (!scene.placed.empty() && (options.detail || options.cells))
         throw OutputError(fmt::format("{} is for scenes of one tree, and this one has \"objects\"",
                                       options.detail ? "--detail" : "--cells"));
@@ -288,14 +309,14 @@ int render_scene(const RenderOptions& options) {
             found->add_to(film);
         }
     }
-    const Rendering rendering = rendered(options, *world, scene, job, header, film);
+    Rendering rendering = rendered(options, *world, scene, job, header, film);
 
     // A render that ends with its time is one of as many samples as it had by then.
     if (rendering.is_out_of_time && scene.settings.noise == 0)
         header.samples.last = header.samples_in_all = header.samples.first + rendering.samples;
     const bool is_finished = !rendering.cancelled && scene.settings.noise > 0;
     const bool all_is_well =
-        write_all({options, scene, *world, display, outputs, header, film, is_finished}, rendering);
+        write_all({options, scene, *world, display, outputs, header, film, wanted_planes, is_finished}, rendering);
     say_what_is_missing(options, scene, rendering, job.samples->size());
     if (!all_is_well) return 1;
     if (!rendering.cancelled) return 0;

@@ -8,6 +8,7 @@
 #include <charconv>
 
 #include "command/build_quality.hpp"
+#include "command/denoising.hpp"
 #include "command/duration.hpp"
 #include "command/max_memory.hpp"
 #include "output/error.hpp"
@@ -132,7 +133,8 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
     command
         .add_option("--noise", o.noise,
                     "Blocks of 8x8 pixels stop before they have all samples where their estimated relative error is "
-                    "at most this, 0.02 for example; adds the planes noise and samples. 0: none stops")
+                    "at most this, 0.02 for example; adds the planes noise and samples. 0: none stops. Where bright paths are "
+                    "rare and were missed a block stops too soon, so the picture gets a little darker")
         ->check(CLI::Range(0.0, 1.0))
         ->option_text("ERROR");
     command
@@ -182,6 +184,7 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
     command.add_option("--planes", o.planes,
                        "Planes that .exr files hold beside the picture: names with commas between them, such as "
                        "depth,normal,crypto_phase, or all");
+    add_denoise(command, o.denoise);
     command.add_option("--stats", o.stats, "Write what rendering cost, as JSON");
     command.add_flag("--quiet", o.quiet, "No progress, errors only");
 }

@@ -29,10 +29,11 @@ struct RenderOptions {
     std::optional<std::string> display, view, stats, cells, planes;
     std::optional<std::string> checkpoint, resume;
     double checkpoint_seconds = 300;
-    std::optional<std::string> frames;  // of a film, by their numbers
-    std::optional<int> frame;           // the one of them that these options are for
-    bool skips_existing = false;        // frames whose files are there
-    bool may_start = false;             // where there is nothing to resume
+    std::optional<std::string> frames;   // of a film, by their numbers
+    std::optional<int> frame;            // the one of them that these options are for
+    bool skips_existing = false;         // frames whose files are there
+    bool may_start = false;              // where there is nothing to resume
+    std::optional<std::string> denoise;  // how (denoising.hpp)
     bool quiet = false;
 };
 

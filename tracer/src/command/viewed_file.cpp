@@ -48,7 +48,10 @@ view::ViewedScene read_viewed(const ViewedFile& file, view::WatchedFiles& files,
             [=, display = file.display, view = file.view](float exposure_ev) {
                 return display_of(document, settings, display, view, exposure_ev);
             },
-            view::numbers_of(in_file), std::move(places)};
+            in_file,
+            numbers,
+            view::numbers_of(in_file),
+            std::move(places)};
 }
 
 // The file keeps who may read and write it.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "film/cryptomatte_planes.hpp"
+#include "film/half_plane.hpp"
 #include "film/length_plane.hpp"
 #include "film/light_planes.hpp"
 #include "film/noise_plane.hpp"
@@ -18,6 +19,6 @@ using Planes =
     PlaneList<RadiancePlane, DepthPlane, PositionPlane, NormalPlane, AlbedoPlane, DepthBehindPlane, PositionBehindPlane,
               NormalBehindPlane, AlbedoBehindPlane, PhaseLeftPlane, PhaseEnteredPlane, ObjectPlane, InstancePlane,
               LengthPlane, DirectPlane, IndirectPlane, LightGroupsPlane, VariancePlane, NoisePlane, SamplesPlane,
-              CryptoPhasePlane, CryptoObjectPlane, CryptoMaterialPlane>;
+              HalfPlane, CryptoPhasePlane, CryptoObjectPlane, CryptoMaterialPlane>;
 
 }  // namespace phasetree::tracer

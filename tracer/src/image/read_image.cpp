@@ -77,7 +77,9 @@ void read(const std::filesystem::path& path, const std::function<int(const Image
     const OIIO::ImageSpec& spec = input->spec();
     if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) throw std::runtime_error("it is empty");
     if (spec.depth > 1) throw std::runtime_error("it is a volume, not an image");
-    const int channels = begin({spec.width, spec.height, spec.nchannels, spec.format.is_floating_point()});
+    // Values of fewer bits than a byte are spread over it.
+    const int bits = spec.get_int_attribute("oiio:BitsPerSample", static_cast<int>(8 * spec.format.size()));
+    const int channels = begin({spec.width, spec.height, spec.nchannels, spec.format.is_floating_point(), bits});
     const std::uintmax_t file_bytes = std::filesystem::file_size(path);
     if (!can_hold_what_it_claims(*input, file_bytes))
         throw std::runtime_error("it is too short for the size that it claims");

@@ -18,6 +18,7 @@ struct ImageHeader {
     int height = 0;
     int channels = 0;
     bool is_floating_point = false;
+    int bits = 0;  // of a value in the file
 };
 
 // `begin` gets the header before anything is decoded, and returns how many of the channels to read; it throws

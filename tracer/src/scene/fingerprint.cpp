@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "phasetree_support/checksum.hpp"
+#include "phasetree_support/reading.hpp"
 #include "scene/image_parameters.hpp"
 #include "scene/named_files.hpp"
 
@@ -24,8 +25,13 @@ void put(Checksum& sum, std::string_view text) {
 void put_file(Checksum& sum, const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     std::array<char, 1 << 16> bytes;
-    while (file.read(bytes.data(), bytes.size()) || file.gcount() > 0)
+    support::ReadingPlace place;
+    std::uint64_t at = 0;
+    while (file.read(bytes.data(), bytes.size()) || file.gcount() > 0) {
         put(sum, {bytes.data(), static_cast<std::size_t>(file.gcount())});
+        place.reached(at += static_cast<std::uint64_t>(file.gcount()));
+    }
+    place.finished(at);
 }
 
 void put_string(Checksum& sum, const Document& document, Value value) {

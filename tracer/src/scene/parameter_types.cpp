@@ -123,7 +123,7 @@ ValueType NumberType::describe(const Parameter& p) {
 using FieldType = ParameterType<Field, Parameter>;
 
 Field FieldType::read(const Document& document, Value value, std::string_view, const Parameter&) {
-    return read_field(document, value, {.height_grid = tracer::read_height_grid});
+    return read_field(document, value, tracer::file_readers());
 }
 
 ValueType FieldType::describe(const Parameter&) {

@@ -35,6 +35,7 @@ struct Place {
 
 struct PlacedGroup {
     std::string name;
+    std::size_t offset = 0;     ///< of its name in the file, in bytes
     std::vector<Place> places;  ///< groups among them have smaller numbers
     std::uint64_t copies = 0;   ///< of objects, through all groups
     std::size_t depth = 1;      ///< how many groups are nested here, with this one
@@ -105,7 +106,7 @@ struct ObjectsModel {
 /// Whether the document is a scene of several objects: whether it has "objects".
 bool has_objects(const Document&);
 /// Reads "objects", "groups" and "instances", and "tree" as one object more, with the phases and shapes that they need.
-/// Throws SceneError. `places` is told of the nodes of the objects whose phases keep the numbers that their file gives.
+/// Throws SceneError. `places` is told of the objects' nodes.
 ObjectsModel read_placed_objects(const Document&, const Shutter& = {}, NodePlaces* places = nullptr);
 
 }  // namespace phasetree::tracer

@@ -23,4 +23,7 @@ RenderSettings read_settings(const Document& document, Value value, FilmSettings
 // std::runtime_error.
 HeightGrid read_height_grid(const std::filesystem::path&);
 
+// Of all files that nodes name.
+FileReaders file_readers();
+
 }  // namespace phasetree::tracer

@@ -90,7 +90,7 @@ class ObjectsReader {
             }
         }
         const std::vector<Phased> read =
-            phasetree::read_objects(document_, model_.phases, trees, {.height_grid = read_height_grid}, node_places_);
+            phasetree::read_objects(document_, model_.phases, trees, file_readers(), node_places_);
         for (std::size_t i = 0; i < read.size(); ++i) found_[of[i]].object.tree = read[i];
     }
 
@@ -109,7 +109,7 @@ class ObjectsReader {
                 throw document_.error(named, fmt::format("\"{}\" has no \"tree\"", name));
             known =
                 files_
-                    .emplace(name, TakenFile{other, read_tree(other, {.height_grid = read_height_grid}, node_places_)})
+                    .emplace(name, TakenFile{other, read_tree(other, file_readers(), node_places_)})
                     .first;
         }
         found.document = known->second.document;
@@ -175,13 +175,19 @@ class ObjectsReader {
         }
         try {
             if (is_changed)
-                found.object.tree = renumbered(found.object.tree, std::span(numbers).first(found.names.names.size()));
+                found.object.tree = with_numbers(found.object.tree, std::span(numbers).first(found.names.names.size()));
             (void)prepare_to_trace(found.object.tree);  // This only asks whether the tree can be traced.
         } catch (const ModelError& e) {
             throw document_.error(found.at, fmt::format("\"{}\": {}", found.object.name, e.what()));
         }
         object_numbers_.emplace(found.object.name, static_cast<std::uint32_t>(model_.placed.objects.size()));
         model_.placed.objects.push_back(found.object);
+    }
+
+    // A node stands where it stood, whatever numbers its phases have.
+    Phased with_numbers(const Phased& tree, std::span<const Phase> numbers) const {
+        if (!node_places_) return renumbered(tree, numbers);
+        return renumbered(tree, numbers, [&](const void* of, const auto& copy) { node_places_->add_copy(of, copy); });
     }
 
     void read_groups() {
@@ -211,6 +217,7 @@ class ObjectsReader {
         open_.push_back(name);
         PlacedGroup made;
         made.name = name;
+        made.offset = group.key_offset();
         read_places(group, fmt::format("the group \"{}\"", name), made.places);
         for (const Place& place : made.places)
             if (place.is_group) made.depth = std::max(made.depth, 1 + model_.placed.groups[place.of].depth);

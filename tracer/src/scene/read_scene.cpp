@@ -85,7 +85,7 @@ void read_model_into(const Document& document, const FileParts& parts, const Shu
         return;
     }
     refuse_places_of_nothing(document);
-    SceneTree tree = read_tree(document, {.height_grid = read_height_grid}, places);
+    SceneTree tree = read_tree(document, file_readers(), places);
     scene.phases = std::move(tree.phases);
     scene.object = std::move(tree.object);
     for (const Value phase : *parts.phases) scene.materials.push_back(read_phase_material(document, phase));
@@ -107,7 +107,7 @@ SceneModel read_scene_model(const Document& document) {
         return {std::move(model.phases), {}, std::move(model.placed)};
     }
     refuse_places_of_nothing(document);
-    SceneTree tree = read_tree(document, {.height_grid = read_height_grid});
+    SceneTree tree = read_tree(document, file_readers());
     return {std::move(tree.phases), std::move(tree.object), {}};
 }
 

@@ -47,4 +47,13 @@ std::shared_ptr<const CoatingAlbedo> SharedSurfaces::coating(float ior_from, flo
     });
 }
 
+void SharedSurfaces::begin_scene() {
+    const auto forget_unused = [](auto& made) {
+        std::erase_if(made, [](const auto& one) { return one.second.use_count() == 1; });
+    };
+    dielectrics_.clear();
+    forget_unused(conductors_);
+    forget_unused(coatings_);
+}
+
 }  // namespace phasetree::tracer

@@ -12,9 +12,13 @@
 
 namespace phasetree::tracer {
 
-/// It is used while a scene's interfaces are made, in one thread, and forgotten then.
+/// It is used while a scene's interfaces are made, in one thread. Who makes those of one scene after another, which
+/// differ little, may keep it from one to the next.
 class SharedSurfaces {
   public:
+    /// To be called between scenes. Forgets those that nobody else has any more, and all dielectrics: they are made of
+    /// one another, so that their last bits would depend on the scenes before.
+    void begin_scene();
     std::shared_ptr<const DielectricSurface> dielectric(float ior_from, float ior_to,
                                                         const std::optional<ValueRange>& roughness,
                                                         const std::optional<FilmOfSurface>& film);

@@ -35,6 +35,16 @@ bool each_number(Value value, const std::string& pointer, const Visit& visit, co
     return has_any;
 }
 
+// Calls replace(number, what stands in its place) for each number that is edited, in the order of the text.
+template <class Replace>
+void each_replacement(const Document& document, const NumberEdits& edits, const Replace& replace) {
+    const auto visit = [&](Value number, const std::string& pointer) {
+        const auto edit = edits.find(pointer);
+        if (edit != edits.end() && edit->second != number.number()) replace(number, fmt::format("{}", edit->second));
+    };
+    if (!edits.empty()) each_number(document.root(), "", visit, [](Value, const std::string&) {});
+}
+
 }  // namespace
 
 TextNumbers numbers_of(const Document& document) {
@@ -63,15 +73,22 @@ std::string with_numbers(const Document& document, const NumberEdits& edits) {
     const std::string& text = document.text();
     std::string result;
     std::size_t kept = 0;
-    const auto replace = [&](Value number, const std::string& pointer) {
-        const auto edit = edits.find(pointer);
-        if (edit == edits.end() || edit->second == number.number()) return;
+    each_replacement(document, edits, [&](Value number, const std::string& by) {
         result.append(text, kept, number.offset() - kept);
-        result += fmt::format("{}", edit->second);
+        result += by;
         kept = number.offset() + number.written().size();
-    };
-    each_number(document.root(), "", replace, [](Value, const std::string&) {});
+    });
     return result.append(text, kept);
+}
+
+std::size_t offset_without_numbers(const Document& document, const NumberEdits& edits, std::size_t offset) {
+    std::size_t longer = 0, shorter = 0;  // by how much the text before is
+    each_replacement(document, edits, [&](Value number, const std::string& by) {
+        if (number.offset() + longer - shorter >= offset) return;
+        longer += by.size();
+        shorter += number.written().size();
+    });
+    return offset + shorter - longer;
 }
 
 }  // namespace phasetree::tracer::view

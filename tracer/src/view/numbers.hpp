@@ -35,4 +35,7 @@ TextNumbers numbers_of(const Document&);
 /// The text with the numbers replaced, and all else as it was.
 std::string with_numbers(const Document&, const NumberEdits&);
 
+/// Where in the document's own text that stands which is at an offset of with_numbers(), and is no number.
+std::size_t offset_without_numbers(const Document&, const NumberEdits&, std::size_t offset);
+
 }  // namespace phasetree::tracer::view

@@ -34,7 +34,7 @@ std::vector<ProbedNode> path_to(const ViewedScene& viewed, const Phased& object,
     std::vector<ProbedNode> path;
     for (const NodeOnPath& step : value_source(object, p, phase)) {
         ProbedNode node{.name = std::string(step.name), .file = {}, .pointer = {}};
-        if (const auto place = viewed.places.find(step.node)) {
+        if (const auto place = viewed.place_of(step.node)) {
             node.file = place->file;
             node.line = place->line;
             node.column = place->column;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "output/quantise.hpp"
+#include "phasetree/cells/file.hpp"
 #include "phasetree/io/error.hpp"
 #include "scene/camera_text.hpp"
 
@@ -19,6 +20,9 @@ namespace {
 // coarse picture is finished all the same, until so long after it was begun, and so are its cells.
 constexpr std::chrono::milliseconds first_picture_deadline{250};
 constexpr std::chrono::milliseconds first_cells_deadline{1000};
+// The first picture of an object is taken with cells that are not divided further: they are there at once, also where a
+// tree is so slow that good ones take seconds, and a picture of few pixels has few rays.
+constexpr int divisions_of_first_cells = 5;
 // Pictures that follow each other faster than this are not shown one by one.
 constexpr std::chrono::milliseconds between_pictures{100};
 
@@ -109,6 +113,7 @@ void Session::show_locked(Edit&& edit) {
     edit(*next);
     show_wishes(wishes_.edits, wishes_.numbers, *next);
     next->layer = wishes_.layer;
+    next->camera_text = wishes_.camera ? camera_text(*wishes_.camera, filter_in_file_) : camera_in_file_;
     ++next->version;
     shown_ = std::move(next);
     changed_.notify_all();
@@ -163,6 +168,7 @@ std::uint64_t Session::change(const Change& change) {
         // Before the thread can have done it, or the page would be told of what is over.
         if (change.is_of_object()) show_locked([](Shown& shown) { shown.doing = "Building cells"; });
         if (change.numbers) show_locked([](Shown& shown) { shown.doing = "Reading the scene"; });
+        if (change.has_camera || change.layer) show_locked([](Shown& shown) { shown.doing = "Taking the picture"; });
     }
     if (change.exposure_ev) expose();
     return shown()->version;
@@ -221,7 +227,7 @@ void Session::follow(Wishes wishes) {
         last_read_ = text;
         read(wishes);
     }
-    if (!viewed_) return;
+    if (!viewed_) return stop_by_error();
     const ObjectNumber object{last_read_well_, wishes.object};
     if (object != built_for_) {
         // Set first: what cannot be built is not tried again before another object is wished for.
@@ -229,7 +235,8 @@ void Session::follow(Wishes wishes) {
         build(wishes);
     }
     const PictureNumber picture{object, wishes.view};
-    if (!prepared_ || picture == finished_for_) return;
+    if (!prepared_) return stop_by_error();
+    if (picture == finished_for_) return;
     if (draw(wishes)) finished_for_ = picture;
 }
 
@@ -271,17 +278,20 @@ void Session::read(Wishes& wishes) {
 void Session::build(const Wishes& wishes) {
     show([](Shown& shown) { shown.doing = "Building cells"; });
     const Clock::time_point begun = Clock::now();
-    const WorldOptions options{.quality = BuildQuality::low,
-                               .cancelled =
-                                   [&] {
-                                       const bool is_over = Clock::now() - begun > first_cells_deadline;
-                                       return is_of_another_reading(wishes) ||
-                                              (is_over && is_of_another_object(wishes));
-                                   },
-                               .most_bytes = options_.most_bytes};
+    WorldOptions options{.quality = BuildQuality::low,
+                         .deepest = divisions_of_first_cells,
+                         .cancelled =
+                             [&] {
+                                 const bool is_over = Clock::now() - begun > first_cells_deadline;
+                                 return is_of_another_reading(wishes) || (is_over && is_of_another_object(wishes));
+                             },
+                         .most_bytes = options_.most_bytes,
+                         .surfaces = surfaces_};
     std::shared_ptr<Scene> scene;
     try {
         scene = std::make_shared<Scene>(edited(viewed_->scene, wishes.edits));
+        keep_cells(*scene, options);
+        surfaces_->begin_scene();
         prepared_ = std::make_shared<const Prepared>(scene, options);
     } catch (const BuildCancelled&) {
         built_for_ = {};
@@ -299,6 +309,8 @@ void Session::build(const Wishes& wishes) {
     if (!warning.empty()) options_.tell(warning);
     warning_ = warning;
     show([&](Shown& shown) {
+        camera_in_file_ = camera_text(viewed_->scene.camera, viewed_->scene.film.filter);
+        filter_in_file_ = viewed_->scene.film.filter;
         shown.error.clear();
         shown.scene = options_.name;
         shown.resolution = scene->film.resolution();
@@ -313,6 +325,16 @@ void Session::build(const Wishes& wishes) {
     });
 }
 
+// What shows the same object, of other materials or from elsewhere, keeps the cells that there are.
+void Session::keep_cells(const Scene& scene, WorldOptions& options) const {
+    if (!prepared_) return;
+    options.known_cells = prepared_->world().geometry().objects().front();
+    WorldOptions better = options;
+    better.quality = options_.quality;
+    better.deepest.reset();
+    if (are_cells_of(*options.known_cells, scene.object, cell_options(scene, better))) options = better;
+}
+
 // Returns whether the picture has all its samples.
 bool Session::draw(const Wishes& wishes) {
     const Scene& file = viewed_->scene;
@@ -320,21 +342,23 @@ bool Session::draw(const Wishes& wishes) {
     scene_->camera = wishes.camera.value_or(file.camera);
     scene_->film.planes = planes_with(file, wishes.layer);
     show([&](Shown& shown) {
-        shown.camera = scene_->camera;
-        shown.camera_text = camera_text(scene_->camera, file.film.filter);
         // What went wrong with an earlier picture is over; that the file cannot be read is not.
         if (last_read_well_ == last_read_) shown.error.clear();
         shown.warning = warning_ + warning_of_camera();
-        shown.doing = "Taking the first picture";
+        shown.doing = "Taking the picture";
     });
     for (const int scale : ladder_.scales(file.film.resolution()))
         if (scale > 1 && !draw_coarser(wishes, scale)) return false;
     if (prepared_->quality() != options_.quality) {
-        if (!draw_whole(wishes, 1)) return false;
+        // Where the whole picture is quick there is no coarser one, and something is to be seen before better cells
+        // are.
+        if (is_first_of(wishes) && !draw_whole(wishes, 1)) return false;
         show([](Shown& shown) { shown.doing = "Building better cells"; });
+        surfaces_->begin_scene();
         prepared_ = std::make_shared<const Prepared>(scene_, WorldOptions{.quality = options_.quality,
                                                                           .cancelled = [&] { return is_stale(wishes); },
-                                                                          .most_bytes = options_.most_bytes});
+                                                                          .most_bytes = options_.most_bytes,
+                                                                          .surfaces = surfaces_});
     }
     if (!draw_whole(wishes, file.settings.samples)) return false;
     show([&](Shown& shown) {
@@ -451,10 +475,12 @@ void Session::expose() {
 
 void Session::fail(const std::string& error) {
     options_.tell(error + "\n");
-    show([&](Shown& shown) {
-        shown.error = error;
-        shown.doing = "Stopped by an error";
-    });
+    show([&](Shown& shown) { shown.error = error; });
+    stop_by_error();
+}
+
+void Session::stop_by_error() {
+    show([](Shown& shown) { shown.doing = "Stopped by an error"; });
 }
 
 }  // namespace phasetree::tracer::view

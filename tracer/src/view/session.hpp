@@ -119,6 +119,7 @@ class Session {
     void follow(Wishes wishes);
     void read(Wishes& wishes);
     void build(const Wishes& wishes);
+    void keep_cells(const Scene& scene, WorldOptions& options) const;
     bool draw(const Wishes& wishes);
     bool draw_coarser(const Wishes& wishes, int scale);
     bool draw_whole(const Wishes& wishes, int samples);
@@ -126,6 +127,7 @@ class Session {
     void show_picture(const Wishes& wishes, Image image, int scale, int samples);
     void expose();
     void fail(const std::string& error);
+    void stop_by_error();
     bool is_stale(const Wishes& wishes) const { return stopped_ || number_ != wishes.number(); }
     bool is_of_another_object(const Wishes& wishes) const {
         return stopped_ || number_of_object_ != wishes.number_of_object();
@@ -151,6 +153,8 @@ class Session {
     mutable std::mutex writing_;               // while the scene's file is written
     Wishes wishes_;
     std::shared_ptr<const Shown> shown_ = std::make_shared<Shown>();
+    std::string camera_in_file_;  // empty until there is an object to look at
+    PixelFilter filter_in_file_;
     WatchedFiles files_;
     std::optional<WatchedFiles> changed_files_;  // These are the files as they were when a change was last seen.
     bool is_to_be_read_ = true;
@@ -161,6 +165,7 @@ class Session {
     std::shared_ptr<const ViewedScene> viewed_;
     std::shared_ptr<Scene> scene_;  // as it is edited
     std::shared_ptr<const Prepared> prepared_;
+    std::shared_ptr<SharedSurfaces> surfaces_ = std::make_shared<SharedSurfaces>();  // Their tables take long.
     TextNumber last_read_, last_read_well_;
     std::string warning_;                      // The object's.
     ObjectNumber built_for_;                   // The last object whose build was tried, with success or without.

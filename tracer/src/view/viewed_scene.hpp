@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "output/display.hpp"
@@ -16,8 +17,13 @@ struct ViewedScene {
     Scene scene;
     /// How the scene is shown, but for the exposure.
     std::function<DisplayTransform(float exposure_ev)> display;
-    TextNumbers numbers{};  ///< of the scene's file
-    NodePlaces places{};    ///< of the object's nodes
+    std::optional<Document> file{};  ///< of the scene, without the numbers that stand in place of its own:
+    NumberEdits edits{};
+    TextNumbers numbers{};  ///< of the file
+    NodePlaces places{};    ///< of the object's nodes, with those numbers
+
+    /// Where a node stands in its file, as that is; nothing for one that stands in none.
+    std::optional<NodePlace> place_of(const void* node) const;
 };
 
 /// Reads the scene with some of the numbers of its text replaced, and names each file before it reads it. Throws what

@@ -8,6 +8,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "phasetree/cells/file.hpp"
 #include "world/kept_cells.hpp"
 
 namespace phasetree::tracer {
@@ -22,18 +23,10 @@ constexpr unsigned first_mesh_id = object_id + 1;
 // coordinate (which counts as 1 m at least), whichever is more.
 constexpr float relative_surface_epsilon = 1e-5f;
 
-CellOptions cell_options(const Scene& scene, const WorldOptions& wanted) {
-    CellOptions options;
-    options.quality = wanted.quality;
-    options.cancelled = wanted.cancelled;
-    options.progress = wanted.progress;
-    options.most_bytes = wanted.most_bytes;
-    options.opaque = opaque_phases(scene.materials);
-    return options;
-}
-
 std::vector<std::shared_ptr<const InterfaceCells>> prepared(const Scene& scene, const WorldOptions& wanted) {
     CellOptions options = cell_options(scene, wanted);
+    if (scene.placed.empty() && wanted.known_cells && are_cells_of(*wanted.known_cells, scene.object, options))
+        return {wanted.known_cells};
     if (scene.placed.empty())
         return {wanted.kept_cells ? kept_cells(*wanted.kept_cells, scene.object, options)
                                   : std::make_shared<const InterfaceCells>(scene.object, options)};
@@ -88,17 +81,29 @@ std::optional<glm::vec2> uv_at(const Mesh& mesh, const RTCRayHit& hit) {
 
 }  // namespace
 
-TracedGeometry::TracedGeometry(const Scene& scene, const WorldOptions& options)
-    : TracedGeometry(scene, options, SharedSurfaces()) {}
+CellOptions cell_options(const Scene& scene, const WorldOptions& wanted) {
+    CellOptions options;
+    options.quality = wanted.quality;
+    if (wanted.deepest) options.deepest = *wanted.deepest;
+    options.cancelled = wanted.cancelled;
+    options.progress = wanted.progress;
+    options.most_bytes = wanted.most_bytes;
+    options.opaque = opaque_phases(scene.materials);
+    return options;
+}
 
-TracedGeometry::TracedGeometry(const Scene& scene, const WorldOptions& options, SharedSurfaces&& shared)
+TracedGeometry::TracedGeometry(const Scene& scene, const WorldOptions& options)
+    : TracedGeometry(scene, options, options.surfaces ? options.surfaces : std::make_shared<SharedSurfaces>()) {}
+
+TracedGeometry::TracedGeometry(const Scene& scene, const WorldOptions& options,
+                               const std::shared_ptr<SharedSurfaces>& shared)
     : scene_(scene),
       cells_(prepared(scene, options)),
       device_(started_embree()),
       embree_(rtcNewScene(device_.get())),
       first_mesh_(static_cast<std::uint32_t>(std::max<std::size_t>(scene.placed.objects.size(), 1))),
-      interfaces_(scene.materials, shared),
-      mesh_interfaces_(interfaces_of(scene.meshes, scene.materials, shared)) {
+      interfaces_(scene.materials, *shared),
+      mesh_interfaces_(interfaces_of(scene.meshes, scene.materials, *shared)) {
     // Without this flag Embree may miss a triangle that is met near its edge: exactness comes before speed.
     rtcSetSceneFlags(embree_.get(), RTC_SCENE_FLAG_ROBUST);
     if (scene.placed.empty()) {

@@ -18,6 +18,9 @@
 
 namespace phasetree::tracer {
 
+/// How the cells of a scene's objects are built.
+CellOptions cell_options(const Scene&, const WorldOptions&);
+
 class TracedGeometry {
   public:
     /// Refers to the scene, which must outlive it. Throws ModelError for an object that cannot be traced, and
@@ -49,8 +52,7 @@ class TracedGeometry {
     const Bounds& bounds() const { return placed_ ? placed_->bounds() : object().bounds(); }
 
   private:
-    /// `shared` is used while the interfaces are made.
-    TracedGeometry(const Scene& scene, const WorldOptions& options, SharedSurfaces&& shared);
+    TracedGeometry(const Scene& scene, const WorldOptions& options, const std::shared_ptr<SharedSurfaces>& shared);
 
     /// A change of phase in one of several objects, as it lies in the scene.
     struct CrossingInScene {

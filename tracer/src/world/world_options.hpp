@@ -4,17 +4,24 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "phasetree/cells/cells.hpp"
+#include "shading/shared_surfaces.hpp"
 
 namespace phasetree::tracer {
 
 struct WorldOptions {
     BuildQuality quality = BuildQuality::medium;
+    std::optional<int> deepest{};  ///< CellOptions::deepest, if it is another than usual
     std::function<bool()> cancelled{};
     std::function<void(float)> progress{};
     std::size_t most_bytes = 0;
+    /// Cells that may be those of the scene's one tree. If they are, they are not built again.
+    std::shared_ptr<const InterfaceCells> known_cells{};
+    /// Surfaces that were made before, which those of this scene are added to.
+    std::shared_ptr<SharedSurfaces> surfaces{};
     std::optional<std::filesystem::path> kept_cells{};  ///< a file for the object's cells: see kept_cells.hpp
 };
 

@@ -46,4 +46,9 @@ void write_cells(const std::filesystem::path&, const InterfaceCells&);
 std::shared_ptr<const InterfaceCells> read_cells(const std::filesystem::path&, const Phased& object,
                                                  const CellOptions& options = {});
 
+/// Whether cells are those that InterfaceCells(object, options) would build, so that they need not be built again. It
+/// is told from what a file of them says, as read_cells() does, in about the time that recording the object takes.
+/// Throws ModelError as InterfaceCells does.
+bool are_cells_of(const InterfaceCells&, const Phased& object, const CellOptions& options = {});
+
 }  // namespace phasetree

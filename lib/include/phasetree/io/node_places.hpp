@@ -4,8 +4,10 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <variant>
 
 #include "phasetree/io/document.hpp"
+#include "phasetree/model/handle.hpp"
 
 namespace phasetree {
 
@@ -17,19 +19,22 @@ struct NodePlace {
     std::size_t column = 0;  ///< from 1, in code points
 };
 
-/// Remembers for each node of the trees that are read where it stands, while the nodes live: they are known by their
-/// addresses.
+/// Remembers for each node of the trees that are read where it stands. Nodes are known by their addresses, and live as
+/// long as this does, so that no other node comes to be where one of them was.
 class NodePlaces {
   public:
-    /// `node` is Field::node() or Phased::node().
-    void add(const void* node, const Document& document, std::size_t offset) {
-        places_.insert_or_assign(node, Place{document, offset});
-    }
+    using Node = std::variant<Field, Phased>;
+
+    void add(const Node& node, const Document& document, std::size_t offset);
+    /// The copy was made of a node and stands where that stands, if it is known where. Addresses are those of
+    /// Field::node() and Phased::node().
+    void add_copy(const void* of, const Node& copy);
     /// Nothing for a node that was made otherwise, as by the program itself.
     std::optional<NodePlace> find(const void* node) const;
 
   private:
     struct Place {
+        Node node;
         Document document;
         std::size_t offset;
     };

@@ -13,6 +13,8 @@
 #include "phasetree/model/handle.hpp"
 #include "phasetree/nodes/fields/height_grid.hpp"
 #include "phasetree/nodes/fields/siren_network.hpp"
+#include "phasetree/nodes/fields/voxel_grid.hpp"
+#include "phasetree/nodes/phased/label_grid.hpp"
 
 namespace phasetree {
 
@@ -31,10 +33,13 @@ struct SceneTree {
     Phased object;
 };
 
-/// What reads the files that nodes name. This library knows no images; whoever does gives it a reader for them. A
-/// reader throws any std::exception whose what() says what is wrong with the file.
+/// What reads the files that nodes name. This library knows neither images nor OpenVDB; whoever does gives it readers
+/// for them. A reader throws any std::exception whose what() says what is wrong with the file. `grid` is the name of
+/// the grid that is wanted of a file that may hold several, or empty.
 struct FileReaders {
     std::function<HeightGrid(const std::filesystem::path&)> height_grid{};
+    std::function<VoxelGrid(const std::filesystem::path&, const std::string& grid)> level_set{};
+    std::function<LabelGrid(const std::filesystem::path&, const std::string& grid)> label_grid{};
 };
 
 /// The weights of a network: {"radius": R, "layers": [{"weights": [[…], …], "bias": […]}, …]}. Throws SceneError, which

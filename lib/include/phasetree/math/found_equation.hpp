@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 #include "phasetree/math/vec3.hpp"
 
 namespace phasetree {
@@ -10,6 +13,16 @@ namespace phasetree {
 template <class Search, class Equation, class Otherwise>
 float found_equation(const Vec3<float>& p, const Search& search, const Equation& equation, const Otherwise&) {
     return equation(search(p), p);
+}
+
+/// The same where the equation is one for all points, and the search finds its numbers alone: search(p, to, stride)
+/// writes them to to[0], to[stride] …, and equation(numbers, p) is given an array of them. So batches need not evaluate
+/// it lane by lane.
+template <std::size_t count, class Search, class Equation, class Otherwise>
+float gathered_equation(const Vec3<float>& p, const Search& search, const Equation& equation, const Otherwise&) {
+    std::array<float, count> numbers;
+    search(p, numbers.data(), std::size_t{1});
+    return equation(numbers, p);
 }
 
 }  // namespace phasetree

@@ -1,16 +1,21 @@
 #pragma once
 
+#include <functional>
 #include <span>
+#include <variant>
 
 #include "phasetree/model/handle.hpp"
 
 namespace phasetree {
 
+/// Is told of each node that is made anew: the address of the one before, and the one that stands in its place.
+using NodeCopied = std::function<void(const void* of, const std::variant<Field, Phased>& copy)>;
+
 /// The same object with other indices for its phases: phase i becomes numbers[i]. The vacuum stays 0. Subtrees that
 /// are shared stay shared, and what has no phases in it is not copied. Throws ModelError if a phase of the tree has no
 /// number, if two would have the same, or if a number is none of a phase other than the vacuum.
-Phased renumbered(const Phased&, std::span<const Phase> numbers);
+Phased renumbered(const Phased&, std::span<const Phase> numbers, const NodeCopied& = {});
 /// The same for a field, which may be made of objects.
-Field renumbered(const Field&, std::span<const Phase> numbers);
+Field renumbered(const Field&, std::span<const Phase> numbers, const NodeCopied& = {});
 
 }  // namespace phasetree

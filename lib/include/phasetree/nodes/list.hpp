@@ -58,6 +58,7 @@
 #include "phasetree/nodes/fields/torus.hpp"
 #include "phasetree/nodes/fields/tube.hpp"
 #include "phasetree/nodes/fields/union.hpp"
+#include "phasetree/nodes/fields/volume.hpp"
 #include "phasetree/nodes/fields/voronoi_cells.hpp"
 #include "phasetree/nodes/fields/wedge.hpp"
 #include "phasetree/nodes/phased/change.hpp"
@@ -67,6 +68,7 @@
 #include "phasetree/nodes/phased/interface.hpp"
 #include "phasetree/nodes/phased/interfaces.hpp"
 #include "phasetree/nodes/phased/intersect_shape.hpp"
+#include "phasetree/nodes/phased/labels.hpp"
 #include "phasetree/nodes/phased/layered.hpp"
 #include "phasetree/nodes/phased/layered_sequence.hpp"
 #include "phasetree/nodes/phased/layers.hpp"
@@ -115,16 +117,17 @@ using PlainFields =
              SmoothUnion, SmoothIntersection, SmoothDifference, Offset, Shell, Merge, Ellipsoid, CappedTorus, Link,
              Tube, RoundedCylinder, RoundCone, SphericalCap, Prism, Wedge, Pyramid, Octahedron, Tetrahedron, Gyroid,
              SchwarzP, SchwarzD, Displace, FieldInstances, FieldPolarArray, FieldGrid, Polyline, FieldEndlessGrid, Blob,
-             VoronoiCells, Siren, HeightMap, Mesh, FieldFibonacciDisk, FieldFibonacciSphere, FieldScatter, Extrude,
-             Revolve, Circle, Rectangle, Star, Slab, BoxFrame, Bowl, Dodecahedron, Icosahedron, Helix, Heightfield,
-             Polygon, Bezier, Formula, Polyhedron, Balls, FieldBoundingVolume, FieldProxy, FieldLevelOfDetail>;
+             VoronoiCells, Siren, HeightMap, Mesh, Volume, FieldFibonacciDisk, FieldFibonacciSphere, FieldScatter,
+             Extrude, Revolve, Circle, Rectangle, Star, Slab, BoxFrame, Bowl, Dodecahedron, Icosahedron, Helix,
+             Heightfield, Polygon, Bezier, Formula, Polyhedron, Balls, FieldBoundingVolume, FieldProxy,
+             FieldLevelOfDetail>;
 
 using Objects =
     TypeList<Set, ThinShell, Under, Over, Layered, IntersectShape, SubtractShape, Change, Remove, Contact, Contacts,
              LayeredSequence, SmoothLayered, UniteShapeBelow, SmoothUniteShape, SmoothUniteShapeBelow,
              SmoothIntersectShape, SmoothSubtractShape, Interface, Interfaces, Checker, Layers, Strata, PhasedInstances,
-             PhasedPolarArray, PhasedGrid, PhasedEndlessGrid, Voronoi, PhasedFibonacciDisk, PhasedFibonacciSphere,
-             PhasedScatter, Particles, PhasedBoundingVolume, PhasedProxy, PhasedLevelOfDetail>;
+             PhasedPolarArray, PhasedGrid, PhasedEndlessGrid, Voronoi, Labels, PhasedFibonacciDisk,
+             PhasedFibonacciSphere, PhasedScatter, Particles, PhasedBoundingVolume, PhasedProxy, PhasedLevelOfDetail>;
 
 // What follows is derived.
 

@@ -1,23 +1,34 @@
 // Mouse, touch and keys on the picture. `act` has turn(right, up) in radians, move(right, up) in shares of the
-// picture's height, zoom(factor), cut(right, up) likewise, stepCut(direction), ask(event), askMiddle() and reset().
+// picture's height, zoom(factor), cut(right, up) likewise, stepCut(direction), ask(event), askMiddle() and reset(); and
+// for two fingers grab(), and pinch(factor, right, up) from where the camera was at the last grab.
 
 const radiansAcross = Math.PI; // for a drag over the picture's height
 const step = Math.PI / 24;     // for a key
 
 export function listen(canvas, act) {
-  const pointers = new Map();
-  let hasMoved = false, spread = 0;
+  const pointers = new Map(); // those that are down, and where each was last
+  let isClick = false;        // whether what is being done may still be a click: one pointer that has not moved
+  let grabbed = null;         // two fingers, as they were when the second came down
 
-  const distance = () => {
+  const twoFingers = () => {
     const [a, b] = [...pointers.values()];
-    return Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY);
+    return {
+      x: (a.clientX + b.clientX) / 2,
+      y: (a.clientY + b.clientY) / 2,
+      spread: Math.max(1, Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY)),
+    };
+  };
+  const grabIfTwo = () => {
+    if (pointers.size !== 2) return;
+    grabbed = twoFingers();
+    act.grab();
   };
   canvas.addEventListener("pointerdown", (event) => {
     canvas.setPointerCapture(event.pointerId);
     canvas.focus();
     pointers.set(event.pointerId, event);
-    if (pointers.size === 1) hasMoved = false;
-    if (pointers.size === 2) spread = distance();
+    isClick = pointers.size === 1;
+    grabIfTwo();
   });
   canvas.addEventListener("pointermove", (event) => {
     const last = pointers.get(event.pointerId);
@@ -25,14 +36,13 @@ export function listen(canvas, act) {
     const height = canvas.getBoundingClientRect().height;
     const right = (event.clientX - last.clientX) / height, down = (event.clientY - last.clientY) / height;
     // A hand that clicks trembles.
-    if (!hasMoved && Math.hypot(right, down) * height < 4) return;
-    hasMoved = true;
+    if (isClick && Math.hypot(right, down) * height < 4) return;
+    isClick = false;
     pointers.set(event.pointerId, event);
+    if (pointers.size > 2) return;
     if (pointers.size === 2) {
-      const now = distance();
-      if (spread > 0 && now > 0) act.zoom(spread / now);
-      spread = now;
-      act.move(right / 2, -down / 2);
+      const now = twoFingers();
+      act.pinch(grabbed.spread / now.spread, (now.x - grabbed.x) / height, (grabbed.y - now.y) / height);
     } else if (event.ctrlKey) {
       act.cut(right, -down);
     } else if (event.shiftKey || event.buttons & 2) {
@@ -42,9 +52,11 @@ export function listen(canvas, act) {
     }
   });
   const release = (event) => {
-    const isClick = event.type === "pointerup" && pointers.size === 1 && !hasMoved && event.button === 0;
+    const asks = isClick && event.type === "pointerup" && event.button === 0;
     pointers.delete(event.pointerId);
-    if (isClick) act.ask(event);
+    isClick = false;
+    grabIfTwo();
+    if (asks) act.ask(event);
   };
   canvas.addEventListener("pointerup", release);
   canvas.addEventListener("pointercancel", release);

@@ -6,13 +6,15 @@ import {Numbers} from "./numbers.js";
 import {PhaseList} from "./phases.js";
 import {draw, place} from "./picture.js";
 import {showPoint} from "./point.js";
-import {Changes, ask, askNumbers, follow, writeCamera, writeNumbers} from "./server.js";
+import {Changes, ask, askFile, askNumbers, follow, writeCamera, writeNumbers} from "./server.js";
 
 const element = (id) => document.getElementById(id);
 const canvas = element("picture"), exposure = element("exposure");
 
 let state = null, camera = null;
-const changes = new Changes((error) => showText("error", error.message));
+let grabbed = null; // the camera when two fingers came down
+let refusal = ""; // what was wrong with the last thing that was tried here; the scene's own error is state.error
+const changes = new Changes(() => refuse(""), (error) => refuse(error.message));
 
 const phases = new PhaseList(element("phases"), (change) => changes.make(change));
 const cut = new Cut({
@@ -33,6 +35,26 @@ function showText(id, text) {
   if (place.textContent === text) return;
   place.textContent = text;
   place.hidden = text === "";
+}
+
+function showErrors() {
+  const all = new Set([state?.error, refusal]);
+  showText("error", [...all].filter(Boolean).join("\n\n"));
+}
+
+function refuse(text) {
+  refusal = text;
+  showErrors();
+}
+
+// Does what may be refused; what was refused before is over.
+async function attempt(action) {
+  try {
+    await action();
+    refuse("");
+  } catch (error) {
+    refuse(error.message);
+  }
 }
 
 function statusOf(state) {
@@ -58,7 +80,7 @@ function told(next, pixels) {
   state = next;
   element("scene").textContent = state.scene || "phasetree view";
   element("status").textContent = statusOf(state);
-  showText("error", state.error);
+  showErrors();
   showText("warning", state.warning);
   if (pixels) draw(canvas, state, pixels);
   // What was changed here a moment ago is newer than what the server knows.
@@ -66,7 +88,7 @@ function told(next, pixels) {
   phases.show(state.phases);
   cut.show(state);
   showLayers(state);
-  numbers.show(state, askNumbers).catch((error) => showText("error", error.message));
+  numbers.show(state, askNumbers).catch((error) => refuse(error.message));
   if (document.activeElement !== exposure) showExposure(state.exposure);
   if (state.camera) {
     camera = JSON.parse(state.camera);
@@ -85,18 +107,29 @@ function look(next) {
   changes.make({camera});
 }
 
-async function askAt(x, y) {
-  try {
-    showPoint(element("point"), await ask(x, y), (name, pointer) => numbers.showNode(name, pointer));
-  } catch (error) {
-    showText("error", error.message);
-  }
-}
+const askAt = (x, y) => attempt(async () => {
+  showPoint(element("point"), await ask(x, y), (name, pointer) => numbers.showNode(name, pointer));
+});
+
+// By a link that is not in the page: what the server refuses is told here, where the browser would save its words or
+// say nothing.
+const save = (extension) => attempt(async () => {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(await askFile(`picture.${extension}`));
+  const name = (state?.scene ?? "picture").replace(/^.*\//, "").replace(/\.[^.]*$/, "");
+  link.download = `${name}.${extension}`;
+  link.click();
+  // The browser has begun to read it by then.
+  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+});
 
 const act = {
   turn: (right, up) => camera && look(turned(camera, state.centre, right, up)),
   move: (right, up) => camera && look(moved(camera, state.centre, right, up)),
   zoom: (factor) => camera && look(zoomed(camera, state.centre, state.radius, factor)),
+  // Each finger tells of its way alone, so what both do is reckoned from the beginning and not added up.
+  grab: () => { grabbed = camera; },
+  pinch: (factor, right, up) => grabbed && look(moved(zoomed(grabbed, state.centre, state.radius, factor), state.centre, right, up)),
   reset: () => changes.make({camera: null}),
   cut: (right, up) => camera && cut.isOn && cut.move(followed(camera, state.centre, cut.normal, right, up)),
   stepCut: (direction) => cut.move(0.02 * direction * state.radius),
@@ -125,31 +158,20 @@ element("copy").addEventListener("click", async () => {
   element("copied").textContent = "Copied.";
 });
 element("numbers-reset").addEventListener("click", () => numbers.reset());
-element("numbers-write").addEventListener("click", async () => {
-  try {
-    await writeNumbers();
-    element("numbers-said").textContent = "Written.";
-  } catch (error) {
-    showText("error", error.message);
-  }
-});
-element("write").addEventListener("click", async () => {
-  try {
-    await writeCamera();
-    element("copied").textContent = "Written.";
-  } catch (error) {
-    showText("error", error.message);
-  }
-});
-for (const [id, extension] of [["save", "png"], ["save-exr", "exr"]])
-  element(id).addEventListener("click", () => {
-    const name = (state?.scene ?? "picture").replace(/^.*\//, "").replace(/\.[^.]*$/, "");
-    element(id).download = `${name}.${extension}`;
-  });
+element("numbers-write").addEventListener("click", () => attempt(async () => {
+  await writeNumbers();
+  element("numbers-said").textContent = "Written.";
+}));
+element("write").addEventListener("click", () => attempt(async () => {
+  await writeCamera();
+  element("copied").textContent = "Written.";
+}));
+element("save").addEventListener("click", () => save("png"));
+element("save-exr").addEventListener("click", () => save("exr"));
 element("cut-facing").addEventListener("click", () => {
   if (!camera) return;
   const {position, look_at} = membersOf(camera);
   cut.face(position.map((x, i) => x - look_at[i]));
 });
 
-follow(told, () => { element("status").textContent = "The server does not answer."; });
+follow(told, (error) => { element("status").textContent = error.message; });

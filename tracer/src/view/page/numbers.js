@@ -79,7 +79,10 @@ export class Numbers {
     this.#edits = state.numbers;
     if (state.numbers_version !== this.#version) {
       this.#version = state.numbers_version;
-      const told = await ask();
+      const told = await ask().catch((error) => {
+        this.#version = null; // They are asked for again.
+        throw error;
+      });
       this.#all = told.numbers;
       this.#hasMore = told.has_more;
       this.#make();

@@ -1,34 +1,45 @@
 // What the server shows, and what is wished of it. Addresses are relative: the page's own has the token in it.
 
+export const noAnswer = "The server does not answer: it may have ended.";
+
+// The server's answer; what it refuses is thrown in its own words.
+async function answerTo(address, request) {
+  let answer;
+  try {
+    answer = await fetch(address, request);
+  } catch {
+    throw new Error(noAnswer);
+  }
+  if (!answer.ok) throw new Error((await answer.text()).trim());
+  return answer;
+}
+
 async function post(name, wish) {
-  const answer = await fetch(name, {
+  const answer = await answerTo(name, {
     method: "POST",
     headers: {"Content-Type": "application/json"},
     body: JSON.stringify(wish),
   });
-  const text = await answer.text();
-  if (!answer.ok) throw new Error(text.trim());
-  return JSON.parse(text);
+  return answer.json();
 }
 
 export const ask = (x, y) => post("ask", {x, y});
-export async function askNumbers() {
-  const answer = await fetch("numbers");
-  if (!answer.ok) throw new Error(await answer.text());
-  return answer.json();
-}
+export const askNumbers = async () => (await answerTo("numbers")).json();
+export const askFile = async (name) => (await answerTo(name)).blob();
 export const writeNumbers = () => post("write_numbers", {});
 export const writeCamera = () => post("write", {});
 
 // Sends changes one after the other. Those that come while one is on its way are joined, so that a fast mouse leaves no
-// queue behind.
+// queue behind. `done` is called after each that was taken, `failed(error)` after each that was not.
 export class Changes {
   #waiting = null;
   #isSending = false;
+  #done;
   #failed;
   version = 0; // at which the last change counts
 
-  constructor(failed) {
+  constructor(done, failed) {
+    this.#done = done;
     this.#failed = failed;
   }
   get arePending() {
@@ -43,6 +54,7 @@ export class Changes {
       this.#waiting = null;
       try {
         this.version = (await post("change", next)).version;
+        this.#done();
       } catch (error) {
         this.#failed(error);
       }
@@ -54,13 +66,12 @@ export class Changes {
 const pause = (milliseconds) => new Promise((done) => setTimeout(done, milliseconds));
 
 // Calls told(state, pixels) with every state that is shown, for ever; pixels are null while the picture stays the same.
-// Calls lost() while the server does not answer.
+// Calls lost(error) while the server does not answer, or refuses.
 export async function follow(told, lost) {
   let version = 0, picture = 0;
   while (true) {
     try {
-      const answer = await fetch(`picture?after=${version}&picture=${picture}`);
-      if (!answer.ok) throw new Error(await answer.text());
+      const answer = await answerTo(`picture?after=${version}&picture=${picture}`);
       const bytes = new Uint8Array(await answer.arrayBuffer());
       const end = bytes.indexOf(10);
       const state = JSON.parse(new TextDecoder().decode(bytes.subarray(0, end)));

@@ -2,6 +2,7 @@
 
 #include "image/read_image.hpp"
 #include "scene/read_parts.hpp"
+#include "volume/read_volume.hpp"
 
 namespace phasetree::tracer {
 
@@ -17,6 +18,10 @@ HeightGrid read_height_grid(const std::filesystem::path& path) {
         grid.values.insert(grid.values.end(), values.begin(), values.end());
     });
     return grid;
+}
+
+FileReaders file_readers() {
+    return {.height_grid = read_height_grid, .level_set = read_level_set, .label_grid = read_label_grid};
 }
 
 }  // namespace phasetree::tracer

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "phasetree/model/from_file.hpp"
+#include "phasetree/nodes/fields/profile.hpp"
+#include "phasetree/nodes/fields/voxel_grid.hpp"
+#include "phasetree/nodes/warps/warped.hpp"
+
+namespace phasetree {
+
+/// A level set, as OpenVDB keeps them: signed distances at voxels, which are exact near the surface and constant beyond
+/// a narrow band. f is their trilinear interpolation, as OpenVDB's BoxSampler has it, and λ the greatest slope that f
+/// has anywhere, or 1. That is known exactly: it is the slope at some voxel (VoxelGrid::steepest_linear). Of the
+/// samples of exact distances λ is nearly 1 where the surface is smooth, and at most √3.
+///
+/// Outside of the grid's box a point is projected onto it, which lengthens nothing, and the distance b to the box takes
+/// over where it is larger. So max(b, f/λ) is 1-Lipschitz, is positive outside of the box, and has the sign of f in it.
+/// A solid that reaches the grid's border ends there.
+struct Volume {
+    static constexpr bool is_field_node = true;
+    static constexpr NodeInfo info{
+        "volume", "",
+        "max(b, f/λ),  f the trilinear interpolation of the voxels, λ = max(1, sup |∇f|), b the grid's box",
+        "The solid of a level set in an OpenVDB file, at its place in the file. Beyond the file's narrow band the "
+        "field "
+        "does not grow."};
+
+    /// The primitive f/λ.
+    struct Samples {
+        static constexpr unsigned search_half_works = 120;
+        static float period(const float* data) { return voxels::feature_size(data); }
+        std::shared_ptr<const VoxelGrid> grid{};
+
+        std::span<const float> data() const { return grid->table; }
+        template <class T>
+        static T distance(const float* data, const Vec3<T>& p) {
+            return voxels::linear_at(data, p);
+        }
+    };
+    using Parts = TypeList<Samples>;
+
+    FromFile<VoxelGrid> file{};
+    std::string grid{};
+    BoundingBox box{};  ///< derived
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&Volume::file, Parameter{"file", "",
+                                   "The OpenVDB file. Its grid must be a level set of floats or doubles whose voxels "
+                                   "lie along the axes; lengths in it are metres."});
+        v(&Volume::grid,
+          Parameter{"grid", "", "Which of the file's grids; needed if it has several level sets.", limits::any, true});
+    }
+    /// Which part of the file is read.
+    std::string part_of_file() const { return grid; }
+    void prepare() {
+        const Bounds extent = file.content->extent();
+        box = {extent.centre(), extent.extent() * 0.5f};
+    }
+    template <class D>
+    typename D::Scalar evaluate(D& d, const typename D::Point& p) const {
+        return max(d.primitive(box, p), d.primitive(Samples{file.content}, p));
+    }
+    Bounds bounds(BoundsQuery& q, float level) const {
+        // No value is below the least of its voxels', and outside of the box the field is not below the box's.
+        const Bounds low = file.content->blocks_below(level);
+        const Bounds outer = file.content->extent().inflated(level);
+        const bool may_be_beyond = level >= 0;
+        return q.placed(low.empty() ? Bounds{} : may_be_beyond ? beyond_border(low, outer, level) : low);
+    }
+
+  private:
+    // Where blocks are low up to the border of the grid, so is the field beyond it.
+    Bounds beyond_border(Bounds low, const Bounds& outer, float level) const {
+        const Bounds inner = file.content->extent();
+        for (int i = 0; i < 3; ++i) {
+            if (low.low[i] <= inner.low[i]) low.low[i] = outer.low[i] - 1e-5f * level;
+            if (low.high[i] >= inner.high[i]) low.high[i] = outer.high[i] + 1e-5f * level;
+        }
+        return low;
+    }
+};
+
+}  // namespace phasetree

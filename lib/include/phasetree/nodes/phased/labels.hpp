@@ -1,0 +1,128 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "phasetree/model/from_file.hpp"
+#include "phasetree/nodes/phased/label_grid.hpp"
+#include "phasetree/nodes/phased/shape_cut.hpp"
+#include "phasetree/nodes/warps/warped.hpp"
+
+namespace phasetree {
+
+/// A segmented scan: each voxel is of one phase, and what is between their centres is smooth.
+///
+/// *How.* mₖ is 1 at the voxels of phase k and 0 at others, blurred by a Gaussian of σ voxels; all mₖ together are 1.
+/// At the distance t from a flat interface mₖ is Φ(t/σ), with the normal distribution Φ, so gₖ = σ Φ⁻¹(mₖ) is how deep
+/// in phase k a point is. Φ⁻¹ rises, so the largest of the gₖ is where the largest of the mₖ is. gₖ is cut off at ±2.5
+/// σ.
+///
+/// Blurring may take a voxel from its phase. There the phase's own g is raised and the others' are lowered until its
+/// own is above them by as much as it was below before, by 0.3 voxels at most and by 0.02 at least. So a wall or a
+/// thread of one voxel stays, about half a voxel thick.
+///
+/// Dₖ is the triquadratic B-spline through the −gₖ at the voxels' centres, divided by the steepest slope that any of
+/// them has (VoxelGrid::steepest_spline): a smooth, 1-Lipschitz field. As in voronoi,
+///     φₖ = (Dₖ − min over m ≠ k of Dₘ)/2,
+/// of which one is negative at any point where no two D are equal. At the centre of a voxel that is its own phase's,
+/// because the spline goes through the g there.
+///
+/// The object ends with the box of its voxels, beyond which all is vacuum: it is cut by the box as intersect_shape
+/// does.
+struct Labels {
+    static constexpr bool is_phased_node = true;
+    static constexpr NodeInfo info{
+        "labels", "",
+        "φₖ = (Dₖ − min over m ≠ k of Dₘ)/2,  Dₖ = −σ Φ⁻¹(blurred share of phase k)/λ, within the box of the "
+        "voxels",
+        "A segmented scan: whole numbers at voxels, from images or OpenVDB, as an object of many phases. Each voxel's "
+        "centre is of the phase of its number, and interfaces between are smooth. Distances are told up to about two "
+        "voxels, and do not grow beyond."};
+
+    /// The primitive Dₖ.
+    struct Depth {
+        static constexpr unsigned search_half_works = 250;
+        static float period(const float* data) { return voxels::feature_size(data); }
+        std::shared_ptr<const VoxelGrid> grid{};
+
+        std::span<const float> data() const { return grid->table; }
+        template <class T>
+        static T distance(const float* data, const Vec3<T>& p) {
+            return voxels::spline_at(data, p);
+        }
+    };
+    using Parts = TypeList<Depth>;
+
+    FromFile<LabelGrid> file{};
+    std::vector<Phase> of_phases{};
+    std::vector<float> values{};
+    std::vector<float> empty{};
+    glm::vec3 spacing{0};
+    float smoothing = 1;
+    std::string grid{};
+
+    /// A phase that there is, and Dₖ.
+    struct Part {
+        int phase = 0;
+        std::shared_ptr<const VoxelGrid> depth{};
+    };
+    std::vector<Part> parts{};  ///< derived, by phase
+    BoundingBox box{};          ///< derived
+    Bounds solid{};             ///< derived: around all blocks of voxels that are not vacuum alone
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&Labels::file,
+          Parameter{
+              "file", "",
+              "An OpenVDB file with a grid of whole numbers, or images, one for each layer from the lowest z to the "
+              "highest: a name in which #### stands for their numbers, such as \"layer_###.png\". Images are grey, "
+              "of 8 or 16 bits, are seen from above as height_map's are, and the object stands about the origin."});
+        v(&Labels::of_phases, Parameter{"phases", "", "The phases that there are."});
+        v(&Labels::values,
+          Parameter{"values", "", "The whole numbers of the phases, in their order: 1, 2, 3 … if left out.",
+                    Limits{.low = -16777216, .high = 16777216}, true});
+        v(&Labels::empty,
+          Parameter{"empty", "", "The whole numbers of the vacuum, unless they are a phase's; 0 if left out.",
+                    Limits{.low = -16777216, .high = 16777216}, true});
+        v(&Labels::spacing,
+          Parameter{"spacing", "m", "From voxel to voxel along x, y and z: of images. A grid of OpenVDB has its own.",
+                    limits::non_negative, true});
+        v(&Labels::smoothing,
+          Parameter{"smoothing", "voxels", "σ of the blur: 0 for none, when interfaces show the voxels' steps.",
+                    Limits{.low = 0, .high = 4}, true});
+        v(&Labels::grid,
+          Parameter{"grid", "", "Which of an OpenVDB file's grids; needed if it has several of whole numbers.",
+                    limits::any, true});
+    }
+    /// Which part of the file is read.
+    std::string part_of_file() const { return grid; }
+    /// Throws ModelError for a number of a voxel that has no phase, with the place.
+    void prepare();
+
+    template <class D>
+    Phases<typename D::Scalar> evaluate(D& d, const typename D::Point& p) const {
+        const auto b = d.primitive(box, p);
+        Phases<typename D::Scalar> depths, result;
+        for (const Part& part : parts) {
+            if (parts.size() == 1)
+                result.set(part.phase, b);
+            else
+                depths.set(part.phase, d.primitive(Depth{part.depth}, p));
+        }
+        detail::minimum_of_others(depths, depths.present, depths.present,
+                                  [&](int i, const auto& others) { result.set(i, (depths[i] - *others) * 0.5f); });
+        return detail::cut(result, b, {});
+    }
+    PhaseSet phases() const {
+        PhaseSet all = PhaseSet::of(vacuum);
+        for (const Part& part : parts) all = all | PhaseSet{std::uint64_t{1} << part.phase};
+        return all;
+    }
+    Bounds bounds(BoundsQuery& q, float level) const {
+        return q.placed(level <= 0 ? solid : Bounds{box.centre - box.half, box.centre + box.half}.inflated(level));
+    }
+};
+
+}  // namespace phasetree

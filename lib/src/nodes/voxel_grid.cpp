@@ -1,0 +1,298 @@
+#include "phasetree/nodes/fields/voxel_grid.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "phasetree/model/handle.hpp"
+
+namespace phasetree {
+
+using voxels::Table;
+
+namespace {
+
+constexpr int side = VoxelGrid::block_side;
+
+std::array<int, 3> blocks_of(const std::array<int, 3>& size) {
+    std::array<int, 3> blocks;
+    for (std::size_t i = 0; i < 3; ++i) blocks[i] = (size[i] + side - 1) / side;
+    return blocks;
+}
+
+std::vector<float> head_of(const VoxelLattice& lattice) {
+    std::vector<float> head;
+    for (const int n : lattice.size) head.push_back(static_cast<float>(n));
+    for (const int n : blocks_of(lattice.size)) head.push_back(static_cast<float>(n));
+    for (int i = 0; i < 3; ++i) head.push_back(static_cast<float>(lattice.first[i]));
+    for (int i = 0; i < 3; ++i) head.push_back(static_cast<float>(1 / lattice.spacing[i]));
+    return head;
+}
+
+// Calls f(first voxel) for each block, x fastest.
+template <class F>
+void for_each_block(const std::array<int, 3>& size, F&& f) {
+    for (int z = 0; z < size[2]; z += side)
+        for (int y = 0; y < size[1]; y += side)
+            for (int x = 0; x < size[0]; x += side) f(std::array{x, y, z});
+}
+
+// Calls f(values about a voxel) for the voxels of all blocks that are kept; the neighbours along x, y and z are 1, 10
+// and 100 places before and behind. In other blocks, and next to them, nothing changes. Voxels behind the grid's last
+// ones are copies of them, and neither steeper nor flatter.
+template <class F>
+void for_each_kept_voxel(const std::vector<float>& table, F&& f) {
+    for (const float* block = Table(table.data()).values; block < table.data() + table.size();
+         block += VoxelGrid::kept_values)
+        for (int z = 1; z <= side; ++z)
+            for (int y = 1; y <= side; ++y)
+                for (int x = 1; x <= side; ++x) f(block + x + 10 * y + 100 * z);
+}
+
+double squared(double x) {
+    return x * x;
+}
+
+}  // namespace
+
+Table::Table(const float* data) : directory(data + voxels::head) {
+    std::size_t all = 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+        size[i] = static_cast<int>(data[voxels::size + i]);
+        blocks[i] = static_cast<int>(data[voxels::blocks + i]);
+        all *= static_cast<std::size_t>(blocks[i]);
+    }
+    values = directory + voxels::entry * all;
+}
+
+const float* Table::block_of(int x, int y, int z) const {
+    const auto of = [](int a, int count, int b) {
+        return static_cast<std::size_t>(a) * static_cast<std::size_t>(count) + static_cast<std::size_t>(b);
+    };
+    const std::size_t row = of(z >> 3, blocks[1], y >> 3);
+    return directory + voxels::entry * (row * static_cast<std::size_t>(blocks[0]) + static_cast<std::size_t>(x >> 3));
+}
+
+float Table::operator()(int x, int y, int z) const {
+    const float* block = block_of(x, y, z);
+    if (block[0] < 0) return block[1];
+    const int within = (x & 7) + 1 + 10 * ((y & 7) + 1) + 100 * ((z & 7) + 1);
+    return values[VoxelGrid::kept_values * static_cast<std::size_t>(block[0]) + static_cast<std::size_t>(within)];
+}
+
+VoxelGrid VoxelGrid::make(std::string_view who, const VoxelLattice& lattice, const Fill& fill) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (lattice.size[i] < 1) throw ModelError(fmt::format("{}: the grid is empty", who));
+        if (lattice.size[i] > most_along_axis)
+            throw ModelError(fmt::format("{}: the grid has {} voxels along an axis; at most {} can be", who,
+                                         lattice.size[i], most_along_axis));
+        const auto axis = static_cast<glm::length_t>(i);
+        if (!(lattice.spacing[axis] >= 1e-9 && lattice.spacing[axis] <= 1e6) || !(std::abs(lattice.first[axis]) <= 1e9))
+            throw ModelError(fmt::format("{}: voxels must be 1e-9 to 1e6 m apart, at most 1e9 m from the origin", who));
+    }
+    VoxelGrid grid{lattice, head_of(lattice)};
+    const std::array<int, 3> blocks = blocks_of(lattice.size);
+    const std::size_t count =
+        static_cast<std::size_t>(blocks[0]) * static_cast<std::size_t>(blocks[1]) * static_cast<std::size_t>(blocks[2]);
+    const auto too_many = [&] {
+        return ModelError(
+            fmt::format("{}: the grid has more than {} values that differ from their neighbours", who, most_values));
+    };
+    if (count > most_values / 8) throw too_many();
+    grid.table.resize(voxels::head + voxels::entry * count);
+    std::array<float, kept_values> values;
+    std::size_t entry = voxels::head, kept = 0;
+    for_each_block(lattice.size, [&](const std::array<int, 3>& at) {
+        fill({at[0] - 1, at[1] - 1, at[2] - 1}, values);
+        float low = values[0], high = values[0];
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            if (!(std::abs(values[i]) <= 1e9f)) {
+                // What is beyond the border is the border's.
+                const std::array<int, 3> within{static_cast<int>(i) % kept_side,
+                                                static_cast<int>(i) / kept_side % kept_side,
+                                                static_cast<int>(i) / kept_side / kept_side};
+                std::array<int, 3> voxel;
+                for (std::size_t a = 0; a < 3; ++a)
+                    voxel[a] = std::clamp(at[a] - 1 + within[a], 0, lattice.size[a] - 1);
+                throw ModelError(fmt::format("{}: the value at the voxel ({}, {}, {}) is too large, or no number", who,
+                                             voxel[0], voxel[1], voxel[2]));
+            }
+            low = std::min(low, values[i]);
+            high = std::max(high, values[i]);
+        }
+        grid.table[entry] = low < high ? static_cast<float>(kept) : -1.f;
+        grid.table[entry + 1] = low;
+        grid.table[entry + 2] = high;
+        entry += voxels::entry;
+        if (!(low < high)) return;
+        ++kept;
+        if (kept * kept_values > most_values) throw too_many();
+        grid.table.insert(grid.table.end(), values.begin(), values.end());
+    });
+    // Shaders look up the values of some block also where they do not use them.
+    if (kept == 0) grid.table.insert(grid.table.end(), kept_values, grid.table[voxels::head + 1]);
+    return grid;
+}
+
+// In a cell between eight voxels the derivative along x is linear along y and along z and does not depend on x. So the
+// square of the slope is convex along each axis, and largest at one of the eight voxels, where the derivatives are
+// the differences to the neighbours.
+double VoxelGrid::steepest_linear() const {
+    double steepest = 0;
+    for_each_kept_voxel(table, [&](const float* v) {
+        double sum = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const int step = std::array{1, 10, 100}[axis];
+            const float most = std::max(std::abs(v[step] - v[0]), std::abs(v[-step] - v[0]));
+            sum += squared(static_cast<double>(most) / lattice.spacing[static_cast<glm::length_t>(axis)]);
+        }
+        steepest = std::max(steepest, sum);
+    });
+    return std::sqrt(steepest) * (1 + 1e-6);
+}
+
+// The derivative along x is an average of the differences along x between the 27 voxels.
+double VoxelGrid::steepest_spline() const {
+    double steepest = 0;
+    for_each_kept_voxel(table, [&](const float* v) {
+        double sum = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::array<int, 3> stride{1, 10, 100};
+            const int step = stride[axis], across = stride[(axis + 1) % 3], down = stride[(axis + 2) % 3];
+            float most = 0;
+            for (int k = -down; k <= down; k += down)
+                for (int j = -across; j <= across; j += across) {
+                    const float* row = v + j + k;
+                    most = std::max(most, std::max(std::abs(row[step] - row[0]), std::abs(row[0] - row[-step])));
+                }
+            sum += squared(static_cast<double>(most) / lattice.spacing[static_cast<glm::length_t>(axis)]);
+        }
+        steepest = std::max(steepest, sum);
+    });
+    return std::sqrt(steepest) * (1 + 1e-6);
+}
+
+void VoxelGrid::divide_by(double by) {
+    const Table at(table.data());
+    const auto directory = static_cast<std::size_t>(at.directory - table.data());
+    const auto values = static_cast<std::size_t>(at.values - table.data());
+    const auto divided = [&](float v) { return static_cast<float>(static_cast<double>(v) / by); };
+    for (std::size_t i = directory; i < values; i += voxels::entry)
+        for (const std::size_t k : {i + 1, i + 2}) table[k] = divided(table[k]);
+    for (std::size_t i = values; i < table.size(); ++i) table[i] = divided(table[i]);
+    divided_by *= by;
+}
+
+Bounds VoxelGrid::blocks_below(float level) const {
+    const Table at(table.data());
+    std::array<int, 3> low = lattice.size, high{-1, -1, -1};
+    for_each_block(lattice.size, [&](const std::array<int, 3>& first) {
+        if (at.block_of(first[0], first[1], first[2])[1] > level) return;
+        for (std::size_t i = 0; i < 3; ++i) {
+            low[i] = std::min(low[i], first[i]);
+            high[i] = std::max(high[i], first[i] + side - 1);
+        }
+    });
+    if (high[0] < 0) return {};
+    Bounds box;
+    for (glm::length_t i = 0; i < 3; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        box.low[i] = static_cast<float>(lattice.first[i] + (low[k] - 1.501) * lattice.spacing[i]);
+        box.high[i] = static_cast<float>(lattice.first[i] + (high[k] + 1.501) * lattice.spacing[i]);
+    }
+    return intersect(box, extent());
+}
+
+Bounds VoxelGrid::extent() const {
+    Bounds box;
+    for (glm::length_t i = 0; i < 3; ++i) {
+        const double last = lattice.size[static_cast<std::size_t>(i)] - 0.5;
+        box.low[i] = static_cast<float>(lattice.first[i] - 0.5 * lattice.spacing[i]);
+        box.high[i] = static_cast<float>(lattice.first[i] + last * lattice.spacing[i]);
+    }
+    return box;
+}
+
+namespace voxels {
+
+namespace {
+
+// Where a point is, as whole numbers of voxels, and the values from there on; a null pointer stands for one value.
+struct Around {
+    const float* values;
+    float only;
+};
+[[gnu::always_inline]] inline Around around(const float* data, const std::array<int, 3>& voxel) {
+    const auto blocks = [&](std::size_t axis) { return static_cast<std::size_t>(data[voxels::blocks + axis]); };
+    const auto of = [&](std::size_t axis) { return static_cast<std::size_t>(voxel[axis] >> 3); };
+    const std::size_t nx = blocks(0), ny = blocks(1), nz = blocks(2);
+    const float* directory = data + head;
+    const float* block = directory + entry * (of(0) + nx * (of(1) + ny * of(2)));
+    if (block[0] < 0) return {nullptr, block[1]};
+    const int within = (voxel[0] & 7) + 1 + 10 * ((voxel[1] & 7) + 1) + 100 * ((voxel[2] & 7) + 1);
+    return {directory + entry * (nx * ny * nz) + VoxelGrid::kept_values * static_cast<std::size_t>(block[0]) + within,
+            0};
+}
+
+}  // namespace
+
+void gather_eight(const float* data, const Vec3<float>& p, float* to, std::size_t stride) {
+    const std::array<float, 3> u = places(data, p, 0.f);
+    std::array<int, 3> voxel;
+    for (std::size_t a = 0; a < 3; ++a) {
+        // The place is not negative, so this is its floor.
+        voxel[a] = std::max(std::min(static_cast<int>(u[a]), static_cast<int>(data[size + a]) - 2), 0);
+        to[a * stride] = static_cast<float>(voxel[a]);
+    }
+    to += 3 * stride;
+    const Around at = around(data, voxel);
+    if (!at.values) {
+        for (std::size_t i = 0; i < 8; ++i) to[i * stride] = at.only;
+        return;
+    }
+    for (const int offset : {0, 1, 10, 11, 100, 101, 110, 111}) {
+        *to = at.values[offset];
+        to += stride;
+    }
+}
+
+void gather_twenty_seven(const float* data, const Vec3<float>& p, float* to, std::size_t stride) {
+    const std::array<float, 3> u = places(data, p, 0.5f);
+    std::array<int, 3> voxel;
+    for (std::size_t a = 0; a < 3; ++a) {
+        voxel[a] = std::min(static_cast<int>(u[a] + 0.5f), static_cast<int>(data[size + a]) - 1);
+        to[a * stride] = static_cast<float>(voxel[a]);
+    }
+    to += 3 * stride;
+    const Around at = around(data, voxel);
+    if (!at.values) {
+        for (std::size_t i = 0; i < 27; ++i) to[i * stride] = at.only;
+        return;
+    }
+    for (int k = -100; k <= 100; k += 100)
+        for (int j = -10; j <= 10; j += 10) {
+            const float* row = at.values + (j + k);
+            to[0] = row[-1];
+            to[stride] = row[0];
+            to[2 * stride] = row[1];
+            to += 3 * stride;
+        }
+}
+
+const float* for_shader(std::string_view who, const float* data) {
+    const Table at(data);
+    std::size_t kept = 0;
+    for (const float* block = at.directory; block < at.values; block += entry) kept += block[0] >= 0;
+    constexpr std::size_t most = 1 << 21;
+    // Numbers of places are floats there.
+    if (static_cast<std::size_t>(at.values - at.directory) > most)
+        throw ModelError(fmt::format("{}: the grid has too many voxels for a shader", who));
+    if (kept * VoxelGrid::kept_values > most)
+        throw ModelError(fmt::format("{}: a shader carries at most {} values of a grid, but this has {}", who, most,
+                                     kept * VoxelGrid::kept_values));
+    return data;
+}
+
+}  // namespace voxels
+}  // namespace phasetree

@@ -1,0 +1,156 @@
+// Labels from stacks of images, and what a scene is told that names others.
+#include <OpenImageIO/imageio.h>
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "phasetree/io/error.hpp"
+#include "phasetree/io/tree.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree_support/temporary_directory.hpp"
+#include "scene/read_parts.hpp"
+#include "volume/read_volume.hpp"
+
+using namespace phasetree;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class Stack {
+  public:
+    template <class T>
+    void write(const std::string& name, int width, int height, const std::vector<T>& values, int channels = 1) {
+        const std::string path = (directory_.path() / name).string();
+        const auto out = OIIO::ImageOutput::create(path);
+        const auto type = OIIO::BaseTypeFromC<T>::value;
+        REQUIRE(out);
+        REQUIRE(out->open(path, OIIO::ImageSpec(width, height, channels, type)));
+        REQUIRE(out->write_image(type, values.data()));
+        out->close();
+    }
+    fs::path path(const std::string& name) const { return directory_.path() / name; }
+    std::string said_of(const std::string& name) const {
+        try {
+            (void)tracer::read_label_grid(path(name), "");
+        } catch (const std::runtime_error& e) {
+            std::string text = e.what();
+            // Of the path its name is enough.
+            for (std::size_t at = text.find(directory_.path().string()); at != std::string::npos;
+                 at = text.find(directory_.path().string()))
+                text.erase(at, directory_.path().string().size() + 1);
+            return text;
+        }
+        return "nothing";
+    }
+
+  private:
+    support::TemporaryDirectory directory_;
+};
+
+using Bytes = std::vector<unsigned char>;
+
+}  // namespace
+
+TEST_CASE("images are layers of voxels, the first row at the largest y") {
+    Stack stack;
+    for (const char* ending : {"png", "tif"}) {
+        CAPTURE(ending);
+        for (int z = 0; z < 3; ++z) {
+            Bytes values;
+            for (int i = 0; i < 6; ++i) values.push_back(static_cast<unsigned char>(10 * z + i));
+            stack.write((z == 0 ? "s_009." : z == 1 ? "s_010." : "s_011.") + std::string(ending), 3, 2, values);
+        }
+        const LabelGrid grid = tracer::read_label_grid(stack.path("s_###." + std::string(ending)), "");
+        CHECK(grid.lattice.size == std::array{3, 2, 3});
+        REQUIRE(grid.voxels.size() == 18);
+        CHECK_FALSE(grid.has_spacing);
+        for (int z = 0; z < 3; ++z)
+            for (int y = 0; y < 2; ++y)
+                for (int x = 0; x < 3; ++x) {
+                    const auto at = static_cast<std::size_t>(x + 3 * (y + 2 * z));
+                    CHECK(grid.numbers[grid.voxels[at]] == 10 * z + 3 * (1 - y) + x);
+                }
+    }
+}
+
+TEST_CASE("all numbers of 8 and of 16 bits are what they were") {
+    Stack stack;
+    Bytes bytes(256);
+    for (std::size_t i = 0; i < 256; ++i) bytes[i] = static_cast<unsigned char>(i);
+    stack.write("bytes.png", 256, 1, bytes);
+    const LabelGrid of_bytes = tracer::read_label_grid(stack.path("bytes.png"), "");
+    for (std::size_t i = 0; i < 256; ++i) CHECK(of_bytes.numbers[of_bytes.voxels[i]] == static_cast<int>(i));
+    for (int first = 0; first < 65536; first += 251) {
+        std::vector<unsigned short> words;
+        for (int i = 0; i < 251; ++i) words.push_back(static_cast<unsigned short>(std::min(first + i, 65535)));
+        stack.write("words.tif", 251, 1, words);
+        const LabelGrid of_words = tracer::read_label_grid(stack.path("words.tif"), "");
+        for (std::size_t i = 0; i < 251; ++i) REQUIRE(of_words.numbers[of_words.voxels[i]] == words[i]);
+    }
+}
+
+TEST_CASE("what is no stack is refused, with the image and what is wrong") {
+    Stack stack;
+    CHECK(stack.said_of("no_###.png") ==
+          "cannot use the labels \"no_###.png\": there is no file of such a name with digits in place of #");
+    CHECK(stack.said_of("nowhere/no_###.png").find("there is no file of such a name") != std::string::npos);
+    CHECK(stack.said_of("a_##_##.png") ==
+          "cannot use the labels \"a_##_##.png\": the # in its name must stand side by side, for one number");
+    CHECK(stack.said_of("none.png").find("there is no such file") != std::string::npos);
+    stack.write("g_01.png", 2, 2, Bytes{0, 1, 2, 3});
+    stack.write("g_02.png", 2, 2, Bytes{0, 1, 2, 3});
+    stack.write("g_04.png", 2, 2, Bytes{0, 1, 2, 3});
+    CHECK(stack.said_of("g_##.png") ==
+          "cannot use the labels \"g_##.png\": there is \"g_04.png\", but not \"g_03.png\" before it");
+    stack.write("g_03.png", 2, 3, Bytes{0, 1, 2, 3, 4, 5});
+    CHECK(
+        stack.said_of("g_##.png") ==
+        "cannot use the labels \"g_##.png\": cannot use the layer \"g_03.png\": it is of 2 × 3 pixels, but the layers "
+        "below it of 2 × 2");
+    stack.write("rgb.png", 1, 1, Bytes{0, 1, 2}, 3);
+    CHECK(stack.said_of("rgb.png").find("labels are grey values, but it has 3 channels") != std::string::npos);
+    stack.write("real.exr", 1, 1, std::vector<float>{0.5f});
+    CHECK(stack.said_of("real.exr").find("labels are grey values of 8 or 16 bits") != std::string::npos);
+    std::vector<unsigned short> many(300);
+    for (std::size_t i = 0; i < 300; ++i) many[i] = static_cast<unsigned short>(i);
+    stack.write("many.png", 300, 1, many);
+    CHECK(stack.said_of("many.png").find("it has more than 256 different numbers") != std::string::npos);
+    stack.write("wide.png", 9000, 1, Bytes(9000));
+    CHECK(stack.said_of("wide.png").find("it has 9000 × 1 × 1 voxels; at most 8192 along an axis") !=
+          std::string::npos);
+    std::ofstream(stack.path("text.png")) << "This is no image.";
+    CHECK(stack.said_of("text.png").find("cannot use the layer \"text.png\"") != std::string::npos);
+}
+
+TEST_CASE("a scene is told the place of what is wrong with its volumes") {
+    Stack stack;
+    stack.write("s_1.png", 2, 1, Bytes{0, 7});
+    const auto said_of = [&](const std::string& node) {
+        const std::string text = R"({"phases": {"a": {}, "b": {}}, "tree": )" + node + "}";
+        try {
+            (void)read_tree(Document::from_text(text, (stack.path("scene.json")).string()), tracer::file_readers());
+        } catch (const SceneError& e) {
+            CHECK(e.line() == 1);
+            return std::to_string(e.column()) + ": " + std::string(e.what());
+        }
+        return std::string("nothing");
+    };
+    const auto contains = [&](const std::string& node, const std::string& column, const std::string& what) {
+        const std::string said = said_of(node);
+        CAPTURE(said);
+        CHECK(said.starts_with(column + ": "));
+        CHECK(said.find(what) != std::string::npos);
+    };
+    CHECK(said_of(R"({"labels": {"file": "s_#.png", "phases": ["a"], "values": [7], "spacing": [1, 1, 1]}})") ==
+          "nothing");
+    contains(R"({"labels": {"file": "s_#.png", "phases": ["a"], "spacing": [1, 1, 1]}})", "41",
+             "the voxel (1, 0, 0), counted from 0, has the number 7");
+    contains(R"({"labels": {"file": "s_#.png", "phases": ["a"], "values": [7]}})", "41", "\"spacing\" must be");
+    contains(R"({"labels": {"file": "t_#.png", "phases": ["a"]}})", "60", "there is no file of such a name");
+    contains(R"({"labels": {"file": "s_#.png", "grid": "x", "phases": ["a"]}})", "60", "images have no grids");
+    contains(R"({"set": {"phase": "a", "of": {"volume": {"file": "s_1.png"}}}})", "89", "its name must end with .vdb");
+    contains(R"({"set": {"phase": "a", "of": {"volume": {"file": ""}}}})", "89", "\"file\" must not be empty");
+    contains(R"({"set": {"phase": "a", "of": {"volume": {"grid": "g"}}}})", "80", "\"file\"");
+}

@@ -1,0 +1,261 @@
+// Level sets and labels from OpenVDB files, against OpenVDB's own sampling; and what files are refused for.
+#include "volume/read_volume.hpp"
+
+#include <doctest/doctest.h>
+
+#ifdef PHASETREE_HAS_OPENVDB
+
+#include <openvdb/io/File.h>
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/Interpolation.h>
+#include <openvdb/tools/LevelSetSphere.h>
+
+#include <cstring>
+#include <fstream>
+
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/volume.hpp"
+#include "phasetree/nodes/phased/labels.hpp"
+#include "phasetree_support/temporary_directory.hpp"
+#include "support/random_voxels.hpp"
+
+using namespace phasetree;
+using namespace phasetree::tests;
+using phasetree::support::bytes_of;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Folder {
+    support::TemporaryDirectory directory;
+
+    Folder() { openvdb::initialize(); }
+
+    fs::path write(const std::string& name, const openvdb::GridCPtrVec& grids, std::uint32_t compression = 6) {
+        const fs::path path = directory.path() / name;
+        openvdb::io::File file(path.string());
+        file.setCompression(compression);
+        file.write(grids);
+        return path;
+    }
+    fs::path write_bytes(const std::string& name, const std::string& bytes) {
+        const fs::path path = directory.path() / name;
+        std::ofstream(path, std::ios::binary) << bytes;
+        return path;
+    }
+};
+
+openvdb::FloatGrid::Ptr ball(double radius, const openvdb::Vec3f& at, float voxel, const std::string& name) {
+    auto grid = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(static_cast<float>(radius), at, voxel);
+    grid->setName(name);
+    return grid;
+}
+
+template <class Read>
+std::string said_by(const Read& read) {
+    try {
+        (void)read();
+    } catch (const std::runtime_error& e) {
+        const std::string text = e.what();
+        return text.substr(text.find("\": ") + 3);
+    }
+    return "nothing";
+}
+std::string said_of(const fs::path& path, const std::string& grid = "") {
+    return said_by([&] { return tracer::read_level_set(path, grid); });
+}
+std::string said_of_labels(const fs::path& path, const std::string& grid = "") {
+    return said_by([&] { return tracer::read_label_grid(path, grid); });
+}
+
+}  // namespace
+
+TEST_CASE("a volume has the values that OpenVDB's own sampler has") {
+    Folder folder;
+    Random rng(631);
+    double worst = 0;
+    std::size_t inside = 0, points = 0;
+    for (const std::uint32_t compression : {0u, 1u, 2u, 3u, 4u, 6u}) {
+        const auto grid = ball(0.8, {0.3f, -0.2f, 1.1f}, 0.04f, "ball");
+        // What no ball has: values that were moved.
+        for (auto value = grid->beginValueOn(); value; ++value)
+            value.setValue(*value + 0.01f * std::sin(static_cast<float>(value.getCoord().x())));
+        const fs::path path = folder.write("ball.vdb", {grid}, compression);
+        const VoxelGrid read = tracer::read_level_set(path, "");
+        const Field volume = Volume{.file = held_content(read)};
+        openvdb::tools::GridSampler<openvdb::FloatGrid, openvdb::tools::BoxSampler> sampler(*grid);
+        for (int k = 0; k < 20'000; ++k, ++points) {
+            const glm::vec3 p = glm::vec3(0.3f, -0.2f, 1.1f) +
+                                (rng.chance(0.5) ? rng.uniform(0, 1) : rng.uniform(0.7f, 0.9f)) * rng.direction();
+            const auto expected = static_cast<double>(sampler.wsSample(openvdb::Vec3d(p.x, p.y, p.z)));
+            const double found = static_cast<double>(distance(volume, p)) * read.divided_by;
+            worst = std::max(worst, std::abs(found - expected));
+            inside += found < 0;
+        }
+    }
+    MESSAGE(points, " points, ", inside, " inside; the greatest difference is ", worst);
+    CHECK(points >= 100'000);
+    CHECK(inside > points / 5);
+    CHECK(worst < 3e-6);
+}
+
+TEST_CASE("grids of doubles and of halves, shifted and scaled") {
+    Folder folder;
+    auto doubles = openvdb::tools::createLevelSetSphere<openvdb::DoubleGrid>(0.5f, openvdb::Vec3f(1, 2, 3), 0.05f);
+    const Field of_doubles = Volume{.file = held_content(tracer::read_level_set(folder.write("d.vdb", {doubles}), ""))};
+    CHECK(distance(of_doubles, {1.5f, 2, 3}) == doctest::Approx(0).epsilon(0.01).scale(1));
+    auto halves = ball(0.5, {0, 0, 0}, 0.05f, "h");
+    halves->setSaveFloatAsHalf(true);
+    const Field of_halves = Volume{.file = held_content(tracer::read_level_set(folder.write("h.vdb", {halves}), ""))};
+    CHECK(distance(of_halves, {0.5f, 0, 0}) == doctest::Approx(0).epsilon(0.01).scale(1));
+    CHECK(distance(of_halves, {0.42f, 0, 0}) < 0);
+}
+
+TEST_CASE("labels are at OpenVDB's voxels what they are in the file") {
+    Folder folder;
+    auto grid = openvdb::Int32Grid::create(0);
+    grid->setTransform(openvdb::math::Transform::createLinearTransform(0.1));
+    Random rng(632);
+    std::vector<std::pair<openvdb::Coord, int>> voxels;
+    for (int i = 0; i < 3000; ++i) {
+        const openvdb::Coord at(rng.below(20) - 11, rng.below(20), rng.below(20) + 5);
+        const int number = 1 + rng.below(3);
+        grid->tree().setValue(at, number);
+        voxels.emplace_back(at, number);
+    }
+    const fs::path path = folder.write("labels.vdb", {grid});
+    const Phased object = Labels{.file = held_content(tracer::read_label_grid(path, "")),
+                                 .of_phases = {Phase{1}, Phase{2}, Phase{3}},
+                                 .values = {},
+                                 .empty = {},
+                                 .grid = {}};
+    std::size_t vacuum_around = 0;
+    for (int z = 3; z < 28; ++z)
+        for (int y = -2; y < 23; ++y)
+            for (int x = -14; x < 12; ++x) {
+                const openvdb::Vec3d p = grid->transform().indexToWorld(openvdb::Coord(x, y, z));
+                const glm::vec3 at(static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()));
+                const int expected = grid->tree().getValue(openvdb::Coord(x, y, z));
+                REQUIRE(label(distances(object, at)).index == expected);
+                vacuum_around += expected == 0;
+            }
+    CHECK(vacuum_around > 1000);
+}
+
+TEST_CASE("one of several grids is read by its name") {
+    Folder folder;
+    auto fog = openvdb::FloatGrid::create(0);
+    fog->setGridClass(openvdb::GRID_FOG_VOLUME);
+    fog->setName("fog");
+    fog->tree().setValue(openvdb::Coord(1, 2, 3), 1);
+    auto whole = openvdb::Int32Grid::create(0);
+    whole->setName("whole");
+    whole->tree().setValue(openvdb::Coord(1, 2, 3), 1);
+    const fs::path two = folder.write("two.vdb", {ball(0.5, {0, 0, 0}, 0.05f, "a"), ball(0.7, {0, 0, 0}, 0.05f, "b")});
+    CHECK(tracer::read_level_set(two, "a").bytes() < tracer::read_level_set(two, "b").bytes());
+    CHECK(said_of(two) == "2 of its grids are a level set: \"grid\" must name one");
+    CHECK(said_of(two, "c") == "none of its 2 grids is called \"c\"");
+    const fs::path one = folder.write("one.vdb", {fog, ball(0.5, {0, 0, 0}, 0.05f, "a"), whole});
+    CHECK(said_of(one) == "nothing");
+    CHECK(said_of_labels(one) == "nothing");
+    CHECK(said_of(one, "fog") ==
+          "of its grid \"fog\": it is a fog volume, not a level set; OpenVDB's tools make one of it with the isovalue "
+          "that is wanted");
+    CHECK(said_of(one, "whole") ==
+          "of its grid \"whole\": it is a grid of int32, but a level set has floats or doubles");
+    CHECK(said_of_labels(one, "fog") == "of its grid \"fog\": it is a grid of float, but labels are int32 or int64");
+    CHECK(said_of(folder.write("fog.vdb", {fog})).starts_with("it is a fog volume, not a level set"));
+}
+
+TEST_CASE("what is no level set is refused, with what is wrong") {
+    Folder folder;
+    CHECK(said_of(folder.directory.path() / "none.vdb") == "there is no such file");
+    CHECK(said_of(folder.write_bytes("a.obj", "x")) == "its name must end with .vdb");
+    CHECK(said_of(folder.write_bytes("text.vdb", "This is no grid.")) == "it is no OpenVDB file");
+    CHECK(said_of(folder.write_bytes("empty.vdb", "")) == "it is no OpenVDB file");
+    CHECK(said_of(folder.write("no_grids.vdb", {})) == "it has no grids");
+    auto empty = openvdb::FloatGrid::create(1);
+    empty->setGridClass(openvdb::GRID_LEVEL_SET);
+    CHECK(said_of(folder.write("e.vdb", {empty})) == "its grid has no active voxels");
+    auto unknown = ball(0.5, {0, 0, 0}, 0.05f, "a");
+    unknown->setGridClass(openvdb::GRID_UNKNOWN);
+    CHECK(said_of(folder.write("u.vdb", {unknown})) == "it is not marked as a level set (its \"class\")");
+    auto turned = ball(0.5, {0, 0, 0}, 0.05f, "a");
+    turned->transform().preRotate(0.5);
+    CHECK(said_of(folder.write("t.vdb", {turned})).starts_with("its voxels do not lie along the axes"));
+    auto stretched = ball(0.5, {0, 0, 0}, 0.05f, "a");
+    stretched->transform().preScale(openvdb::Vec3d(1, 1, 2));
+    CHECK(said_of(folder.write("s.vdb", {stretched})) == "its voxels are no cubes");
+    auto negative = ball(0.5, {0, 0, 0}, 0.05f, "a");
+    negative->tree().root().setBackground(-1, false);
+    CHECK(said_of(folder.write("n.vdb", {negative})) == "its background is not positive, so that it has no outside");
+    auto far = ball(0.5, {0, 0, 0}, 0.05f, "a");
+    far->tree().setValue(openvdb::Coord(100000, 0, 0), 0.1f);
+    CHECK(said_of(folder.write("f.vdb", {far})).find("voxels along an axis; at most 8192 can be") != std::string::npos);
+    auto nan = ball(0.5, {0, 0, 0}, 0.05f, "a");
+    nan->tree().setValue(openvdb::Coord(3, 2, 1), std::numeric_limits<float>::quiet_NaN());
+    CHECK(said_of(folder.write("nan.vdb", {nan})).find("is too large, or no number") != std::string::npos);
+    auto steep = ball(0.5, {0, 0, 0}, 0.05f, "a");
+    steep->tree().setValue(openvdb::Coord(10, 0, 0), 1e6f);
+    CHECK(said_of(folder.write("steep.vdb", {steep})).find("those of a level set are distances") != std::string::npos);
+    auto many = openvdb::Int32Grid::create(0);
+    for (int i = 0; i < 300; ++i) many->tree().setValue(openvdb::Coord(i, 0, 0), i);
+    CHECK(said_of_labels(folder.write("m.vdb", {many})) == "it has more than 256 different numbers");
+    auto wide = openvdb::Int64Grid::create(0);
+    wide->tree().setValue(openvdb::Coord(0, 0, 0), std::int64_t{1} << 40);
+    CHECK(said_of_labels(folder.write("w.vdb", {wide})) == "it has a number that does not fit into 32 bits");
+    auto spread = openvdb::Int32Grid::create(0);
+    spread->tree().setValue(openvdb::Coord(0, 0, 0), 1);
+    spread->tree().setValue(openvdb::Coord(4000, 4000, 4000), 1);
+    CHECK(said_of_labels(folder.write("spread.vdb", {spread})).find("in all can be") != std::string::npos);
+}
+
+TEST_CASE("a file that is cut off anywhere, or damaged anywhere, is refused or read, in bounded memory") {
+    Folder folder;
+    const auto grid = ball(0.3, {0, 0, 0}, 0.05f, "ball");
+    for (const std::uint32_t compression : {0u, 3u, 6u}) {
+        const std::string whole = bytes_of(folder.write("whole.vdb", {grid}, compression));
+        Random rng(633);
+        for (int k = 0; k < 200; ++k) {
+            const std::size_t length = k < 100 ? static_cast<std::size_t>(k) * 7
+                                               : static_cast<std::size_t>(rng.below(static_cast<int>(whole.size())));
+            if (length >= whole.size()) continue;
+            CAPTURE(length);
+            CHECK(said_of(folder.write_bytes("cut.vdb", whole.substr(0, length))) != "nothing");
+        }
+        std::size_t refused = 0;
+        for (int k = 0; k < 400; ++k) {
+            std::string bytes = whole;
+            // Mostly in the head, where claims are; whole words of ones claim most.
+            const std::size_t most = k % 3 == 0 ? whole.size() : std::min<std::size_t>(whole.size(), 2000);
+            const auto at = static_cast<std::size_t>(rng.below(static_cast<int>(most) - 4));
+            if (k % 2 == 0)
+                bytes[at] = static_cast<char>(rng.below(256));
+            else
+                std::memset(&bytes[at], k % 4 == 1 ? 0xff : 0x7f, 4);
+            refused += said_of(folder.write_bytes("damaged.vdb", bytes)) != "nothing";
+        }
+        MESSAGE("of 400 damaged files ", refused, " were refused");
+        CHECK(refused > 80);
+    }
+}
+
+#else
+
+#include <string>
+
+TEST_CASE("without OpenVDB its files are refused in a sentence that says how they can be read") {
+    CHECK_FALSE(phasetree::tracer::can_read_openvdb());
+    try {
+        (void)phasetree::tracer::read_level_set("ball.vdb", "");
+        CHECK(false);
+    } catch (const std::runtime_error& e) {
+        CHECK(
+            std::string(e.what()) ==
+            "cannot use the volume \"ball.vdb\": this phasetree was built without OpenVDB: install libopenvdb-dev, or "
+            "the library from openvdb.org, and build again");
+    }
+}
+
+#endif

@@ -1,0 +1,22 @@
+// What denoising takes from an image.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+#include <string_view>
+
+#include "denoise/denoise.hpp"
+
+namespace phasetree::tracer {
+
+/// The values of one of the further channels. Throws DenoiseError if it is missing.
+inline std::span<const float> channel_of(const Image& image, std::string_view name) {
+    const auto found = std::ranges::find(image.further, name, &Channel::name);
+    if (found == image.further.end())
+        throw DenoiseError(fmt::format("denoising needs the channel {}, which the film does not have", name));
+    return found->values;
+}
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,18 @@
+// Intel's Open Image Denoise, a neural network, where it was found when phasetree was built. It is guided by the albedo
+// and the normal of the first surface that is not perfectly smooth, and does not look at the halves. Nobody promises
+// the same bits on other machines or with other versions of it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "denoise/denoise.hpp"
+
+namespace phasetree::tracer {
+
+bool has_open_image_denoise();
+
+/// As denoise(). Throws DenoiseError, also if has_open_image_denoise() is false.
+std::optional<std::vector<glm::vec3>> denoise_by_network(const Image& image, const DenoiseJob& job);
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,78 @@
+// About half of a pixel's samples by themselves: the picture, and what denoising goes by (denoise/denoise.hpp).
+// Together with the mean of all samples it tells the other half as well. The difference of the two says how noisy both
+// are, and one can be filtered by weights that are independent of its own noise.
+//
+// The samples are halved by blocks of four, because each aligned block of Sobol' samples is spread evenly over the
+// pixel (sampling/sobol.hpp), and so are both halves. Every other sample would not do: two that follow each other
+// complement one another, which makes halves of them differ by more than their noise.
+#pragma once
+
+#include <array>
+
+#include "film/contract.hpp"
+#include "film/path_record.hpp"
+#include "film/sums/weighted_mean.hpp"
+
+namespace phasetree::tracer {
+
+struct HalfPlane {
+    static constexpr std::size_t values = 15;
+    /// Of a block of this many samples all are in the same half.
+    static constexpr std::uint32_t block = 4;
+
+    using Sum = WeightedMean<values>;
+    static constexpr std::string_view name = "half";
+    static constexpr bool by_default = false;
+    explicit HalfPlane(const PlaneSubjects&) {}
+
+    /// The last one is the number of samples in this half.
+    static constexpr std::array<std::string_view, values + 1> channel_names{"half.R",
+                                                                            "half.G",
+                                                                            "half.B",  //
+                                                                            "half_albedo.R",
+                                                                            "half_albedo.G",
+                                                                            "half_albedo.B",  //
+                                                                            "half_normal.X",
+                                                                            "half_normal.Y",
+                                                                            "half_normal.Z",  //
+                                                                            "half_albedo_behind.R",
+                                                                            "half_albedo_behind.G",
+                                                                            "half_albedo_behind.B",  //
+                                                                            "half_normal_behind.X",
+                                                                            "half_normal_behind.Y",
+                                                                            "half_normal_behind.Z",  //
+                                                                            "half_samples.X"};
+
+    static bool has(std::uint32_t number) { return number / block % 2 == 0; }
+
+    std::vector<std::string> channels() const { return {channel_names.begin(), channel_names.end()}; }
+    std::size_t sums() const { return 1; }
+    void add(std::span<Sum> sums, const FilmSample& sample, FilmFaults&) const {
+        if (!has(sample.number)) return;
+        FilmFaults again;  // the picture has counted them
+        sums[0].add(values_of(sample), 1.0f, again);
+    }
+    void resolve(std::span<const Sum> sums, std::uint32_t, std::span<float> resolved) const {
+        const std::array<float, values> means = sums[0].mean(0);
+        std::copy(means.begin(), means.end(), resolved.begin());
+        resolved[values] = static_cast<float>(sums[0].weight());
+    }
+
+  private:
+    static std::array<float, values> values_of(const FilmSample& sample) {
+        std::array<float, values> all{};
+        std::size_t i = 0;
+        const auto put = [&](const glm::vec3& v) {
+            for (int c = 0; c < 3; ++c) all[i++] = v[c];
+        };
+        put(sample.radiance);
+        if (!sample.record) return all;
+        for (const std::optional<RecordedSurface>& met : {sample.record->first, sample.record->behind}) {
+            put(met ? met->albedo : glm::vec3(0));
+            put(met ? met->normal : glm::vec3(0));
+        }
+        return all;
+    }
+};
+
+}  // namespace phasetree::tracer

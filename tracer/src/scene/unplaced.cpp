@@ -1,0 +1,59 @@
+#include "scene/unplaced.hpp"
+
+#include <algorithm>
+#include <span>
+
+namespace phasetree::tracer {
+
+namespace {
+
+constexpr std::size_t most_found = 8;
+
+// Objects and groups that are named by some places.
+struct Named {
+    explicit Named(const PlacedObjects& placed) : objects(placed.objects.size()), groups(placed.groups.size()) {}
+
+    void add(std::span<const Place> places) {
+        for (const Place& place : places) (place.is_group ? groups : objects)[place.of] = true;
+    }
+
+    std::vector<bool> objects, groups;
+};
+
+// All that places lead to. The groups that a group names have smaller numbers, so one pass down the numbers is enough.
+Named reached_from(const PlacedObjects& placed, std::span<const Place> places) {
+    Named reached(placed);
+    reached.add(places);
+    for (std::size_t i = placed.groups.size(); i-- > 0;)
+        if (reached.groups[i]) reached.add(placed.groups[i].places);
+    return reached;
+}
+
+}  // namespace
+
+UnplacedGroups find_unplaced_groups(const PlacedObjects& placed) {
+    Named named(placed);
+    named.add(placed.places);
+    for (const PlacedGroup& group : placed.groups) named.add(group.places);
+    std::vector<std::uint32_t> unplaced;
+    for (std::uint32_t i = 0; i < placed.groups.size(); ++i)
+        if (!named.groups[i]) unplaced.push_back(i);
+    std::ranges::sort(unplaced, {}, [&](std::uint32_t i) { return placed.groups[i].offset; });
+
+    UnplacedGroups result;
+    const Named standing = reached_from(placed, placed.places);
+    for (const std::uint32_t i : unplaced) {
+        if (result.found.size() == most_found) {
+            ++result.more;
+            continue;
+        }
+        const Named within = reached_from(placed, placed.groups[i].places);
+        UnplacedGroup& group = result.found.emplace_back();
+        group.group = i;
+        for (std::uint32_t object = 0; object < placed.objects.size(); ++object)
+            if (within.objects[object] && !standing.objects[object]) group.lost.push_back(object);
+    }
+    return result;
+}
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,14 @@
+// The readers of each format. They throw std::runtime_error, which says what is wrong and not with which file.
+#pragma once
+
+#include "volume/read_volume.hpp"
+
+namespace phasetree::tracer {
+
+// openvdb.cpp, or no_openvdb.cpp in its place.
+VoxelGrid level_set_of_openvdb(const std::filesystem::path& path, const std::string& grid);
+LabelGrid labels_of_openvdb(const std::filesystem::path& path, const std::string& grid);
+
+LabelGrid labels_of_images(const std::filesystem::path& pattern);
+
+}  // namespace phasetree::tracer

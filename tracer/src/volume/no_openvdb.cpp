@@ -1,0 +1,28 @@
+// What stands in for openvdb.cpp where the library is missing.
+#include <stdexcept>
+
+#include "volume/formats.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+[[noreturn]] void refuse() {
+    throw std::runtime_error(
+        "this phasetree was built without OpenVDB: install libopenvdb-dev, or the library from openvdb.org, and build "
+        "again");
+}
+
+}  // namespace
+
+VoxelGrid level_set_of_openvdb(const std::filesystem::path&, const std::string&) {
+    refuse();
+}
+LabelGrid labels_of_openvdb(const std::filesystem::path&, const std::string&) {
+    refuse();
+}
+bool can_read_openvdb() {
+    return false;
+}
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,50 @@
+#include "volume/read_volume.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "volume/formats.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+template <class Read>
+auto named(const std::filesystem::path& path, std::string_view what, Read&& read) {
+    try {
+        return read();
+    } catch (const std::runtime_error& e) {
+        throw std::runtime_error(fmt::format("cannot use the {} \"{}\": {}", what, path.string(), e.what()));
+    }
+}
+
+bool is_openvdb(const std::filesystem::path& path) {
+    return path.extension() == ".vdb";
+}
+
+}  // namespace
+
+VoxelGrid read_level_set(const std::filesystem::path& path, const std::string& grid) {
+    return named(path, "volume", [&] {
+        if (!is_openvdb(path)) throw std::runtime_error("its name must end with .vdb");
+        VoxelGrid found = level_set_of_openvdb(path, grid);
+        const double steepest = found.steepest_linear();
+        if (steepest > 1e4)
+            throw std::runtime_error(fmt::format(
+                "its values change by up to {:.3g} m from one metre to the next; those of a level set are distances",
+                steepest));
+        if (steepest > 1) found.divide_by(steepest * (1 + 1e-6));
+        return found;
+    });
+}
+
+LabelGrid read_label_grid(const std::filesystem::path& path, const std::string& grid) {
+    return named(path, "labels", [&] {
+        if (is_openvdb(path)) return labels_of_openvdb(path, grid);
+        if (!grid.empty()) throw std::runtime_error("images have no grids that \"grid\" could name");
+        return labels_of_images(path);
+    });
+}
+
+}  // namespace phasetree::tracer
