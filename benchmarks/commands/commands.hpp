@@ -19,6 +19,7 @@ Report host(const Settings&);
 Report light(const Settings&);
 Report carve(const Settings&);
 Report proxies(const Settings&);
+Report balls(const Settings&);
 Report resolution(const Settings&);
 Report march(const Settings&);
 Report fingerprint(const Settings&);

@@ -94,7 +94,8 @@ void check_example(const std::string& chapter, std::string_view node, std::set<s
 }  // namespace
 
 TEST_CASE("every node has a picture, of an example that uses it, and no picture is left of a node that went") {
-    std::set<std::string> files{"fields/height_map.png", "fields/mesh.obj", "fields/volume.vdb"};
+    std::set<std::string> files{"fields/height_map.png", "fields/mesh.obj", "fields/volume.vdb",
+                                "objects/particles.csv"};
     for (int layer = 0; layer < 16; ++layer) files.insert(fmt::format("objects/labels_{:02}.png", layer));
     for_each_type(PlainFields(), [&]<class N>() { check_example("fields", N::info.name, files); });
     for_each_type(Objects(), [&]<class N>() { check_example("objects", N::info.name, files); });

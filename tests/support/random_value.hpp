@@ -13,6 +13,7 @@
 
 #include "phasetree/model/from_file.hpp"
 #include "phasetree/model/parameter.hpp"
+#include "phasetree/nodes/fields/ball_list.hpp"
 #include "phasetree/nodes/fields/height_grid.hpp"
 #include "phasetree/nodes/fields/intersection.hpp"
 #include "phasetree/nodes/fields/siren_network.hpp"
@@ -119,6 +120,16 @@ void fill(Random& rng, Value& value, const Parameter& p, int depth, bool needs_b
         value.content = std::make_shared<const SirenNetwork>(std::move(network));
     } else if constexpr (std::is_same_v<Value, FromFile<TriangleMesh>>) {
         value = held(random_mesh(rng, rng.below(2), 0.3f));
+    } else if constexpr (std::is_same_v<Value, FromFile<BallList>>) {
+        BallList list;
+        const bool has_radii = rng.chance(0.7), has_phases = rng.chance(0.7);
+        for (int left = 1 + rng.below(rng.chance(0.3) ? 60 : 6); left > 0; --left) {
+            list.centres.emplace_back(random_number(rng, {"", "m", ""}), random_number(rng, {"", "m", ""}),
+                                      random_number(rng, {"", "m", ""}));
+            if (has_radii) list.radii.push_back(rng.chance(0.3) ? 0.25f : rng.uniform(0.05f, 0.4f));
+            if (has_phases) list.phases.push_back(static_cast<std::uint8_t>(rng.below(2)));
+        }
+        value.content = std::make_shared<const BallList>(std::move(list));
     } else if constexpr (std::is_same_v<Value, FromFile<VoxelGrid>>) {
         value = held_content(random_level_set(rng));
     } else if constexpr (std::is_same_v<Value, FromFile<LabelGrid>>) {

@@ -1,5 +1,6 @@
 #include "support/set_algebra.hpp"
 
+#include "support/set_algebra/balls.hpp"
 #include "support/set_algebra/blobs.hpp"
 #include "support/set_algebra/components.hpp"
 #include "support/set_algebra/copies.hpp"

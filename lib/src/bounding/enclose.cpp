@@ -2,6 +2,7 @@
 #include "bounding/enclose.hpp"
 
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "bounding/enclose_primitive.hpp"
@@ -37,8 +38,8 @@ struct UnknownSteps {
 }  // namespace
 
 Encloser::Encloser(const ProgramContext& context, const Bounds& box, std::span<const Specialisation> around,
-                   Arena& scratch)
-    : context_(context), box_(box), scratch_(scratch), centre_(box.centre()), around_(around) {
+                   std::span<const RequiredOfLocal> required, Arena& scratch)
+    : context_(context), box_(box), scratch_(scratch), centre_(box.centre()), around_(around), required_(required) {
     const glm::vec3 extent = box.extent();
     half_ = enclosure::detail::each_number(
         [&](std::size_t i) { return 0.5 * double{extent[static_cast<int>(i)]} * (1 + 1e-6); });
@@ -85,6 +86,13 @@ std::span<const float> Encloser::data_around(std::uint32_t source) const {
     for (const Specialisation& s : around_)
         if (s.source == source) data = s.data;
     return data;
+}
+
+// How far up the values of the local primitive with these constants are required.
+double Encloser::farthest_required(std::uint32_t source) const {
+    for (const RequiredOfLocal& r : required_)
+        if (r.source == source) return static_cast<double>(r.high) + 2 * static_cast<double>(context_.value_error);
+    return std::numeric_limits<double>::infinity();
 }
 
 // Computes the enclosures of all values of a program, which becomes the last one.
@@ -135,7 +143,9 @@ void Encloser::enclose_primitives(const WorkingProgram& program, std::span<const
                 if constexpr (AnyLocalPrimitive<P>) {
                     do ++local;
                     while (previous[local] != 0 || !traits(program.code[local].op).is_local);
-                    specialisation.around = data_around(static_cast<std::uint32_t>(c - context_.constants.data()));
+                    const auto source = static_cast<std::uint32_t>(c - context_.constants.data());
+                    specialisation.around = data_around(source);
+                    specialisation.farthest = farthest_required(source);
                 }
                 result = enclose_long_primitive<P>(c, q, half_, specialisation);
                 if constexpr (AnyLocalPrimitive<P>) found[local] = specialisation.found;

@@ -12,7 +12,7 @@ namespace phasetree::bounding {
 using enclosure::Range;
 using kernel::Curvature, kernel::LinearBound;
 using program::ProgramOutput;
-using rewriting::Specialisation;
+using rewriting::RequiredOfLocal, rewriting::Specialisation;
 
 struct AffinePoint;
 struct NearlyLinear;
@@ -36,8 +36,10 @@ inline constexpr std::size_t longest_enclosed = 64;
 class Encloser {
   public:
     /// What is allocated in `scratch` must stay as long as any result is used. `around` holds the specialisations that
-    /// local primitives had in a box around this one.
-    Encloser(const ProgramContext&, const Bounds& box, std::span<const Specialisation> around, Arena& scratch);
+    /// local primitives had in a box around this one, and `required` how far up their values are required in this one;
+    /// of those that it does not name all are.
+    Encloser(const ProgramContext&, const Bounds& box, std::span<const Specialisation> around,
+             std::span<const RequiredOfLocal> required, Arena& scratch);
 
     /// The ranges of a program's values. Nothing for a program that is too long or that folds space.
     std::optional<ValueRanges> value_ranges(const WorkingProgram&);
@@ -53,6 +55,7 @@ class Encloser {
                                                        std::span<const std::uint32_t> previous) const;
     void keep_specialisations(std::span<Specialisation> found);
     std::span<const float> data_around(std::uint32_t source) const;
+    double farthest_required(std::uint32_t source) const;
     Enclosure enclosure_of_output(const ProgramOutput&) const;
     Curvature curvature() const;
     LinearBound linear_bound(const NearlyLinear&, const Enclosure& f) const;
@@ -66,6 +69,7 @@ class Encloser {
     glm::dvec3 centre_;
     const AffinePoint* point_of_box_;
     std::span<const Specialisation> around_;
+    std::span<const RequiredOfLocal> required_;
     // These are of the last program.
     EnclosedProgram last_;
     Enclosure* registers_ = nullptr;

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
+#include "bounding/balls_in_box.hpp"
 #include "bounding/convex_in_box.hpp"
 #include "bounding/mesh_in_box.hpp"
 #include "bounding/network_in_box.hpp"
@@ -19,7 +21,8 @@ using rewriting::Arena, rewriting::Specialisation;
 struct SpecialisationInBox {
     std::span<const float> around;  ///< the data of its specialisation in a box around this one, or empty
     Arena& scratch;
-    Specialisation found{};  ///< what enclosing has found; its data are in `scratch`
+    double farthest = std::numeric_limits<double>::infinity();  ///< larger values are not required
+    Specialisation found{};                                     ///< what enclosing has found; its data are in `scratch`
 };
 
 /// The value of a local primitive at the centre of a region, by its specialisation there if there is one.
@@ -27,7 +30,9 @@ template <AnyLocalPrimitive P>
 float value_by_specialisation(const float* constants, const Region& at, SpecialisationInBox& specialisation) {
     std::vector<float> floats;
     const bool is_special = [&] {
-        if constexpr (LocalDataPrimitive<P>)
+        if constexpr (RequiredDataPrimitive<P>)
+            return P::specialise(constants, at, specialisation.farthest, specialisation.around, floats);
+        else if constexpr (LocalDataPrimitive<P>)
             return P::specialise(constants, at, specialisation.around, floats);
         else
             return program::read<P>(constants).specialise(at, specialisation.around, floats);
@@ -40,9 +45,9 @@ float value_by_specialisation(const float* constants, const Region& at, Speciali
 
 /// The enclosure of a long primitive. Noise has an enclosure of its own, and a network has one inside of its cube,
 /// beyond which points are projected onto the cube (Siren::Network). The few pieces of a mesh in a small box bound its
-/// gradient, and so do few voxels, with more of which the values' range is known. Of all others (an image, Voronoi
-/// cells), and of those elsewhere, only the value at the centre is used and that their slope is at most 1 in their own
-/// space.
+/// gradient, and so do few voxels, with more of which the values' range is known; few balls are enclosed one by one. Of all
+/// others (an image, Voronoi cells), and of those elsewhere, only the value at the centre is used and that their slope is
+/// at most 1 in their own space.
 template <class P>
 Enclosure enclose_long_primitive(const float* constants, const Vec3<Enclosure>& q, const Enclosure::Vector& half,
                                  SpecialisationInBox& specialisation) {
@@ -58,6 +63,11 @@ Enclosure enclose_long_primitive(const float* constants, const Vec3<Enclosure>& 
         value = static_cast<double>(value_by_specialisation<P>(constants, at, specialisation));
     else
         value = static_cast<double>(program::distance_of<P>(constants, at.point()));
+    const float* balls = nullptr;
+    if constexpr (std::is_same_v<P, Balls::Specialised>) balls = constants;
+    if constexpr (std::is_same_v<P, Balls>) balls = specialisation.found.data.data();
+    if (balls)
+        if (const auto known = balls_in_box(balls, q, half)) return *known;
     const float* pieces = nullptr;
     if constexpr (std::is_same_v<P, Mesh::Specialised>) pieces = constants;
     if constexpr (std::is_same_v<P, Mesh>) pieces = specialisation.found.data.data();

@@ -1,5 +1,6 @@
 #include "building/candidate.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -22,7 +23,7 @@ class CandidateSearch {
           context_(context),
           worker_(worker),
           region_(node.box.inflated(context.reach)),
-          encloser_(context.program, region_, node.specialisations, worker.scratch) {}
+          encloser_(context.program, region_, node.specialisations, node.required, worker.scratch) {}
 
     // The candidate with what is left of a program; nothing if no ray can meet an interface in the box.
     //
@@ -78,7 +79,7 @@ class CandidateSearch {
     Encloser* narrower_encloser(const Bounds& box) {
         return std::construct_at(worker_.scratch.allocate<Encloser>(1).data(), context_.program,
                                  intersect(region_, box.inflated(context_.reach)), std::span<const Specialisation>(),
-                                 worker_.scratch);
+                                 std::span<const RequiredOfLocal>(), worker_.scratch);
     }
     void price(Candidate& cell) const {
         // A ray passes through many of the copies of a fold, and through many blocks of a pattern of which nothing is
@@ -89,7 +90,27 @@ class CandidateSearch {
         const float blocks = has_blocks ? std::max(1.f, size / node_.pattern_period) : 1.f;
         const float repetitions = (1 + 4 * size / node_.fold_period) * blocks;
         cell.work = work(cell.program, context_.program.constants, cell.specialisations, worker_.scratch);
+        cell.is_searched = has_many_parts(cell);
+        cell.parts = cell.is_searched ? 0 : listed_parts(cell);
         cell.cost = repetitions * cost(cell.facts, cell.program, cell.work, context_.program.opaque);
+    }
+
+    // The parts of specialised lists, two simple instructions each (Balls::Specialised), unless they are less than
+    // about a quarter of the work; what joins the lists of several phases is some two dozen instructions.
+    std::size_t listed_parts(const Candidate& cell) const {
+        std::size_t sum = 0;
+        for (const Specialisation& s : cell.specialisations)
+            if (program::traits(cell.program.code[s.value].op).is_many) sum += static_cast<std::size_t>(s.data[0]);
+        return static_cast<float>(8 * sum + 24) >= cell.work.all ? sum : 0;
+    }
+    bool has_many_parts(const Candidate& cell) const {
+        if (!context_.program.has_local_primitives) return false;
+        const std::span<const Instruction> code = cell.program.code;
+        for (std::uint32_t i = 1; i < code.size(); ++i)
+            if (program::traits(code[i].op).is_many &&
+                std::ranges::find(cell.specialisations, i, &Specialisation::value) == cell.specialisations.end())
+                return true;
+        return false;
     }
 
     const BuildNode& node_;

@@ -7,7 +7,7 @@
 
 namespace phasetree::building {
 
-using rewriting::Specialisation;
+using rewriting::RequiredOfLocal, rewriting::Specialisation;
 
 /// A cell that a box could become.
 struct Candidate {
@@ -17,6 +17,10 @@ struct Candidate {
     std::span<const Specialisation> specialisations{};
     Work work{};
     float cost = 0;
+    /// Whether each sample in it is a search among many parts (OpTraits::is_many), because too many are in the box.
+    bool is_searched = false;
+    /// How many of such parts are in the box, if much of its work is theirs and none is searched; else 0.
+    std::size_t parts = 0;
 };
 
 /// A box of the recursive subdivision, with what is left of the object's program in it.
@@ -24,6 +28,7 @@ struct BuildNode {
     Bounds box;
     WorkingProgram program;
     std::span<const Specialisation> specialisations{};  ///< in this box; until prepare(), in the box around it
+    std::span<const RequiredOfLocal> required{};        ///< of local primitives, in this box
     int depth = 0;
     /// How many divisions in a row have had no gain. The count starts again at a box that is divided in any case.
     int futile_divisions = 0;

@@ -73,11 +73,16 @@ bool is_final(const BuildNode& node, const BuildContext& context, CellBudget& bu
     const float saving = required_saving(
         context.options.quality,
         {diagonal / context.size, cell.program.outputs.size() > 2, cell.facts.curvature.bound[0] < Curvature::unknown});
+    // Lists of millions would be divided until they took all memory there is; a list as short as this costs a ray about
+    // what entering another cell does.
+    constexpr std::size_t few_parts = 16;
+    constexpr int divided_in_any_case = 3;  // levels
+    const bool has_few_parts = cell.parts > 0 && cell.parts <= few_parts && node.depth >= divided_in_any_case;
     const bool is_small = diagonal < 64 * context.reach;
     // is_worth_dividing() must come last, because it notes the saving that it refuses: that of a box which would be
     // divided if there were more memory.
     return node.futile_divisions >= node.policy.most_futile_divisions || node.depth >= context.options.deepest ||
-           is_small || cell.cost < (1 + saving) * least + cost_model::traversal * surface(node.box) ||
+           is_small || has_few_parts || cell.cost < (1 + saving) * least + cost_model::traversal * surface(node.box) ||
            !budget.is_worth_dividing(node.box, cell.cost - least);
 }
 
@@ -97,7 +102,9 @@ CellCosts find_cells(const BuildNode& node, const BuildContext& context, Worker&
     const Bounds& box = node.cell.facts.box;
     const float excess_area = std::max(0.f, divided.interface_area - interface_area(box));
     const float starting = cost_model::starting_rays * excess_area / surface(box);
-    if (divided.all < node.cell.cost * (1 + starting)) return divided;
+    // The cost takes a ray to pass one interface or two in a cell. Where a cell has many parts it passes many, or stops
+    // at the first, and cells of few parts are better in any case.
+    if (node.cell.is_searched || divided.all < node.cell.cost * (1 + starting)) return divided;
     worker.cells.discard_from(before);
     worker.account.reset_to(bytes_before);
     return add_cell(node, worker);
@@ -105,11 +112,13 @@ CellCosts find_cells(const BuildNode& node, const BuildContext& context, Worker&
 
 // Evaluates a node's program at the centres of boxes, one in each lane. The result reads lane 0, which has the values
 // for the first box; Division::prepare_part() reads the lanes of the others.
-ValuesAtPoint values_at_centres(const BuildNode& node, const SubBoxes& boxes, const BuildContext& context,
-                                Worker& worker) {
-    std::vector<float>& constants = worker.constants;
-    if (constants.empty()) constants.assign(context.program.constants.begin(), context.program.constants.end());
-    const WorkingProgram program = specialised(node.program, node.specialisations, constants, worker.scratch);
+ValuesAtPoint values_at_centres(const BuildNode& node, const SubBoxes& boxes, Worker& worker) {
+    SharedConstants& constants = worker.pool.constants();
+    std::size_t count = 0;
+    for (const Specialisation& s : node.specialisations) count += s.data.size();
+    worker.specialised.clear();
+    const WorkingProgram program = specialised(node.program, node.specialisations, worker.specialised, worker.scratch,
+                                               constants.first_behind(worker.number, count));
     const ReadableSteps steps = readable_steps(program, worker.scratch);
     static_assert(batch_size >= SubBoxes::most, "each part has a lane of its own");
     BatchOfFloats x, y, z;
@@ -120,9 +129,9 @@ ValuesAtPoint values_at_centres(const BuildNode& node, const SubBoxes& boxes, co
         z[i] = c.z;
     }
     const std::span<BatchOfFloats> registers = worker.scratch.allocate<BatchOfFloats>(steps.slots);
-    active_kernel().evaluate(steps.routine(constants.data()), x.lane.data(), y.lane.data(), z.lane.data(),
+    const float* const all = constants.with(worker.specialised, worker.number, worker.constants);
+    active_kernel().evaluate(steps.routine(all), x.lane.data(), y.lane.data(), z.lane.data(),
                              registers.data()->lane.data(), nullptr);
-    constants.resize(context.program.constants.size());
     return {registers.data(), steps.slot, 0};
 }
 
@@ -134,7 +143,7 @@ class Division {
           context_(context),
           worker_(worker),
           boxes_(node.box),
-          values_(values_at_centres(node, boxes_, context, worker)),
+          values_(values_at_centres(node, boxes_, worker)),
           parts_(worker.scratch.allocate<BuildNode>(boxes_.count)),
           has_jumps_(context.program.has_folds && may_jump(node.program)) {
         if (node.depth < parallel_depth)
@@ -188,10 +197,11 @@ class Division {
             has_jumps_ ? slopes_in_ball(node_.program, centre, radius, context_.program, own.scratch)
                        : node_.program.lipschitz;
         const RangesInBall ranges{centre, slope, radius, context_.program.value_error};
-        const auto program = prune(node_.program, ranges, context_.program, own.arenas());
+        std::span<const RequiredOfLocal> required;
+        const auto program = prune(node_.program, ranges, context_.program, own.arenas(), required);
         if (!program) return false;
-        BuildNode& part =
-            *std::construct_at(&parts_[i], BuildNode{boxes_.box[i], *program, node_.specialisations, node_.depth + 1});
+        BuildNode& part = *std::construct_at(
+            &parts_[i], BuildNode{boxes_.box[i], *program, node_.specialisations, required, node_.depth + 1});
         if (std::isfinite(node_.fold_period)) part.fold_period = finest_jump(part.program, context_.program.constants);
         if (std::isfinite(node_.pattern_period))
             part.pattern_period = finest_pattern(part.program, context_.program.constants);
@@ -217,7 +227,8 @@ class Division {
             bound.slack < Bounds::infinity && bound.spread > part.policy.uneven * glm::length(bound.normal);
         // Nothing may be known of a pattern until boxes are smaller than its features.
         const bool is_unknown = !(bound.spread < 1) && diagonal > 0.5f * part.pattern_period;
-        return diagonal > large || is_unknown || (is_uneven && diagonal > part.policy.fine * context_.size);
+        return part.cell.is_searched || diagonal > large || is_unknown ||
+               (is_uneven && diagonal > part.policy.fine * context_.size);
     }
 
     const BuildNode& node_;
@@ -247,7 +258,7 @@ CellBuffers divide_into_cells(const Bounds& box, const WorkingProgram& program, 
     BuildNode root{box, program};
     root.fold_period = finest_jump(program, context.program.constants);
     root.pattern_period = finest_pattern(program, context.program.constants);
-    WorkerPool pool(budget);
+    WorkerPool pool(budget, context.program.constants);
     Worker worker{pool};
     if (!prepare(root, context, worker)) return {};
     // The root is divided whenever the budget allows, without a comparison with a single cell, because boxes that are

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <mutex>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -14,13 +15,37 @@ using rewriting::Arena, rewriting::Arenas;
 
 class WorkerPool;
 
+/// The constants of an object's program, which may be millions of balls, once for all workers of a build. Behind them
+/// each worker has room for the data of specialised instructions, because a routine takes all constants from one array.
+class SharedConstants {
+  public:
+    explicit SharedConstants(std::span<const float> of_program);
+
+    /// An array of the constants with these behind them; it is valid until the worker asks again. If there is too
+    /// little room, it is made in `own`.
+    const float* with(std::span<const float> more, std::size_t worker, std::vector<float>& own);
+    /// The index in that array of the first of these.
+    std::uint32_t first_behind(std::size_t worker, std::size_t count) const {
+        return narrow(fits(worker, count) ? count_ + worker * room : count_);
+    }
+
+  private:
+    static constexpr std::size_t room = std::size_t{1} << 14, workers_with_room = 512;
+    static bool fits(std::size_t worker, std::size_t count) { return worker < workers_with_room && count <= room; }
+
+    std::size_t count_;
+    std::unique_ptr<float[]> memory_;
+};
+
 /// The memory with which one thread finds the cells of a part of the object, and the cells that it has found.
 struct Worker {
     WorkerPool& pool;
     Arena programs{}, scratch{};
     CellBuffers cells{};
-    MemoryAccount account{};         ///< of these cells
-    std::vector<float> constants{};  ///< of the object; behind them, at times, the data of specialised instructions
+    MemoryAccount account{};           ///< of these cells
+    std::size_t number = 0;            ///< among the workers of the build
+    std::vector<float> specialised{};  ///< the data of the specialised instructions of the program that is evaluated
+    std::vector<float> constants{};    ///< used only where SharedConstants have no room
 
     Arenas arenas() { return {programs, scratch}; }
 };
@@ -29,8 +54,9 @@ struct Worker {
 /// object than its cells take. Any thread may borrow one.
 class WorkerPool {
   public:
-    explicit WorkerPool(CellBudget& budget) : budget_(budget) {}
+    WorkerPool(CellBudget& budget, std::span<const float> constants) : constants_(constants), budget_(budget) {}
     CellBudget& budget() const { return budget_; }
+    SharedConstants& constants() { return constants_; }
 
     /// A worker that is given back at the end of a scope.
     class Borrowed {
@@ -57,9 +83,10 @@ class WorkerPool {
   private:
     void give_back(std::unique_ptr<Worker>);
 
+    SharedConstants constants_;
     CellBudget& budget_;
     std::mutex mutex_;
-    std::size_t count_ = 0;  ///< how many workers there are
+    std::size_t count_ = 0;  ///< how many workers there are, besides the first
     std::vector<std::unique_ptr<Worker>> idle_;
 };
 

@@ -133,6 +133,8 @@ class Validation {
         if (!has_data(op)) return true;
         if (static_cast<Op>(op) == program::op_of<Mesh::Specialised>())
             return Mesh::Specialised::is_sound(constants_.subspan(at));
+        if (static_cast<Op>(op) == program::op_of<Balls::Specialised>())
+            return Balls::Specialised::is_sound(constants_.subspan(at));
         if (traits(static_cast<Op>(op)).is_specialised) return is_list_of_sites(at);
         return std::ranges::binary_search(object_data_, std::pair{op, at});
     }

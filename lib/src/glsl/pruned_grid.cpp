@@ -89,7 +89,7 @@ class GridPruning {
                               arenas());
     }
     std::optional<WorkingProgram> pruned_by_enclosures(WorkingProgram program, const Bounds& region) {
-        bounding::Encloser encloser(context_, region, {}, scratch_);
+        bounding::Encloser encloser(context_, region, {}, {}, scratch_);
         for (int round = 0; round < 3; ++round) {
             const auto ranges = encloser.value_ranges(program);
             if (!ranges) break;

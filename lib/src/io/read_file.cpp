@@ -1,6 +1,7 @@
 #include "io/read_file.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -10,7 +11,6 @@
 #include <system_error>
 #include <vector>
 
-#include "phasetree/io/document.hpp"
 #include "phasetree/io/suggest.hpp"
 #include "phasetree_support/folder.hpp"
 
@@ -51,7 +51,7 @@ std::optional<std::string> neighbour(const std::filesystem::path& missing) {
 
 }  // namespace
 
-std::string read_file(const std::filesystem::path& path) {
+std::string read_file(const std::filesystem::path& path, std::size_t most_bytes) {
     const std::string name = path.string();
     if (name.empty()) throw SceneError("(no name)", "the name of a file is empty");
     const auto fail = [&](int code) -> SceneError {
@@ -61,15 +61,15 @@ std::string read_file(const std::filesystem::path& path) {
     };
     if (name.find('\0') != std::string::npos) throw fail(ENOENT);
 
+    const auto too_large = [&] { return SceneError(name, fmt::format("is larger than {} MiB", most_bytes >> 20)); };
+
     // Asked before opening, too: to open a device can have effects of its own.
     struct stat status {};
     if (::stat(name.c_str(), &status) != 0) throw fail(errno);
     const auto check = [&] {
         if (S_ISDIR(status.st_mode)) throw SceneError(name, "is a directory, not a file");
         if (!S_ISREG(status.st_mode)) throw SceneError(name, "is no regular file but a pipe, a socket or a device");
-        if (status.st_size > 0 && static_cast<std::size_t>(status.st_size) > Document::max_bytes) {
-            throw SceneError(name, "is larger than 256 MiB");
-        }
+        if (status.st_size > 0 && static_cast<std::size_t>(status.st_size) > most_bytes) throw too_large();
     };
     check();
     const OpenFile file(name.c_str());
@@ -86,7 +86,7 @@ std::string read_file(const std::filesystem::path& path) {
         if (got < 0) throw fail(errno);
         if (got == 0) break;
         length += static_cast<std::size_t>(got);
-        if (length > Document::max_bytes) throw SceneError(name, "is larger than 256 MiB");
+        if (length > most_bytes) throw too_large();
         if (length == content.size()) content.resize(2 * length);
     }
     content.resize(length);

@@ -3,10 +3,12 @@
 #include <filesystem>
 #include <string>
 
+#include "phasetree/io/document.hpp"
+
 namespace phasetree::io {
 
-/// The content of a regular file of at most Document::max_bytes. SceneError for everything else; never waits for a
-/// pipe or a device.
-std::string read_file(const std::filesystem::path& path);
+/// The content of a regular file of at most so many bytes. SceneError for everything else; never waits for a pipe or a
+/// device.
+std::string read_file(const std::filesystem::path& path, std::size_t most_bytes = Document::max_bytes);
 
 }  // namespace phasetree::io

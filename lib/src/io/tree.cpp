@@ -8,6 +8,7 @@
 #include "io/string_offset.hpp"
 #include "model/preparation.hpp"
 #include "model/text_error.hpp"
+#include "phasetree/io/balls.hpp"
 #include "phasetree/io/kept_nodes.hpp"
 #include "phasetree/io/keys.hpp"
 #include "phasetree/io/mesh.hpp"
@@ -184,26 +185,29 @@ class Reader {
     template <class Handle, class N>
     Handle made_of(N& node, Value member) {
         if constexpr (io::MadeFromFile<N>) {
-            const Value file = member.find("file").value();
-            KeptNodes* const kept = document_.kept_nodes();
-            const std::optional<KeptNodes::Source> source = kept ? source_of(node, file) : std::nullopt;
-            if (source) {
-                if (std::optional<KeptNodes::Node> known = kept->take(*source)) {
-                    PreparationTogether::pay(N::info.name, known->steps);
-                    kept->keep(*source, *known);
-                    return std::get<Handle>(known->handle);
-                }
-            }
-            std::string part;
-            if constexpr (requires { node.part_of_file(); }) part = node.part_of_file();
-            read_file(node.file, part, file);
-            const std::uint64_t paid = preparation_.paid();
-            Handle made(std::move(node));
-            if (source) kept->keep(*source, {made, preparation_.paid() - paid});
-            return made;
-        } else {
-            return Handle(std::move(node));
+            if (const std::optional<Value> file = member.find("file")) return made_from_file<Handle>(node, *file);
         }
+        return Handle(std::move(node));
+    }
+
+    template <class Handle, class N>
+    Handle made_from_file(N& node, Value file) {
+        KeptNodes* const kept = document_.kept_nodes();
+        const std::optional<KeptNodes::Source> source = kept ? source_of(node, file) : std::nullopt;
+        if (source) {
+            if (std::optional<KeptNodes::Node> known = kept->take(*source)) {
+                PreparationTogether::pay(N::info.name, known->steps);
+                kept->keep(*source, *known);
+                return std::get<Handle>(known->handle);
+            }
+        }
+        std::string part;
+        if constexpr (requires { node.part_of_file(); }) part = node.part_of_file();
+        read_file(node.file, part, file);
+        const std::uint64_t paid = preparation_.paid();
+        Handle made(std::move(node));
+        if (source) kept->keep(*source, {made, preparation_.paid() - paid});
+        return made;
     }
 
     // Nothing where the node cannot be known again.
@@ -331,6 +335,8 @@ class Reader {
             return read_siren(path);
         } else if constexpr (std::is_same_v<Content, TriangleMesh>) {
             return read_mesh(path);
+        } else if constexpr (std::is_same_v<Content, BallList>) {
+            return read_balls(path);
         } else if constexpr (std::is_same_v<Content, VoxelGrid>) {
             if (!files_.level_set) throw std::runtime_error("this program reads no OpenVDB files");
             return files_.level_set(path, part);
@@ -395,7 +401,7 @@ class Reader {
     template <class Content>
     using KnownFiles = std::map<std::pair<std::string, std::string>, std::shared_ptr<const Content>>;
     std::tuple<KnownFiles<SirenNetwork>, KnownFiles<HeightGrid>, KnownFiles<TriangleMesh>, KnownFiles<VoxelGrid>,
-               KnownFiles<LabelGrid>>
+               KnownFiles<LabelGrid>, KnownFiles<BallList>>
         known_files_;
     std::map<std::string, Field, std::less<>> fields_;
     std::map<std::string, Phased, std::less<>> objects_;

@@ -85,7 +85,9 @@ class Writer {
 
     template <class T>
     static bool is_absent(const T& v) {
-        if constexpr (requires { v.empty(); })
+        if constexpr (requires { v.content; })
+            return !v.content;
+        else if constexpr (requires { v.empty(); })
             return v.empty();
         else if constexpr (requires { static_cast<bool>(v.node()); })
             return !v;

@@ -22,6 +22,14 @@ concept LocalDataPrimitive = DataPrimitive<N> &&
     { N::Specialised::is_sound(of) } -> std::same_as<bool>;  // whether these floats, from a file, can be such data
     { N::search_half_works } -> std::convertible_to<unsigned>;
 };
+/// One that can do with fewer floats where only values up to `farthest` are required: above it, the specialised
+/// primitive's are any others above it. It never refuses if `of` is not empty.
+template <class N>
+concept RequiredDataPrimitive = LocalDataPrimitive<N> &&
+    requires(const float* data, const PointRange& range, double farthest, std::span<const float> of,
+             std::vector<float>& floats) {
+    { N::specialise(data, range, farthest, of, floats) } -> std::same_as<bool>;
+};
 template <class N>
 concept AnyLocalPrimitive = LocalPrimitive<N> || LocalDataPrimitive<N>;
 

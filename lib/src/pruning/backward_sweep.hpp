@@ -51,6 +51,24 @@ class BackwardSweep {
         return LiveSet(rest, rest.outputs, arenas_.scratch).program(arenas_);
     }
 
+    /// After run(): how far up the values of local primitives are required. The result outlives the sweep.
+    std::span<const RequiredOfLocal> required_of_locals() const {
+        const std::span<const std::uint32_t> live = live_.first(live_count_);
+        const auto is_local = [&](std::uint32_t i) { return program::traits(program_.code[i].op).is_local; };
+        const std::span<RequiredOfLocal> found =
+            arenas_.results.allocate<RequiredOfLocal>(static_cast<std::size_t>(std::ranges::count_if(live, is_local)));
+        std::size_t count = 0;
+        for (const std::uint32_t i : live) {
+            if (!is_local(i)) continue;
+            const Instruction& in = program_.code[i];
+            const auto is_like = [&](std::uint32_t j) {
+                return program_.code[j].op == in.op && program_.code[j].data == in.data;
+            };
+            if (std::ranges::count_if(live, is_like) == 1) found[count++] = {in.data, required_[i].high()};
+        }
+        return found.first(count);
+    }
+
   private:
     /// The outputs whose component may be negative somewhere. Nothing if one is negative everywhere.
     std::optional<std::span<const ProgramOutput>> possible_outputs() const {

@@ -22,9 +22,13 @@ struct RangesAnywhere {
 
 template <class Ranges>
 std::optional<WorkingProgram> pruned(const WorkingProgram& program, const Ranges& ranges, const ProgramContext& context,
-                                     const Arenas& arenas, bool drops_far_bounds) {
+                                     const Arenas& arenas, bool drops_far_bounds,
+                                     std::span<const RequiredOfLocal>* required = nullptr) {
     const ArenaScope scope(arenas.scratch);
-    return BackwardSweep<Ranges>(program, ranges, context, arenas, drops_far_bounds).run();
+    BackwardSweep<Ranges> sweep(program, ranges, context, arenas, drops_far_bounds);
+    auto result = sweep.run();
+    if (result && required && context.has_local_primitives) *required = sweep.required_of_locals();
+    return result;
 }
 
 }  // namespace
@@ -36,6 +40,13 @@ std::optional<WorkingProgram> prune(const WorkingProgram& program, const ValueRa
 std::optional<WorkingProgram> prune(const WorkingProgram& program, const RangesInBall& ranges,
                                     const ProgramContext& context, const Arenas& arenas) {
     return pruned(program, ranges, context, arenas, false);
+}
+
+std::optional<WorkingProgram> prune(const WorkingProgram& program, const RangesInBall& ranges,
+                                    const ProgramContext& context, const Arenas& arenas,
+                                    std::span<const RequiredOfLocal>& required) {
+    required = {};
+    return pruned(program, ranges, context, arenas, false, &required);
 }
 
 std::optional<WorkingProgram> without_far_bounds(const WorkingProgram& program, const ProgramContext& context,

@@ -5,6 +5,7 @@
 #include "bounding/value_ranges.hpp"
 #include "evaluation/values_at_point.hpp"
 #include "rewriting/program_context.hpp"
+#include "rewriting/specialise.hpp"
 
 /// Pruning deletes what cannot matter in a region of space from a program, in one backward sweep over its instructions
 /// (backward_sweep.hpp) with rules for each operation (operation_rules.hpp). There are two kinds of it.
@@ -29,7 +30,8 @@ namespace phasetree::pruning {
 
 using bounding::ValueRanges;
 using evaluation::ValuesAtPoint;
-using rewriting::Arena, rewriting::Arenas, rewriting::ProgramContext, rewriting::WorkingProgram;
+using rewriting::Arena, rewriting::Arenas, rewriting::ProgramContext, rewriting::RequiredOfLocal,
+    rewriting::WorkingProgram;
 
 /// The range of every value in a ball, by the values at its centre and Lipschitz bounds: |v(p) − v(centre)| ≤ slope ·
 /// radius. Ranges are computed when they are asked for.
@@ -54,6 +56,10 @@ struct RangesInBall {
 /// the distance to where the label changes.
 std::optional<WorkingProgram> prune(const WorkingProgram&, const ValueRanges&, const ProgramContext&, const Arenas&);
 std::optional<WorkingProgram> prune(const WorkingProgram&, const RangesInBall&, const ProgramContext&, const Arenas&);
+/// The same, which also tells how far up the values of local primitives are required. A primitive whose constants
+/// several instructions have is left out, because smaller boxes do not find its specialisation again.
+std::optional<WorkingProgram> prune(const WorkingProgram&, const RangesInBall&, const ProgramContext&, const Arenas&,
+                                    std::span<const RequiredOfLocal>& required);
 
 /// The program without the operations that enlarge distances far from the surface (Op::far_bound), which do not change
 /// any sign. Nothing if it has none, or if no interface is left.

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <optional>
 
+#include "phasetree_support/mixed_hash.hpp"
 #include "program/fused.hpp"
 #include "program/op_traits.hpp"
 
@@ -48,14 +49,23 @@ bool is_short_primitive(Op op) {
 }  // namespace
 
 std::uint32_t Fuser::intern(const void* floats, std::size_t count) {
-    std::string key(count * sizeof(float), '\0');
-    std::memcpy(key.data(), floats, key.size());
-    const auto [entry, is_new] = interned_.try_emplace(std::move(key), static_cast<std::uint32_t>(constants_.size()));
-    if (is_new) {
-        constants_.resize(constants_.size() + count);
-        std::memcpy(&constants_[entry->second], floats, count * sizeof(float));
+    std::uint64_t hash = count;
+    const auto* const bytes = static_cast<const std::byte*>(floats);
+    for (std::size_t i = 0; i < count; ++i) {
+        std::uint32_t word;
+        std::memcpy(&word, bytes + i * sizeof word, sizeof word);
+        hash = support::mixed(hash, word);
     }
-    return entry->second;
+    const auto [begin, end] = interned_.equal_range(hash);
+    for (auto known = begin; known != end; ++known)
+        if (known->second.count == count &&
+            std::memcmp(&constants_[known->second.first], floats, count * sizeof(float)) == 0)
+            return known->second.first;
+    const auto first = static_cast<std::uint32_t>(constants_.size());
+    constants_.resize(constants_.size() + count);
+    std::memcpy(&constants_[first], floats, count * sizeof(float));
+    interned_.emplace(hash, Interned{first, static_cast<std::uint32_t>(count)});
+    return first;
 }
 
 // Finds which points are affine maps of other points, and which numbers are scaled primitives.

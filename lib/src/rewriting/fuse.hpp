@@ -1,7 +1,6 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -54,7 +53,10 @@ class Fuser {
     Instruction fused(std::span<const Instruction> code, std::uint32_t i);
 
     std::vector<float>& constants_;
-    std::unordered_map<std::string, std::uint32_t> interned_;
+    struct Interned {
+        std::uint32_t first, count;
+    };
+    std::unordered_multimap<std::uint64_t, Interned> interned_;  ///< by the hash of the floats
     std::vector<AffineChain> chains_;
     std::vector<ScaledPrimitive> scaled_;
     std::vector<std::uint32_t> uses_;  ///< of each value, how many instructions and outputs use it

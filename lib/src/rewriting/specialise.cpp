@@ -8,12 +8,12 @@
 namespace phasetree::rewriting {
 
 WorkingProgram specialised(const WorkingProgram& program, std::span<const Specialisation> values,
-                           std::vector<float>& floats, Arena& scratch) {
+                           std::vector<float>& floats, Arena& scratch, std::uint32_t first) {
     if (values.empty()) return program;
     const std::span<Instruction> code = scratch.copy(program.code);
     for (const Specialisation& v : values) {
         code[v.value].op = v.op;
-        code[v.value].data = static_cast<std::uint32_t>(floats.size());
+        code[v.value].data = first + static_cast<std::uint32_t>(floats.size());
         floats.insert(floats.end(), v.data.begin(), v.data.end());
     }
     WorkingProgram result = program;

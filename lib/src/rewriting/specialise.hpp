@@ -14,6 +14,13 @@ namespace phasetree::rewriting {
 
 using program::traits;
 
+/// How far up the values of a local primitive are required in a region (pruning/required_interval.hpp): of larger ones
+/// only that they are larger.
+struct RequiredOfLocal {
+    std::uint32_t source;  ///< see Specialisation::source
+    float high;
+};
+
 /// What a local primitive of a program becomes in a box.
 struct Specialisation {
     static constexpr std::uint32_t no_source = 0xffffffff;
@@ -39,9 +46,9 @@ inline bool has_local_primitive(const WorkingProgram& program) {
 }
 
 /// The program with specialised primitives in the place of local ones. Their data are appended to `floats`, and that is
-/// what these instructions' indices of data refer to.
+/// what these instructions' indices of data refer to; `first` is the index of the first of these floats.
 WorkingProgram specialised(const WorkingProgram&, std::span<const Specialisation>, std::vector<float>& floats,
-                           Arena& scratch);
+                           Arena& scratch, std::uint32_t first = 0);
 
 /// Whether a program has a grid of voxels (PatternDataPrimitive).
 inline bool has_grid(const WorkingProgram& program) {

@@ -55,7 +55,7 @@ void check(PhaseSet set, std::string_view node, const Parameter& p) {
 }
 template <class Content>
 void check(const FromFile<Content>& file, std::string_view node, const Parameter& p) {
-    require(file.content != nullptr, node, p, "is missing");
+    require(p.optional || file.content != nullptr, node, p, "is missing");
 }
 template <class Value>
 requires(std::is_same_v<Value, float> || std::is_same_v<Value, glm::vec2> || std::is_same_v<Value, glm::vec3> ||

@@ -11,6 +11,7 @@
 #include "phasetree/nodes/copies/instances.hpp"
 #include "phasetree/nodes/copies/polar_array.hpp"
 #include "phasetree/nodes/copies/scatter.hpp"
+#include "phasetree/nodes/fields/balls.hpp"
 #include "phasetree/nodes/fields/blob.hpp"
 #include "phasetree/nodes/fields/bowl.hpp"
 #include "phasetree/nodes/fields/box.hpp"
@@ -72,6 +73,7 @@
 #include "phasetree/nodes/phased/layered_sequence.hpp"
 #include "phasetree/nodes/phased/layers.hpp"
 #include "phasetree/nodes/phased/over.hpp"
+#include "phasetree/nodes/phased/particles.hpp"
 #include "phasetree/nodes/phased/remove.hpp"
 #include "phasetree/nodes/phased/set.hpp"
 #include "phasetree/nodes/phased/smooth_intersect_shape.hpp"
@@ -117,14 +119,15 @@ using PlainFields =
              SchwarzP, SchwarzD, Displace, FieldInstances, FieldPolarArray, FieldGrid, Polyline, FieldEndlessGrid, Blob,
              VoronoiCells, Siren, HeightMap, Mesh, Volume, FieldFibonacciDisk, FieldFibonacciSphere, FieldScatter,
              Extrude, Revolve, Circle, Rectangle, Star, Slab, BoxFrame, Bowl, Dodecahedron, Icosahedron, Helix,
-             Heightfield, Polygon, Bezier, Formula, Polyhedron, FieldBoundingVolume, FieldProxy, FieldLevelOfDetail>;
+             Heightfield, Polygon, Bezier, Formula, Polyhedron, Balls, FieldBoundingVolume, FieldProxy,
+             FieldLevelOfDetail>;
 
 using Objects =
     TypeList<Set, ThinShell, Under, Over, Layered, IntersectShape, SubtractShape, Change, Remove, Contact, Contacts,
              LayeredSequence, SmoothLayered, UniteShapeBelow, SmoothUniteShape, SmoothUniteShapeBelow,
              SmoothIntersectShape, SmoothSubtractShape, Interface, Interfaces, Checker, Layers, Strata, PhasedInstances,
              PhasedPolarArray, PhasedGrid, PhasedEndlessGrid, Voronoi, Labels, PhasedFibonacciDisk,
-             PhasedFibonacciSphere, PhasedScatter, PhasedBoundingVolume, PhasedProxy, PhasedLevelOfDetail>;
+             PhasedFibonacciSphere, PhasedScatter, Particles, PhasedBoundingVolume, PhasedProxy, PhasedLevelOfDetail>;
 
 // What follows is derived.
 

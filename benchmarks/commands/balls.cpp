@@ -1,0 +1,96 @@
+// Ten thousand to ten million balls as data of one node: does their number matter to a ray, and what do they take?
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include "commands/commands.hpp"
+#include "objects/packing.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/phased/particles.hpp"
+#include "rays/camera_rays.hpp"
+#include "trace/field_scene.hpp"
+
+namespace phasetree::bench {
+
+namespace {
+
+double peak_megabytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) * 1024e-6;
+}
+
+}  // namespace
+
+Report balls(const Settings& settings) {
+    Report report("balls", "lists of balls in four phases");
+    std::vector<std::size_t> counts{10'000, 100'000, 1'000'000, 10'000'000};
+    if (settings.quick) counts.pop_back();
+    struct Object {
+        std::unique_ptr<FieldScene> scene;
+        double preparing_seconds, seconds, peak;
+    };
+    // As grains are: all but the vacuum around them. Cells of ten million take more than the usual two gigabytes allow.
+    const PhaseSet opaque = PhaseSet::of(std::vector{Phase{1}, Phase{2}, Phase{3}, Phase{4}});
+    constexpr std::size_t most_bytes = std::size_t{7} << 29;
+    std::vector<Object> objects;
+    std::vector<double> sizes;
+    for (const std::size_t count : counts) {
+        FromFile<BallList> file{"packing", std::make_shared<const BallList>(packing(count))};
+        sizes.push_back(static_cast<double>(file.content->centres.size()));
+        const double start = seconds(Clock::wall);
+        const Phased object = Particles{.of_phases = {Phase{1}, Phase{2}, Phase{3}, Phase{4}}, .file = std::move(file)};
+        const double prepared = seconds(Clock::wall);
+        Object o{std::make_unique<FieldScene>(object, opaque, BuildQuality::medium, most_bytes), prepared - start, 0,
+                 0};
+        o.seconds = seconds(Clock::wall) - start;
+        o.peak = peak_megabytes();
+        objects.push_back(std::move(o));
+    }
+    const auto camera = camera_for(objects.front().scene->cells().bounds());
+    const Rays rays = camera_rays(camera, settings.width, settings.height);
+    report.say(
+        fmt::format("built by all cores, from the list in memory to Embree's hierarchy, by the clock on the wall; "
+                    "{}×{} camera rays to the first interface, {} thread(s)",
+                    settings.width, settings.height, settings.threads));
+    report.say("peak: the most memory that the process had so far, with the objects of the lines above");
+    std::vector<Contestant> contestants;
+    for (std::size_t i = 0; i < objects.size(); ++i)
+        contestants.push_back(
+            {fmt::format("{:.0f}", sizes[i]), [&, i] { return objects[i].scene->trace(rays, settings.threads); }});
+    const Turns turns = in_turn(contestants, settings.timing());
+    Table table({{"balls", "balls", "{:.0f}"},
+                 {"preparing_seconds", "hierarchy s", "{:.2f}"},
+                 {"seconds", "all s", "{:.2f}"},
+                 {"cells", "cells", "{:.0f}"},
+                 {"megabytes", "cells MB", "{:.0f}"},
+                 {"peak_megabytes", "peak MB", "{:.0f}"},
+                 {"hits", "hits %", "{:.1f}"},
+                 {"batches", "batches", "{:.2f}"},
+                 {"rays_per_second", "Mrays/s", "{:.3f}", 1e-6},
+                 {"ratio", "slower", "{:.2f}"}});
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        const CellStatistics s = objects[i].scene->statistics();
+        const TraceCounters counters = objects[i].scene->counters(rays);
+        const double rate = static_cast<double>(rays.size()) / turns.seconds(i).median;
+        const std::vector<double> numbers{sizes[i],
+                                          objects[i].preparing_seconds,
+                                          objects[i].seconds,
+                                          double(s.cells),
+                                          static_cast<double>(objects[i].scene->bytes()) * 1e-6,
+                                          objects[i].peak,
+                                          100 * double(turns.checksum(i).hits) / double(turns.checksum(i).rays),
+                                          double(counters.batches) / double(rays.size()),
+                                          rate,
+                                          turns.ratio(i, 0).median};
+        table.row({numbers.begin(), numbers.end()});
+    }
+    report.table("counts", table);
+    report.at_most("slowdown of camera rays over the whole range", turns.ratio(objects.size() - 1, 0).median, 2);
+    if (!settings.quick) {
+        report.at_most("seconds to build ten million", objects.back().seconds, 60, "{:.1f}");
+        report.at_most("peak MB of all", objects.back().peak, 4000, "{:.0f}");
+    }
+    return report;
+}
+
+}  // namespace phasetree::bench

@@ -1,0 +1,98 @@
+#pragma once
+
+#include "phasetree/math/found_equation.hpp"
+#include "phasetree/model/from_file.hpp"
+#include "phasetree/nodes/fields/ball_list.hpp"
+#include "phasetree/nodes/fields/ball_tree.hpp"
+#include "phasetree/nodes/fields/profile.hpp"
+
+namespace phasetree {
+
+namespace detail {
+inline constexpr Parameter file_of_balls{
+    "file", "",
+    "The balls: PLY, whose element `vertex` has x, y, z and may have radius and phase, or CSV with a line of those "
+    "names first; in metres, in place of centres.",
+    limits::any, true};
+/// The centres and radii of balls, from one of the two places that they may come from. Throws ModelError.
+std::vector<glm::vec4> given_balls(std::string_view node, const std::vector<glm::vec3>& centres,
+                                   const std::vector<float>& radii, const FromFile<BallList>& file);
+}  // namespace detail
+
+/// The union of up to millions of balls, given as data: exact outside of it, 1-Lipschitz with the right sign inside.
+///
+/// A hierarchy of boxes finds the ball that is nearest to a point. In a small box few balls matter, and they are the
+/// data of the specialised primitive: where only the distance's sign is wanted, those that meet the box.
+struct Balls {
+    static constexpr bool is_field_node = true;
+    static constexpr NodeInfo info{"balls", "", "min over i of |p − cᵢ| − rᵢ",
+                                   "Up to sixteen million balls, united: grains, drops, atoms. Exact outside."};
+    /// More balls than that are not listed for a box.
+    static constexpr std::size_t most_in_box = 64;
+    /// A shader, which has no search, takes no more.
+    static constexpr std::size_t most_of_shader = 2000;
+
+    std::vector<glm::vec3> centres{};
+    std::vector<float> radii{};
+    FromFile<BallList> file{};
+    std::vector<float> table{};  ///< derived: a balls::Tree
+    Bounds box{};                ///< derived
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&Balls::centres, Parameter{"centres", "m", "Of the balls; absent if they are in a file.", limits::any, true});
+        v(&Balls::radii,
+          Parameter{"radii", "m", "Of the balls: one number for all, or one for each centre. A file may have its own.",
+                    limits::positive, true, true});
+        v(&Balls::file, detail::file_of_balls);
+    }
+    /// Throws ModelError, which says what is missing.
+    void prepare();
+
+    std::span<const float> data() const { return table; }
+    template <class T>
+    static T distance(const float* data, const Vec3<T>& p) {
+        return found_equation(
+            p, [&](const Vec3<float>& q) { return balls::Tree::nearest(data, q); },
+            [](const float* ball, const auto& q) { return balls::distance_to(ball, q); },
+            [&](const auto& q) { return balls::ShortList::distance(few_balls(data), q); });
+    }
+    /// The data, if a loop over all balls is bearable; else throws ModelError.
+    static const float* few_balls(const float* data);
+
+    /// See LocalDataPrimitive.
+    struct Specialised {
+        std::vector<float> values{};
+
+        std::span<const float> data() const { return values; }
+        static std::size_t floats(const float* data) { return balls::ShortList::floats(data); }
+        static unsigned half_works(const float* data) {
+            return 2 + 4 * static_cast<unsigned>(balls::ShortList::count(data));
+        }
+        template <class T>
+        static T distance(const float* data, const Vec3<T>& p) {
+            return balls::ShortList::distance(data, p);
+        }
+        static bool is_sound(std::span<const float>);
+    };
+    using Parts = TypeList<Specialised>;
+    /// A rough estimate of the cost of a search for each of eight points, in halves of a simple instruction's.
+    static constexpr unsigned search_half_works = 3000;
+    static bool specialise(const float* data, const PointRange& range, std::span<const float> of,
+                           std::vector<float>& floats) {
+        return specialise(data, range, std::numeric_limits<double>::infinity(), of, floats);
+    }
+    /// See RequiredDataPrimitive: values above `farthest` need not be themselves, as long as they stay above it.
+    static bool specialise(const float* data, const PointRange& range, double farthest, std::span<const float> of,
+                           std::vector<float>& floats) {
+        return balls::Tree::balls_in(data, {range, farthest, most_in_box}, of, floats);
+    }
+
+    double support(const glm::dvec3& d, float level) const { return balls::Tree::support(table.data(), d, level); }
+    Bounds bounds(BoundsQuery&, float level) const {
+        const Bounds b = box.inflated(level);
+        return b.empty() ? Bounds{} : b;
+    }
+};
+
+}  // namespace phasetree

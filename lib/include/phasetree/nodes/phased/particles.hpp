@@ -1,0 +1,66 @@
+#pragma once
+
+#include "phasetree/nodes/fields/balls.hpp"
+#include "phasetree/nodes/phased/combine.hpp"
+
+namespace phasetree {
+
+/// Balls of several phases, given as data. Dₖ is the distance to the balls of phase k; of the balls around a point, the
+/// one with the least |p − c| − r has it, so where two phases overlap they share the overlap along the surface on which
+/// their D are equal, a plane between balls of one size.
+///
+///     φₖ = max(Dₖ, (Dₖ − min over m ≠ k of Dₘ)/2),    φ₀ = −min over k of Dₖ.
+///
+/// Both operands are 1-Lipschitz because the D are. For i ≠ k, φᵢ + φₖ is at least the sum of the second operands,
+/// which is (Dᵢ − min over m ≠ i of Dₘ + Dₖ − min over m ≠ k of Dₘ)/2 ≥ (Dᵢ − Dₖ + Dₖ − Dᵢ)/2 = 0; and φ₀ + φₖ ≥ Dₖ −
+/// min D ≥ 0.
+struct Particles {
+    static constexpr bool is_phased_node = true;
+    static constexpr NodeInfo info{
+        "particles", "",
+        "φₖ = max(Dₖ, (Dₖ − min over m ≠ k of Dₘ)/2),  φ₀ = −min Dₖ,  Dₖ = min over its balls of |p − c| − r",
+        "Up to sixteen million balls of several phases: a packing, a molecule, a foam. Where balls of different phases "
+        "overlap, a point belongs to the one with the least |p − c| − r."};
+
+    std::vector<Phase> of_phases{};
+    std::vector<glm::vec3> centres{};
+    std::vector<float> radii{};
+    FromFile<BallList> file{};
+    std::vector<Balls> groups{};    ///< derived: the balls of each phase; only their tables and boxes are set
+    std::vector<Phase> group_of{};  ///< derived: the phase of each group
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&Particles::of_phases,
+          Parameter{"phases", "",
+                    "With centres: one phase for all balls, or one for each. With a file: those that its column "
+                    "`phase` numbers from 0, or one for all."});
+        v(&Particles::centres,
+          Parameter{"centres", "m", "Of the balls; absent if they are in a file.", limits::any, true});
+        v(&Particles::radii, Parameter{"radii", "m",
+                                       "Of the balls: one number for all, or one for each centre. A file may have its "
+                                       "own.",
+                                       limits::positive, true, true});
+        v(&Particles::file, detail::file_of_balls);
+    }
+    /// Throws ModelError, which says what is missing.
+    void prepare();
+
+    template <class D>
+    Phases<typename D::Scalar> evaluate(D& d, const typename D::Point& p) const {
+        Phases<typename D::Scalar> distances;
+        for (std::size_t k = 0; k < groups.size(); ++k) distances.set(group_of[k].index, d.primitive(groups[k], p));
+        Phases<typename D::Scalar> result;
+        std::optional<typename D::Scalar> least;
+        for_each_phase(distances.present, [&](int i) { least = least ? min(*least, distances[i]) : distances[i]; });
+        detail::minimum_of_others(distances, distances.present, distances.present, [&](int i, const auto& others) {
+            result.set(i, others ? max(distances[i], (distances[i] - *others) * 0.5f) : distances[i]);
+        });
+        result.set(0, -*least);
+        return result;
+    }
+    PhaseSet phases() const { return PhaseSet::of(vacuum) | PhaseSet::of(group_of); }
+    Bounds bounds(BoundsQuery& q, float level) const;
+};
+
+}  // namespace phasetree

@@ -1,0 +1,40 @@
+#include "bounding/balls_in_box.hpp"
+
+#include "bounding/convex_in_box.hpp"
+#include "bounding/nearly_linear.hpp"
+#include "phasetree/nodes/fields/ball_tree.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+
+namespace phasetree::bounding {
+
+namespace {
+
+// Of more balls little is known together that their slope does not tell.
+constexpr std::size_t most_enclosed = 12;
+
+Enclosure enclosed(const float* ball, const Vec3<Enclosure>& q, const Enclosure::Vector& half) {
+    const Vec3<Enclosure> from{q.x - ball[0], q.y - ball[1], q.z - ball[2]};
+    const Sphere sphere{ball[3]};
+    Enclosure result;
+    const std::optional<AffinePoint> affine = AffinePoint::of(from, half);
+    if (!affine || !enclose_convex(sphere, *affine, result)) {
+        result = known_to_be_convex(sphere.distance(from), from);
+        tighten_by_linear_bound(result, half);
+    }
+    result.tighten(half);
+    return result;
+}
+
+}  // namespace
+
+std::optional<Enclosure> balls_in_box(const float* list, const Vec3<Enclosure>& q, const Enclosure::Vector& half) {
+    const std::size_t count = balls::ShortList::count(list);
+    if (count > most_enclosed) return std::nullopt;
+    const float* ball = list + balls::ShortList::head;
+    Enclosure least = enclosed(ball, q, half);
+    for (std::size_t i = 1; i < count; ++i)
+        least = min(least, enclosed(ball += balls::ball_floats, q, half)).tightened(half);
+    return least;
+}
+
+}  // namespace phasetree::bounding

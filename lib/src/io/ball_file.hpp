@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string_view>
+
+#include "phasetree/io/balls.hpp"
+
+namespace phasetree::io {
+
+/// The columns of balls, in the order of BallBuilder's numbers. The last two may be missing.
+inline constexpr std::array<std::string_view, 5> ball_columns{"x", "y", "z", "radius", "phase"};
+
+/// Adds one ball after the other to a list, and says what is wrong with one.
+class BallBuilder {
+  public:
+    BallBuilder(bool has_radius, bool has_phase) : has_radius_(has_radius), has_phase_(has_phase) {}
+
+    /// Adds a ball, given its columns. Returns what is wrong with it, or nothing.
+    std::string_view add(const std::array<double, ball_columns.size()>& columns);
+    BallList& balls() { return balls_; }
+
+  private:
+    bool has_radius_, has_phase_;
+    BallList balls_;
+};
+
+/// Readers of the content of a file, as in mesh_file.hpp.
+BallList read_ball_ply(const std::filesystem::path&, std::string_view content);
+BallList read_ball_csv(const std::filesystem::path&, std::string_view content);
+
+}  // namespace phasetree::io

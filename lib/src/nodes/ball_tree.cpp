@@ -1,0 +1,356 @@
+#include "phasetree/nodes/fields/ball_tree.hpp"
+
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace phasetree::balls {
+
+namespace {
+
+constexpr std::size_t most_in_leaf = 8;
+constexpr std::size_t tallest = 64;                // The tree is balanced, so that it is never so tall.
+constexpr std::size_t few = std::size_t{1} << 15;  // Fewer balls are not worth a task of their own.
+
+// How many balls the first child of a node has.
+std::size_t half(std::size_t count) {
+    return count / 2;
+}
+
+// The number of nodes of a tree over so many balls. On each level all nodes have n balls or n + 1.
+std::size_t nodes_over(std::size_t count) {
+    std::size_t sum = 0, n = count, with_n = 1, with_one_more = 0;
+    for (;;) {
+        sum += with_n + with_one_more;
+        const std::size_t dividing_n = n > most_in_leaf ? with_n : 0;
+        const std::size_t dividing_more = n + 1 > most_in_leaf ? with_one_more : 0;
+        if (dividing_n + dividing_more == 0) return sum;
+        // n becomes n/2 twice, or (n − 1)/2 and (n + 1)/2.
+        const bool is_odd = n % 2 == 1;
+        with_n = is_odd ? dividing_n : 2 * dividing_n + dividing_more;
+        with_one_more = is_odd ? dividing_n + 2 * dividing_more : dividing_more;
+        n /= 2;
+    }
+}
+
+// A tree's parts, found again in its floats.
+struct Parts {
+    const float* balls;
+    float largest;
+    const float* nodes;
+
+    explicit Parts(const float* data)
+        : balls(data + ShortList::head), largest(data[ShortList::floats(data)]), nodes(data + nodes_at(data)) {}
+    static std::size_t nodes_at(const float* data) { return ShortList::floats(data) + 2; }
+    const float* node(std::size_t i) const { return nodes + i * Tree::node_floats; }
+    const float* ball(std::size_t i) const { return balls + i * ball_floats; }
+};
+
+std::size_t index_at(const float* node, std::size_t member) {
+    return static_cast<std::size_t>(node[member]);
+}
+
+// Writes the nodes over a part of the balls, which it sorts for that.
+class Writer {
+  public:
+    Writer(std::vector<glm::vec4>& balls, float* nodes) : balls_(balls), nodes_(nodes) {}
+
+    void write(std::size_t node, std::size_t first, std::size_t count) {
+        float* const to = nodes_ + node * Tree::node_floats;
+        const auto part = std::span(balls_).subspan(first, count);
+        if (count <= most_in_leaf) {
+            std::ranges::sort(part, comes_before);  // for a tree that is the same whatever order the balls had
+            Bounds box;
+            float radius = 0;
+            for (const glm::vec4& b : part) {
+                box = unite(box, {glm::vec3(b), glm::vec3(b)});
+                radius = std::max(radius, b.w);
+            }
+            set(to, box, radius, count, first);
+            return;
+        }
+        divide(part);
+        const std::size_t first_child = node + 1, second_child = first_child + nodes_over(half(count));
+        const auto left = [&] { write(first_child, first, half(count)); };
+        const auto right = [&] { write(second_child, first + half(count), count - half(count)); };
+        if (count > few)
+            tbb::parallel_invoke(left, right);
+        else
+            left(), right();
+        const float *a = nodes_ + first_child * Tree::node_floats, *b = nodes_ + second_child * Tree::node_floats;
+        set(to, unite(box_of(a), box_of(b)), std::max(a[Tree::radius], b[Tree::radius]), 0, second_child);
+    }
+
+    static Bounds box_of(const float* node) {
+        const float *low = node + Tree::low, *high = node + Tree::high;
+        return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
+    }
+
+  private:
+    static bool comes_before(const glm::vec4& a, const glm::vec4& b) {
+        for (int i = 0; i < 4; ++i)
+            if (a[i] != b[i]) return a[i] < b[i];
+        return false;
+    }
+    // Puts one half before the other, along the axis on which the centres are spread most.
+    static void divide(std::span<glm::vec4> part) {
+        Bounds box;
+        for (const glm::vec4& b : part) box = unite(box, {glm::vec3(b), glm::vec3(b)});
+        const glm::vec3 e = box.extent();
+        const int axis = e.x >= e.y && e.x >= e.z ? 0 : e.y >= e.z ? 1 : 2;
+        std::ranges::nth_element(part, part.begin() + static_cast<std::ptrdiff_t>(half(part.size())),
+                                 [axis](const glm::vec4& a, const glm::vec4& b) {
+                                     return a[axis] != b[axis] ? a[axis] < b[axis] : comes_before(a, b);
+                                 });
+    }
+    static void set(float* node, const Bounds& box, float radius, std::size_t count, std::size_t link) {
+        for (int i = 0; i < 3; ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            node[Tree::low + k] = box.low[i];
+            node[Tree::high + k] = box.high[i];
+        }
+        node[Tree::radius] = radius;
+        node[Tree::count] = static_cast<float>(count);
+        node[Tree::link] = static_cast<float>(link);
+    }
+
+    std::vector<glm::vec4>& balls_;
+    float* nodes_;
+};
+
+// A lower bound of the signed distance from a box, or from a point, to the balls below a node.
+template <class Number>
+Number least_distance(const float* node, const std::array<Number, 3>& p, const std::array<Number, 3>& reach) {
+    Number sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Number below = static_cast<Number>(node[Tree::low + i]) - p[i];
+        const Number above = p[i] - static_cast<Number>(node[Tree::high + i]);
+        const Number away = std::max(std::max(below, above) - reach[i], Number{0});
+        sum += away * away;
+    }
+    return std::sqrt(sum) - static_cast<Number>(node[Tree::radius]);
+}
+
+// Visits the leaves, near ones first, that are no farther from p than limit() tells, which may fall meanwhile. Ends
+// when a visit returns false.
+template <class Number, class Limit, class Visit>
+void for_each_leaf(const Parts& parts, const std::array<Number, 3>& p, const std::array<Number, 3>& reach,
+                   const Limit& limit, const Visit& visit) {
+    struct Entry {
+        std::size_t node;
+        Number least;
+    };
+    const auto entry = [&](std::size_t node) { return Entry{node, least_distance(parts.node(node), p, reach)}; };
+    std::array<Entry, tallest> stack;
+    std::size_t depth = 0;
+    stack[depth++] = entry(0);
+    while (depth > 0) {
+        const Entry top = stack[--depth];
+        if (!(top.least <= limit())) continue;
+        const float* node = parts.node(top.node);
+        if (node[Tree::count] != 0) {
+            if (!visit(node)) return;
+            continue;
+        }
+        Entry near = entry(top.node + 1), far = entry(index_at(node, Tree::link));
+        if (far.least < near.least) std::swap(near, far);
+        stack[depth++] = far;
+        stack[depth++] = near;
+    }
+}
+
+// More than the distance from p to a ball can be off by rounding.
+template <class Number>
+Number margin(float largest, const std::array<Number, 3>& p) {
+    const Number far = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+    return static_cast<Number>(2e-6) * (far + static_cast<Number>(largest));
+}
+
+// What is known of the distance from the points of a box to a ball.
+struct InBox {
+    double least, most;
+};
+InBox in_box(const float* ball, const PointRange& box) {
+    double near = 0, far = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double away = std::abs(box.centre[i] - static_cast<double>(ball[i]));
+        const double least = std::max(away - box.reach[i], 0.0), most = away + box.reach[i];
+        near += least * least;
+        far += most * most;
+    }
+    const auto radius = static_cast<double>(ball[3]);
+    return {std::sqrt(near) - radius, std::sqrt(far) - radius};
+}
+
+// The balls that may be the nearest in a box, as far as they are known.
+class Candidates {
+  public:
+    Candidates(const Tree::Wanted& wanted, double margin) : wanted_(wanted), margin_(margin) {}
+
+    void consider(const float* ball) {
+        const InBox known = in_box(ball, wanted_.box);
+        upper_ = std::min(upper_, known.most);
+        if (!nearest_ || known.least < least_) {
+            nearest_ = ball;
+            least_ = known.least;
+        }
+        if (known.least <= limit()) found_.push_back({ball, known.least});
+    }
+    /// No ball that is farther everywhere in the box matters.
+    double limit() const { return std::min(upper_, wanted_.farthest) + margin_; }
+    std::size_t size() const { return found_.size(); }
+    void remove_far() {
+        std::erase_if(found_, [&](const Candidate& c) { return c.least > limit(); });
+    }
+    /// In the order in which they are in memory. If there is none, the nearest that was considered stands for them.
+    void append_to(std::vector<float>& floats) {
+        remove_far();
+        if (found_.empty() && nearest_) found_.push_back({nearest_, least_});
+        std::ranges::sort(found_, {}, &Candidate::ball);
+        floats.push_back(static_cast<float>(found_.size()));
+        for (const Candidate& c : found_) floats.insert(floats.end(), c.ball, c.ball + ball_floats);
+    }
+
+  private:
+    struct Candidate {
+        const float* ball;
+        double least;
+    };
+    const Tree::Wanted& wanted_;
+    double margin_;
+    double upper_ = std::numeric_limits<double>::infinity();  // of the distance to the nearest, anywhere in the box
+    const float* nearest_ = nullptr;
+    double least_ = 0;
+    std::vector<Candidate> found_;
+};
+
+}  // namespace
+
+const float* Tree::nearest(const float* data, const Vec3<float>& point) {
+    const Parts parts(data);
+    const std::array p{point.x, point.y, point.z};
+    const float slack = margin(parts.largest, p);
+    const float* found = nullptr;
+    float least = std::numeric_limits<float>::infinity();
+    for_each_leaf(
+        parts, p, {}, [&] { return least + slack; },
+        [&](const float* leaf) {
+            const float* ball = parts.ball(index_at(leaf, link));
+            for (std::size_t left = index_at(leaf, count); left > 0; --left, ball += ball_floats) {
+                const float distance = distance_to(ball, point);
+                if (!(distance < least || (distance == least && (!found || ball < found)))) continue;
+                least = distance;
+                found = ball;
+            }
+            return true;
+        });
+    return found ? found : parts.balls;  // Where coordinates are infinite, all balls are as far.
+}
+
+bool Tree::balls_in(const float* tree, const Wanted& wanted, std::span<const float> around,
+                    std::vector<float>& floats) {
+    const Parts parts(tree);
+    const auto &centre = wanted.box.centre, &reach = wanted.box.reach;
+    const double slack = 2 * (margin(parts.largest, centre) + 2e-6 * std::max({reach[0], reach[1], reach[2]}));
+    Candidates candidates(wanted, slack);
+    if (!around.empty()) {
+        const float* ball = around.data() + ShortList::head;
+        for (std::size_t left = ShortList::count(around.data()); left > 0; --left, ball += ball_floats)
+            candidates.consider(ball);
+        candidates.append_to(floats);
+        return true;
+    }
+    if (!(slack < 1e12)) return false;
+    bool is_too_many = false, is_any = false;
+    for_each_leaf(
+        parts, centre, reach,
+        // As long as there is no ball at all, one that is too far is looked for.
+        [&] { return is_any ? candidates.limit() : std::numeric_limits<double>::infinity(); },
+        [&](const float* leaf) {
+            is_any = true;
+            const float* ball = parts.ball(index_at(leaf, link));
+            for (std::size_t left = index_at(leaf, count); left > 0; --left, ball += ball_floats)
+                candidates.consider(ball);
+            // The near leaves come first, so what is left of many after some leaves is likely to stay.
+            if (candidates.size() > 4 * wanted.most) {
+                candidates.remove_far();
+                is_too_many = candidates.size() > 2 * wanted.most;
+            }
+            return !is_too_many;
+        });
+    if (is_too_many) return false;
+    candidates.remove_far();
+    if (candidates.size() > wanted.most) return false;
+    candidates.append_to(floats);
+    return true;
+}
+
+double Tree::support(const float* data, const glm::dvec3& d, float more) {
+    const Parts parts(data);
+    const double length = glm::length(d);
+    // The most that a node's box allows, by which the search is ordered and ends.
+    const auto bound = [&](const float* node) {
+        const Bounds box = Writer::box_of(node);
+        double sum = length * static_cast<double>(node[radius] + more);
+        for (int i = 0; i < 3; ++i)
+            sum += std::max(d[i] * static_cast<double>(box.low[i]), d[i] * static_cast<double>(box.high[i]));
+        return sum;
+    };
+    double most = -std::numeric_limits<double>::infinity();
+    std::array<std::size_t, tallest> stack;
+    std::size_t depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+        const std::size_t at = stack[--depth];
+        const float* node = parts.node(at);
+        if (!(bound(node) > most)) continue;
+        if (node[count] == 0) {
+            std::size_t near = at + 1, far = index_at(node, link);
+            if (bound(parts.node(far)) > bound(parts.node(near))) std::swap(near, far);
+            stack[depth++] = far;
+            stack[depth++] = near;
+            continue;
+        }
+        const float* ball = parts.ball(index_at(node, link));
+        for (std::size_t left = index_at(node, count); left > 0; --left, ball += ball_floats)
+            most = std::max(most, glm::dot(d, glm::dvec3(ball[0], ball[1], ball[2])) +
+                                      length * static_cast<double>(ball[3] + more));
+    }
+    return most;
+}
+
+std::vector<float> make_tree(std::vector<glm::vec4> balls) {
+    const std::size_t nodes = nodes_over(balls.size());
+    std::vector<float> table(ShortList::head + balls.size() * ball_floats + 2 + nodes * Tree::node_floats);
+    table[0] = static_cast<float>(balls.size());
+    float* const nodes_to = table.data() + Parts::nodes_at(table.data());
+    Writer(balls, nodes_to).write(0, 0, balls.size());
+    float largest = 0;
+    float* to = table.data() + ShortList::head;
+    for (const glm::vec4& b : balls) {
+        for (int i = 0; i < 4; ++i) *to++ = b[i];
+        largest = std::max({largest, std::abs(b.x), std::abs(b.y), std::abs(b.z), b.w});
+    }
+    to[0] = largest;
+    to[1] = static_cast<float>(nodes);
+    return table;
+}
+
+Bounds bounds_of(const float* tree) {
+    glm::vec3 low, high;
+    for (int i = 0; i < 3; ++i) {
+        glm::dvec3 axis(0);
+        axis[i] = 1;
+        // The box holds the exact one, whichever way floats are rounded.
+        const double most = Tree::support(tree, axis, 0), least = -Tree::support(tree, -axis, 0);
+        high[i] = std::nextafter(static_cast<float>(most), std::numeric_limits<float>::infinity());
+        low[i] = std::nextafter(static_cast<float>(least), -std::numeric_limits<float>::infinity());
+    }
+    return {low, high};
+}
+
+}  // namespace phasetree::balls
