@@ -71,7 +71,7 @@ struct RandomProgram {
         const std::uint32_t other = any(), a = rng.chance(0.5) ? late : other, b = a == late ? other : late;
         const float of_a = lipschitz[a], of_b = lipschitz[b], steeper = std::max(of_a, of_b);
         const auto constant = [&](float low, float high) { return std::array{rng.uniform(low, high)}; };
-        switch (rng.below(16)) {
+        switch (rng.below(17)) {
             case 0:
                 return add(Op::negate, late, 0, {}, lipschitz[late]);
             case 1:
@@ -102,6 +102,8 @@ struct RandomProgram {
                 return add(Op::corner, a, b, {}, of_a + of_b);
             case 13:
                 return add(Op::maximum, a, b, {}, steeper);
+            case 14:
+                return add(Op::nearer, a, b, {}, steeper);
             default:
                 return add(Op::minimum, a, b, {}, steeper);
         }
@@ -134,6 +136,7 @@ std::vector<float> values(std::span<const Instruction> code, std::span<const flo
         if (in.op == Op::guarded) v[i] = guarded(a, b, *c);
         if (in.op == Op::falloff) v[i] = falloff(a, *c);
         if (in.op == Op::corner) v[i] = corner(a, b);
+        if (in.op == Op::nearer) v[i] = nearer(a, b);
     }
     return v;
 }

@@ -67,6 +67,9 @@ class Cutter {
                 // Up to 0 it is the maximum; above 0 it is no less than either operand.
                 if (tau <= 0) return of_extremum(Side::below, set, box, already_cut);
                 return by_plane(set, side == Side::above ? box : of_both(in, Side::below, tau, box));
+            case Op::nearer:
+                // It is no less than the first operand.
+                return by_plane(set, side == Side::above ? box : box_around({in.a, Side::below, tau}, box));
             case Op::smooth_minimum:
                 // It is no more than either operand.
                 return by_plane(set, side == Side::below ? box : of_both(in, Side::above, tau, box));

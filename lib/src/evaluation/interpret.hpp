@@ -92,6 +92,9 @@ void interpret(const Steps& steps, T* registers, Distance&& distance, Done&& don
             case Op::corner:
                 to = corner(a, b);
                 break;
+            case Op::nearer:
+                to = nearer(a, b);
+                break;
             default: {
                 const PointInRegisters<T> input{registers, s.a};
                 const std::uint32_t index = s.op - first_primitive;

@@ -54,6 +54,7 @@ struct Simple {
         if constexpr (op == Op::guarded) store(guarded(load(a), load(b), *constants), to);
         if constexpr (op == Op::falloff) store(falloff(load(a), *constants), to);
         if constexpr (op == Op::corner) store(corner(load(a), load(b)), to);
+        if constexpr (op == Op::nearer) store(nearer(load(a), load(b)), to);
     }
 };
 

@@ -44,7 +44,7 @@ constexpr auto all_traits() {
     const auto of = [&](Op op) -> OpTraits& { return all[static_cast<std::size_t>(op)]; };
     of(Op::input) = {.operands = 0, .gives_point = true};
     for (const Op op : {Op::add, Op::subtract, Op::minimum, Op::maximum, Op::far_bound, Op::far_bound_inside,
-                        Op::smooth_minimum, Op::guarded, Op::corner})
+                        Op::smooth_minimum, Op::guarded, Op::corner, Op::nearer})
         of(op).operands = 2;
     for (const Op op :
          {Op::add_constant, Op::constant_minus, Op::multiply_constant, Op::smooth_minimum, Op::guarded, Op::falloff})

@@ -83,6 +83,9 @@ inline Recorded smooth_min(Recorded a, Recorded b, float r) {
 inline Recorded smooth_max(Recorded a, Recorded b, float r) {
     return -smooth_min(-a, -b, r);
 }
+inline Recorded nearer(Recorded a, Recorded b) {
+    return emit(Op::nearer, a, b, steeper(a, b));
+}
 /// The result is as steep as the bound alone, because it is the bound wherever f is steeper (math/number.hpp).
 inline Recorded guarded(Recorded bound, Recorded f, float far) {
     return emit(Op::guarded, bound, f, far, bound.lipschitz());

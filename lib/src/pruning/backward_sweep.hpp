@@ -167,6 +167,7 @@ class BackwardSweep {
     void resolve_sum(std::uint32_t i);
     void resolve_difference(std::uint32_t i);
     void resolve_corner(std::uint32_t i);
+    void resolve_nearer(std::uint32_t i);
     void resolve_absolute(std::uint32_t i);
     void resolve_product(std::uint32_t i);
     struct Choice {

@@ -37,6 +37,8 @@ void BackwardSweep<Ranges>::resolve(std::uint32_t i) {
             return resolve_difference(i);
         case Op::corner:
             return resolve_corner(i);
+        case Op::nearer:
+            return resolve_nearer(i);
         case Op::absolute:
             return resolve_absolute(i);
         case Op::negate:
@@ -193,6 +195,25 @@ void BackwardSweep<Ranges>::resolve_corner(std::uint32_t i) {
     // value of the other, nor above r.
     require(in.a, {std::max(least, std::min(low(in.b), 0.f)), r.high()});
     require(in.b, {std::max(least, std::min(low(in.a), 0.f)), r.high()});
+}
+
+/// max(a, (a − b)/2) is negative where a is negative and less than b.
+template <class Ranges>
+void BackwardSweep<Ranges>::resolve_nearer(std::uint32_t i) {
+    const Instruction& in = program_.code[i];
+    const RequiredInterval r = required_[i];
+    // It is no less than a, so it is above r where a is.
+    if (low(in.a) > r.high()) return replace(i, in.a);
+    if (!r.is_sign()) {
+        require(in.a, RequiredInterval::all());
+        return require(in.b, RequiredInterval::all());
+    }
+    // Where b is positive or above a, the sign is that of a.
+    if (low(in.b) > 0 || is_above(in.b, in.a)) return replace(i, in.a);
+    // Both matter only where they are negative, and then neither below the smallest value of the other: that is below
+    // all that the other can be, and so the smaller of the two.
+    require(in.a, {std::min(low(in.b), 0.f), 0});
+    require(in.b, {std::min(low(in.a), 0.f), 0});
 }
 
 template <class Ranges>

@@ -92,6 +92,13 @@ T far_bound_inside(const T& f, const T& bound) {
     return min(f, bound);
 }
 
+/// The solid a where no solid b is nearer: max(a, (a − b)/2). It is negative where a is negative and less than b, and as
+/// steep as the steeper of the two.
+template <class T>
+T nearer(const T& a, const T& b) {
+    return max(a, (a - b) * 0.5f);
+}
+
 /// The contribution of a skeleton at the distance d to a blob: (1 − (d/R)²)³, zero beyond R (Wyvill et al., "Data
 /// Structure for Soft Objects", 1986, with the square for their cubic).
 template <class T>

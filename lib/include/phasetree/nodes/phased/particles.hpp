@@ -54,7 +54,7 @@ struct Particles {
         std::optional<typename D::Scalar> least;
         for_each_phase(distances.present, [&](int i) { least = least ? min(*least, distances[i]) : distances[i]; });
         detail::minimum_of_others(distances, distances.present, distances.present, [&](int i, const auto& others) {
-            result.set(i, others ? max(distances[i], (distances[i] - *others) * 0.5f) : distances[i]);
+            result.set(i, others ? nearer(distances[i], *others) : distances[i]);
         });
         result.set(0, -*least);
         return result;
