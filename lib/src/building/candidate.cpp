@@ -11,7 +11,8 @@ namespace phasetree::building {
 
 using bounding::Encloser, bounding::InterfaceBounds, bounding::ValueRanges;
 using pruning::prune, pruning::without_far_bounds;
-using rewriting::ArenaScope, rewriting::has_grid, rewriting::has_local_primitive;
+using rewriting::ArenaScope, rewriting::finest_spacing, rewriting::has_grid, rewriting::has_local_primitive,
+    rewriting::work_of_parts;
 
 namespace {
 
@@ -90,21 +91,19 @@ class CandidateSearch {
         const float blocks = has_blocks ? std::max(1.f, size / node_.pattern_period) : 1.f;
         const float repetitions = (1 + 4 * size / node_.fold_period) * blocks;
         cell.work = work(cell.program, context_.program.constants, cell.specialisations, worker_.scratch);
-        cell.is_searched = has_many_parts(cell);
-        cell.parts = cell.is_searched ? 0 : listed_parts(cell);
         cell.cost = repetitions * cost(cell.facts, cell.program, cell.work, context_.program.opaque);
+        if (!context_.program.has_local_primitives) return;
+        const bool is_searched = has_search(cell);
+        // What joins the lists of several phases is some two dozen instructions.
+        const float of_parts = work_of_parts(cell.program, cell.specialisations);
+        if (!is_searched && 4 * of_parts + 24 >= cell.work.all) cell.work_of_parts = of_parts;
+        // In a box of three by three by three parts, lists are short enough; unless what is wanted is far from them, as
+        // a wide wall around a mesh is, and then smaller boxes would be very many.
+        cell.is_searched = is_searched && size > 3 * finest_spacing(cell.program, context_.program.constants);
     }
 
-    // The parts of specialised lists, two simple instructions each (Balls::Specialised), unless they are less than
-    // about a quarter of the work; what joins the lists of several phases is some two dozen instructions.
-    std::size_t listed_parts(const Candidate& cell) const {
-        std::size_t sum = 0;
-        for (const Specialisation& s : cell.specialisations)
-            if (program::traits(cell.program.code[s.value].op).is_many) sum += static_cast<std::size_t>(s.data[0]);
-        return static_cast<float>(8 * sum + 24) >= cell.work.all ? sum : 0;
-    }
-    bool has_many_parts(const Candidate& cell) const {
-        if (!context_.program.has_local_primitives) return false;
+    // Whether a primitive of many parts has no list of those that matter.
+    bool has_search(const Candidate& cell) const {
         const std::span<const Instruction> code = cell.program.code;
         for (std::uint32_t i = 1; i < code.size(); ++i)
             if (program::traits(code[i].op).is_many &&

@@ -17,10 +17,11 @@ struct Candidate {
     std::span<const Specialisation> specialisations{};
     Work work{};
     float cost = 0;
-    /// Whether each sample in it is a search among many parts (OpTraits::is_many), because too many are in the box.
+    /// Whether each sample in it is a search among many parts (PrimitiveOfParts), because too many matter in the box,
+    /// and the box is so large that few will in smaller ones.
     bool is_searched = false;
-    /// How many of such parts are in the box, if much of its work is theirs and none is searched; else 0.
-    std::size_t parts = 0;
+    /// The work of the lists of parts, if it is much of all its work and none is searched; else 0.
+    float work_of_parts = 0;
 };
 
 /// A box of the recursive subdivision, with what is left of the object's program in it.

@@ -60,6 +60,7 @@ struct CellBuffer {
     }
 
   private:
+    friend class CellBuffers;
     template <class F>
     void for_each_vector(const Mark&, F&&);
 };

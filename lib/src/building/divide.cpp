@@ -73,11 +73,12 @@ bool is_final(const BuildNode& node, const BuildContext& context, CellBudget& bu
     const float saving = required_saving(
         context.options.quality,
         {diagonal / context.size, cell.program.outputs.size() > 2, cell.facts.curvature.bound[0] < Curvature::unknown});
-    // Lists of millions would be divided until they took all memory there is; a list as short as this costs a ray about
-    // what entering another cell does.
-    constexpr std::size_t few_parts = 16;
+    // Lists of millions would be divided until they took all memory there is. A ray gains little by shorter ones than
+    // this, and there are eight times as many of them (benchmarks/experiments.md).
+    constexpr float short_list = 192;
     constexpr int divided_in_any_case = 3;  // levels
-    const bool has_few_parts = cell.parts > 0 && cell.parts <= few_parts && node.depth >= divided_in_any_case;
+    const bool has_few_parts =
+        cell.work_of_parts > 0 && cell.work_of_parts <= short_list && node.depth >= divided_in_any_case;
     const bool is_small = diagonal < 64 * context.reach;
     // is_worth_dividing() must come last, because it notes the saving that it refuses: that of a box which would be
     // divided if there were more memory.

@@ -289,6 +289,15 @@ bool Tree::balls_in(const float* tree, const Wanted& wanted, std::span<const flo
     return true;
 }
 
+float Tree::spacing(const float* data) {
+    const float* root = Parts(data).node(0);
+    double volume = 1;
+    for (std::size_t i = 0; i < 3; ++i)
+        volume *= static_cast<double>(root[high + i]) - static_cast<double>(root[low + i]) +
+                  2 * static_cast<double>(root[radius]);
+    return static_cast<float>(std::cbrt(volume / static_cast<double>(ShortList::count(data))));
+}
+
 double Tree::support(const float* data, const glm::dvec3& d, float more) {
     const Parts parts(data);
     const double length = glm::length(d);

@@ -30,7 +30,7 @@ constexpr void mark_patterns(TypeList<Ps...>, auto& all) {
             OpTraits& local = traits_of(all, op_of<P>());
             local.is_local = true;
             local.half_works = 800;  // a rough estimate of the cost of all sites of a Voronoi pattern
-            local.is_many = RequiredDataPrimitive<P>;
+            local.is_many = PrimitiveOfParts<P>;
             traits_of(all, op_of<typename P::Specialised>()).is_specialised = true;
         }
         if constexpr (requires { P::search_half_works; }) traits_of(all, op_of<P>()).half_works = P::search_half_works;

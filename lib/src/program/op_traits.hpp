@@ -19,7 +19,7 @@ struct OpTraits {
     bool is_pattern = false;         ///< a PatternPrimitive, or one with data
     bool is_grid = false;            ///< a PatternDataPrimitive
     bool is_local = false;           ///< a LocalPrimitive
-    bool is_many = false;            ///< a RequiredDataPrimitive, whose data are many parts
+    bool is_many = false;            ///< a PrimitiveOfParts
     bool is_specialised = false;     ///< the form that a LocalPrimitive takes in a small box
 };
 /// There are no more operations than this, those of fused.hpp included.

@@ -41,6 +41,31 @@ float finest_pattern(const WorkingProgram& program, std::span<const float> const
     return finest;
 }
 
+float finest_spacing(const WorkingProgram& program, std::span<const float> constants) {
+    float finest = Bounds::infinity;
+    for (const Instruction& in : program.code) {
+        if (!traits(in.op).is_many) continue;
+        const auto op = static_cast<std::uint32_t>(in.op) - static_cast<std::uint32_t>(Op::first_primitive);
+        program::dispatch(DataPrimitives(), op - static_cast<std::uint32_t>(Primitives::size), [&]<class P>() {
+            if constexpr (PrimitiveOfParts<P>)
+                finest = std::min(finest, P::spacing(&constants[in.data]) / program.lipschitz[in.a]);
+        });
+    }
+    return finest;
+}
+
+float work_of_parts(const WorkingProgram& program, std::span<const Specialisation> specialisations) {
+    unsigned halves = 0;
+    for (const Specialisation& s : specialisations) {
+        if (!traits(program.code[s.value].op).is_many) continue;
+        const auto op = static_cast<std::uint32_t>(s.op) - static_cast<std::uint32_t>(Op::first_primitive);
+        program::dispatch(DataPrimitives(), op - static_cast<std::uint32_t>(Primitives::size), [&]<class P>() {
+            if constexpr (requires { P::half_works(s.data.data()); }) halves += P::half_works(s.data.data());
+        });
+    }
+    return 0.5f * static_cast<float>(halves);
+}
+
 std::span<const float> data_of_specialised(Op op, std::span<const float> floats) {
     std::size_t count = 0;
     const std::uint32_t index = static_cast<std::uint32_t>(op) - static_cast<std::uint32_t>(Op::first_primitive);

@@ -59,6 +59,13 @@ inline bool has_grid(const WorkingProgram& program) {
 /// by the slope of the map into the pattern's own space. Infinity if the program has no pattern.
 float finest_pattern(const WorkingProgram&, std::span<const float> constants);
 
+/// How far apart the parts of a program's primitives of parts are at least, in the object's space (PrimitiveOfParts).
+/// Infinity if it has no such primitive.
+float finest_spacing(const WorkingProgram&, std::span<const float> constants);
+
+/// How much work those specialised primitives are that stand for primitives of parts, in simple instructions.
+float work_of_parts(const WorkingProgram&, std::span<const Specialisation>);
+
 /// The data of an instruction that specialised() has made: the first of `floats`.
 std::span<const float> data_of_specialised(Op, std::span<const float> floats);
 

@@ -60,6 +60,9 @@ struct Tree {
     /// not empty, in that list of a box around; of those there are never too many. The list has one ball at least.
     static bool balls_in(const float* tree, const Wanted&, std::span<const float> around, std::vector<float>& floats);
 
+    /// The side of a cube of which as many as there are balls fill the box around them.
+    static float spacing(const float* data);
+
     /// The largest d·p over all balls, of which the radii are larger by so much.
     static double support(const float* data, const glm::dvec3& d, float more);
 };

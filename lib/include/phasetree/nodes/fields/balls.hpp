@@ -28,7 +28,7 @@ struct Balls {
     static constexpr NodeInfo info{"balls", "", "min over i of |p − cᵢ| − rᵢ",
                                    "Up to sixteen million balls, united: grains, drops, atoms. Exact outside."};
     /// More balls than that are not listed for a box.
-    static constexpr std::size_t most_in_box = 64;
+    static constexpr std::size_t most_in_box = 96;
     /// A shader, which has no search, takes no more.
     static constexpr std::size_t most_of_shader = 2000;
 
@@ -76,6 +76,8 @@ struct Balls {
         static bool is_sound(std::span<const float>);
     };
     using Parts = TypeList<Specialised>;
+    /// About the distance between the centres of neighbours, if the balls fill their box.
+    static float spacing(const float* data) { return balls::Tree::spacing(data); }
     /// A rough estimate of the cost of a search for each of eight points, in halves of a simple instruction's.
     static constexpr unsigned search_half_works = 3000;
     static bool specialise(const float* data, const PointRange& range, std::span<const float> of,

@@ -73,6 +73,12 @@ struct Mesh {
         static bool is_sound(std::span<const float>);
     };
     using Parts = TypeList<Specialised>;
+    /// About the distance between the middles of two triangles, if they cover what a sphere in the mesh's box would.
+    static float spacing(const float* data) {
+        const float* box = data + mesh::piece_kinds;
+        const auto triangles = static_cast<float>(mesh::PieceList::count(data, mesh::PieceKind::face));
+        return 2 * std::hypot(box[3], box[4], box[5]) / std::sqrt(triangles);
+    }
     /// A rough estimate of the cost of a search for each of eight points, in halves of a simple instruction's.
     static constexpr unsigned search_half_works = 3000;
     static bool specialise(const float* data, const PointRange& range, std::span<const float> of,
