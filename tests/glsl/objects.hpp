@@ -47,7 +47,9 @@ inline Phased read_example(const std::filesystem::path& example) {
                               },
                               [](const std::filesystem::path&, const std::string&) {
                                   Random rng(2);
-                                  return random_labels(rng, 3);
+                                  LabelGrid grid = random_labels(rng, 3);
+                                  grid.has_spacing = false;  // as images have none
+                                  return grid;
                               }};
     return read_tree(Document::from_text(scene, (folder / "studio.json").string()), readers).object;
 }

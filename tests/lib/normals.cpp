@@ -107,6 +107,7 @@ Solids every_primitive() {
     s.add(Bowl{.radius = 1, .cut = 0, .thickness = 0.25f});
     s.add(Dodecahedron{.radius = 1});
     s.add(Icosahedron{.radius = 1});
+    s.add(Balls{.centres = {{-0.25f, 0, 0}, {0.25f, 0, 0}, {0, 0.5f, 0}}, .radii = {0.25f}});
     s.add(Mesh{.file = held(octahedron_mesh())});
     s.add(Helix{.radius = 0.5f, .pitch = 0.5f, .turns = 2, .wire = 0.125f});
     s.add(Heightfield{.size = 1, .amplitude = 0.25f});

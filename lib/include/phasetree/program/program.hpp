@@ -27,7 +27,7 @@ enum class Op : std::uint16_t {
     guarded,            ///< max(a, min(b, c − a))
     falloff,            ///< (1 − (a/c)²)³, zero for a > c
     corner,  ///< |(max(a, 0), max(b, 0))| + min(max(a, b), 0), where a and b vary along orthogonal directions
-    nearer,  ///< max(a, (a − b)/2)
+    nearer,  ///< max((a − b)/2, a)
     first_primitive
 };
 
