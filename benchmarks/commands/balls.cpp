@@ -29,9 +29,8 @@ Report balls(const Settings& settings) {
         std::unique_ptr<FieldScene> scene;
         double balls, preparing_seconds, seconds;
     };
-    // As grains are: all but the vacuum around them. Cells of ten million take more than the usual two gigabytes allow.
+    // As grains are: all but the vacuum around them.
     const PhaseSet opaque = PhaseSet::of(std::vector{Phase{1}, Phase{2}, Phase{3}, Phase{4}});
-    constexpr std::size_t most_bytes = std::size_t{7} << 29;
     // The largest comes first, so that the most memory that the process ever had by then is its own.
     std::vector<Object> objects(counts.size());
     double peak_of_largest = 0;
@@ -41,8 +40,7 @@ Report balls(const Settings& settings) {
         const double start = seconds(Clock::wall);
         const Phased object = Particles{.of_phases = {Phase{1}, Phase{2}, Phase{3}, Phase{4}}, .file = std::move(file)};
         const double prepared = seconds(Clock::wall);
-        objects[i] = {std::make_unique<FieldScene>(object, opaque, BuildQuality::medium, most_bytes), balls,
-                      prepared - start, 0};
+        objects[i] = {std::make_unique<FieldScene>(object, opaque), balls, prepared - start, 0};
         objects[i].seconds = seconds(Clock::wall) - start;
         if (i + 1 == counts.size()) peak_of_largest = peak_megabytes();
     }

@@ -2,9 +2,8 @@
 
 namespace phasetree::bench {
 
-FieldScene::FieldScene(const Phased& object, PhaseSet opaque, BuildQuality quality, std::size_t most_bytes)
-    : FieldScene(std::make_shared<const InterfaceCells>(
-                     object, CellOptions{.quality = quality, .opaque = opaque, .most_bytes = most_bytes}),
+FieldScene::FieldScene(const Phased& object, PhaseSet opaque, BuildQuality quality)
+    : FieldScene(std::make_shared<const InterfaceCells>(object, CellOptions{.quality = quality, .opaque = opaque}),
                  std::nullopt) {}
 
 FieldScene::FieldScene(const FieldScene& object, float ground)

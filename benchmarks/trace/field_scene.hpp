@@ -9,9 +9,8 @@ namespace phasetree::bench {
 
 class FieldScene {
   public:
-    // `opaque`, `quality` and `most_bytes`: see CellOptions.
-    explicit FieldScene(const Phased& object, PhaseSet opaque = {}, BuildQuality quality = BuildQuality::medium,
-                        std::size_t most_bytes = 0);
+    // `opaque` and `quality`: see CellOptions.
+    explicit FieldScene(const Phased& object, PhaseSet opaque = {}, BuildQuality quality = BuildQuality::medium);
     // The same cells, beside two large triangles at a height.
     FieldScene(const FieldScene& object, float ground);
 

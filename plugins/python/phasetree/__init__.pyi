@@ -1781,6 +1781,16 @@ def polyhedron(normals: Sequence[Sequence[float]] | np.ndarray, offsets: float |
     offsets: How far each plane is from the origin along its normal, h; one number for all, or as many as there are planes. (number or list of numbers in m)
     """
 
+def balls(centres: Sequence[Sequence[float]] | np.ndarray | None = ..., radii: float | Sequence[float] | None = ..., file: str | PathLike[str] | None = ...) -> Field:
+    r"""Up to sixteen million balls, united: grains, drops, atoms. Exact outside.
+
+        min over i of |p − cᵢ| − rᵢ
+
+    centres: Of the balls; absent if they are in a file. (list of [x, y, z]s in m; default [])
+    radii: Of the balls: one number for all, or one for each centre. A file may have its own. (number or list of numbers in m; positive; default [])
+    file: The balls: PLY, whose element `vertex` has x, y, z and may have radius and phase, or CSV with a line of those names first; in metres, in place of centres. (name of a file; default none)
+    """
+
 @overload
 def bounding_volume(of: Field, margin: float, volume: Field | Expression | None = ...) -> Field:
     r"""A field or an object, and a volume around it whose distance stands in far away. What sticks out of the volume is cut off.
@@ -2171,6 +2181,17 @@ def labels(file: str | PathLike[str], phases: Sequence[Phase | str], values: Seq
     spacing: From voxel to voxel along x, y and z: of images. A grid of OpenVDB has its own. ([x, y, z] in m; zero or more; default [0, 0, 0])
     smoothing: σ of the blur: 0 for none, when interfaces show the voxels' steps. (number in voxels; at least 0 and at most 4; default 1)
     grid: Which of an OpenVDB file's grids; needed if it has several of whole numbers. (text; default "")
+    """
+
+def particles(phases: Sequence[Phase | str], centres: Sequence[Sequence[float]] | np.ndarray | None = ..., radii: float | Sequence[float] | None = ..., file: str | PathLike[str] | None = ...) -> Object:
+    r"""Up to sixteen million balls of several phases: a packing, a molecule, a foam. Where balls of different phases overlap, a point belongs to the one with the least |p − c| − r.
+
+        φₖ = max(Dₖ, (Dₖ − min over m ≠ k of Dₘ)/2),  φ₀ = −min Dₖ,  Dₖ = min over its balls of |p − c| − r
+
+    phases: With centres: one phase for all balls, or one for each. With a file: those that its column `phase` numbers from 0, or one for all. (list of phases)
+    centres: Of the balls; absent if they are in a file. (list of [x, y, z]s in m; default [])
+    radii: Of the balls: one number for all, or one for each centre. A file may have its own. (number or list of numbers in m; positive; default [])
+    file: The balls: PLY, whose element `vertex` has x, y, z and may have radius and phase, or CSV with a line of those names first; in metres, in place of centres. (name of a file; default none)
     """
 
 @overload
