@@ -9,6 +9,7 @@ namespace phasetree::fuzz {
 namespace {
 
 constexpr Target list[] = {
+    {"balls", Inputs::bytes, 4096, 5000, "", run_balls},
     {"calls", Inputs::bytes, 1024, 10000, "", run_calls},
     {"color_config", Inputs::lines, 16384, 500, "tracer/color", run_color_config},
     {"image", Inputs::bytes, 16384, 500, "", run_image},

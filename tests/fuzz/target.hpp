@@ -42,6 +42,7 @@ inline void promised(bool holds, const char* promise) {
     if (!holds) broken(promise);
 }
 
+void run_balls(Bytes);
 void run_calls(Bytes);
 void run_color_config(Bytes);
 void run_image(Bytes);

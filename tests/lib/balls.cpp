@@ -179,3 +179,14 @@ TEST_CASE("what are no balls is refused, with the place") {
     CHECK(said_of(Particles{.of_phases = {Phase{1}, Phase{2}}, .file = held({two, {1, 1}, {}})}) ==
           "particles: balls has no column \"phase\", so \"phases\" must be one for all balls");
 }
+
+TEST_CASE("what balls and particles derive is counted, of a list in the scene and of one in a file") {
+    Random rng(398);
+    const BallList list = random_balls(rng, 1000);
+    const std::size_t own = 16 * list.centres.size();
+    const Field given = Balls{.centres = list.centres, .radii = list.radii}, taken = Balls{.file = held(list)};
+    CHECK(statistics(given).bytes > 2 * own);
+    CHECK(statistics(taken).bytes > own + list.bytes());
+    const Phased particles = Particles{.of_phases = {Phase{1}, Phase{2}, Phase{3}, Phase{4}}, .file = held(list)};
+    CHECK(statistics(particles).bytes > own + list.bytes());
+}

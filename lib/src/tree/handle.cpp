@@ -36,7 +36,8 @@ void count(const Handle& handle, std::unordered_set<const void*>& seen, TreeStat
             s.bytes += sizeof(n) + 2 * sizeof(void*);
             for_each_parameter(n, [&](const auto& value, const Parameter&) {
                 if constexpr (requires { value.capacity(); }) s.bytes += value.size() * sizeof(value[0]);
-                if constexpr (requires { value.content; }) s.bytes += value.content->bytes();
+                if constexpr (requires { value.content; })
+                    if (value.content) s.bytes += value.content->bytes();
             });
             // What nodes derive from their parameters and keep counts, too.
             if constexpr (requires { n.data(); }) s.bytes += n.data().size_bytes();
@@ -46,6 +47,10 @@ void count(const Handle& handle, std::unordered_set<const void*>& seen, TreeStat
             if constexpr (requires { n.heights; }) s.bytes += n.heights.size() * sizeof(n.heights[0]);
             if constexpr (requires { n.terms; })
                 for (const auto& term : n.terms) s.bytes += sizeof(term) + term.data().size_bytes();
+            if constexpr (requires { n.groups; })
+                for (const auto& group : n.groups) s.bytes += sizeof(group) + group.data().size_bytes();
+            if constexpr (requires { n.parts[0].depth; })
+                for (const auto& part : n.parts) s.bytes += sizeof(part) + part.depth->bytes();
             if constexpr (requires { n.segments; }) s.bytes += n.segments.size() * sizeof(n.segments[0]);
             for_each_child(n, [&](const auto& child) { count(child, seen, s); });
         },
