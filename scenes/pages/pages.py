@@ -206,7 +206,13 @@ def main():
         print("| scene | kB | opens in | a moving frame |\n|---|---|---|---|")
     for name in options.scenes or gallery():
         page = options.folder / f"{name}.html"
-        subprocess.run([options.command, "export", str(SCENES / f"{name}.json"), "-o", str(page)], check=True)
+        made = subprocess.run([options.command, "export", str(SCENES / f"{name}.json"), "-o", str(page)], check=False,
+                              stderr=subprocess.PIPE, text=True)
+        if made.returncode != 0 and ": a shader " in made.stderr and not options.scenes:
+            print(f"{name} has no page: {made.stderr.splitlines()[0].split(': ', 1)[1]}")
+            continue
+        if made.returncode != 0:
+            sys.exit(made.stderr)
         size = page.stat().st_size
         if size > LARGEST:
             wrong.append(f"{name}: {size} bytes")
