@@ -190,6 +190,7 @@ const std::vector<Meant> meant = {
      {film("flesh", "white", "green"), film("skin", "green", "white"), film("stripe", "green", "white"),
       film("green", "skin", "vacuum"), film("green", "stripe", any)},
      "The rind is a sequence of thin layers, the outermost with stripes."},
+    {"wet_sand", {film("sand", "water", "vacuum")}, "The pond is shallow at its shore."},
 };
 
 bool is_meant(const std::string& scene, const Film& film) {
