@@ -87,6 +87,11 @@ class JsonSchema {
             }
             return all;
         }
+        if (key == "items" && rule.is_array()) {  // one schema for each
+            for (std::size_t i = 0; value.is_array() && i < std::min(rule.size(), value.size()); ++i)
+                if (std::string wrong = mistake(rule[i], value[i]); !wrong.empty()) return wrong;
+            return {};
+        }
         if (key == "allOf" || (key == "items" && value.is_array())) {
             const Value& list = key == "items" ? value : rule;
             for (const Value one : list)
