@@ -14,7 +14,7 @@ using voxels::Table;
 namespace {
 
 // Boxes in which more voxels count are bounded by their blocks.
-constexpr int most_voxels = 216;
+constexpr int most_voxels = 512;
 
 // The voxels that count in a box, as the first and the last along each axis.
 struct Counted {

@@ -35,6 +35,23 @@ struct Faces {
         inside = q[1];
     }
 
+    // Whether nothing absorbs and nothing is reflected totally. Then the faces' coefficients have no phase, and Airy's
+    // sum is one of real numbers, with |e^{iδ}| = 1:  |a + b e^{iδ}|² = a² + b² + 2ab cos δ.
+    bool is_real() const {
+        const auto imaginary = [](const Complex& z) { return z.imag() != 0.0; };
+        return !imaginary(inside) && !imaginary(outer[0]) && !imaginary(outer[1]) && !imaginary(inner[0]) &&
+               !imaginary(inner[1]);
+    }
+    double real_reflectance(double thickness, double wavelength) const {
+        const double cosine = std::cos(4.0 * std::numbers::pi * thickness / wavelength * inside.real());
+        double sum = 0.0;
+        for (int i = 0; i < 2; ++i) {
+            const double a = outer[i].real(), b = inner[i].real(), mixed = 2.0 * a * b * cosine;
+            sum += 0.5 * (a * a + b * b + mixed) / (1.0 + a * a * b * b + mixed);
+        }
+        return std::min(sum, 1.0);
+    }
+
     double reflectance(double thickness, double wavelength) const {
         const Complex phase = std::exp(Complex(0.0, 4.0 * std::numbers::pi * thickness / wavelength) * inside);
         double sum = 0.0;
@@ -55,8 +72,10 @@ glm::vec3 colour(const ThinFilm::Layers& layers, const std::vector<SpectralWeigh
     for (int c = 0; c < (grey ? 1 : 3); ++c) {
         const Faces faces(static_cast<double>(layers.outside), static_cast<double>(layers.film),
                           Complex(static_cast<double>(layers.eta[c]), static_cast<double>(layers.k[c])), cos_theta);
+        const bool is_real = faces.is_real();
         for (const SpectralWeight& w : weights) {
-            const double reflectance = faces.reflectance(thickness, w.wavelength);
+            const double reflectance = is_real ? faces.real_reflectance(thickness, w.wavelength)
+                                               : faces.reflectance(thickness, w.wavelength);
             if (grey)
                 sum += reflectance * w.weight;
             else
