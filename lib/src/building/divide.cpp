@@ -34,6 +34,10 @@ constexpr int reported_depth = 5;
 // Down to this depth the parts of a box are divided in parallel.
 constexpr int parallel_depth = 3;
 
+// A box in which millions of parts are searched may be divided this often beyond CellOptions::deepest, because rays pay
+// for each search far more than the division takes.
+constexpr int more_divisions_of_searches = 3;
+
 // What cells cost together, and about how much area of interfaces is in them.
 struct CellCosts {
     float all = 0, interface_area = 0;
@@ -79,11 +83,12 @@ bool is_final(const BuildNode& node, const BuildContext& context, CellBudget& bu
     constexpr int divided_in_any_case = 3;  // levels
     const bool has_few_parts =
         cell.work_of_parts > 0 && cell.work_of_parts <= short_list && node.depth >= divided_in_any_case;
+    const int deepest = context.options.deepest + (cell.is_searched ? more_divisions_of_searches : 0);
     const bool is_small = diagonal < 64 * context.reach;
     // is_worth_dividing() must come last, because it notes the saving that it refuses: that of a box which would be
     // divided if there were more memory.
-    return node.futile_divisions >= node.policy.most_futile_divisions || node.depth >= context.options.deepest ||
-           is_small || has_few_parts || cell.cost < (1 + saving) * least + cost_model::traversal * surface(node.box) ||
+    return node.futile_divisions >= node.policy.most_futile_divisions || node.depth >= deepest || is_small ||
+           has_few_parts || cell.cost < (1 + saving) * least + cost_model::traversal * surface(node.box) ||
            !budget.is_worth_dividing(node.box, cell.cost - least);
 }
 
