@@ -130,9 +130,8 @@ int main(int argc, char** argv) {
     app.add_subcommand(fingerprints.name, fingerprints.what)->callback([&] { chosen.push_back(fingerprints); });
     app.add_subcommand(lists.name, lists.what)->callback([&] { chosen.push_back(lists); });
     app.add_subcommand(resolutions.name, resolutions.what)->callback([&] { chosen.push_back(resolutions); });
-    app.add_subcommand("all", "all of these but the lists of balls, the resolutions and the fingerprints")->callback([&] {
-        chosen = commands();
-    });
+    app.add_subcommand("all", "all of these but the lists of balls, the resolutions and the fingerprints")
+        ->callback([&] { chosen = commands(); });
     try {
         app.parse(argc, argv);
         if (settings.quick) settings.width = settings.height = 128;
