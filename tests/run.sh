@@ -59,9 +59,10 @@ fuzz_one() {
     local grown="$root/build/fuzz/corpus/$target" found="$root/build/fuzz/found/$target"
     mkdir -p "$grown" "$found"
     # OpenImageIO 2.4 leaks 31 bytes for each PNG file that ends too early: libpng's errors jump past a destructor of its
-    # PngReadCallback. The fuzzer would stop at the first such file, so leaks are not looked for where images are read.
+    # PngReadCallback. OpenVDB 10 loses a node for each file that does. The fuzzer would stop at the first such file, so leaks are
+    # not looked for where images and volumes are read.
     local leaks=1
-    [ "$target" != image ] || leaks=0
+    [ "$target" != image ] && [ "$target" != volume ] || leaks=0
     # On a busy machine an input may take long by the clock.
     ASAN_OPTIONS=detect_leaks=$leaks UBSAN_OPTIONS=print_stacktrace=1 "$root/build/fuzz/tests/fuzz/fuzz" "--target=$target" \
         -max_total_time=$((60 * minutes)) -max_len="$longest" -timeout=120 -rss_limit_mb=4096 \

@@ -19,6 +19,13 @@
 #include "phasetree_support/temporary_directory.hpp"
 #include "support/random_voxels.hpp"
 
+// What the leak sanitizer is told here. OpenVDB 10 loses the node that it is reading when a file ends too early,
+// because RootNode::readTopology() holds it by a plain pointer while it throws.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() {
+    return "leak:readTopology";
+}
+
 using namespace phasetree;
 using namespace phasetree::tests;
 using phasetree::support::bytes_of;
