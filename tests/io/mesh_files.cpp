@@ -11,42 +11,12 @@
 #include "phasetree/io/tree.hpp"
 #include "phasetree/io/write.hpp"
 #include "phasetree/model/handle.hpp"
-#include "phasetree_support/temporary_directory.hpp"
+#include "support/written_files.hpp"
 
 using namespace phasetree;
+using namespace phasetree::tests;
 
 namespace {
-
-class Files {
-  public:
-    TriangleMesh read(const std::string& name, const std::string& content) const {
-        std::ofstream(folder_.path() / name, std::ios::binary) << content;
-        return read_mesh(folder_.path() / name);
-    }
-    /// What is said of it, without its folder; "read" if nothing.
-    std::string said(const std::string& name, const std::string& content) const {
-        try {
-            (void)read(name, content);
-        } catch (const SceneError& e) {
-            const std::string text = e.what(), folder = folder_.path().string() + "/";
-            REQUIRE(text.starts_with(folder));
-            return text.substr(folder.size());
-        }
-        return "read";
-    }
-    const std::filesystem::path& path() const { return folder_.path(); }
-
-  private:
-    support::TemporaryDirectory folder_;
-};
-
-template <class Number>
-std::string bytes(Number n, bool is_reversed = false) {
-    std::string s(sizeof n, '\0');
-    std::memcpy(s.data(), &n, sizeof n);
-    if (is_reversed) std::reverse(s.begin(), s.end());
-    return s;
-}
 
 /// The four corners of a tetrahedron, and its faces.
 const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1.5f}};
@@ -110,7 +80,7 @@ std::string word_stl() {
 }  // namespace
 
 TEST_CASE("each kind of file gives the same triangles") {
-    const Files files;
+    const WrittenFiles files(read_mesh);
     check_tetrahedron(files.read("a.obj", obj));
     check_tetrahedron(files.read("a.ply", word_ply));
     check_tetrahedron(files.read("b.PLY", binary_ply(false)));
@@ -124,7 +94,7 @@ TEST_CASE("each kind of file gives the same triangles") {
 }
 
 TEST_CASE("what is wrong in a file is said with its place, and nothing of it is quoted") {
-    const Files files;
+    const WrittenFiles files(read_mesh);
     CHECK(files.said("a.txt", obj) == "a.txt: is no mesh: its name must end with .obj, .ply or .stl");
     CHECK(files.said("a.obj", "v 0 0\n") == "a.obj: a vertex needs three numbers (line 1)");
     CHECK(files.said("a.obj", "v 0 0 nan\n") == "a.obj: a vertex needs three numbers (line 1)");
@@ -151,7 +121,7 @@ TEST_CASE("what is wrong in a file is said with its place, and nothing of it is 
 }
 
 TEST_CASE("every shortened file is read or refused") {
-    const Files files;
+    const WrittenFiles files(read_mesh);
     for (const auto& [name, content] :
          {std::pair{"a.obj", obj}, {"a.ply", word_ply}, {"b.ply", binary_ply(true)}, {"a.stl", word_stl()}}) {
         std::size_t refused = 0;
@@ -161,7 +131,7 @@ TEST_CASE("every shortened file is read or refused") {
 }
 
 TEST_CASE("a scene has a mesh beside it, and says where it names one that is no solid") {
-    const Files files;
+    const WrittenFiles files(read_mesh);
     std::ofstream(files.path() / "solid.obj") << obj;
     std::ofstream(files.path() / "open.obj") << obj.substr(0, obj.rfind("f "));
     const auto scene = [&](const std::string& file) {

@@ -45,9 +45,9 @@ float value_by_specialisation(const float* constants, const Region& at, Speciali
 
 /// The enclosure of a long primitive. Noise has an enclosure of its own, and a network has one inside of its cube,
 /// beyond which points are projected onto the cube (Siren::Network). The few pieces of a mesh in a small box bound its
-/// gradient, and so do few voxels, with more of which the values' range is known; few balls are enclosed one by one. Of all
-/// others (an image, Voronoi cells), and of those elsewhere, only the value at the centre is used and that their slope is
-/// at most 1 in their own space.
+/// gradient, and so do few voxels, with more of which the values' range is known; few balls are enclosed one by one. Of
+/// all others (an image, Voronoi cells), and of those elsewhere, only the value at the centre is used and that their
+/// slope is at most 1 in their own space.
 template <class P>
 Enclosure enclose_long_primitive(const float* constants, const Vec3<Enclosure>& q, const Enclosure::Vector& half,
                                  SpecialisationInBox& specialisation) {

@@ -97,8 +97,8 @@ class CandidateSearch {
         // What joins the lists of several phases is some two dozen instructions.
         const float of_parts = work_of_parts(cell.program, cell.specialisations);
         if (!is_searched && 4 * of_parts + 24 >= cell.work.all) cell.work_of_parts = of_parts;
-        // In a box that is hardly larger than a part, lists are short enough; unless what is wanted is far from them, as
-        // a wide wall around a mesh is, and then smaller boxes would be very many.
+        // In a box that is hardly larger than a part, lists are short enough; unless what is wanted is far from them,
+        // as a wide wall around a mesh is, and then smaller boxes would be very many.
         cell.is_searched = is_searched && size > 1.5f * finest_spacing(cell.program, context_.program.constants);
     }
 

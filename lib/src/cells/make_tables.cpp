@@ -29,7 +29,8 @@ CellTables make_tables(CellBuffers found, std::vector<float>& constants, const C
     RoutineBuilder routines(constants);
     tables.cells.reserve(found.cells());
     tables.first_certificate.reserve(found.cells() + 1);
-    // At most all data of specialised instructions are appended. A vector that grows holds its content twice for a while.
+    // At most all data of specialised instructions are appended. A vector that grows holds its content twice for a
+    // while.
     std::size_t more = 0;
     for (const CellBuffer& buffer : found) more += buffer.specialised_data.size();
     constants.reserve(constants.size() + more);

@@ -4,14 +4,10 @@
 
 #include <map>
 
-#include "io/node_source.hpp"
+#include "io/node_files.hpp"
 #include "io/string_offset.hpp"
-#include "model/preparation.hpp"
 #include "model/text_error.hpp"
-#include "phasetree/io/balls.hpp"
-#include "phasetree/io/kept_nodes.hpp"
 #include "phasetree/io/keys.hpp"
-#include "phasetree/io/mesh.hpp"
 #include "phasetree/io/object_reader.hpp"
 #include "phasetree/io/suggest.hpp"
 #include "tree/node.hpp"
@@ -44,7 +40,7 @@ class Reader {
         : document_(document),
           names_(std::move(names)),
           shapes_(shapes),
-          files_(files),
+          files_(document, files, preparation_),
           places_(places),
           fields_(std::move(known.fields)),
           objects_(std::move(known.objects)) {}
@@ -180,47 +176,13 @@ class Reader {
         }
     }
 
-    // Makes the node of its parameters and its file, if it has one, or takes the one that an earlier reading made of
-    // the same.
+    // Makes the node of its parameters, and of its file if it has one.
     template <class Handle, class N>
     Handle made_of(N& node, Value member) {
         if constexpr (io::MadeFromFile<N>) {
-            if (const std::optional<Value> file = member.find("file")) return made_from_file<Handle>(node, *file);
+            if (const std::optional<Value> file = member.find("file")) return files_.made<Handle>(node, *file);
         }
         return Handle(std::move(node));
-    }
-
-    template <class Handle, class N>
-    Handle made_from_file(N& node, Value file) {
-        KeptNodes* const kept = document_.kept_nodes();
-        const std::optional<KeptNodes::Source> source = kept ? source_of(node, file) : std::nullopt;
-        if (source) {
-            if (std::optional<KeptNodes::Node> known = kept->take(*source)) {
-                PreparationTogether::pay(N::info.name, known->steps);
-                kept->keep(*source, *known);
-                return std::get<Handle>(known->handle);
-            }
-        }
-        std::string part;
-        if constexpr (requires { node.part_of_file(); }) part = node.part_of_file();
-        read_file(node.file, part, file);
-        const std::uint64_t paid = preparation_.paid();
-        Handle made(std::move(node));
-        if (source) kept->keep(*source, {made, preparation_.paid() - paid});
-        return made;
-    }
-
-    // Nothing where the node cannot be known again.
-    template <class N>
-    std::optional<KeptNodes::Source> source_of(N& node, Value file) const {
-        const std::filesystem::path path = document_.file(file);
-        std::vector<std::filesystem::path> files{path};
-        try {
-            if (files_.files_of) files = files_.files_of(path);
-        } catch (const std::exception&) {
-            return std::nullopt;  // Whoever reads them says what is wrong.
-        }
-        return io::source_of(node, path, files);
     }
 
     template <class N>
@@ -311,44 +273,6 @@ class Reader {
         }
     }
 
-    // Each file once, or each part of it.
-    template <class Content>
-    void read_file(FromFile<Content>& target, const std::string& part, Value value) {
-        const std::filesystem::path path = document_.file(value);
-        auto& known = std::get<KnownFiles<Content>>(known_files_);
-        const std::pair key{target.path, part};
-        if (const auto found = known.find(key); found != known.end()) {
-            target.content = found->second;
-            return;
-        }
-        try {
-            target.content = std::make_shared<const Content>(content_of<Content>(path, part));
-        } catch (const std::exception& e) {
-            throw document_.error(value, e.what());
-        }
-        known.emplace(key, target.content);
-    }
-
-    template <class Content>
-    Content content_of(const std::filesystem::path& path, const std::string& part) const {
-        if constexpr (std::is_same_v<Content, SirenNetwork>) {
-            return read_siren(path);
-        } else if constexpr (std::is_same_v<Content, TriangleMesh>) {
-            return read_mesh(path);
-        } else if constexpr (std::is_same_v<Content, BallList>) {
-            return read_balls(path);
-        } else if constexpr (std::is_same_v<Content, VoxelGrid>) {
-            if (!files_.level_set) throw std::runtime_error("this program reads no OpenVDB files");
-            return files_.level_set(path, part);
-        } else if constexpr (std::is_same_v<Content, LabelGrid>) {
-            if (!files_.label_grid) throw std::runtime_error("this program reads neither OpenVDB files nor images");
-            return files_.label_grid(path, part);
-        } else {
-            if (!files_.height_grid) throw std::runtime_error("this program reads no images");
-            return files_.height_grid(path);
-        }
-    }
-
     // In a set the vacuum may be; the nodes that have no use for it refuse it themselves.
     Phase phase_or_vacuum(Value value, const std::string& what) const {
         return value.is_string() && value.string() == names_.names[0] ? vacuum : phase(value, what);
@@ -396,13 +320,8 @@ class Reader {
     PreparationTogether preparation_;
     PhaseNames names_;
     std::optional<Value> shapes_;
-    const FileReaders& files_;
+    io::NodeFiles files_;
     NodePlaces* places_;
-    template <class Content>
-    using KnownFiles = std::map<std::pair<std::string, std::string>, std::shared_ptr<const Content>>;
-    std::tuple<KnownFiles<SirenNetwork>, KnownFiles<HeightGrid>, KnownFiles<TriangleMesh>, KnownFiles<VoxelGrid>,
-               KnownFiles<LabelGrid>, KnownFiles<BallList>>
-        known_files_;
     std::map<std::string, Field, std::less<>> fields_;
     std::map<std::string, Phased, std::less<>> objects_;
     std::vector<std::string> open_;  // shapes being read, to find cycles

@@ -19,7 +19,8 @@ namespace {
 // be read as one is watched, which costs a look now and then. Of a stack of images its folder is watched, too, in which
 // images come and go.
 void add_file(const std::filesystem::path& path, view::WatchedFiles& files) {
-    if (path.filename().string().find('#') == std::string::npos) return files.add(path);
+    files.add(path);
+    if (path.filename().string().find('#') == std::string::npos) return;
     files.add(path.has_parent_path() ? path.parent_path() : ".");
     try {
         for (const std::filesystem::path& layer : layers_of_stack(path)) files.add(layer);

@@ -24,7 +24,7 @@ FileReaders file_readers() {
     return {.height_grid = read_height_grid,
             .level_set = read_level_set,
             .label_grid = read_label_grid,
-            .files_of = layers_of_stack};
+            .label_files = layers_of_stack};
 }
 
 }  // namespace phasetree::tracer

@@ -74,8 +74,8 @@ glm::vec3 colour(const ThinFilm::Layers& layers, const std::vector<SpectralWeigh
                           Complex(static_cast<double>(layers.eta[c]), static_cast<double>(layers.k[c])), cos_theta);
         const bool is_real = faces.is_real();
         for (const SpectralWeight& w : weights) {
-            const double reflectance = is_real ? faces.real_reflectance(thickness, w.wavelength)
-                                               : faces.reflectance(thickness, w.wavelength);
+            const double reflectance =
+                is_real ? faces.real_reflectance(thickness, w.wavelength) : faces.reflectance(thickness, w.wavelength);
             if (grey)
                 sum += reflectance * w.weight;
             else

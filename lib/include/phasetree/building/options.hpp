@@ -23,7 +23,9 @@ enum class BuildQuality {
 /// How cells are built.
 struct CellOptions {
     float resolution = 0;  ///< in the scene's unit of length; 0 chooses one: see InterfaceTracer
-    int deepest = 14;      ///< the most divisions from the bounds to the smallest cell
+    /// The most divisions from the bounds to the smallest cell; a box in which meshes or listed balls would have to be
+    /// searched at each sample may be divided three times more.
+    int deepest = 14;
     BuildQuality quality = BuildQuality::medium;
     /// Phases that no ray is ever in, because they are opaque. Where two of them meet no interface is looked for and no
     /// cells are made. What is found for a ray that is in one of them all the same means nothing.

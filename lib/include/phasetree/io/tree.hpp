@@ -40,8 +40,8 @@ struct FileReaders {
     std::function<HeightGrid(const std::filesystem::path&)> height_grid{};
     std::function<VoxelGrid(const std::filesystem::path&, const std::string& grid)> level_set{};
     std::function<LabelGrid(const std::filesystem::path&, const std::string& grid)> label_grid{};
-    /// The files that a name stands for, such as the images of a stack. Without it, every name is one file's.
-    std::function<std::vector<std::filesystem::path>(const std::filesystem::path&)> files_of{};
+    /// The files that the name of a label grid stands for, such as the images of a stack. Without it, it is one file's.
+    std::function<std::vector<std::filesystem::path>(const std::filesystem::path&)> label_files{};
 };
 
 /// The weights of a network: {"radius": R, "layers": [{"weights": [[…], …], "bias": […]}, …]}. Throws SceneError, which

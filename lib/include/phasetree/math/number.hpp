@@ -92,9 +92,9 @@ T far_bound_inside(const T& f, const T& bound) {
     return min(f, bound);
 }
 
-/// The solid a where no solid b is nearer: max(a, (a − b)/2). It is negative where a is negative and less than b, and as
-/// steep as the steeper of the two. Of infinities it is a, because a maximum with a first operand that is no number is
-/// the second.
+/// The solid a where no solid b is nearer: max(a, (a − b)/2). It is negative where a is negative and less than b, and
+/// as steep as the steeper of the two. Of infinities it is a, because a maximum with a first operand that is no number
+/// is the second.
 template <class T>
 T nearer(const T& a, const T& b) {
     return max((a - b) * 0.5f, a);
