@@ -24,8 +24,7 @@ struct Rounded {
 inline constexpr double unit_roundoff = 0x1p-24, smallest = 0x1p-126;
 
 /// A result, with the error of its operands and so many half units of its own. Sums and products that are whole numbers
-/// are exact, as hashes need it. Others are not, even where 32 bits hold them: compilers of shaders may join the
-/// constants of (x + a) − b, and then an intermediate value is rounded that was not before.
+/// are exact, as hashes need it. Others are not, even where 32 bits hold them.
 inline Rounded rounded(double value, double error, double half_units = 1) {
     if (half_units == 1 && error == 0 && std::floor(value) == value && std::abs(value) <= 0x1p24) return {value, 0};
     return {value, error + half_units * (unit_roundoff * (std::abs(value) + error) + smallest)};
@@ -40,11 +39,17 @@ inline Rounded either(const Rounded& a, const Rounded& b) {
 inline Rounded operator-(const Rounded& a) {
     return {-a.value, a.error};
 }
+/// Compilers of shaders may make x + (a − b) of (x + a) − b, where a and b are constants; then a − b is rounded, to
+/// half a unit of the larger. Constants are known by their error of 0; whole numbers, of which hashes are made, do not
+/// matter.
+inline double error_of_joining(const Rounded& a) {
+    return a.error == 0 && std::floor(a.value) != a.value ? unit_roundoff * std::abs(a.value) : 0;
+}
 inline Rounded operator+(const Rounded& a, const Rounded& b) {
-    return rounded(a.value + b.value, a.error + b.error);
+    return rounded(a.value + b.value, a.error + b.error + error_of_joining(a) + error_of_joining(b));
 }
 inline Rounded operator-(const Rounded& a, const Rounded& b) {
-    return rounded(a.value - b.value, a.error + b.error);
+    return rounded(a.value - b.value, a.error + b.error + error_of_joining(a) + error_of_joining(b));
 }
 inline Rounded operator*(const Rounded& a, const Rounded& b) {
     return rounded(a.value * b.value, std::abs(a.value) * b.error + std::abs(b.value) * a.error + a.error * b.error);

@@ -1,20 +1,42 @@
-#include "cells/file_format.hpp"
+#include <algorithm>
+#include <cstring>
+
+#include "cells/cells_file.hpp"
 #include "phasetree/cells/file.hpp"
 
 namespace phasetree {
 
-using cells::CellsFile, cells::CellsFileHeader, cells::header_of;
+using cells::BuildSettings, cells::CellsFile;
 
-// By what a file of the cells would be taken for theirs.
+namespace {
+
+// By bits: −0 is not 0 here.
+bool are_same(std::span<const float> a, std::span<const float> b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
+}
+
+// Whether a program is that of cells, which have appended constants to its own.
+bool is_program_of(const Program& recorded, const Program& of_cells, std::size_t own_constants) {
+    const auto same_instruction = [](const Instruction& a, const Instruction& b) {
+        return a.op == b.op && a.a == b.a && a.b == b.b && a.data == b.data;
+    };
+    const auto same_output = [](const Output& a, const Output& b) { return a.phase == b.phase && a.value == b.value; };
+    return std::ranges::equal(recorded.instructions, of_cells.instructions, same_instruction) &&
+           std::ranges::equal(recorded.outputs, of_cells.outputs, same_output) &&
+           are_same(recorded.lipschitz, of_cells.lipschitz) &&
+           are_same(recorded.constants, std::span(of_cells.constants).first(own_constants));
+}
+
+}  // namespace
+
 bool are_cells_of(const InterfaceCells& cells, const Phased& object, const CellOptions& options) {
-    const auto [tables, program, settings] = CellsFile::contents(cells);
-    const CellsFileHeader own = header_of(program, tables.recorded_constants, settings);
-    const Program recorded = record(object);
-    const CellsFileHeader wanted = header_of(recorded, recorded.constants.size(), CellsFile::settings(object, options));
+    const auto [tables, program, own] = CellsFile::contents(cells);
+    if (!is_program_of(record(object), program, tables.recorded_constants)) return false;
+    const BuildSettings wanted = CellsFile::settings(object, options);
     const bool has_same_limit =
         tables.is_coarser ? own.most_bytes == wanted.most_bytes : own.most_bytes <= wanted.most_bytes;
-    return own.program == wanted.program && own.resolution == wanted.resolution && own.quality == wanted.quality &&
-           own.deepest == wanted.deepest && own.opaque == wanted.opaque && has_same_limit;
+    return own.resolution == wanted.resolution && own.quality == wanted.quality && own.deepest == wanted.deepest &&
+           own.opaque.bits == wanted.opaque.bits && has_same_limit;
 }
 
 }  // namespace phasetree

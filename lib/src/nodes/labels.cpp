@@ -2,6 +2,7 @@
 #include "phasetree/nodes/phased/labels.hpp"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -67,21 +68,22 @@ class DepthOfShare {
     std::array<float, 4097> table_;
 };
 
-// Calls work(line) for all lines of voxels along an axis, which are copied to it and back.
+// Calls work(line) for all lines of voxels along an axis, which are copied to it and back; layers of them in parallel.
 template <class Work>
 void for_each_line(std::vector<float>& values, const Size& n, std::size_t axis, const Work& work) {
     constexpr std::array<std::array<std::size_t, 2>, 3> others{{{1, 2}, {0, 2}, {0, 1}}};
     const std::array<std::size_t, 3> stride{1, static_cast<std::size_t>(n[0]),
                                             static_cast<std::size_t>(n[0]) * static_cast<std::size_t>(n[1])};
-    const auto [u, v] = others[axis];
-    std::vector<float> line(static_cast<std::size_t>(n[axis]));
-    for (std::size_t j = 0; j < static_cast<std::size_t>(n[v]); ++j)
+    const std::size_t u = others[axis][0], v = others[axis][1];
+    tbb::parallel_for(std::size_t{0}, static_cast<std::size_t>(n[v]), [&](std::size_t j) {
+        std::vector<float> line(static_cast<std::size_t>(n[axis]));
         for (std::size_t i = 0; i < static_cast<std::size_t>(n[u]); ++i) {
             float* first = values.data() + i * stride[u] + j * stride[v];
             for (std::size_t k = 0; k < line.size(); ++k) line[k] = first[k * stride[axis]];
             work(line);
             for (std::size_t k = 0; k < line.size(); ++k) first[k * stride[axis]] = line[k];
         }
+    });
 }
 
 // Convolution with a Gaussian. Beyond its ends a line goes on as it ends.

@@ -61,7 +61,7 @@ void add_triangles(Surface& s, const TriangleMesh& mesh, const Places& places, c
             corners[i] = places.of[vertex];
         }
         if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
-        std::ranges::rotate(corners, std::ranges::min_element(corners));
+        std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
         numbered.emplace_back(corners, static_cast<std::uint32_t>(t + 1));
     }
     std::ranges::sort(numbered);

@@ -11,15 +11,16 @@ const char* const body = R"(</title>
 html, body { margin: 0; height: 100%; overflow: hidden; background: #c8ccd0; font: 14px/1.5 system-ui, sans-serif; color: #222 }
 canvas { width: 100%; height: 100%; display: block; touch-action: none; outline: none }
 #panel { position: absolute; top: 12px; left: 12px; background: #fffd; border-radius: 6px; padding: 8px 12px; max-height: 85%; overflow: auto }
+#title { cursor: pointer; font-weight: bold }
 #panel label { display: block; white-space: nowrap }
 #panel i { display: inline-block; width: 10px; height: 10px; border-radius: 5px; margin: 0 6px; border: 1px solid #8888 }
 #message { position: absolute; inset: 0; display: flex; align-items: center; justify-content: center; padding: 2em; white-space: pre-wrap; pointer-events: none }
 </style></head><body>
 <canvas id="view" tabindex="0" aria-label="the object"></canvas>
-<div id="panel"><b id="title"></b><div id="phases"></div>
+<details id="panel" open><summary id="title"></summary><div id="phases"></div>
 <label>Cut <select id="axis"><option value="">nothing</option><option value="0">across x</option><option value="1">across y</option><option value="2">across z</option></select>
 <input type="checkbox" id="flip" title="the other side" aria-label="the other side"></label>
-<input type="range" id="place" min="0" max="1" step="0.002" value="0.5" style="width:100%" aria-label="where"></div>
+<input type="range" id="place" min="0" max="1" step="0.002" value="0.5" style="width:100%" aria-label="where"></details>
 <div id="message">opening …</div>
 <script>
 "use strict";
@@ -27,7 +28,7 @@ canvas { width: 100%; height: 100%; display: block; touch-action: none; outline:
 
 const char* const script = R"JS(
 const opened = performance.now(), $ = id => document.getElementById(id), canvas = $("view");
-const state = window.phasetree = {ready: false, error: null, opened: 0, frame: 0, scale: 1, passes: 0};
+const state = window.phasetree = {ready: false, error: null, compiled: 0, opened: 0, frame: 0, scale: 1, at_rest: 0, passes: 0, most_passes: 16};
 function fail(text) { state.error = text; $("message").textContent = text; $("message").style.background = "#fffe"; }
 
 async function bytes(text) {
@@ -38,6 +39,7 @@ async function bytes(text) {
 
 async function open() {
   $("title").textContent = document.title;
+  $("panel").open = innerWidth >= 600;  // On a telephone it would cover the object.
   const gl = canvas.getContext("webgl2", {antialias: false, powerPreference: "high-performance"});
   if (!gl) return fail("This page needs WebGL 2, which this browser does not have or has switched off.");
   if (!window.DecompressionStream) return fail("This browser is too old for this page: it cannot unpack it (DecompressionStream).");
@@ -61,6 +63,7 @@ async function open() {
   for (const {p, parts} of [main, copy])
     if (!gl.getProgramParameter(p, gl.LINK_STATUS))
       return fail("The shader of this object does not compile here:\n\n" + (gl.getProgramInfoLog(p) || "") + parts.map(s => gl.getShaderInfoLog(s) || "").join("\n").slice(0, 2000));
+  state.compiled = performance.now() - opened;
   canvas.addEventListener("webglcontextlost", () => fail("The graphics driver gave up on this page. Reload it to try again."));
   gl.bindVertexArray(gl.createVertexArray());
   function texture(unit, filter) {
@@ -148,35 +151,45 @@ async function open() {
     gl.readPixels(0, from, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
     return performance.now() - start;
   }
-  const [low, full, sum] = targets, most_passes = 16, wanted = 40;  // milliseconds a frame
-  let moved = performance.now(), is_dirty = true, row = 0, rows = 16, scale = 0.125;
-  const touch = () => { moved = performance.now(); is_dirty = true; row = 0; state.passes = 0; };
+  const [low, full, sum] = targets, wanted = 40;  // milliseconds a frame
+  // The first picture is small, so that it is there at once also where a pixel takes long. While the view moves, a picture has
+  // as many pixels as the wanted time allows; at rest it is drawn at twice the last scale again and again, and then in passes.
+  const smallest = 0.02;
+  let moved = performance.now(), is_dirty = true, row = 0, rows = 16, scale = smallest, rest = 0;
+  const touch = () => { moved = performance.now(); is_dirty = true; row = rest = 0; state.passes = 0; };
   function frame() {
     requestAnimationFrame(frame);
     if (state.error) return;
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
     const w = Math.max(1, Math.round(canvas.clientWidth * ratio)), h = Math.max(1, Math.round(canvas.clientHeight * ratio));
     if (canvas.width !== w || canvas.height !== h) { canvas.width = w; canvas.height = h; touch(); }
+    const scaled = s => [w, h].map(x => Math.min(x, Math.max(16, Math.round(x * s))));
     if (is_dirty) {
-      const lw = Math.max(16, Math.round(w * scale)), lh = Math.max(16, Math.round(h * scale));
-      const took = draw(low, lw, lh, 0, lh, [0, 0]);
+      const [lw, lh] = scaled(scale), took = draw(low, lw, lh, 0, lh, [0, 0]);
       state.frame = took;
-      state.scale = scale;
-      // The next frame has as many pixels as the wanted time allows, but no sudden change.
-      scale = Math.min(1, Math.max(0.12, scale * Math.min(1.25, Math.max(0.6, Math.sqrt(wanted / Math.max(took, 1))))));
+      state.scale = state.at_rest = scale;
+      // No sudden change.
+      scale = Math.min(1, Math.max(smallest, scale * Math.min(1.5, Math.max(0.5, Math.sqrt(wanted / Math.max(took, 1))))));
       show(low, w, h, 1, null);
       is_dirty = false;
       if (!state.ready) { state.ready = true; state.opened = performance.now() - opened; $("message").textContent = ""; }
       return;
     }
-    if (performance.now() - moved < 150 || state.passes >= (has_floats ? most_passes : 1)) return;
-    // At rest the image is drawn in bands at full size, again and again, a part of a pixel beside the last.
-    const k = state.passes, jitter = [(k * 0.7548776662) % 1 - 0.5, (k * 0.5698402910) % 1 - 0.5];
-    const to = Math.min(h, row + rows), took = draw(full, w, h, row, to, k ? jitter : [0, 0]);
-    rows = Math.round(Math.min(h, Math.max(2, rows * Math.min(2, Math.max(0.5, wanted / Math.max(took, 1))))));
+    if (performance.now() - moved < 150 || state.passes >= (has_floats ? state.most_passes : 1)) return;
+    if (rest === 0) rest = Math.min(1, 2 * state.scale);
+    // In bands, so that the page answers meanwhile. Each pass at full size is a part of a pixel beside the last.
+    const k = state.passes, jitter = k ? [(k * 0.7548776662) % 1 - 0.5, (k * 0.5698402910) % 1 - 0.5] : [0, 0];
+    const [rw, rh] = scaled(rest), to = Math.min(rh, row + rows), took = draw(full, rw, rh, row, to, jitter);
+    rows = Math.round(Math.min(h, Math.max(1, rows * Math.min(2, Math.max(0.5, wanted / Math.max(took, 1))))));
     row = to;
-    if (row < h) return;
+    if (row < rh) return;
     row = 0;
+    state.at_rest = rest;
+    if (rest < 1) {
+      rows = Math.max(1, rows >> 1);
+      rest = Math.min(1, 2 * rest);
+      return show(full, w, h, 1, null);
+    }
     state.passes = k + 1;
     if (!has_floats) return show(full, w, h, 1, null);
     sized(sum, w, h, true);

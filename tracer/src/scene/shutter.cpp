@@ -26,8 +26,7 @@ std::vector<double> moments_of(const Document& document, Value value, const Shut
         if (moment > 0 && moment < 1) moments.push_back(moment);
     }
     std::ranges::sort(moments);
-    const auto [first, last] = std::ranges::unique(moments);
-    moments.erase(first, last);
+    moments.erase(std::unique(moments.begin(), moments.end()), moments.end());
     if (moments.size() * keys.size() > most_read)
         throw document.error(value, "there are too many keys while the shutter is open");
     return moments;

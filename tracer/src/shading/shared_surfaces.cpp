@@ -27,7 +27,7 @@ std::shared_ptr<const DielectricSurface> SharedSurfaces::dielectric(float ior_fr
             std::ranges::find(dielectrics_, key(ior_to, ior_from), &decltype(dielectrics_)::value_type::first);
         return other != dielectrics_.end()
                    ? std::make_shared<const DielectricSurface>(other->second->reversed())
-                   : std::make_shared<const DielectricSurface>(ior_from, ior_to, roughness, film);
+                   : std::make_shared<const DielectricSurface>(ior_from, ior_to, roughness, film, films_);
     });
 }
 
@@ -42,7 +42,7 @@ std::shared_ptr<const CoatingAlbedo> SharedSurfaces::coating(float ior_from, flo
                                                              const ValueRange& roughness,
                                                              const std::optional<FilmOfSurface>& film) {
     return found_or_made(coatings_, Key{glm::vec3(ior_from), glm::vec3(0.0f), ior_coat, roughness, film}, [&] {
-        return std::make_shared<const CoatingAlbedo>(DielectricSurface(ior_from, ior_coat, std::nullopt, film),
+        return std::make_shared<const CoatingAlbedo>(DielectricSurface(ior_from, ior_coat, std::nullopt, film, films_),
                                                      roughness, film ? film->thickness : ValueRange{});
     });
 }
@@ -54,6 +54,7 @@ void SharedSurfaces::begin_scene() {
     dielectrics_.clear();
     forget_unused(conductors_);
     forget_unused(coatings_);
+    films_.forget_unused();
 }
 
 }  // namespace phasetree::tracer

@@ -17,7 +17,7 @@ namespace phasetree::tracer {
 class SharedSurfaces {
   public:
     /// To be called between scenes. Forgets those that nobody else has any more, and all dielectrics: they are made of
-    /// one another, so that their last bits would depend on the scenes before.
+    /// one another, so that their last bits would depend on the scenes before. Their films are kept.
     void begin_scene();
     std::shared_ptr<const DielectricSurface> dielectric(float ior_from, float ior_to,
                                                         const std::optional<ValueRange>& roughness,
@@ -42,6 +42,7 @@ class SharedSurfaces {
     Made<DielectricSurface> dielectrics_;
     Made<ConductorSurface> conductors_;
     Made<CoatingAlbedo> coatings_;
+    ThinFilms films_;
 };
 
 }  // namespace phasetree::tracer

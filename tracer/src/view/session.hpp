@@ -138,12 +138,10 @@ class Session {
     // To be called under the lock when the wishes have changed.
     void announce_wishes();
 
-    // Changes what is shown, by `edit(Shown&)`, under the lock.
-    template <class Edit>
-    void show(Edit&& edit);
+    // Changes what is shown, by `edit`, under the lock.
+    void show(const std::function<void(Shown&)>& edit);
     // The same, for who holds the lock.
-    template <class Edit>
-    void show_locked(Edit&& edit);
+    void show_locked(const std::function<void(Shown&)>& edit);
 
     const ReadScene read_;
     const SessionOptions options_;

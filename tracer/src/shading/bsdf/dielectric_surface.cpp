@@ -18,14 +18,17 @@ float radiance_factor(float ior_from, float ior_to) {
 
 DielectricSurface::DielectricSurface(float ior_from, float ior_to, const std::optional<ValueRange>& roughness,
                                      const std::optional<FilmOfSurface>& film)
+    : DielectricSurface(ior_from, ior_to, roughness, film, *std::make_unique<ThinFilms>()) {}
+
+DielectricSurface::DielectricSurface(float ior_from, float ior_to, const std::optional<ValueRange>& roughness,
+                                     const std::optional<FilmOfSurface>& film, ThinFilms& films)
     : eta_(ior_to / ior_from),
       radiance_factor_(tracer::radiance_factor(ior_from, ior_to)),
       radiance_factor_back_(tracer::radiance_factor(ior_to, ior_from)),
       middle_thickness_(film ? film->thickness.middle() : 0.0f) {
     if (film)
-        film_ = std::make_shared<const ThinFilm>(
-            ThinFilm::Layers{std::min(ior_from, ior_to), film->ior, glm::vec3(std::max(ior_from, ior_to))},
-            film->thickness.least, film->thickness.greatest);
+        film_ =
+            films.film({std::min(ior_from, ior_to), film->ior, glm::vec3(std::max(ior_from, ior_to))}, film->thickness);
     if (!roughness || is_none()) return;
     from_ = std::make_shared<const Side>(side(*roughness));
     to_ = std::make_shared<const Side>(reversed().side(*roughness));

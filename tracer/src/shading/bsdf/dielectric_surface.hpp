@@ -13,6 +13,7 @@
 
 #include "shading/bsdf/film_of_surface.hpp"
 #include "shading/bsdf/lost_energy.hpp"
+#include "shading/bsdf/thin_films.hpp"
 #include "shading/fresnel.hpp"
 #include "shading/thin_film.hpp"
 
@@ -27,6 +28,9 @@ class DielectricSurface {
     /// varies is as thick as the middle of its range everywhere, so that the tables are right.
     DielectricSurface(float ior_from, float ior_to, const std::optional<ValueRange>& roughness = {},
                       const std::optional<FilmOfSurface>& film = {});
+    /// The same, with its film from these.
+    DielectricSurface(float ior_from, float ior_to, const std::optional<ValueRange>& roughness,
+                      const std::optional<FilmOfSurface>& film, ThinFilms& films);
 
     /// The same, met from the other side. It shares all tables.
     DielectricSurface reversed() const;

@@ -1,0 +1,179 @@
+// The pictures of a session: coarse ones with the first cells, then the whole one with better cells, pass by pass.
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "output/quantise.hpp"
+#include "view/session.hpp"
+
+namespace phasetree::tracer::view {
+
+namespace {
+
+// While the camera is turned, or a slider is drawn, each wish comes before the picture of the last is there. A first
+// coarse picture is finished all the same, until so long after it was begun.
+constexpr std::chrono::milliseconds first_picture_deadline{250};
+// Pictures that follow each other faster than this are not shown one by one.
+constexpr std::chrono::milliseconds between_pictures{100};
+
+std::vector<std::uint8_t> on_display(const Picture& picture) {
+    const DisplayTransform display = picture.viewed->display(picture.exposure_ev);
+    std::vector<glm::vec3> pixels;
+    if (picture.layer.empty()) {
+        pixels = picture.linear.pixels;
+        display.apply(pixels);
+    } else {
+        pixels = layer_on_display(picture.linear, picture.layer, display, picture.centre, picture.radius);
+    }
+    return quantise8(pixels, picture.linear.width, 0, 0);
+}
+
+// The film of a picture of which this layer is shown; the others are those that `render` keeps by itself.
+Planes::Choice planes_with(const Scene& scene, const std::string& layer) {
+    Planes::Choice planes = Planes::by_default();
+    for (const FilmLayer& known : layers_of_film(subjects_of(scene)))
+        if (known.name == layer) planes[known.plane] = true;
+    return planes;
+}
+
+}  // namespace
+
+// Returns whether the picture has all its samples.
+bool Session::draw(const Wishes& wishes) {
+    const Scene& file = viewed_->scene;
+    drawing_since_ = Clock::now();
+    scene_->camera = wishes.camera.value_or(file.camera);
+    scene_->film.planes = planes_with(file, wishes.layer);
+    show([&](Shown& shown) {
+        // What went wrong with an earlier picture is over; that the file cannot be read is not.
+        if (last_read_well_ == last_read_) shown.error.clear();
+        shown.warning = warning_ + warning_of_camera();
+        shown.doing = "Taking the picture";
+    });
+    for (const int scale : ladder_.scales(file.film.resolution()))
+        if (scale > 1 && !draw_coarser(wishes, scale)) return false;
+    if (prepared_->quality() != options_.quality) {
+        // Where the whole picture is quick there is no coarser one, and something is to be seen before better cells
+        // are.
+        if (is_first_of(wishes) && !draw_whole(wishes, 1)) return false;
+        show([](Shown& shown) { shown.doing = "Building better cells"; });
+        surfaces_->begin_scene();
+        prepared_ = std::make_shared<const Prepared>(scene_, WorldOptions{.quality = options_.quality,
+                                                                          .cancelled = [&] { return is_stale(wishes); },
+                                                                          .most_bytes = options_.most_bytes,
+                                                                          .surfaces = surfaces_});
+    }
+    if (!draw_whole(wishes, file.settings.samples)) return false;
+    show([&](Shown& shown) {
+        if (!is_stale(wishes)) shown.doing = "Ready";
+    });
+    return true;
+}
+
+// Warns if the camera is inside an opaque phase, where it sees nothing.
+std::string Session::warning_of_camera() const {
+    const Phase phase = prepared_->world().geometry().label(position_of(scene_->camera));
+    if (is_clear(scene_->materials[phase.index])) return {};
+    return fmt::format("{}: warning: the camera is inside \"{}\", which is opaque\n", options_.name,
+                       scene_->phases[phase]);
+}
+
+// Whether a picture is to be left unfinished, for later wishes.
+bool Session::is_given_up(const Wishes& wishes, bool is_first) const {
+    const bool is_over = !is_first || Clock::now() - drawing_since_ > first_picture_deadline;
+    return is_of_another_reading(wishes) || (is_over && is_stale(wishes));
+}
+
+// Returns whether the picture was finished and is still wished for.
+bool Session::draw_coarser(const Wishes& wishes, int scale) {
+    const glm::ivec2 size = coarser(viewed_->scene.film.resolution(), scale);
+    scene_->film.width = size.x;
+    scene_->film.height = size.y;
+    scene_->settings.samples = 1;
+    const bool is_first = is_first_of(wishes);
+    RenderJob job;
+    job.pixels = scene_->film.whole();
+    job.threads = options_.threads;
+    job.cancelled = [&, is_first] { return is_given_up(wishes, is_first); };
+    Rendering rendering = render(prepared_->world(), *scene_, job);
+    if (rendering.cancelled) return false;
+    ladder_.learn(rendering.image.pixels.size(), rendering.seconds);
+    show_picture(wishes, std::move(rendering.image), scale, 1);
+    return !is_stale(wishes);
+}
+
+bool Session::draw_whole(const Wishes& wishes, int samples) {
+    scene_->film.width = viewed_->scene.film.width;
+    scene_->film.height = viewed_->scene.film.height;
+    scene_->settings.samples = samples;
+    RenderJob job;
+    job.pixels = scene_->film.whole();
+    job.threads = options_.threads;
+    job.cancelled = [&] { return is_given_up(wishes, is_first_of(wishes)); };
+    Clock::time_point last;
+    job.passed = [&](const Film& film, int done) {
+        if (done < samples && Clock::now() - last < between_pictures) return;
+        show_picture(wishes, film.image(), 1, done);
+        show([&](Shown& shown) { shown.doing = fmt::format("{} of {} samples", done, shown.samples); });
+        last = Clock::now();
+    };
+    Rendering rendering = render(prepared_->world(), *scene_, job);
+    if (rendering.cancelled || is_stale(wishes)) return false;
+    // Where pixels stop by their noise nobody knows before which pass is the last.
+    if (scene_->settings.noise > 0) show_picture(wishes, std::move(rendering.image), 1, samples);
+    return true;
+}
+
+void Session::show_picture(const Wishes& wishes, Image image, int scale, int samples) {
+    auto picture = std::make_shared<Picture>();
+    picture->linear = std::move(image);
+    picture->scale = scale;
+    picture->samples = samples;
+    picture->camera = scene_->camera;
+    picture->layer = wishes.layer;
+    picture->viewed = viewed_;
+    picture->prepared = prepared_;
+    picture->exposure_ev = viewed_->scene.settings.exposure_ev;
+    {
+        const std::lock_guard lock(mutex_);
+        picture->centre = shown_->centre;
+        picture->radius = shown_->radius;
+        picture->exposure_ev = wishes_.exposure_ev.value_or(picture->exposure_ev);
+    }
+    picture->pixels = on_display(*picture);
+    const bool is_first = drawn_for_.exchange(wishes.number()) != wishes.number();
+    const double seconds = std::chrono::duration<double>(Clock::now() - wishes.since).count();
+    show([&](Shown& shown) {
+        picture->number = shown.picture ? shown.picture->number + 1 : 1;
+        shown.picture = picture;
+        shown.exposure_ev = picture->exposure_ev;
+        if (is_first) shown.seconds_to_picture = seconds;
+    });
+    expose();
+}
+
+// Shows the last picture with the exposure that is wished, if it has another. Meanwhile another picture may come, or
+// another wish, so this is repeated until both agree.
+void Session::expose() {
+    while (true) {
+        std::optional<float> wished;
+        std::shared_ptr<const Picture> last;
+        {
+            const std::lock_guard lock(mutex_);
+            wished = wishes_.exposure_ev;
+            last = shown_->picture;
+        }
+        if (!wished || !last || last->exposure_ev == *wished) return;
+        auto picture = std::make_shared<Picture>(*last);
+        picture->exposure_ev = *wished;
+        picture->pixels = on_display(*picture);
+        show([&](Shown& shown) {
+            if (shown.picture != last) return;
+            ++picture->number;
+            shown.picture = picture;
+            shown.exposure_ev = *wished;
+        });
+    }
+}
+
+}  // namespace phasetree::tracer::view

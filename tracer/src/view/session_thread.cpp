@@ -1,0 +1,199 @@
+// A session's thread follows the last wish: it reads the scene's file, edits the scene, and builds its cells. The
+// pictures that it then takes are in session_pictures.cpp.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <utility>
+
+#include "phasetree/cells/file.hpp"
+#include "phasetree/io/error.hpp"
+#include "scene/camera_text.hpp"
+#include "view/session.hpp"
+
+namespace phasetree::tracer::view {
+
+namespace {
+
+// While a slider is drawn, each wish comes before the picture of the last is there. Its coarse cells are finished all
+// the same, until so long after they were begun.
+constexpr std::chrono::milliseconds first_cells_deadline{1000};
+// The first picture of an object is taken with cells that are not divided further: they are there at once, also where a
+// tree is so slow that good ones take seconds, and a picture of few pixels has few rays.
+constexpr int divisions_of_first_cells = 5;
+// What a terminal would show.
+std::string error_text(std::exception_ptr failure) {
+    try {
+        std::rethrow_exception(failure);
+    } catch (const SceneError& e) {
+        return e.what();
+    } catch (const std::bad_alloc&) {
+        return "phasetree: out of memory";
+    } catch (const std::exception& e) {
+        return fmt::format("phasetree: {}", e.what());
+    }
+}
+
+std::vector<ShownPhase> shown_phases(const Scene& scene) {
+    const float depth = half_diagonal(scene.object);
+    std::vector<ShownPhase> phases;
+    for (std::size_t i = 1; i < scene.phases.names.size(); ++i)
+        phases.push_back({scene.phases.names[i], false, optics_of(scene.materials[i], depth), {}});
+    return phases;
+}
+
+void set_width(FilmSettings& film, int width) {
+    constexpr double highest = 32768;  // Scene files have the same limit.
+    film.height =
+        static_cast<int>(std::clamp(std::round(static_cast<double>(width) * film.height / film.width), 1.0, highest));
+    film.width = width;
+}
+
+}  // namespace
+
+void Session::work() {
+    std::uint64_t followed = 0;
+    while (true) {
+        Wishes wishes;
+        {
+            std::unique_lock lock(mutex_);
+            changed_.wait(lock, [&] { return stopped_ || wishes_.number() != followed; });
+            if (stopped_) return;
+            wishes = wishes_;
+        }
+        followed = wishes.number();
+        try {
+            follow(wishes);
+        } catch (const BuildCancelled&) {
+            // Another wish has come, which the next turn follows.
+        } catch (...) {
+            fail(error_text(std::current_exception()));
+        }
+    }
+}
+
+void Session::follow(Wishes wishes) {
+    if (const TextNumber text{wishes.reading, wishes.text}; text != last_read_) {
+        last_read_ = text;
+        read(wishes);
+    }
+    if (!viewed_) return stop_by_error();
+    const ObjectNumber object{last_read_well_, wishes.object};
+    if (object != built_for_) {
+        // Set first: what cannot be built is not tried again before another object is wished for.
+        built_for_ = object;
+        build(wishes);
+    }
+    const PictureNumber picture{object, wishes.view};
+    if (!prepared_) return stop_by_error();
+    if (picture == finished_for_) return;
+    if (draw(wishes)) finished_for_ = picture;
+}
+
+// Where the scene cannot be read, the last one stays.
+void Session::read(Wishes& wishes) {
+    show([](Shown& shown) { shown.doing = "Reading the scene"; });
+    WatchedFiles files;
+    std::shared_ptr<const ViewedScene> viewed;
+    std::string error;
+    try {
+        ViewedScene scene = read_(files, wishes.numbers);
+        if (options_.samples) scene.scene.settings.samples = *options_.samples;
+        if (options_.width) set_width(scene.scene.film, *options_.width);
+        viewed = std::make_shared<const ViewedScene>(std::move(scene));
+    } catch (...) {
+        error = error_text(std::current_exception());
+    }
+    {
+        const std::lock_guard lock(mutex_);
+        files_ = std::move(files);
+        is_to_be_read_ = false;
+        // Who edits the camera in the file wants to see that, and not where the mouse has turned it.
+        const auto text = [](const Scene& scene) { return camera_text(scene.camera, scene.film.filter); };
+        // A camera that has been wished for meanwhile came later and stays.
+        if (viewed && viewed_ && text(viewed->scene) != text(viewed_->scene)) {
+            if (wishes_.view == wishes.view) wishes_.camera.reset();
+            wishes.camera.reset();
+        }
+    }
+    if (!viewed) return fail(error);
+    viewed_ = std::move(viewed);
+    last_read_well_ = last_read_;
+    show([&](Shown& shown) {
+        shown.numbers_of_file = {viewed_, &viewed_->numbers};
+        shown.numbers_version = wishes.reading;
+    });
+}
+
+void Session::build(const Wishes& wishes) {
+    show([](Shown& shown) { shown.doing = "Building cells"; });
+    const Clock::time_point begun = Clock::now();
+    WorldOptions options{.quality = BuildQuality::low,
+                         .deepest = divisions_of_first_cells,
+                         .cancelled =
+                             [&] {
+                                 const bool is_over = Clock::now() - begun > first_cells_deadline;
+                                 return is_of_another_reading(wishes) || (is_over && is_of_another_object(wishes));
+                             },
+                         .most_bytes = options_.most_bytes,
+                         .surfaces = surfaces_};
+    std::shared_ptr<Scene> scene;
+    try {
+        scene = std::make_shared<Scene>(edited(viewed_->scene, wishes.edits));
+        keep_cells(*scene, options);
+        surfaces_->begin_scene();
+        prepared_ = std::make_shared<const Prepared>(scene, options);
+    } catch (const BuildCancelled&) {
+        built_for_ = {};
+        throw;
+    } catch (...) {
+        prepared_.reset();  // It is of another scene than viewed_, and its picture would be wrong.
+        throw;
+    }
+    scene_ = scene;
+    const InterfaceCells& object = prepared_->world().geometry().object();
+    std::string warning = viewed_->warnings;
+    if (!object.warning().empty()) warning += fmt::format("{}: warning: {}\n", options_.name, object.warning());
+    if (object.size() == 0)
+        warning += fmt::format("{}: warning: the object is empty, so no ray meets it\n", options_.name);
+    if (!warning.empty()) options_.tell(warning);
+    warning_ = warning;
+    show([&](Shown& shown) {
+        camera_in_file_ = camera_text(viewed_->scene.camera, viewed_->scene.film.filter);
+        filter_in_file_ = viewed_->scene.film.filter;
+        shown.error.clear();
+        shown.scene = options_.name;
+        shown.resolution = scene->film.resolution();
+        shown.samples = scene->settings.samples;
+        shown.phases = shown_phases(viewed_->scene);
+        shown.layers = layers_of_film(subjects_of(viewed_->scene));
+        // Hiding a part must not move what the camera turns around.
+        const Bounds bounds = phasetree::bounds(viewed_->scene.object);
+        if (bounds.empty() || !bounds.finite()) return;
+        shown.centre = bounds.centre();
+        shown.radius = 0.5f * bounds.diagonal();
+    });
+}
+
+// What shows the same object, of other materials or from elsewhere, keeps the cells that there are.
+void Session::keep_cells(const Scene& scene, WorldOptions& options) const {
+    if (!prepared_) return;
+    options.known_cells = prepared_->world().geometry().objects().front();
+    WorldOptions better = options;
+    better.quality = options_.quality;
+    better.deepest.reset();
+    if (are_cells_of(*options.known_cells, scene.object, cell_options(scene, better))) options = better;
+}
+
+void Session::fail(const std::string& error) {
+    options_.tell(error + "\n");
+    show([&](Shown& shown) { shown.error = error; });
+    stop_by_error();
+}
+
+void Session::stop_by_error() {
+    show([](Shown& shown) { shown.doing = "Stopped by an error"; });
+}
+
+}  // namespace phasetree::tracer::view
