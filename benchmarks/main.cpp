@@ -45,6 +45,7 @@ const std::vector<Command>& commands() {
 
 // Minutes and gigabytes, and so not of all.
 const Command resolutions{"resolution", "a field against its triangles at 64³ to 1024³", resolution};
+const Command copies{"instances", "an object in one to a million places, as a field and as triangles", instances};
 const Command lists{"balls", "lists of ten thousand to ten million balls", balls};
 
 // Not a measurement, and so not one of all: what a change that should change nothing must leave as it was.
@@ -129,8 +130,9 @@ int main(int argc, char** argv) {
         app.add_subcommand(command.name, command.what)->callback([&] { chosen.push_back(command); });
     app.add_subcommand(fingerprints.name, fingerprints.what)->callback([&] { chosen.push_back(fingerprints); });
     app.add_subcommand(lists.name, lists.what)->callback([&] { chosen.push_back(lists); });
+    app.add_subcommand(copies.name, copies.what)->callback([&] { chosen.push_back(copies); });
     app.add_subcommand(resolutions.name, resolutions.what)->callback([&] { chosen.push_back(resolutions); });
-    app.add_subcommand("all", "all of these but the lists of balls, the resolutions and the fingerprints")
+    app.add_subcommand("all", "all of these but the copies, the lists of balls, the resolutions and the fingerprints")
         ->callback([&] { chosen = commands(); });
     try {
         app.parse(argc, argv);

@@ -10,6 +10,7 @@ Report table1(const Settings&);
 Report scaling(const Settings&);
 Report mesh(const Settings&);
 Report triangles(const Settings&);
+Report instances(const Settings&);
 Report volumes(const Settings&);
 Report naive(const Settings&);
 Report phases(const Settings&);

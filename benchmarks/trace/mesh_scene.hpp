@@ -30,6 +30,8 @@ class MeshScene {
             return hit->distance;
         });
     }
+    RTCDevice device() const { return scene_.device(); }
+    RTCScene handle() const { return scene_.handle(); }
     // Vertices, indices and Embree's hierarchy.
     std::size_t bytes() const { return scene_.bytes(); }
 

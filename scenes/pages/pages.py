@@ -198,8 +198,8 @@ def beside_path_traced(chromium, folder, scene):
         if error:
             return error
         browser.value("document.getElementById('panel').style.display = 'none'")
-        browser.wait("phasetree.passes >= 3", 25)
-        (folder / f"{scene}.png").write_bytes(at_rest(browser))
+        browser.wait("phasetree.passes >= 3", 40)  # or as far as it has come by then
+        (folder / f"{scene}.png").write_bytes(browser.screenshot())
     finally:
         browser.close()
     subprocess.run(["convert", str(scaled), str(folder / f"{scene}.png"), "+append", str(pair)], check=True)
