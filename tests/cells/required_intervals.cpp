@@ -35,6 +35,7 @@ struct RandomProgram {
     std::vector<float> constants, lipschitz{1};
     std::vector<ProgramOutput> outputs;
 
+    RandomProgram() = default;
     explicit RandomProgram(Random& rng) {
         const int leaves = 3 + rng.below(8), inner = 2 + rng.below(20);
         for (int i = 0; i < leaves; ++i) {
@@ -46,6 +47,26 @@ struct RandomProgram {
         for (int i = 0; i < inner; ++i) add_operation(rng);
         const auto last = static_cast<std::uint32_t>(code.size() - 1);
         outputs = {{Phase{0}, last, true}, {Phase{1}, last, false}};
+    }
+
+    /// nearer(a, b) of two unions of balls, as particles of two phases are.
+    static RandomProgram of_particles(Random& rng) {
+        RandomProgram result;
+        std::array<std::uint32_t, 2> unions{};
+        for (std::uint32_t& all : unions) {
+            const int balls = 1 + rng.below(5);
+            for (int i = 0; i < balls; ++i) {
+                const glm::vec3 at = place(rng);
+                result.add_leaf(Capsule{.from = at, .to = at, .radius = rng.uniform(0.3f, 0.8f)});
+                const auto ball = static_cast<std::uint32_t>(result.code.size() - 1);
+                if (i > 0) result.add(Op::minimum, all, ball, {}, 1);
+                all = static_cast<std::uint32_t>(result.code.size() - 1);
+            }
+        }
+        result.add(Op::nearer, unions[0], unions[1], {}, 1);
+        const auto last = static_cast<std::uint32_t>(result.code.size() - 1);
+        result.outputs = {{Phase{0}, last, true}, {Phase{1}, last, false}};
+        return result;
     }
 
     WorkingProgram working() const { return {code, lipschitz, outputs}; }
@@ -141,23 +162,16 @@ std::vector<float> values(std::span<const Instruction> code, std::span<const flo
     return v;
 }
 
-}  // namespace
+constexpr float rounding = 1e-4f;
 
-TEST_CASE("what is left of a program in a ball has its sign there, whatever stands below what") {
-    constexpr float rounding = 1e-4f;
-    const int programs = long_tests() ? 2'000'000 : 200'000;
+/// What was compared of programs and what is left of them in balls.
+struct Outcome {
     std::size_t shortened = 0, gone = 0, points = 0, wrong = 0;
-    int first_wrong = -1;
-    Arena results, scratch;
-    for (int n = 0; n < programs; ++n) {
-        Random rng(51'000 + static_cast<unsigned>(n));
-        const RandomProgram program(rng);
-        const glm::vec3 centre = rng.in({glm::vec3(-1), glm::vec3(1)});
+    int first_wrong = -1;  ///< the number of a program
+    Arena results{}, scratch{};
+
+    void compare(const RandomProgram& program, const glm::vec3& centre, float radius, Random& rng, int number) {
         const std::vector<float> at_centre = values(program.code, program.constants, centre);
-        const float steep = program.lipschitz.back(), off = std::abs(at_centre.back());
-        if (!(steep > 0 && steep < 50)) continue;
-        // The ball is so large that the sign may change in it.
-        const float radius = std::min(off / steep * std::exp2(rng.uniform(0, 3)) + 0.01f, 1.f);
         std::vector<BatchOfFloats> registers(program.code.size());
         std::vector<std::uint32_t> slot(program.code.size());
         for (std::size_t i = 0; i < slot.size(); ++i) {
@@ -186,12 +200,66 @@ TEST_CASE("what is left of a program in a ball has its sign there, whatever stan
             ++points;
             if ((found < 0) == (expected < 0)) continue;
             ++wrong;
-            if (first_wrong < 0) first_wrong = n;
+            if (first_wrong < 0) first_wrong = number;
         }
     }
-    MESSAGE(programs, " programs, ", shortened, " shortened, ", gone, " without a change of sign; ", points, " points");
-    CAPTURE(first_wrong);
-    CHECK(wrong == 0);
-    CHECK(shortened > static_cast<std::size_t>(programs / 4));
-    CHECK(points > 10 * static_cast<std::size_t>(programs));
+    void tell(int programs) const {
+        MESSAGE(programs, " programs, ", shortened, " shortened, ", gone, " without a change of sign; ", points,
+                " points");
+    }
+};
+
+}  // namespace
+
+TEST_CASE("what is left of a program in a ball has its sign there, whatever stands below what") {
+    const int programs = long_tests() ? 2'000'000 : 200'000;
+    Outcome outcome;
+    for (int n = 0; n < programs; ++n) {
+        Random rng(51'000 + static_cast<unsigned>(n));
+        const RandomProgram program(rng);
+        const glm::vec3 centre = rng.in({glm::vec3(-1), glm::vec3(1)});
+        const float off = std::abs(values(program.code, program.constants, centre).back());
+        const float steep = program.lipschitz.back();
+        if (!(steep > 0 && steep < 50)) continue;
+        // The ball is so large that the sign may change in it.
+        outcome.compare(program, centre, std::min(off / steep * std::exp2(rng.uniform(0, 3)) + 0.01f, 1.f), rng, n);
+    }
+    outcome.tell(programs);
+    CAPTURE(outcome.first_wrong);
+    CHECK(outcome.wrong == 0);
+    CHECK(outcome.shortened > static_cast<std::size_t>(programs / 4));
+    CHECK(outcome.points > 10 * static_cast<std::size_t>(programs));
+}
+
+// Where balls of two phases and the vacuum meet, both operands are almost 0, and what is required of them ends at 0.
+TEST_CASE("what is left of particles in a ball at the edge of two phases has their sign there") {
+    const int programs = long_tests() ? 400'000 : 40'000;
+    Outcome outcome;
+    for (int n = 0; n < programs; ++n) {
+        Random rng(52'000 + static_cast<unsigned>(n));
+        const RandomProgram program = RandomProgram::of_particles(rng);
+        const Instruction& last = program.code.back();
+        // By Newton's steps towards the one surface and the other in turn.
+        glm::vec3 centre = rng.in({glm::vec3(-1), glm::vec3(1)});
+        for (int step = 0; step < 12; ++step) {
+            const std::uint32_t of = step % 2 == 0 ? last.a : last.b;
+            const float value = values(program.code, program.constants, centre)[of];
+            glm::vec3 slope(0);
+            for (int axis = 0; axis < 3; ++axis) {
+                glm::vec3 beside = centre;
+                beside[axis] += 1e-3f;
+                slope[axis] = (values(program.code, program.constants, beside)[of] - value) / 1e-3f;
+            }
+            centre -= value * slope;
+        }
+        const std::vector<float> v = values(program.code, program.constants, centre);
+        if (!(std::max(std::abs(v[last.a]), std::abs(v[last.b])) < 0.04f)) continue;  // They do not meet.
+        centre += rng.uniform(0, 0.03f) * rng.direction();
+        outcome.compare(program, centre, 0.1f * std::exp2(rng.uniform(-5, 0)), rng, n);
+    }
+    outcome.tell(programs);
+    CAPTURE(outcome.first_wrong);
+    CHECK(outcome.wrong == 0);
+    CHECK(outcome.shortened > static_cast<std::size_t>(programs / 8));
+    CHECK(outcome.points > 10 * static_cast<std::size_t>(programs));
 }

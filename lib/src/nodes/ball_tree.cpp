@@ -75,12 +75,12 @@ class Writer {
         }
         divide(part);
         const std::size_t first_child = node + 1, second_child = first_child + nodes_over(half(count));
-        const auto left = [&] { write(first_child, first, half(count)); };
-        const auto right = [&] { write(second_child, first + half(count), count - half(count)); };
+        const auto write_first = [&] { write(first_child, first, half(count)); };
+        const auto write_second = [&] { write(second_child, first + half(count), count - half(count)); };
         if (count > few)
-            tbb::parallel_invoke(left, right);
+            tbb::parallel_invoke(write_first, write_second);
         else
-            left(), right();
+            write_first(), write_second();
         const float *a = nodes_ + first_child * Tree::node_floats, *b = nodes_ + second_child * Tree::node_floats;
         set(to, unite(box_of(a), box_of(b)), std::max(a[Tree::radius], b[Tree::radius]), 0, second_child);
     }

@@ -11,9 +11,10 @@ namespace phasetree {
 ///
 ///     φₖ = max(Dₖ, (Dₖ − min over m ≠ k of Dₘ)/2),    φ₀ = −min over k of Dₖ.
 ///
-/// Both operands are 1-Lipschitz because the D are. For i ≠ k, φᵢ + φₖ is at least the sum of the second operands,
-/// which is (Dᵢ − min over m ≠ i of Dₘ + Dₖ − min over m ≠ k of Dₘ)/2 ≥ (Dᵢ − Dₖ + Dₖ − Dᵢ)/2 = 0; and φ₀ + φₖ ≥ Dₖ −
-/// min D ≥ 0.
+/// The right side is one operation of programs, nearer(a, b) = max(a, (a − b)/2) with b the least of the others, so
+/// that pruning has a rule for it: its sign asks for both only where they are negative. Both operands of the maximum
+/// are 1-Lipschitz because the D are. For i ≠ k, φᵢ + φₖ is at least the sum of the second operands, which is (Dᵢ − min
+/// over m ≠ i of Dₘ + Dₖ − min over m ≠ k of Dₘ)/2 ≥ (Dᵢ − Dₖ + Dₖ − Dᵢ)/2 = 0; and φ₀ + φₖ ≥ Dₖ − min D ≥ 0.
 struct Particles {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{
