@@ -59,7 +59,12 @@ class ListOfNodes(unittest.TestCase):
                 scene = without_comments(text)
                 phases = {name: pt.phase(name) for name in scene["phases"]}
                 phases["vacuum"] = pt.vacuum
-                made = calls(scene["tree"], scene["shapes"], phases, SCENES / "nodes")
+                try:
+                    made = calls(scene["tree"], scene["shapes"], phases, SCENES / "nodes")
+                except pt.Error as error:
+                    if "built without OpenVDB" not in str(error):
+                        raise
+                    self.skipTest(str(error))
                 made = made.with_phases(*phases.values())
                 handle, _ = _phasetree.read_text(text, str(SCENES / "nodes/studio.json"))
                 own = _phasetree.with_files(made.to_json(), "own", lambda f: pathlib.Path(f).name)

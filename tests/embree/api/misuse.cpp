@@ -172,7 +172,7 @@ TEST_CASE("arguments that are missing or impossible") {
     expect(phasetreeSetGeometryShownPhases(opaque.geometry.get(), 0b0110), invalid, "phase 3 is opaque");
     expect(phasetreeSetGeometryShownPhases(opaque.geometry.get(), 0b1000), PHASETREE_ERROR_NONE, "");
 
-    const Placed placed(object);
+    Placed placed(object);
     const PhasetreeGeometry g = placed.geometry.get();
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const float p[3] = {0, 0, 0}, bad_point[3] = {0, nan, 0};
@@ -190,6 +190,18 @@ TEST_CASE("arguments that are missing or impossible") {
     expect(phasetreeSetGeometryMotion(g, odd, 1, 0, 1), invalid, "finite");
     expect(phasetreeSetGeometryMotion(g, one, 2, 1, 1), invalid, "startTime");
     expect(phasetreeSetGeometryMotion(g, one, 1000, 0, 1), invalid, "timeStepCount");
+    // Embree would stop the program, or never be done.
+    const float outside[][2] = {{1, 2},      {-1, 0},      {5.0f / 3, 28.0f / 15},
+                                {-3, -2.9f}, {-5, 1e-10f}, {0.99999994f, 1.5f}};
+    for (const auto& times : outside)
+        expect(phasetreeSetGeometryMotion(g, one, 2, times[0], times[1]), invalid, "shutter");
+    // What is met for a moment alone is built.
+    const float inside[][2] = {{0.9999f, 1.5f}, {-1, 1e-3f}, {-1e5f, 1e5f}, {0.5f, 0.5000001f}, {0, 1e-10f}};
+    for (const auto& times : inside) {
+        REQUIRE(phasetreeSetGeometryMotion(g, one, 2, times[0], times[1]) == PHASETREE_ERROR_NONE);
+        rtcCommitGeometry(placed.geometry.embree());
+        placed.scene.commit();
+    }
 }
 
 TEST_CASE("hits that are none, or another geometry's") {

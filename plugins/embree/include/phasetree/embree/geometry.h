@@ -177,8 +177,9 @@ PHASETREE_API PhasetreeError phasetreeSetGeometryShownPhases(PhasetreeGeometry g
  * timeStepCount  1 … RTC_MAX_TIME_STEP_COUNT; 1: the object is placed and does not move. 0 (transforms NULL): the
  *                tree's own space, as at first.
  * startTime, endTime   the time of the first and of the last step, in the unit of the rays' time, where 0 … 1 is the
- *                camera's shutter; endTime > startTime. Outside of them the object stays at the first or last step's
- *                place where Embree lets rays see it at all (rtcSetGeometryTimeRange).
+ *                camera's shutter; endTime > startTime, and a millionth of what is between them is in the shutter.
+ *                Outside of them the object stays at the first or last step's place where Embree lets rays see it at
+ *                all (rtcSetGeometryTimeRange).
  *
  * Exclusive. Nothing is rebuilt: commit the RTCGeometry, with one primitive, and the scene.
  *
