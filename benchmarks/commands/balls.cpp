@@ -1,4 +1,7 @@
 // Ten thousand to ten million balls as data of one node: does their number matter to a ray, and what do they take?
+//
+// Lists of ten thousand to ten million balls in four phases, on a lattice with places and radii moved at random, some
+// overlapping, opaque as grains are. Building is from the list in memory to Embree's hierarchy.
 #include <fmt/format.h>
 #include <sys/resource.h>
 

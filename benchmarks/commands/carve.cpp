@@ -1,4 +1,8 @@
 // Sphere Carving: how much smaller than boxes carved bounds are, what they take, and where they pay.
+//
+// Convex bounds by Sphere Carving against the library's boxes: volumes, evaluations and time, the cells' building time
+// beside it; and rays, by the whole program within either, and through cells with a test against the planes before
+// Embree.
 #include <fmt/format.h>
 
 #include "commands/commands.hpp"

@@ -1,4 +1,7 @@
 // What a host of the C99 interface pays beside its rays: for decoding hits, for cells from a file, for points.
+//
+// Through the C99 interface, as other renderers have it: what decoding a hit costs, by the ray that found it; a
+// geometry with cells from a file, by building it; points all at once, by one at a time.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 

@@ -1,6 +1,9 @@
 // The paper's Figure 21: how far one may go along a ray. One ray through the hourglass's glass and sand, and three ways
 // along it: by the smallest |φᵢ|, as the paper steps; by the interface distance, the second smallest component with the
 // vacuum among them; and by cells, eight samples at a time.
+//
+// One ray from phase to phase, by the paper's step, by the interface distance and by cells; the values along it are
+// kept in the JSON for the plot.
 #include <fmt/format.h>
 
 #include "commands/commands.hpp"

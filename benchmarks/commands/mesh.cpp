@@ -1,4 +1,10 @@
 // A field against the mesh that would replace it: four scenes' outer surfaces and the same surfaces as triangles.
+//
+// Surfaces as fields of one phase, or of the tentacle four (opaque, as a mesh is), and the same as triangles by
+// surface nets (mesh/), 512 cubes along the longest side, in an Embree scene of their own that is not robust (which is
+// faster). Random rays leave what the camera's rays hit; the mesh's start at its own hit, lifted by 10⁻⁵ of the
+// object, in the same direction. A triangle's normal comes with the hit, a field's is computed apart: both are given.
+// That the two are the same surface is checked by the camera's rays.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 

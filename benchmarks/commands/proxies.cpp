@@ -1,5 +1,8 @@
 // What bounding volumes and levels of detail within a tree save: where the tree is walked at every step, as the paper
 // does, and where cells have taken from it what does not matter anyway.
+//
+// A ball with 2,048 studs, plain, with a bounding volume around every 32, and with two levels of detail: by the tree
+// walked at every step, and through cells.
 #include <fmt/format.h>
 
 #include <cmath>

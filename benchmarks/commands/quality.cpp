@@ -1,4 +1,7 @@
 // What the qualities of building are worth: cells, time to build and to trace.
+//
+// The same objects in cells of low and of medium quality of build (BuildQuality; everything else is measured with
+// medium): time and bytes, and the rates of camera rays and of random ones that leave what those hit, knowing where.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 

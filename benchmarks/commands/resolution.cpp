@@ -1,5 +1,8 @@
 // A field against the triangles that would replace it, at grids from 64³ to 1024³: what a mesh costs depends on how
 // near to the surface it shall be, a field is the surface.
+//
+// A field against its triangles at 64³ to 1024³, with how far the mesh's hits are from the surface, memory and
+// building time.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 

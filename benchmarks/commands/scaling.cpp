@@ -1,4 +1,8 @@
 // The tentacle with 30 to 30,000 bumps: does the number of primitives matter to a ray?
+//
+// A tentacle of four phases with 30 to 30,000 bumps (objects/tentacle.hpp): camera rays, and random rays from points
+// spread evenly over the inside. Build time is that of the program, the cells and Embree's hierarchy on one thread;
+// bytes are the cells' own and, apart, what Embree asked for.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 

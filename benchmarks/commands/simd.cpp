@@ -1,4 +1,8 @@
 // The same with every instruction set of this machine, and with more threads.
+//
+// Every instruction set of the machine, and 1 thread against 2 or more, whose results must be equal to the last bit.
+// On a loaded machine the wall clock says little about threads; their own processor time, given beside it, says what
+// they lose to each other.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 

@@ -1,4 +1,11 @@
 // The paper's Table 1: does it cost anything that an object has phases?
+//
+// Seven objects with their phases, and the same outer surfaces as trees of one phase that were written by hand as a
+// library of distance fields would have them (scenes/benchmark/*_monophase.json): unions, differences and offsets,
+// without what nobody can see. The multiphase trees are the gallery's scenes; only the cake has one of its own,
+// because the entremet's glaze blends all that is below it, which no other tree can. That two surfaces are one is
+// checked at random points, half of them near it, and along the camera's rays. primary is one ray a pixel, bounce adds
+// a ground plane of two triangles and one diffuse ray more from what was met.
 #include <fmt/format.h>
 
 #include "commands/commands.hpp"

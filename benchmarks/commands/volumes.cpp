@@ -1,4 +1,6 @@
 // Grids of voxels as fields, `volume` and `labels`, against the triangles of the same surface in Embree.
+//
+// A level set and labels at voxels, 64³ to 512³, and triangles of the same surface in Embree.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 

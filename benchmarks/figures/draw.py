@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the figures of benchmarks/README.md as SVG files beside this script, from what phasetree-bench has written.
+"""Draws the figures of README.md as SVG files beside this script, from what phasetree-bench has written.
 
     build/release/benchmarks/phasetree-bench table1 --json benchmarks/results/table1.json     # and so on
     python3 benchmarks/figures/draw.py
