@@ -252,6 +252,27 @@ TEST_CASE("a file that is cut off anywhere, or damaged anywhere, is refused or r
 
 #include <string>
 
+// OpenVDB reads four bytes of a float, whatever length the file gives it, and goes on at another place than one who
+// believes the length. A file could hide there that it wants gigabytes.
+TEST_CASE("a number in a file's metadata has the length of its type") {
+    Folder folder;
+    auto grid = ball(0.5, {0, 0, 0}, 0.1f, "ball");
+    grid->insertMeta("a_float", openvdb::FloatMetadata(1.5f));
+    grid->insertMeta("a_matrix", openvdb::Mat4DMetadata(openvdb::Mat4d::identity()));
+    grid->insertMeta("a_vector", openvdb::Vec3DMetadata(openvdb::Vec3d(1, 2, 3)));
+    const std::string bytes = bytes_of(folder.write("right.vdb", {grid}));
+    REQUIRE(said_of(folder.write_bytes("copy.vdb", bytes)) == "nothing");
+    for (const std::string type : {"float", "mat4d", "vec3d"}) {
+        CAPTURE(type);
+        std::string wrong = bytes;
+        const std::string stored = std::string{static_cast<char>(type.size()), 0, 0, 0} + type;
+        const std::size_t at = wrong.find(stored, wrong.find("a_")) + stored.size();
+        REQUIRE(at < wrong.size());
+        wrong[at] = static_cast<char>(wrong[at] + 4);
+        CHECK(said_of(folder.write_bytes("wrong.vdb", wrong)) == "it is cut off, or damaged");
+    }
+}
+
 TEST_CASE("without OpenVDB its files are refused in a sentence that says how they can be read") {
     CHECK_FALSE(phasetree::tracer::can_read_openvdb());
     try {

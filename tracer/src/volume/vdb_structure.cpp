@@ -78,6 +78,49 @@ class Bytes {
     std::uint64_t size_ = 0, at_ = 0;
 };
 
+// How many bytes OpenVDB reads of a value of this type, whatever length the file gives it; nothing where it reads as
+// many as the file says. Another length would let it go on at another place than this walk.
+std::optional<std::uint32_t> metadata_bytes(const std::string& type) {
+    if (type == "bool") return 1;
+    for (const auto& [number, bytes] :
+         {std::pair{"float", 4u}, std::pair{"double", 8u}, std::pair{"int32", 4u}, std::pair{"int64", 8u}})
+        if (type == number) return bytes;
+    for (const auto& [letter, bytes] : {std::pair{'i', 4u}, std::pair{'s', 4u}, std::pair{'d', 8u}}) {
+        for (std::uint32_t n = 2; n <= 4; ++n)
+            if (type == fmt::format("vec{}{}", n, letter)) return n * bytes;
+        if (type == fmt::format("mat4{}", letter)) return 16 * bytes;
+    }
+    return std::nullopt;
+}
+
+// So many values as they are, or, behind a length that is not 0, packed by Blosc: a head of sixteen bytes, which has
+// the unpacked and the packed length at its bytes 4 and 12, and the rest. Returns the bytes that were skipped.
+std::uint64_t skip_packed(Bytes& file, std::uint32_t packed, std::uint64_t unpacked) {
+    if (packed == 0) {
+        file.skip(unpacked);
+        return unpacked;
+    }
+    if (packed < 16) Bytes::cut_off();
+    file.skip(4);
+    if (file.number<std::uint32_t>() != unpacked) Bytes::cut_off();
+    file.skip(4);
+    if (file.number<std::uint32_t>() != packed) Bytes::cut_off();
+    file.skip(packed - 16);
+    return packed;
+}
+
+// What helps OpenVDB to read leaves later: of each a byte and, unless the length is the largest number, eight bytes.
+void skip_delayed_load(Bytes& file, std::uint32_t bytes) {
+    if (bytes == 0) return;
+    const auto leaves = file.number<std::uint32_t>();
+    // Each leaf takes 64 bytes of the file at least.
+    if (leaves > file.size() / 64) Bytes::cut_off();
+    std::uint64_t read = 12 + skip_packed(file, file.number<std::uint32_t>(), leaves);
+    if (const auto packed = file.number<std::uint32_t>(); packed != 0xFFFFFFFF)
+        read += skip_packed(file, packed, std::uint64_t{leaves} * 8);
+    if (read != bytes) Bytes::cut_off();
+}
+
 // A list of names, types and values.
 void skip_metadata(Bytes& file) {
     const auto count = file.number<std::uint32_t>();
@@ -85,13 +128,12 @@ void skip_metadata(Bytes& file) {
         file.text();
         const std::string type = file.text();
         const auto bytes = file.number<std::uint32_t>();
-        if (type == "__delayedload" && bytes >= 4) {
-            // It begins with the number of leaves, each of which takes 64 bytes at least.
-            if (file.number<std::uint32_t>() > file.size() / 64) Bytes::cut_off();
-            file.skip(bytes - 4);
-        } else {
-            file.skip(bytes);
+        if (type == "__delayedload") {
+            skip_delayed_load(file, bytes);
+            continue;
         }
+        if (const auto known = metadata_bytes(type); known && bytes != *known) Bytes::cut_off();
+        file.skip(bytes);
     }
 }
 
