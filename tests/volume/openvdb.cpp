@@ -248,10 +248,6 @@ TEST_CASE("a file that is cut off anywhere, or damaged anywhere, is refused or r
     }
 }
 
-#else
-
-#include <string>
-
 // OpenVDB reads four bytes of a float, whatever length the file gives it, and goes on at another place than one who
 // believes the length. A file could hide there that it wants gigabytes.
 TEST_CASE("a number in a file's metadata has the length of its type") {
@@ -272,6 +268,10 @@ TEST_CASE("a number in a file's metadata has the length of its type") {
         CHECK(said_of(folder.write_bytes("wrong.vdb", wrong)) == "it is cut off, or damaged");
     }
 }
+
+#else
+
+#include <string>
 
 TEST_CASE("without OpenVDB its files are refused in a sentence that says how they can be read") {
     CHECK_FALSE(phasetree::tracer::can_read_openvdb());
