@@ -59,10 +59,13 @@ process_of() {
 
 killed='' preempted=''
 for ((i = 0; i < 1500; ++i)); do
-    # The first share once it has a checkpoint is killed; the last is preempted as Slurm does it.
-    if [ -z "$killed" ] && [ -e "$folder/scene.0-400.part" ]; then
-        kill -9 "$(process_of 0:400)" && killed=yes
-    fi
+    # A share that has a checkpoint and has not ended is killed; the last is preempted as Slurm does it.
+    for share in 0 400 800; do
+        if [ -z "$killed" ] && [ -e "$folder/scene.$share-$((share + 400)).part" ]; then
+            process=$(process_of "$share:$((share + 400))")
+            [ -n "$process" ] && kill -9 "$process" && killed=yes
+        fi
+    done
     if [ -z "$preempted" ] && [ -e "$folder/scene.1200-1600.part" ]; then
         scontrol requeue "${array}_3" && preempted=yes
     fi

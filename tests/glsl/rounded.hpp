@@ -39,17 +39,18 @@ inline Rounded either(const Rounded& a, const Rounded& b) {
 inline Rounded operator-(const Rounded& a) {
     return {-a.value, a.error};
 }
-/// Compilers of shaders may make x + (a − b) of (x + a) − b, where a and b are constants; then a − b is rounded, to
-/// half a unit of the larger. Constants are known by their error of 0; whole numbers, of which hashes are made, do not
-/// matter.
-inline double error_of_joining(const Rounded& a) {
-    return a.error == 0 && std::floor(a.value) != a.value ? unit_roundoff * std::abs(a.value) : 0;
+/// Compilers of shaders may make x + (a − b) of (x + a) − b, where a and b are constants; then a − b is rounded, and
+/// not x + a. So a constant that is added to what has been rounded brings half a unit of its own. Constants are known
+/// by their error of 0; whole numbers, of which hashes are made, do not matter.
+inline double error_of_joining(const Rounded& constant, const Rounded& sum) {
+    const bool is_joined = constant.error == 0 && sum.error > 0 && std::floor(constant.value) != constant.value;
+    return is_joined ? unit_roundoff * std::abs(constant.value) : 0;
 }
 inline Rounded operator+(const Rounded& a, const Rounded& b) {
-    return rounded(a.value + b.value, a.error + b.error + error_of_joining(a) + error_of_joining(b));
+    return rounded(a.value + b.value, a.error + b.error + error_of_joining(a, b) + error_of_joining(b, a));
 }
 inline Rounded operator-(const Rounded& a, const Rounded& b) {
-    return rounded(a.value - b.value, a.error + b.error + error_of_joining(a) + error_of_joining(b));
+    return rounded(a.value - b.value, a.error + b.error + error_of_joining(a, b) + error_of_joining(b, a));
 }
 inline Rounded operator*(const Rounded& a, const Rounded& b) {
     return rounded(a.value * b.value, std::abs(a.value) * b.error + std::abs(b.value) * a.error + a.error * b.error);
