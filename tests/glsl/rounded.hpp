@@ -6,6 +6,7 @@
 /// half a unit in the last place for sums, differences and products; what GLSL ES 3.00 allows, two and a half units,
 /// for quotients, and five for roots. Where a comparison is a matter of rounding, either operand may be chosen.
 
+#include <algorithm>
 #include <cmath>
 
 #include "phasetree/math/number.hpp"
@@ -15,6 +16,7 @@ namespace phasetree::tests {
 
 struct Rounded {
     double value = 0, error = 0;
+    double added = 0;  ///< of a sum: the size of the constants in it
 
     Rounded() = default;
     explicit Rounded(float v) : value(v) {}
@@ -37,23 +39,39 @@ inline Rounded either(const Rounded& a, const Rounded& b) {
 }
 
 inline Rounded operator-(const Rounded& a) {
-    return {-a.value, a.error};
+    Rounded result = a;
+    result.value = -a.value;
+    return result;
 }
-/// Compilers of shaders may make x + (a − b) of (x + a) − b, where a and b are constants; then a − b is rounded, and
-/// not x + a. So a constant that is added to what has been rounded brings half a unit of its own. Constants are known
-/// by their error of 0; whole numbers, of which hashes are made, do not matter.
-inline double error_of_joining(const Rounded& constant, const Rounded& sum) {
-    const bool is_joined = constant.error == 0 && sum.error > 0 && std::floor(constant.value) != constant.value;
-    return is_joined ? unit_roundoff * std::abs(constant.value) : 0;
+/// Compilers of shaders may make x + (a − b) of (x + a) − b, where a and b are constants; then a − b is rounded, to
+/// half a unit of them at most. Constants are known by their error of 0; whole numbers, of which hashes are made, do
+/// not matter.
+inline Rounded sum_of(const Rounded& a, const Rounded& b, double value) {
+    const auto constant = [](const Rounded& r) {
+        return r.error == 0 && std::floor(r.value) != r.value ? std::abs(r.value) : 0;
+    };
+    const double joined = (constant(b) > 0 ? a.added : 0) + (constant(a) > 0 ? b.added : 0);
+    const double added = a.added + b.added + std::max(constant(a), constant(b));
+    Rounded sum = rounded(value, a.error + b.error + (joined > 0 ? unit_roundoff * added : 0));
+    sum.added = added;
+    return sum;
 }
 inline Rounded operator+(const Rounded& a, const Rounded& b) {
-    return rounded(a.value + b.value, a.error + b.error + error_of_joining(a, b) + error_of_joining(b, a));
+    return sum_of(a, b, a.value + b.value);
 }
 inline Rounded operator-(const Rounded& a, const Rounded& b) {
-    return rounded(a.value - b.value, a.error + b.error + error_of_joining(a, b) + error_of_joining(b, a));
+    return sum_of(a, b, a.value - b.value);
 }
 inline Rounded operator*(const Rounded& a, const Rounded& b) {
-    return rounded(a.value * b.value, std::abs(a.value) * b.error + std::abs(b.value) * a.error + a.error * b.error);
+    // Likewise x k + c k may be made of (x + c) k, each of whose products is rounded.
+    const double added =
+        (b.error == 0 ? a.added * std::abs(b.value) : 0) + (a.error == 0 ? b.added * std::abs(a.value) : 0);
+    const double value = a.value * b.value;
+    const double distributed = added > 0 ? unit_roundoff * (2 * added + std::abs(value)) : 0;
+    Rounded product =
+        rounded(value, std::abs(a.value) * b.error + std::abs(b.value) * a.error + a.error * b.error + distributed);
+    product.added = added;
+    return product;
 }
 inline Rounded operator/(const Rounded& a, const Rounded& b) {
     const double least = std::abs(b.value) - b.error;
