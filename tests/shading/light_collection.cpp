@@ -99,13 +99,14 @@ TEST_CASE("lights: of a lamp so small that rounding misses it, what missed is no
 TEST_CASE("lights: a direction that several lights can propose counts all of them") {
     const Lights lights = everything();
     const glm::vec3 p(0.0f);
-    // Fluences, and from them the shares: environment, sun, rectangle, sphere.
+    // Fluences, and from them the shares: environment, sun, rectangle, sphere. An even environment is chosen by a tenth
+    // of its own, since paths find it by themselves.
     const auto lamp = RectangleLight::facing({-0.5f, 0.0f, 2.0f}, {-0.5f, 0.0f, 0.0f}, 1.5f, 1.0f, {});
     const double rectangle_angle = lamp.solid_angle(p);
     const double sphere_angle = SphereLight({0.3f, 0.0f, 1.0f}, 0.25f, {}).solid_angle(p);
     const double sun_radius = 10.0 * half_turn / 180.0;
     const double sun_angle = 2.0 * half_turn * (1.0 - std::cos(sun_radius));
-    const double environment = 0.5 * 4.0 * half_turn;
+    const double environment = 0.1 * 0.5 * 4.0 * half_turn;
     const double sun = sun_angle / (half_turn * std::pow(std::sin(sun_radius), 2.0));
     const double rectangle = 3.0 * lamp.approximate_solid_angle(p);
     const double sphere = 2.0 * sphere_angle;
@@ -126,6 +127,43 @@ TEST_CASE("lights: a direction that several lights can propose counts all of the
     CHECK(seen(lights, p, glm::normalize(glm::vec3(0.2f, 0, 2))).radiance.x == 2.0f);
     CHECK(seen(lights, p, towards_sun, false).radiance.x > 1.5f);
     CHECK(seen(lights, p, {0, 0, -1}).radiance.x == 0.5f);
+}
+
+TEST_CASE("lights: light from all around is chosen by what of it is above its mean") {
+    CHECK(DiffuseIrradiance(ConstantEnvironment(glm::vec3(0.5f))).unevenness() == doctest::Approx(0.1f));
+    CHECK(DiffuseIrradiance(ConstantEnvironment(glm::vec3(0.0f))).unevenness() == 1.0f);  // which is chosen by nothing
+    // L = S(|z|) above and 0 below, S(t) = t² (3 − 2t): the mean is 1/4, above which L is from z = 0.32635 on. There
+    // ∫ (L − 1/4) dz = 0.298, of all that is 1/2.
+    const GradientEnvironment above(glm::vec3(1), glm::vec3(0), glm::vec3(0), 1.0f);
+    double sum = 0.0, all = 0.0;
+    constexpr int steps = 100000;
+    for (int i = 0; i < steps; ++i) {
+        const double z = (i + 0.5) / steps, radiance = z * z * (3.0 - 2.0 * z);
+        sum += std::max(radiance - 0.25, 0.0);
+        all += radiance;
+    }
+    CHECK(DiffuseIrradiance(above).unevenness() == doctest::Approx(sum / all).epsilon(0.01));
+    // A sun in a grey sky has nearly all that there is.
+    std::vector<glm::vec3> sky(256 * 128, glm::vec3(0.1f));
+    sky[40 * 256 + 30] = glm::vec3(1e5f);
+    CHECK(DiffuseIrradiance(ImageEnvironment(256, 128, sky)).unevenness() > 0.9f);
+}
+
+TEST_CASE("lights: a portal is looked at as before, however even the sky is") {
+    // The fluence of the lamp is a tenth of the sky's. Without a portal the sky is chosen half of the time; with one,
+    // ten times in eleven, three quarters of which go to the portal.
+    const glm::vec3 p(0.0f);
+    const auto lights_with = [&](bool portal) {
+        Lights lights;
+        lights.add(ConstantEnvironment(glm::vec3(1.0f)));
+        lights.add(SphereLight({0, 0, 3}, 1.0f, glm::vec3(0.1f * 4 / (2 * (1 - std::sqrt(8.0f / 9.0f))))));
+        if (portal)
+            lights.add(Portal(RectangleLight::facing({3, 0, 0}, {0, 0, 0}, 1.0f, 1.0f, glm::vec3(0.0f), false)));
+        return lights;
+    };
+    const glm::vec3 elsewhere(0, 0, -1);
+    CHECK(lights_with(false).pdf(p, elsewhere) == doctest::Approx(0.5 / (4 * half_turn)).epsilon(1e-4));
+    CHECK(lights_with(true).pdf(p, elsewhere) == doctest::Approx(0.25 / 1.1 / (4 * half_turn)).epsilon(1e-4));
 }
 
 TEST_CASE("lights: the density integrates to 1 and samples follow it") {

@@ -17,6 +17,8 @@ constexpr int samples = 1024;
 // have of the same light from all around.
 constexpr float least_share = 0.05f;
 
+constexpr float least_unevenness = 0.1f;
+
 std::array<float, 9> harmonics(const glm::vec3& w) {
     return {0.282095f,
             0.488603f * w.y,
@@ -45,14 +47,20 @@ DiffuseIrradiance::DiffuseIrradiance(const InfiniteLight& any) {
     std::visit(
         [&](const auto& light) {
             least_ = least_share * 0.25f * light.fluence();
+            const float mean = light.fluence() / (4 * pi);
+            float above_mean = 0, all = 0;
             // Taken where the light is, so that a sun in an image is not missed.
             for (int i = 0; i < samples; ++i) {
                 const auto sample = light.sample(hammersley(i));
                 if (!sample || !(sample->pdf > 0.0f)) continue;
-                const float weight = luminance(light.radiance(sample->direction)) / (sample->pdf * samples);
+                const float seen = luminance(light.radiance(sample->direction));
+                const float weight = seen / (sample->pdf * samples);
+                above_mean += std::max(seen - mean, 0.0f) / (sample->pdf * samples);
+                all += weight;
                 const std::array<float, 9> y = harmonics(sample->direction);
                 for (std::size_t k = 0; k < y.size(); ++k) coefficients_[k] += weight * cosine_lobe[k] * y[k];
             }
+            if (all > 0.0f && std::isfinite(all)) unevenness_ = std::max(above_mean / all, least_unevenness);
         },
         any);
     for (float& c : coefficients_)

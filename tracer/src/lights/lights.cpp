@@ -124,9 +124,11 @@ float Lights::shares(const LightReceiver& at, std::span<float> shares) const {
     for (std::size_t i = 0; i < infinite_.size(); ++i) {
         shares[index] = std::visit(
             [&](const auto& light) {
-                if (!at.normal) return light.fluence();
                 const std::optional<glm::vec3> centre = light.centre_direction();
-                if (!centre) return irradiance_[i].at(*at.normal);
+                // What is seen through portals is found by looking at them, and hardly by chance.
+                const float part = centre || !portals_.empty() ? 1.0f : irradiance_[i].unevenness();
+                if (!at.normal) return part * light.fluence();
+                if (!centre) return part * irradiance_[i].at(*at.normal);
                 return light.fluence() * std::max(glm::dot(*centre, *at.normal), least_cosine_of_sun);
             },
             infinite_[i]);

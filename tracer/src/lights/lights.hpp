@@ -11,8 +11,9 @@
 //
 // cᵢ(x) is proportional to the luminance the light sends through x from all directions if nothing is in the way (its
 // fluence, the mean luminance times the solid angle; of a rectangle, roughly); at a surface, to the luminance that it
-// receives, with the cosine. Unlike emitted power this needs no extent of the scene to compare an environment with a
-// lamp, and a lamp that is far away or turned away, or below the surface, takes no samples.
+// receives, with the cosine. Of light from all around only what is above its mean counts (unevenness(), in
+// diffuse_irradiance.hpp), unless there are portals. Unlike emitted power this needs no extent of the scene to compare
+// an environment with a lamp, and a lamp that is far away or turned away, or below the surface, takes no samples.
 //
 // Area lights hide what is behind them, and nothing else: rectangles from their emitting side, spheres from everywhere.
 //
