@@ -14,6 +14,7 @@
 #include "lights/constant_environment.hpp"
 #include "lights/gradient_environment.hpp"
 #include "lights/image_environment.hpp"
+#include "lights/lat_long.hpp"
 #include "lights/load_environment.hpp"
 
 using namespace phasetree::tracer;
@@ -185,6 +186,54 @@ TEST_CASE("image environment: large images are sampled by blocks") {
     CHECK(sum_of(probability) == doctest::Approx(1.0).epsilon(1e-5));
     const glm::vec3 normal(0.0f, 0.0f, 1.0f);
     check(irradiance_test(environment, normal, irradiance_by_quadrature(environment, normal), 1000000));
+}
+
+TEST_CASE("image environment: its bright parts are caps around what is much brighter than the rest") {
+    constexpr int width = 64, height = 32;
+    const auto parts_of = [](const std::vector<std::pair<int, float>>& bright, float sky = 0.1f) {
+        std::vector<glm::vec3> pixels(width * height, glm::vec3(sky));
+        for (const auto& [texel, radiance] : bright) pixels[static_cast<std::size_t>(texel)] = glm::vec3(radiance);
+        return ImageEnvironment(width, height, pixels).bright_parts();
+    };
+    CHECK(parts_of({}).empty());
+    CHECK(parts_of({}, 0.0f).empty());
+    CHECK(parts_of({{10 * width + 20, 0.5f}}).empty());  // five times the sky is no sun
+    // All directions in which a part shines are in its cap, which is no larger than the texel and those around it.
+    const auto check_part = [](const Cap& part, int column, int row) {
+        const auto direction = [&](float x, float y) {
+            const double u = (column + static_cast<double>(x)) / width, v = (row + static_cast<double>(y)) / height;
+            return direction_of((2 * u - 1) * std::numbers::pi, std::cos(v * std::numbers::pi));
+        };
+        for (const float x : {-0.49f, 0.5f, 1.49f})
+            for (const float y : {-0.49f, 0.5f, 1.49f}) CHECK(part.contains(direction(x, y)));
+        const double step = std::numbers::pi / height;
+        CHECK(static_cast<double>(part.solid_angle()) < std::numbers::pi * std::pow(2.5 * step, 2));
+    };
+    const auto one = parts_of({{10 * width + 20, 1000.0f}});
+    REQUIRE(one.size() == 1);
+    check_part(one[0], 20, 10);
+    // Across the seam they are one part, and one at the zenith is round.
+    const auto seam = parts_of({{10 * width, 1000.0f}, {10 * width + width - 1, 1000.0f}});
+    REQUIRE(seam.size() == 1);
+    CHECK(glm::length(seam[0].axis() - glm::normalize(glm::vec3(0, seam[0].axis().y, seam[0].axis().z))) < 1e-3f);
+    CHECK(seam[0].axis().y < 0);
+    std::vector<std::pair<int, float>> zenith;
+    for (int column = 0; column < width; ++column) zenith.emplace_back(column, 1000.0f);
+    REQUIRE(parts_of(zenith).size() == 1);
+    CHECK(parts_of(zenith)[0].axis().z > 0.9999f);
+    // The brightest first, and no more than four.
+    std::vector<std::pair<int, float>> six;
+    for (int i = 0; i < 6; ++i) six.emplace_back(12 * width + 5 + 10 * i, 1000.0f + 100.0f * static_cast<float>(i));
+    const auto four = parts_of(six, 0.01f);
+    REQUIRE(four.size() == 4);
+    check_part(four[0], 55, 12);
+    check_part(four[3], 25, 12);
+    // They turn with the image.
+    std::vector<glm::vec3> pixels(width * height, glm::vec3(0.1f));
+    pixels[10 * width + 20] = glm::vec3(1000);
+    const ImageEnvironment turned(width, height, pixels, 70);
+    REQUIRE(turned.bright_parts().size() == 1);
+    CHECK(turned.radiance(turned.bright_parts()[0].axis()).x > 500);
 }
 
 TEST_CASE("image environment: orientation and rotation") {

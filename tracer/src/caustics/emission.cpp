@@ -36,11 +36,9 @@ PhotonEmission::PhotonEmission(const World& world, const Scene& scene) : world_(
     if (bounds.empty() || !bounds.finite() || std::ranges::none_of(scene.materials, bends_light)) return;
     centre_ = bounds.centre();
     radius_ = 0.5005f * bounds.diagonal();
-    const std::span<const InfiniteLight> infinite = scene.lights.infinite();
-    for (std::size_t i = 0; i < infinite.size(); ++i) {
-        const auto middle = std::visit([](const auto& light) { return light.centre_direction(); }, infinite[i]);
-        if (middle) sources_.push_back({i, {}, {}, 1.0, {centre_, -*middle, target_of_infinite * radius_}});
-    }
+    for (const InfiniteLight& infinite : scene.lights.infinite())
+        for (const Cap& part : std::visit([](const auto& light) { return light.bright_parts(); }, infinite))
+            sources_.push_back({part, {}, {}, 1.0, {centre_, -part.axis(), target_of_infinite * radius_}});
     const auto target_from = [&](const glm::vec3& light) {
         const glm::vec3 towards = centre_ - light;
         const float distance = glm::length(towards);
@@ -99,11 +97,8 @@ std::optional<EmittedPhoton> PhotonEmission::sample(Sampler& sampler, float time
 
     glm::vec3 direction;
     float back = infinity;  // from the target to the light
-    if (source.infinite) {
-        const auto sampled = std::visit([&](const auto& light) { return light.sample(u_light); },
-                                        scene_.lights.infinite()[*source.infinite]);
-        if (!sampled) return std::nullopt;
-        direction = -sampled->direction;
+    if (source.cap) {
+        direction = -source.cap->sample(u_light);
     } else {
         const SurfacePoint from = std::visit([&](const auto& light) { return light.surface_point(u_light); },
                                              scene_.lights.area()[*source.area]);
@@ -159,9 +154,7 @@ float PhotonEmission::density_of(const Source& source, const glm::vec3& origin, 
     if (source.point) return 0.0f;
     const PhotonTarget::Crossing crossing = source.target.crossing(origin, -towards_light);
     if (!(crossing.density > 0.0f)) return 0.0f;
-    if (source.infinite)
-        return crossing.density * std::visit([&](const auto& light) { return light.pdf(towards_light); },
-                                             scene_.lights.infinite()[*source.infinite]);
+    if (source.cap) return crossing.density * source.cap->pdf(towards_light);
     return std::visit(
         [&](const auto& light) {
             const std::optional<float> distance = light.intersect(origin, towards_light);

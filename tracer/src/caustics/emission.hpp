@@ -3,11 +3,12 @@
 // A photon starts on a line. Lines are measured by area and solid angle, dG = dA cos θ dω, which is the same at every
 // point of the line; where light is refracted n² dG is kept (the étendue). The density of lines is a mixture of the
 // lights' own, as that of directions is (lights/lights.hpp),
-//     p(line) = Σᵢ cᵢ pᵢ(line),   pᵢ = p(ω) t  of an infinite light,   pᵢ = t d²/(A cos θ)  of an area light,
+//     p(line) = Σᵢ cᵢ pᵢ(line),   pᵢ = t/Ω  of an infinite light,   pᵢ = t d²/(A cos θ)  of an area light,
 // with the density t of the line in the light's target (target.hpp), the light's area A, the angle θ at its surface and
-// the distance d from there to the target. What a photon carries is what is seen along its line, whichever light
-// proposed it. Lights that are all around, which have no middle, send none, and lines that no light proposes are left
-// to the other techniques of path.hpp.
+// the distance d from there to the target. Of an infinite light, lines come evenly from a cap of directions of the
+// solid angle Ω: the sun's disk, or a bright part of an image (lights/bright_parts.hpp), each of which is a source of
+// its own. What a photon carries is what is seen along its line, whichever light proposed it. Lights that are all
+// around send none, and lines that no light proposes are left to the other techniques of path.hpp.
 //
 // The lines of a point light all pass through it, and have no such density. They have one of directions, cᵢ t d², and
 // with the intensity I of the light in place of a radiance a photon carries I/(cᵢ t d²). No other technique finds them.
@@ -18,6 +19,7 @@
 #include <vector>
 
 #include "caustics/target.hpp"
+#include "lights/cap.hpp"
 #include "sampling/sobol.hpp"
 #include "world/world.hpp"
 
@@ -39,7 +41,7 @@ class PhotonEmission {
     /// Refers to the world and the scene, which must outlive it. All lights have equal shares at first.
     PhotonEmission(const World& world, const Scene& scene);
 
-    /// How many lights send photons: none if nothing clear bends light.
+    /// How many lights send photons, and bright parts of lights: none if nothing clear bends light.
     std::size_t lights() const { return sources_.size(); }
     /// One that flies at a share of the time in which the shutter is open. Nothing if the line leads nowhere.
     std::optional<EmittedPhoton> sample(Sampler& sampler, float time) const;
@@ -51,8 +53,10 @@ class PhotonEmission {
 
   private:
     struct Source {
-        std::optional<std::size_t> infinite, area, point;  ///< the light's number among those of its sort; one is there
-        double share;                                      ///< cᵢ
+        std::optional<Cap> cap;  ///< of an infinite light
+        std::optional<std::size_t> area,
+            point;     ///< the light's number among those of its sort; one of the three is there
+        double share;  ///< cᵢ
         PhotonTarget target;
     };
     /// A point of a line that is sure to be before everything that it meets of the object.

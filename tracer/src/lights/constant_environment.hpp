@@ -4,7 +4,9 @@
 
 #include <glm/glm.hpp>
 #include <optional>
+#include <vector>
 
+#include "lights/cap.hpp"
 #include "lights/direction_sample.hpp"
 #include "phasetree/io/kind.hpp"
 
@@ -21,6 +23,7 @@ class ConstantEnvironment {
     float fluence() const;
     /// None: it is all around.
     std::optional<glm::vec3> centre_direction() const { return std::nullopt; }
+    std::vector<Cap> bright_parts() const { return {}; }
 
   private:
     glm::vec3 radiance_;

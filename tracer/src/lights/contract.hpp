@@ -13,8 +13,10 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <vector>
 
 #include "lights/bounding_sphere.hpp"
+#include "lights/cap.hpp"
 #include "lights/direction_sample.hpp"
 #include "lights/surface_point.hpp"
 
@@ -25,6 +27,7 @@ namespace phasetree::tracer {
 /// * pdf(w): the density of sample(). It is greater than 0 wherever radiance() is not black.
 /// * fluence(): the luminance of the radiance, integrated over all directions.
 /// * centre_direction(): the middle of a light that is small in the sky, and nothing for one that is all around.
+/// * bright_parts(): caps of the sphere of directions from which photons are sent; none if it throws no caustics.
 template <class L>
 concept InfiniteLightKind = std::copyable<L> && requires(const L& light, const glm::vec3& w, const glm::vec2& u) {
     { light.radiance(w) } -> std::same_as<glm::vec3>;
@@ -32,6 +35,7 @@ concept InfiniteLightKind = std::copyable<L> && requires(const L& light, const g
     { light.pdf(w) } -> std::same_as<float>;
     { light.fluence() } -> std::same_as<float>;
     { light.centre_direction() } -> std::same_as<std::optional<glm::vec3>>;
+    { light.bright_parts() } -> std::same_as<std::vector<Cap>>;
 };
 
 /// * radiance(): what is emitted, the same from every point to every direction.

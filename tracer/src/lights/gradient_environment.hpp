@@ -5,7 +5,9 @@
 
 #include <glm/glm.hpp>
 #include <optional>
+#include <vector>
 
+#include "lights/cap.hpp"
 #include "lights/direction_sample.hpp"
 #include "lights/zonal_distribution.hpp"
 #include "phasetree/io/kind.hpp"
@@ -26,6 +28,7 @@ class GradientEnvironment {
     float fluence() const { return distribution_.integral(); }
     /// None: it is all around.
     std::optional<glm::vec3> centre_direction() const { return std::nullopt; }
+    std::vector<Cap> bright_parts() const { return {}; }
 
   private:
     glm::vec3 zenith_;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "image/luminance.hpp"
+#include "lights/bright_parts.hpp"
 #include "lights/check.hpp"
 #include "lights/lat_long.hpp"
 
@@ -72,7 +73,8 @@ EnvironmentImage::EnvironmentImage(int given_width, int given_height, std::vecto
     : width(given_width),
       height(given_height),
       pixels(usable(std::move(given_pixels), width, height)),
-      distribution(importance(width, height, pixels)) {}
+      distribution(importance(width, height, pixels)),
+      bright_parts(tracer::bright_parts(distribution)) {}
 
 ImageEnvironment::ImageEnvironment(std::shared_ptr<const EnvironmentImage> image, float rotation_degrees,
                                    float intensity)
@@ -111,6 +113,12 @@ glm::vec3 ImageEnvironment::radiance(const glm::vec3& direction) const {
     const glm::vec3 above = glm::mix(texel(column, row), texel(column + 1, row), x - left);
     const glm::vec3 below = glm::mix(texel(column, row + 1), texel(column + 1, row + 1), x - left);
     return intensity_ * glm::mix(above, below, y - top);
+}
+
+std::vector<Cap> ImageEnvironment::bright_parts() const {
+    std::vector<Cap> parts = image_->bright_parts;
+    for (Cap& part : parts) part = part.about(from_image(part.axis()));
+    return parts;
 }
 
 std::optional<DirectionSample> ImageEnvironment::sample(const glm::vec2& u) const {

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "lights/cap.hpp"
 #include "lights/direction_sample.hpp"
 #include "lights/lat_long_distribution.hpp"
 #include "phasetree/io/kind.hpp"
@@ -31,6 +32,7 @@ struct EnvironmentImage {
     int height;
     std::vector<glm::vec3> pixels;
     LatLongDistribution distribution;
+    std::vector<Cap> bright_parts;
 };
 
 class ImageEnvironment {
@@ -51,6 +53,7 @@ class ImageEnvironment {
     float fluence() const { return intensity_ * image_->distribution.integral(); }
     /// None: it is all around.
     std::optional<glm::vec3> centre_direction() const { return std::nullopt; }
+    std::vector<Cap> bright_parts() const;
 
   private:
     glm::vec3 to_image(const glm::vec3& direction) const;

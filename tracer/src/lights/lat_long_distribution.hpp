@@ -30,8 +30,12 @@ class LatLongDistribution {
     /// The integral over the sphere of the tabulated importance.
     float integral() const { return integral_; }
 
-  private:
+    int width() const { return width_; }
+    int height() const { return height_; }
+    /// The density of the directions in a cell, per steradian.
     float cell_pdf(std::size_t column, std::size_t row) const;
+
+  private:
     std::span<const float> columns_of(std::size_t row) const;
 
     int width_;

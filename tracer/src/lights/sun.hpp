@@ -4,15 +4,15 @@
 // shadows and caustics and leaves the exposure as it is. Sampled uniformly in its cone, p = 1/(2π(1 − cos(δ/2))); a
 // surface whose whole upper half-space holds the disk receives E = Lπ sin²(δ/2) cos θ.
 //
-// Directions are floats, so one that was sampled in the disk may lie outside of it by a rounding error. The disk
-// therefore reaches that much farther where it is asked what is seen in a direction: otherwise the light of what was
-// sampled there would be lost, and of a small sun all of it. Suns below 0.01 degrees are taken for ones of that size,
-// of the same irradiance: the rounding error would be as large as they are, and nobody sees the difference.
+// Suns below 0.01 degrees are taken for ones of that size, of the same irradiance: rounding errors of directions
+// (cap.hpp) would be as large as they are, and nobody sees the difference.
 #pragma once
 
 #include <glm/glm.hpp>
 #include <optional>
+#include <vector>
 
+#include "lights/cap.hpp"
 #include "lights/direction_sample.hpp"
 #include "phasetree/io/kind.hpp"
 
@@ -33,16 +33,13 @@ class Sun {
     // Luminance of the radiance integrated over all directions.
     float fluence() const;
 
-    const glm::vec3& direction() const { return direction_; }
-    std::optional<glm::vec3> centre_direction() const { return direction_; }
+    const glm::vec3& direction() const { return disk_.axis(); }
+    std::optional<glm::vec3> centre_direction() const { return disk_.axis(); }
+    std::vector<Cap> bright_parts() const { return {disk_}; }
 
   private:
-    bool in_disk(const glm::vec3& direction) const;
-
-    glm::vec3 direction_;
+    Cap disk_;
     glm::vec3 radiance_;
-    float squared_chord_;  // from the middle to as far as the disk reaches
-    float cap_height_;     // 1 − cos(δ/2), of which nothing would be left if the cosine were stored
 };
 
 // As a scene file says it.

@@ -36,7 +36,8 @@ struct ImageParameters : RenderSettings {
           Parameter{"max_depth", "", "The most surfaces that a path meets. One between equal indices counts, too.",
                     Limits{.low = 1, .high = 1 << 20}, true});
         v(&P::caustics, Parameter{"caustics", "",
-                                  "Whether photons look for the light that lamps throw through curved clear surfaces. "
+                                  "Whether photons look for the light that lamps, the sun and the bright parts of "
+                                  "environment images throw through curved clear surfaces. "
                                   "They blur it by a pixel or two, less with more samples.",
                                   limits::any, true});
         v(&P::photons, Parameter{"photons", "", "For caustics: photons for each pixel and sample.",
