@@ -56,7 +56,7 @@ class CoatingAlbedo {
     At at(float roughness, float thickness = 0.0f) const { return At(*this, roughness, thickness); }
 
   private:
-    static constexpr std::size_t nodes = 128;  ///< at μ = (i / (nodes − 1))², dense where E is steep
+    static constexpr std::size_t nodes = 160;  ///< at μ = (i / (nodes − 1))², dense where E is steep
 
     struct Table {
         std::array<glm::vec3, nodes> directional;
