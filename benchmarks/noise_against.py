@@ -62,7 +62,7 @@ def main():
     parser.add_argument("--samples", default=8, type=int)
     parser.add_argument("--seeds", default=4, type=int)
     parser.add_argument("--size", default="200x200")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     gains = []
     print("| scene | variance | time | variance × time | mean |\n|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
