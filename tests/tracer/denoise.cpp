@@ -179,6 +179,27 @@ TEST_CASE("what has no noise stays as it is, a shadow's edge and a single bright
     CHECK(worst < 1e-4);
 }
 
+TEST_CASE("a glint that few samples found stays in its pixel") {
+    const Truth grey{[](int, int) { return 0.5; }, [](int, int) { return 0.5; }};
+    Image image = made(grey, sigma, 5);
+    // One sample of 64, of the first half, was 60,000: the sun itself.
+    const std::size_t at = 25 * width + 35;
+    image.pixels[at] += glm::vec3(60000.0f / samples);
+    for (const char* name : {"half.R", "half.G", "half.B"}) channel(image, name)[at] += 60000.0f / (samples / 2);
+    std::vector<glm::vec3> clean = *regressed(image);
+    CHECK(clean[at].g == doctest::Approx(60000.0f / samples).epsilon(0.002));
+    clean[at] = glm::vec3(0.5f);
+    CHECK(error(clean, grey) < error(made(grey, sigma, 5).pixels, grey) / 3.5);
+    // In a half of the picture that is black all is that much brighter than what is around it, and no glint for it.
+    const Truth half_black{[](int x, int) { return x < 35 ? 0.0 : 1.0; },
+                           [](int x, int) { return x < 35 ? 0.2 : 0.8; }};
+    Image dim = made(half_black, 0, 6);
+    const std::size_t in_the_dark = 25 * width + 10;
+    dim.pixels[in_the_dark] = glm::vec3(1);
+    for (const char* name : {"half.R", "half.G", "half.B"}) channel(dim, name)[in_the_dark] = 2;
+    CHECK((*regressed(dim))[in_the_dark].g < 0.5f);
+}
+
 TEST_CASE("the same bits with one thread and with several, and no less of a small part than of the whole") {
     const Image image = made(textured, sigma, 5);
     const std::vector<glm::vec3> one = *denoise(image, {.by = Denoiser::regression, .threads = 1}),

@@ -9,6 +9,7 @@
 #include <mutex>
 
 #include "denoise/features.hpp"
+#include "denoise/glints.hpp"
 #include "denoise/open_image_denoise.hpp"
 #include "denoise/regression.hpp"
 #include "denoise/similarity.hpp"
@@ -103,9 +104,10 @@ std::vector<float> weights_of(const Grid<Estimate<3>>& guide, const PixelRange& 
     return all;
 }
 
-// Fits a model around each pixel of a tile, and adds what it says of the pixels of its window.
-void predict(const Grid<Estimate<3>>& radiance, const Grid<Estimate<3>>& guide, const Grid<Features>& features,
-             const PixelRange& tile, Grid<Prediction>& predictions) {
+// Fits a model around each pixel of a tile, and adds what it says of the pixels of its window. Glints have no part in
+// it.
+void predict(const Grid<Estimate<3>>& radiance, const Grid<std::uint8_t>& glints, const Grid<Estimate<3>>& guide,
+             const Grid<Features>& features, const PixelRange& tile, Grid<Prediction>& predictions) {
     const std::vector<float> weights = weights_of(guide, tile);
     for (int y = tile.y0; y < tile.y1; ++y)
         for (int x = tile.x0; x < tile.x1; ++x) {
@@ -114,9 +116,10 @@ void predict(const Grid<Estimate<3>>& radiance, const Grid<Estimate<3>>& guide, 
                 std::size_t o = 0;
                 for (int dy = -window_radius; dy <= window_radius; ++dy)
                     for (int dx = -window_radius; dx <= window_radius; ++dx, ++o)
-                        if (of_window[o] > least_weight && radiance.has(x + dx, y + dy))
+                        if (of_window[o] > least_weight && radiance.has(x + dx, y + dy) && !glints.at(x + dx, y + dy))
                             f(x + dx, y + dy, of_window[o]);
             };
+            if (glints.at(x, y)) continue;
             LocalModel model(features.at(x, y));
             each_of_window([&](int qx, int qy, float weight) {
                 model.add(weight, features.at(qx, qy), radiance.at(qx, qy).mean);
@@ -143,10 +146,12 @@ std::optional<std::vector<glm::vec3>> filtered(const Image& image, const Denoise
     });
     std::vector<glm::vec3> pixels(image.pixels.size());
     for (const std::size_t half : {std::size_t{0}, std::size_t{1}}) {
+        const Grid<Estimate<3>>& radiance = halves.pictures[half];
+        const Grid<std::uint8_t> glints = glints_of(radiance);
         Grid<Prediction> predictions(image.width, image.height);
         work.for_each(tiles, [&](const PixelRange& tile) {
             // The weights come from the other half, whose noise is independent of what is filtered.
-            predict(halves.pictures[half], halves.pictures[1 - half], features, tile, predictions);
+            predict(radiance, glints, halves.pictures[1 - half], features, tile, predictions);
         });
         if (work.stopped()) return std::nullopt;
         std::size_t i = 0;
@@ -156,7 +161,8 @@ std::optional<std::vector<glm::vec3>> filtered(const Image& image, const Denoise
                 const float share = half == 0 ? halves.shares.at(x, y) : 1 - halves.shares.at(x, y);
                 // A model's slope can lead below 0, where no radiance is.
                 for (std::size_t c = 0; c < 3; ++c)
-                    pixels[i][static_cast<int>(c)] += share * std::max(p.sum[c] / p.weight, 0.0f);
+                    pixels[i][static_cast<int>(c)] +=
+                        share * (glints.at(x, y) ? radiance.at(x, y).mean[c] : std::max(p.sum[c] / p.weight, 0.0f));
             }
     }
     return pixels;

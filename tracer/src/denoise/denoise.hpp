@@ -2,11 +2,10 @@
 //
 // 1. The features (halves.hpp) are freed of their own noise (features.hpp).
 // 2. Around each pixel p a window of pixels q is weighed by how much alike their surroundings are (similarity.hpp), and
-// a
-//    linear model of the radiance by the features is fitted to it (regression.hpp). The radiance is that of one half of
-//    the samples and the weights are by the other half, so that no sample chooses itself.
+//    a linear model of the radiance by the features is fitted to it (regression.hpp). The radiance is that of one half
+//    of the samples and the weights are by the other half, so that no sample chooses itself.
 // 3. A model holds for all of its window: a pixel takes the weighted mean of what the models around it say of it.
-// 4. Both halves are filtered like this, and joined by how many samples each has.
+// 4. Both halves are filtered like this, and joined by how many samples each has. Glints (glints.hpp) stay as they are.
 //
 // So edges of objects and of textures stay as sharp as the features have them, in mirrors and behind glass as well.
 // What the features do not show, as shadows and caustics, is kept by the weights, which know the noise and keep what is
