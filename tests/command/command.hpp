@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "phasetree_support/temporary_directory.hpp"
+#include "support/sanitizers.hpp"
 
 namespace phasetree::tests {
 

@@ -92,7 +92,7 @@ TEST_CASE("a terminal that goes away interrupts as Ctrl-C does, but not under no
     }
 }
 
-TEST_CASE("threads that cannot be started: it is said, and fewer do the work") {
+TEST_CASE("threads that cannot be started: it is said, and fewer do the work" * doctest::skip(under_sanitizer)) {
     if (::geteuid() != 0) return;  // the limit is one of a user's, and this one has processes already
     Shell shell;
     fs::permissions(shell.directory.path(), fs::perms::all);

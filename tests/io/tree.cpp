@@ -6,9 +6,11 @@
 
 #include <string>
 
+#include "support/sanitizers.hpp"
 #include "tree/node.hpp"
 
 using namespace phasetree;
+using tests::under_sanitizer;
 
 namespace {
 
@@ -53,11 +55,7 @@ void with_stack(std::size_t bytes, F f) {
 }
 
 // Sanitizers put guards around all that is on the stack.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr std::size_t small_stack = 8 << 20;
-#else
-constexpr std::size_t small_stack = 1 << 20;  // of any thread of some systems
-#endif
+constexpr std::size_t small_stack = under_sanitizer ? 8 << 20 : 1 << 20;  // a megabyte: of any thread of some systems
 
 }  // namespace
 
