@@ -87,10 +87,7 @@ Report mesh(const Settings& settings) {
                                       static_cast<std::size_t>(settings.threads));
         const auto timed = [](auto&& make, double& taken) {
             const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
-            const double start = seconds(Clock::thread);
-            auto made = make();
-            taken = seconds(Clock::thread) - start;
-            return made;
+            return bench::timed(make, taken);
         };
         double field_seconds = 0, meshing_seconds = 0, medium_seconds = 0, high_seconds = 0;
         // No ray is inside, of either.

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -16,6 +18,7 @@
 #include "phasetree/nodes/phased/set.hpp"
 #include "rays/beside_mesh.hpp"
 #include "rays/camera_rays.hpp"
+#include "rays/race_with_mesh.hpp"
 
 namespace phasetree::bench {
 
@@ -38,14 +41,6 @@ TriangleMesh divided(const TriangleMesh& mesh) {
     return result;
 }
 
-template <class Make>
-auto timed(Make&& make, double& taken) {
-    const double start = seconds(Clock::thread);
-    auto made = make();
-    taken = seconds(Clock::thread) - start;
-    return made;
-}
-
 void compare_both(const TriangleMesh& mesh, const Settings& settings, Report& report, Table& table) {
     double field_seconds = 0, triangles_seconds = 0, preparing_seconds = 0;
     FromFile<TriangleMesh> file;
@@ -59,13 +54,7 @@ void compare_both(const TriangleMesh& mesh, const Settings& settings, Report& re
         },
         triangles_seconds);
     const Rays primary = camera_rays(camera_for(field->cells().bounds()), settings.width, settings.height);
-    const SurfaceRays random = leaving(*field, *triangles, primary, settings.seed);
-    const auto contest = [&](const Rays& of_field, const Rays& of_mesh) {
-        return in_turn({{"triangles", [&] { return triangles->trace(of_mesh, settings.threads); }},
-                        {"field", [&] { return field->trace(of_field, settings.threads); }}},
-                       settings.timing());
-    };
-    const Turns on_primary = contest(primary, primary), on_random = contest(random.of_field, random.of_mesh);
+    const RaceWithMesh race = bench::race(*field, *triangles, primary, settings);
 
     const auto count = static_cast<double>(mesh.triangles.size());
     const Agreement agreement = compare(*field, *triangles, primary);
@@ -74,16 +63,15 @@ void compare_both(const TriangleMesh& mesh, const Settings& settings, Report& re
                  agreement.share() > 0.999 && agreement.mean() < 2 * resolution,
                  fmt::format("{:.3f} % of rays hit both, {:.2f} resolutions apart on average", 100 * agreement.share(),
                              agreement.mean() / resolution));
-    const auto row = [&](std::size_t i, const std::string& what, double cells, double checks, double build,
-                         std::size_t bytes) {
-        const auto rate = [&](const Turns& turns) {
-            return static_cast<double>(turns.checksum(i).rays) / turns.seconds(i).median;
-        };
-        table.row({count, what, cells, checks, build, static_cast<double>(bytes), rate(on_primary), rate(on_random),
-                   on_primary.ratio(0, i), on_random.ratio(0, i)});
+    const auto row = [&](RaceWithMesh::Runner runner, const std::string& what, double cells, double checks,
+                         double build, std::size_t bytes) {
+        std::vector<Table::Cell> values{count, what, cells, checks, build, static_cast<double>(bytes)};
+        std::ranges::copy(race.speeds(runner), std::back_inserter(values));
+        table.row(std::move(values));
     };
-    row(0, "triangles", 0, 0, triangles_seconds, triangles->bytes());
-    row(1, "field", static_cast<double>(field->cells().size()), preparing_seconds, field_seconds, field->bytes());
+    row(RaceWithMesh::triangles, "triangles", 0, 0, triangles_seconds, triangles->bytes());
+    row(RaceWithMesh::field, "field", static_cast<double>(field->cells().size()), preparing_seconds, field_seconds,
+        field->bytes());
 }
 
 }  // namespace
@@ -103,16 +91,11 @@ Report triangles(const Settings& settings) {
         "latter alone; both processor time on one thread");
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(settings.threads));
-    Table table({{"triangles", "triangles", "{:.0f}"},
-                 {"what", "", ""},
-                 {"cells", "cells", "{:.0f}"},
-                 {"checks_seconds", "checks s", "{:.2f}"},
-                 {"build_seconds", "build s", "{:.2f}"},
-                 {"bytes", "MB", "{:.1f}", 1e-6},
-                 {"primary_rays_per_second", "primary M/s", "{:.2f}", 1e-6},
-                 {"random_rays_per_second", "random M/s", "{:.2f}", 1e-6},
-                 {"primary_ratio", "primary ×", "{:.2f}"},
-                 {"random_ratio", "random ×", "{:.2f}"}});
+    std::vector<Column> columns{{"triangles", "triangles", "{:.0f}"},   {"what", "", ""},
+                                {"cells", "cells", "{:.0f}"},           {"checks_seconds", "checks s", "{:.2f}"},
+                                {"build_seconds", "build s", "{:.2f}"}, {"bytes", "MB", "{:.1f}", 1e-6}};
+    std::ranges::copy(RaceWithMesh::columns(), std::back_inserter(columns));
+    Table table(std::move(columns));
     TriangleMesh mesh = read_mesh(PHASETREE_SCENES "/assets/spot.ply");
     for (int times = 0; times <= (settings.quick ? 1 : 2); ++times) {
         if (times > 0) mesh = divided(mesh);

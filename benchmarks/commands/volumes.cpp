@@ -5,6 +5,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <optional>
 
@@ -14,8 +15,8 @@
 #include "phasetree/nodes/fields/volume.hpp"
 #include "phasetree/nodes/phased/labels.hpp"
 #include "phasetree/nodes/phased/set.hpp"
-#include "rays/beside_mesh.hpp"
 #include "rays/camera_rays.hpp"
+#include "rays/race_with_mesh.hpp"
 
 namespace phasetree::bench {
 
@@ -69,14 +70,6 @@ FromFile<LabelGrid> labels_of(int n) {
     return file;
 }
 
-template <class Make>
-auto timed(Make&& make, double& taken) {
-    const double start = seconds(Clock::thread);
-    auto made = make();
-    taken = seconds(Clock::thread) - start;
-    return made;
-}
-
 // One field's row, and that of the triangles of its surface.
 struct Contest {
     int n;
@@ -84,12 +77,11 @@ struct Contest {
     Table& table;
 
     void row(const std::string& what, double cells, double preparing, double building, std::size_t bytes,
-             const Turns& primary, const Turns& random, std::size_t i) {
-        const auto rate = [&](const Turns& turns) {
-            return static_cast<double>(turns.checksum(i).rays) / turns.seconds(i).median;
-        };
-        table.row({static_cast<double>(n), what, cells, preparing, building, static_cast<double>(bytes), rate(primary),
-                   rate(random), primary.ratio(0, i), random.ratio(0, i)});
+             const RaceWithMesh& race, RaceWithMesh::Runner runner) {
+        std::vector<Table::Cell> values{static_cast<double>(n),    what, cells, preparing, building,
+                                        static_cast<double>(bytes)};
+        std::ranges::copy(race.speeds(runner), std::back_inserter(values));
+        table.row(std::move(values));
     }
     void run(const std::string& what, const Phased& object, PhaseSet opaque, double preparing, bool with_triangles) {
         double building = 0, of_triangles = 0;
@@ -98,18 +90,12 @@ struct Contest {
         const auto triangles =
             timed([&] { return std::make_unique<MeshScene>(surface, RTC_BUILD_QUALITY_MEDIUM); }, of_triangles);
         const Rays primary = camera_rays(camera_for(field->cells().bounds()), settings.width, settings.height);
-        const SurfaceRays random = leaving(*field, *triangles, primary, settings.seed);
-        const auto contest = [&](const Rays& of_field, const Rays& of_mesh) {
-            return in_turn({{"triangles", [&] { return triangles->trace(of_mesh, settings.threads); }},
-                            {"field", [&] { return field->trace(of_field, settings.threads); }}},
-                           settings.timing());
-        };
-        const Turns on_primary = contest(primary, primary), on_random = contest(random.of_field, random.of_mesh);
+        const RaceWithMesh race = bench::race(*field, *triangles, primary, settings);
         if (with_triangles)
-            row(fmt::format("{} triangles", surface.triangles.size()), 0, 0, of_triangles, triangles->bytes(),
-                on_primary, on_random, 0);
-        row(what, static_cast<double>(field->cells().size()), preparing, building, field->bytes(), on_primary,
-            on_random, 1);
+            row(fmt::format("{} triangles", surface.triangles.size()), 0, 0, of_triangles, triangles->bytes(), race,
+                RaceWithMesh::triangles);
+        row(what, static_cast<double>(field->cells().size()), preparing, building, field->bytes(), race,
+            RaceWithMesh::field);
     }
 };
 
@@ -130,16 +116,14 @@ Report volumes(const Settings& settings) {
         "the latter alone; both processor time on one thread");
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(settings.threads));
-    Table table({{"voxels", "voxels along an axis", "{:.0f}"},
-                 {"what", "", ""},
-                 {"cells", "cells", "{:.0f}"},
-                 {"prepare_seconds", "prepare s", "{:.2f}"},
-                 {"build_seconds", "build s", "{:.2f}"},
-                 {"bytes", "MB", "{:.1f}", 1e-6},
-                 {"primary_rays_per_second", "primary M/s", "{:.2f}", 1e-6},
-                 {"random_rays_per_second", "random M/s", "{:.2f}", 1e-6},
-                 {"primary_ratio", "primary ×", "{:.2f}"},
-                 {"random_ratio", "random ×", "{:.2f}"}});
+    std::vector<Column> columns{{"voxels", "voxels along an axis", "{:.0f}"},
+                                {"what", "", ""},
+                                {"cells", "cells", "{:.0f}"},
+                                {"prepare_seconds", "prepare s", "{:.2f}"},
+                                {"build_seconds", "build s", "{:.2f}"},
+                                {"bytes", "MB", "{:.1f}", 1e-6}};
+    std::ranges::copy(RaceWithMesh::columns(), std::back_inserter(columns));
+    Table table(std::move(columns));
     for (int n = 64; n <= (settings.quick ? 128 : 512); n *= 2) {
         Contest contest{n, settings, table};
         double preparing = 0;

@@ -21,4 +21,13 @@ inline double seconds(Clock clock) {
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
+// What make() makes, and the processor time that it took on this thread.
+template <class Make>
+auto timed(Make&& make, double& taken) {
+    const double start = seconds(Clock::thread);
+    auto made = make();
+    taken = seconds(Clock::thread) - start;
+    return made;
+}
+
 }  // namespace phasetree::bench

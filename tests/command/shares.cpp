@@ -150,7 +150,8 @@ TEST_CASE("the memory of a merge does not grow with the number of the parts" * d
     scene.rest = R"("render": {"width": 640, "height": 480, "samples": 10, "max_depth": 1})";
     write_text(shell.directory / "scene.json", scene.text());
     std::vector<std::string> merge{"merge"};
-    // The least of a few runs: which thread of the writer takes how much at the same time is chance, and a few megabytes.
+    // The least of a few runs: which thread of the writer takes how much at the same time is chance, and a few
+    // megabytes.
     const auto megabytes = [&] {
         double least = std::numeric_limits<double>::infinity();
         for (int i = 0; i < 5; ++i) {

@@ -1,0 +1,20 @@
+// The functions that a formula may call: one list, in formula_functions.cpp.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "nodes/formula_steps.hpp"
+
+namespace phasetree::nodes {
+
+struct FormulaFunction {
+    std::string_view name;
+    std::size_t least, most;  ///< arguments
+    FormulaIndex (*apply)(FormulaSteps&, const std::vector<FormulaIndex>& arguments);
+};
+
+std::span<const FormulaFunction> formula_functions();
+
+}  // namespace phasetree::nodes

@@ -1,0 +1,90 @@
+#include "nodes/formula_slope.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+#include "nodes/formula_term_in_box.hpp"
+
+namespace phasetree::nodes {
+
+using enclosure::Range;
+using formula::Op;
+
+namespace {
+
+constexpr double close_enough = 1.02;  // of the bound to the steepest gradient that is seen
+constexpr double no_bound = 1e50;      // what is larger came from a division by zero
+
+// Why a term has no bound in a box: the first step that has none although its operands have.
+[[noreturn]] void refuse(const TermSteps& term, const TermInBox& in, const BoxOfDoubles& box, bool has_bounds) {
+    for (std::size_t i = 0; i < term.steps.size(); ++i) {
+        if (in.slope(i) < no_bound) continue;
+        const FormulaStep& s = term.steps[i];
+        const std::string near = " near " + box.place();
+        switch (s.op) {
+            case Op::square_root:
+                fail_in_formula(
+                    s.offset, "what this is the root of is zero or negative" + near + ", where the slope has no bound");
+            case Op::divide:
+                fail_in_formula(s.offset, "this divides by zero" + near + ", where the slope has no bound");
+            default:
+                break;
+        }
+        if (!has_bounds) break;
+        if (s.op == Op::sine || s.op == Op::cosine)
+            fail_in_formula(s.offset, "this is the sine or cosine of more than 10000" + near);
+        fail_in_formula(s.offset, "the slope of this has no bound" + near);
+    }
+    fail_in_formula(term.steps.back().offset,
+                    "the formula's slope has no bound far from the origin; say with \"bounds\" where it "
+                    "is meant: [[x, y, z], [x, y, z]]");
+}
+
+}  // namespace
+
+double slope_in(const TermSteps& term, const BoxOfDoubles& whole, int most_boxes, bool has_bounds,
+                model::Preparation& budget) {
+    struct Candidate {
+        double bound;
+        BoxOfDoubles box;
+        bool operator<(const Candidate& other) const { return bound < other.bound; }  // the steepest on top
+    };
+    TermInBox in;
+    const std::array<bool, 3> axes = term.axes();
+    double seen = 0;
+    std::priority_queue<Candidate> open;
+    const auto look = [&](const BoxOfDoubles& box, double around) {
+        budget.pay(work_of_a_step * term.steps.size());
+        in.run(term, box);
+        double squared = 0;
+        for (const double g : in.result().centre_gradient) squared += g * g;
+        if (std::isfinite(squared)) seen = std::max(seen, std::sqrt(squared));
+        open.push({std::min(around, in.bound()), box});
+    };
+    look(whole, Range::most);
+    // As large as a box is along what the term depends on.
+    const auto size = [&](const BoxOfDoubles& box) {
+        double longest = 0;
+        for (std::size_t i = 0; i < 3; ++i)
+            if (axes[i]) longest = std::max(longest, box.half(i));
+        return longest;
+    };
+    const double smallest = 1e-5 * size(whole);
+    for (int boxes = 1;; boxes += 2) {
+        const Candidate top = open.top();
+        const auto& b = top.box;
+        const bool is_bounded = top.bound < no_bound;
+        if (is_bounded && (top.bound <= close_enough * seen || boxes >= most_boxes)) return top.bound * (1 + 1e-5);
+        if (!is_bounded && (boxes >= most_boxes || size(b) < smallest)) {
+            in.run(term, b);
+            refuse(term, in, b, has_bounds);
+        }
+        open.pop();
+        const auto [one, other] = b.parts(axes);
+        look(one, top.bound);
+        look(other, top.bound);
+    }
+}
+
+}  // namespace phasetree::nodes
