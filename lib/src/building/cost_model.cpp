@@ -12,11 +12,11 @@ using rewriting::ArenaScope, rewriting::LiveSet;
 
 namespace {
 
-// How much work an instruction is, in halves of a simple instruction.
-unsigned half_works(const Instruction& in, std::span<const float> constants) {
+// The cost of an instruction, in halves of that of a simple one.
+unsigned half_instructions(const Instruction& in, std::span<const float> constants) {
     const OpTraits& t = traits(in.op);
     return t.is_network ? static_cast<unsigned>(Siren::Network::multiplications(&constants[in.data])) / 3
-                        : t.half_works;
+                        : t.half_instructions;
 }
 
 // How many batches a visit takes on average for rays on one side of the interface, whose curvature has this bound.
@@ -41,16 +41,16 @@ float batches(const CellFacts& cell, const LinearBound& bound, float curvature_b
 Work work(const WorkingProgram& program, std::span<const float> constants,
           std::span<const Specialisation> specialisations, Arena& scratch) {
     unsigned halves = 0;
-    for (const Instruction& in : program.code.subspan(1)) halves += half_works(in, constants);
-    for (const Specialisation& s : specialisations) halves -= s.half_works_saved;
+    for (const Instruction& in : program.code.subspan(1)) halves += half_instructions(in, constants);
+    for (const Specialisation& s : specialisations) halves -= s.half_instructions_saved;
     const float all = 0.5f * static_cast<float>(halves);
     if (program.outputs.size() == 2) return {all, all};
     const ArenaScope scope(scratch);
     const LiveSet first(program, program.outputs.first(1), scratch);
     unsigned others = 0;
     for (std::size_t i = 1; i < program.code.size(); ++i)
-        others += first.has(i) ? 0u : half_works(program.code[i], constants);
-    for (const Specialisation& s : specialisations) others -= first.has(s.value) ? 0u : s.half_works_saved;
+        others += first.has(i) ? 0u : half_instructions(program.code[i], constants);
+    for (const Specialisation& s : specialisations) others -= first.has(s.value) ? 0u : s.half_instructions_saved;
     return {all, all - 0.5f * static_cast<float>(others)};
 }
 

@@ -11,16 +11,17 @@
 namespace phasetree {
 
 /// What LocalPrimitive is, of a primitive with data: of all that it has, few floats matter in a small box. Its
-/// specialise() is given its data. A search in them is as much work as search_half_works says, for eight points.
+/// specialise() is given its data. search_half_instructions is the cost of a search in them for eight points, in halves
+/// of that of a simple instruction.
 template <class N>
 concept LocalDataPrimitive = DataPrimitive<N> &&
     requires(const float* data, const PointRange& range, std::span<const float> of, std::vector<float>& floats) {
     requires DataPrimitive<typename N::Specialised>;
     { N::specialise(data, range, of, floats) } -> std::same_as<bool>;
     { N::Specialised::floats(floats.data()) } -> std::same_as<std::size_t>;
-    { N::Specialised::half_works(floats.data()) } -> std::same_as<unsigned>;
+    { N::Specialised::half_instructions(floats.data()) } -> std::same_as<unsigned>;
     { N::Specialised::is_sound(of) } -> std::same_as<bool>;  // whether these floats, from a file, can be such data
-    { N::search_half_works } -> std::convertible_to<unsigned>;
+    { N::search_half_instructions } -> std::convertible_to<unsigned>;
 };
 /// One that can do with fewer floats where only values up to `farthest` are required: above it, the specialised
 /// primitive's are any others above it. It never refuses if `of` is not empty.

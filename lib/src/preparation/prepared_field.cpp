@@ -34,7 +34,7 @@ std::uint64_t steps_of(const Program& program) {
         const std::size_t end =
             i + 1 < program.instructions.size() ? program.instructions[i + 1].data : program.constants.size();
         const std::size_t floats = in.op == height_map ? 0 : (end - in.data) / 4;
-        steps += std::max<std::uint64_t>(traits(in.op).half_works / 2, floats);
+        steps += std::max<std::uint64_t>(traits(in.op).half_instructions / 2, floats);
     }
     return steps;
 }

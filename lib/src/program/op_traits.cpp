@@ -29,11 +29,12 @@ constexpr void mark_patterns(TypeList<Ps...>, auto& all) {
         if constexpr (AnyLocalPrimitive<P>) {
             OpTraits& local = traits_of(all, op_of<P>());
             local.is_local = true;
-            local.half_works = 800;  // a rough estimate of the cost of all sites of a Voronoi pattern
+            local.half_instructions = 800;  // a rough estimate of the cost of all sites of a Voronoi pattern
             local.is_many = PrimitiveOfParts<P>;
             traits_of(all, op_of<typename P::Specialised>()).is_specialised = true;
         }
-        if constexpr (requires { P::search_half_works; }) traits_of(all, op_of<P>()).half_works = P::search_half_works;
+        if constexpr (requires { P::search_half_instructions; })
+            traits_of(all, op_of<P>()).half_instructions = P::search_half_instructions;
     };
     (mark.template operator()<Ps>(), ...);
 }
@@ -54,7 +55,7 @@ constexpr auto all_traits() {
         all[first_primitive + i].is_long_primitive =
             i >= is_long.size() || is_long[i];  // primitives with data follow, and all count as long
     for (std::size_t i = first_primitive; i < first_placed + Primitives::size; ++i)
-        all[i].half_works = all[i].is_long_primitive ? 120 : 3;  // rough estimates
+        all[i].half_instructions = all[i].is_long_primitive ? 120 : 3;  // rough estimates
     for (std::size_t i = first_map; i < first_placed; ++i) all[i].gives_point = true;
     all[first_map + index_in<FoldMap>(PointMaps())].is_fold = true;
     all[first_primitive + Primitives::size + index_in<Siren::Network>(DataPrimitives())].is_network = true;

@@ -9,8 +9,9 @@ namespace phasetree::program {
 
 /// The properties of an operation.
 struct OpTraits {
-    std::uint8_t operands = 1;       ///< the number of values it takes
-    std::uint16_t half_works = 2;    ///< its cost, in halves of that of a simple operation; a rough estimate
+    std::uint8_t operands = 1;  ///< the number of values it takes
+    /// Its cost, in halves of that of a simple operation such as an addition; a rough estimate.
+    std::uint16_t half_instructions = 2;
     bool gives_point = false;        ///< its result is a point and not a number
     bool has_constant = false;       ///< its data are one constant
     bool is_long_primitive = false;  ///< a primitive whose equation is long (concepts.hpp)

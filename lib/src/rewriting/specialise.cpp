@@ -66,7 +66,7 @@ float work_of_parts(const WorkingProgram& program, std::span<const Specialisatio
     unsigned halves = 0;
     for (const Specialisation& s : specialisations)
         with_data_primitive(program.code[s.value].op, [&]<class P>() {
-            if constexpr (PrimitiveOfParts<P>) halves += P::Specialised::half_works(s.data.data());
+            if constexpr (PrimitiveOfParts<P>) halves += P::Specialised::half_instructions(s.data.data());
         });
     return 0.5f * static_cast<float>(halves);
 }

@@ -29,14 +29,14 @@ struct Specialisation {
     /// The index of the general primitive's constants, by which a smaller box finds this specialisation again, although
     /// instructions are numbered anew; no_source if several instructions of the program share these constants.
     std::uint32_t source = no_source;
-    Op op{};                        ///< the operation of P::Specialised
-    std::span<const float> data{};  ///< the data of that; empty if the primitive is not replaced
-    unsigned half_works_saved = 0;  ///< by how much it is less work (OpTraits::half_works)
+    Op op{};                               ///< the operation of P::Specialised
+    std::span<const float> data{};         ///< the data of that; empty if the primitive is not replaced
+    unsigned half_instructions_saved = 0;  ///< by how much it is less work (OpTraits::half_instructions)
 
     template <AnyLocalPrimitive P>
     static Specialisation of(std::span<const float> data) {
-        const unsigned before = traits(program::op_of<P>()).half_works;
-        const unsigned after = P::Specialised::half_works(data.data());
+        const unsigned before = traits(program::op_of<P>()).half_instructions;
+        const unsigned after = P::Specialised::half_instructions(data.data());
         return {0, no_source, program::op_of<typename P::Specialised>(), data, after < before ? before - after : 0};
     }
 };

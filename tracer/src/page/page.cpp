@@ -96,32 +96,41 @@ glm::vec3 reflectance(const Conductor& c) {
     return (less * less + k2) / (more * more + k2);
 }
 
+// What is in a clear phase: what scatters looks like a diffuse surface.
+void show(const Medium& interior, Look& look) {
+    std::visit(
+        [&](const auto& medium) {
+            if constexpr (requires { medium.coefficients(); }) {
+                look.kind = Look::diffuse;
+                look.color = reflectance(medium.coefficients());
+            } else {
+                look.absorption = medium.absorption;
+            }
+        },
+        interior);
+}
+
 }  // namespace
 
 Look look_of(const std::string& name, const Material& material, const Bounds& bounds) {
     Look look{name};
-    if (const auto* m = std::get_if<Clear>(&material)) {
-        look.ior = m->ior;
-        std::visit(
-            [&](const auto& medium) {
-                if constexpr (requires { medium.coefficients(); }) {
-                    look.kind = Look::diffuse;
-                    look.color = reflectance(medium.coefficients());
-                } else {
-                    look.absorption = medium.absorption;
+    std::visit(
+        [&]<class Kind>(const Kind& m) {
+            if constexpr (requires { m.interior; }) {
+                look.ior = m.ior;
+                show(m.interior, look);
+            } else if constexpr (requires { m.eta; }) {
+                look.kind = Look::metal;
+                look.color = reflectance(m);
+            } else {
+                look.kind = requires {
+                    m.ior;
                 }
-            },
-            m->interior);
-    } else if (const auto* d = std::get_if<Diffuse>(&material)) {
-        look.kind = Look::diffuse;
-        look.color = mean(d->color, bounds);
-    } else if (const auto* c = std::get_if<Conductor>(&material)) {
-        look.kind = Look::metal;
-        look.color = reflectance(*c);
-    } else if (const auto* o = std::get_if<Coated>(&material)) {
-        look.kind = Look::coated;
-        look.color = mean(o->color, bounds);
-    }
+                ? Look::coated : Look::diffuse;
+                look.color = mean(m.color, bounds);
+            }
+        },
+        material);
     return look;
 }
 

@@ -192,4 +192,20 @@ constexpr bool make_all_of(TypeList<Kinds...>, const std::variant<Materials...>*
 }
 static_assert(make_all_of(MaterialKinds(), static_cast<Material*>(nullptr)), "every material has a kind in the list");
 
+// A material's kind, as scene files name it.
+template <class... Kinds>
+std::string_view kind_name(const Material& material, TypeList<Kinds...>) {
+    return std::visit(
+        []<class M>(const M&) {
+            std::string_view name;
+            (void)((std::is_same_v<M, decltype(std::declval<Kinds>().made())> && !(name = Kinds::info.name).empty()) ||
+                   ...);
+            return name;
+        },
+        material);
+}
+inline std::string_view kind_name(const Material& material) {
+    return kind_name(material, MaterialKinds());
+}
+
 }  // namespace phasetree::tracer

@@ -6,6 +6,7 @@
 #include "phasetree/nodes/fields/plane.hpp"
 #include "phasetree/nodes/phased/intersect_shape.hpp"
 #include "phasetree/nodes/phased/remove.hpp"
+#include "scene/material_kinds.hpp"
 
 namespace phasetree::tracer::view {
 
@@ -74,26 +75,24 @@ Phased without_phases(const Scene& scene, const std::vector<std::string>& hidden
     return Remove{.of = scene.object, .gone = gone};
 }
 
-struct NameOfKind {
-    std::string operator()(const Clear&) const { return "clear"; }
-    std::string operator()(const Diffuse&) const { return "diffuse"; }
-    std::string operator()(const Conductor&) const { return "conductor"; }
-    std::string operator()(const Coated&) const { return "coated"; }
-};
-
 }  // namespace
 
 Optics optics_of(const Material& material, float depth) {
     Optics optics;
-    optics.kind = std::visit(NameOfKind(), material);
+    optics.kind = kind_name(material);
     std::visit(
         [&]<class Kind>(const Kind& kind) {
             if constexpr (requires { kind.interior; })
                 optics.color = color_of(kind.interior, depth);
             else if constexpr (requires { kind.color; })
                 optics.color = constant(kind.color);
+            else
+                optics.has_color = false;
             if constexpr (requires { kind.ior; }) optics.ior = kind.ior;
-            if constexpr (requires { kind.roughness; }) optics.roughness = constant(kind.roughness);
+            if constexpr (requires { kind.roughness; })
+                optics.roughness = constant(kind.roughness);
+            else
+                optics.has_roughness = false;
         },
         material);
     return optics;
@@ -103,12 +102,11 @@ Optics looking(const Optics& optics, const Look& look) {
     Optics result = optics;
     if (look.is_clear && optics.kind != "clear") {
         const Clear clear = made_clear(optics);
-        result = {"clear", glm::vec3(1.0f), clear.ior, constant(clear.roughness)};
+        result = {.kind = "clear", .color = glm::vec3(1.0f), .ior = clear.ior, .roughness = constant(clear.roughness)};
     }
-    const bool has_color = result.kind != "conductor", has_ior = result.ior.has_value();
-    if (look.color && has_color) result.color = look.color;
-    if (look.ior && has_ior) result.ior = look.ior;
-    if (look.roughness && result.kind != "diffuse") result.roughness = look.roughness;
+    if (look.color && result.has_color) result.color = look.color;
+    if (look.ior && result.ior) result.ior = look.ior;
+    if (look.roughness && result.has_roughness) result.roughness = look.roughness;
     return result;
 }
 

@@ -38,9 +38,11 @@ Scene edited(const Scene& scene, const Edits& edits);
 
 /// What a material has that a Look can change, as it is.
 struct Optics {
-    std::string kind;  ///< as scene files name it
-    std::optional<glm::vec3> color;
-    std::optional<float> ior, roughness;
+    std::string kind;                             ///< as scene files name it
+    bool has_color = true, has_roughness = true;  ///< also where these vary from place to place
+    std::optional<glm::vec3> color{};
+    std::optional<float> ior{};  ///< none of what has no index
+    std::optional<float> roughness{};
 };
 
 /// Of a clear phase the colour is as in Look; `depth` is half the diagonal of the object's box. What varies from place

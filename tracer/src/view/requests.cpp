@@ -61,6 +61,7 @@ Json written(const ShownPhase& phase) {
             {"hidden", phase.is_hidden},
             {"kind_in_file", phase.optics.kind},
             {"kind", seen.kind},
+            {"has", {{"color", seen.has_color}, {"ior", seen.ior.has_value()}, {"roughness", seen.has_roughness}}},
             {"color", maybe(seen.color)},
             {"ior", maybe(seen.ior)},
             {"roughness", maybe(seen.roughness)},

@@ -55,7 +55,7 @@ concept LocalPrimitive = PatternPrimitive<N> &&
     { n.specialise(range, of, floats) } -> std::same_as<bool>;
     { N::Specialised::floats(floats.data()) } -> std::same_as<std::size_t>;  // the number of floats
     // The cost, in halves of that of a simple instruction.
-    { N::Specialised::half_works(floats.data()) } -> std::same_as<unsigned>;
+    { N::Specialised::half_instructions(floats.data()) } -> std::same_as<unsigned>;
 };
 
 /// A primitive whose distance is a convex function, as that to a convex solid is if it is exact inside and outside.

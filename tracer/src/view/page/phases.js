@@ -51,9 +51,9 @@ class Row {
       this.#inputs[member] = input;
       parts.push(label);
     };
-    if (phase.kind !== "conductor") add("color", "Colour", "color", {});
-    if (phase.kind === "clear" || phase.kind === "coated") add("ior", "Index", "range", {min: 1, max: 2.5, step: 0.01});
-    if (phase.kind !== "diffuse") add("roughness", "Roughness", "range", {min: 0, max: 1, step: 0.01});
+    if (phase.has.color) add("color", "Colour", "color", {});
+    if (phase.has.ior) add("ior", "Index", "range", {min: 1, max: 2.5, step: 0.01});
+    if (phase.has.roughness) add("roughness", "Roughness", "range", {min: 0, max: 1, step: 0.01});
     const reset = document.createElement("button");
     Object.assign(reset, {type: "button", textContent: "As in the file"});
     reset.setAttribute("aria-label", `${phase.name} as in the file`);

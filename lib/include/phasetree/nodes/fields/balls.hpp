@@ -66,7 +66,7 @@ struct Balls {
 
         std::span<const float> data() const { return values; }
         static std::size_t floats(const float* data) { return balls::ShortList::floats(data); }
-        static unsigned half_works(const float* data) {
+        static unsigned half_instructions(const float* data) {
             return 2 + 4 * static_cast<unsigned>(balls::ShortList::count(data));
         }
         template <class T>
@@ -79,7 +79,7 @@ struct Balls {
     /// About the distance between the centres of neighbours, if the balls fill their box.
     static float spacing(const float* data) { return balls::Tree::spacing(data); }
     /// A rough estimate of the cost of a search for each of eight points, in halves of a simple instruction's.
-    static constexpr unsigned search_half_works = 3000;
+    static constexpr unsigned search_half_instructions = 3000;
     static bool specialise(const float* data, const PointRange& range, std::span<const float> of,
                            std::vector<float>& floats) {
         return specialise(data, range, std::numeric_limits<double>::infinity(), of, floats);

@@ -59,7 +59,7 @@ struct Mesh {
 
         std::span<const float> data() const { return values; }
         static std::size_t floats(const float* data) { return mesh::PieceList::floats(data); }
-        static unsigned half_works(const float* data) {
+        static unsigned half_instructions(const float* data) {
             const auto count = [&](mesh::PieceKind k) {
                 return static_cast<unsigned>(mesh::PieceList::count(data, k));
             };
@@ -80,7 +80,7 @@ struct Mesh {
         return 2 * std::hypot(box[3], box[4], box[5]) / std::sqrt(triangles);
     }
     /// A rough estimate of the cost of a search for each of eight points, in halves of a simple instruction's.
-    static constexpr unsigned search_half_works = 3000;
+    static constexpr unsigned search_half_instructions = 3000;
     static bool specialise(const float* data, const PointRange& range, std::span<const float> of,
                            std::vector<float>& floats) {
         return mesh::PieceTree::pieces_in(data, range, of, most_pieces_in_box, floats);

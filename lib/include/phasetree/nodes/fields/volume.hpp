@@ -29,7 +29,7 @@ struct Volume {
 
     /// The primitive f/λ.
     struct Samples {
-        static constexpr unsigned search_half_works = 120;
+        static constexpr unsigned search_half_instructions = 120;
         static float period(const float* data) { return voxels::feature_size(data); }
         std::shared_ptr<const VoxelGrid> grid{};
 

@@ -94,7 +94,7 @@ struct VoronoiCells {
     }
     /// The same primitive, with the few sites that matter in one small box as its data.
     struct Specialised : SpecialisedVoronoi {
-        static unsigned half_works(const float* data) { return 10 + 5 * sites(data); }
+        static unsigned half_instructions(const float* data) { return 10 + 5 * sites(data); }
         template <class T>
         static T distance(const float* data, const Vec3<T>& p);
     };

@@ -42,7 +42,7 @@ struct Labels {
 
     /// The primitive Dₖ.
     struct Depth {
-        static constexpr unsigned search_half_works = 250;
+        static constexpr unsigned search_half_instructions = 250;
         static float period(const float* data) { return voxels::feature_size(data); }
         std::shared_ptr<const VoxelGrid> grid{};
 

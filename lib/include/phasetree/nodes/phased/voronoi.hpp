@@ -48,7 +48,7 @@ struct Voronoi {
 
         /// The same primitive, with the few sites of its kind that may be the nearest in one small box as its data.
         struct Specialised : SpecialisedVoronoi {
-            static unsigned half_works(const float* data) { return 6 + 2 * sites(data); }
+            static unsigned half_instructions(const float* data) { return 6 + 2 * sites(data); }
             template <class T>
             static T distance(const float* data, const Vec3<T>& p) {
                 const Nearest node{data[0], data[1], data[2], data[3], data[4]};
