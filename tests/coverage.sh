@@ -14,7 +14,7 @@ set -uo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../tracer/packages.sh"
 
 lines=
-tests=(-R '^(io|command|output|fuzz)/|^lib/(model_errors|round_trip|siren)|^tracer/(height_grid|determinism)|^embree[34]/(trees|edits|misuse|hostile|points|instances|motion|filters)')
+tests=(-R '^(io|command|output|fuzz|volume)/|^lib/(balls|labels|mesh|model_errors|round_trip|siren|volume)|^tracer/(height_grid|determinism)|^embree[34]/(trees|edits|misuse|hostile|points|instances|motion|filters)')
 while [ $# -gt 0 ]; do
     case $1 in
         --lines) lines=yes ;;

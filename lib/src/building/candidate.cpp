@@ -106,7 +106,7 @@ class CandidateSearch {
     bool has_search(const Candidate& cell) const {
         const std::span<const Instruction> code = cell.program.code;
         for (std::uint32_t i = 1; i < code.size(); ++i)
-            if (program::traits(code[i].op).is_many &&
+            if (program::traits(code[i].op).has_many_parts &&
                 std::ranges::find(cell.specialisations, i, &Specialisation::value) == cell.specialisations.end())
                 return true;
         return false;

@@ -20,7 +20,8 @@ struct Candidate {
     /// Whether each sample in it is a search among many parts (PrimitiveOfParts), because too many matter in the box,
     /// and the box is so large that few will in smaller ones.
     bool is_searched = false;
-    /// The work of the lists of parts, if it is much of all its work and none is searched; else 0.
+    /// The work of its lists of balls or of pieces of a mesh (PrimitiveOfParts), if that is much of all its work and
+    /// none of them is searched; else 0.
     float work_of_parts = 0;
 };
 
@@ -34,7 +35,8 @@ struct BuildNode {
     /// How many divisions in a row have had no gain. The count starts again at a box that is divided in any case.
     int futile_divisions = 0;
     SubdivisionPolicy policy{};
-    float cost_ratio = 1;                     ///< the cost over that when the present row without a gain began
+    /// The cost of the cells here divided by that of the box around it from which on no division has saved a fifth.
+    float cost_ratio = 1;
     float fold_period = Bounds::infinity;     ///< the smallest period of the folds that still may jump: finest_jump()
     float pattern_period = Bounds::infinity;  ///< the size of the smallest features of patterns: finest_pattern()
     double share = 1;                         ///< about how much of the whole build the subdivision of this box is

@@ -108,8 +108,8 @@ CellCosts find_cells(const BuildNode& node, const BuildContext& context, Worker&
     const Bounds& box = node.cell.facts.box;
     const float excess_area = std::max(0.f, divided.interface_area - interface_area(box));
     const float starting = cost_model::starting_rays * excess_area / surface(box);
-    // The cost takes a ray to pass one interface or two in a cell. Where a cell has many parts it passes many, or stops
-    // at the first, and cells of few parts are better in any case.
+    // The cost takes a ray to pass one interface or two in a cell. Where a cell has many balls or pieces of a mesh it
+    // passes many, or stops at the first, and cells of few are better in any case.
     if (node.cell.is_searched || divided.all < node.cell.cost * (1 + starting)) return divided;
     worker.cells.discard_from(before);
     worker.account.reset_to(bytes_before);

@@ -4,11 +4,11 @@
 
 namespace phasetree::building {
 
-/// The boxes among which one is divided or not.
+/// What required_saving() asks of a box.
 struct BoxKind {
     float relative_size;  ///< the box's diagonal over the object's
     bool has_more_than_two_phases;
-    bool is_first_curvature_known;  ///< whether the distance to the first phase's end has a bound of its curvature
+    bool is_first_curvature_known;  ///< whether Curvature::bound[0] is known
 };
 
 /// The share of the least cost of a box (cost_model.hpp) that its division must be able to save. Small boxes must save

@@ -37,7 +37,8 @@ class SharedConstants {
     std::unique_ptr<float[]> memory_;
 };
 
-/// The memory with which one thread finds the cells of a part of the object, and the cells that it has found.
+/// The memory with which the cells of one part of the object are found, and those that have been found. It is not a
+/// thread: which part a worker has is fixed by the subdivision, and any one thread at a time runs it.
 struct Worker {
     WorkerPool& pool;
     Arena programs{}, scratch{};

@@ -17,7 +17,7 @@ struct BuildSettings {
     std::size_t most_bytes = 0;  ///< the limit of memory that held, also where none was given
 };
 
-/// What a file of cells needs of InterfaceCells that nobody else may see.
+/// A door to what of InterfaceCells only reading, writing and comparing of files of cells may see.
 struct CellsFile {
     struct Contents {
         const CellTables& tables;

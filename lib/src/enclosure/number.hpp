@@ -26,7 +26,7 @@ namespace phasetree::enclosure {
 /// whatever their seams.
 ///
 /// It is computed in double without directed rounding. Its users must allow for the rounding of floats, which is
-/// larger, and twice, because primitives may be known at the centre by floats.
+/// larger: for twice the bound of one value's, because primitives may be known at the centre by floats, too.
 struct Enclosure {
     using Vector = std::array<double, 3>;
 

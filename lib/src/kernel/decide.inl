@@ -9,7 +9,9 @@ namespace {
 // Within rounding of an interface labels mean little: between solids that abut there are slivers of other phases, and
 // along a face the label flickers. So a change counts only once it is decided: once s(p) is above rounding, or once
 // there was no place in the ray's phase for one and a half resolutions. Until then the ray stays in its phase. The
-// bracket goes from the last place in that phase to the first one in the phase that follows.
+// bracket goes from the last place in that phase to the first one in the phase that follows. So it is at most 2.75
+// resolutions long: a gap of one before the first place in another phase, the one and a half, and a quarter more to the
+// next place if rounding hides that the one and a half are full.
 bool March::is_crossing(const Place& next, RayCrossing& result) {
     const float resolution = ray_.resolution;
     // Takes note of a place in another phase; returns whether the change is decided with it.

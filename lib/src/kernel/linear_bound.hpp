@@ -25,9 +25,10 @@ struct LinearBound {
 struct Curvature {
     static constexpr float unknown = Bounds::infinity;
 
-    /// The bound in the phase of the first output, and that in the other phases. In the first phase s is minus the
-    /// first component if more than two phases meet. If no ray is in the other phases, because they are opaque, s is
-    /// the first component there.
+    /// The bound of the s that a ray in the phase of the first output has, and of the s that one in another phase has.
+    /// Each holds in the whole cell, on both sides of the interface. For a ray in the first phase s is minus the first
+    /// component if more than two phases meet. If no ray is in the other phases, because they are opaque, s is the
+    /// first component there.
     std::array<float, 2> bound{unknown, unknown};
     bool is_by_own = false;    ///< Routine::is_by_own in the other phases
     bool is_by_first = false;  ///< whether the first component gives s in all phases

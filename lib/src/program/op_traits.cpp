@@ -25,12 +25,12 @@ template <class... Ps>
 constexpr void mark_patterns(TypeList<Ps...>, auto& all) {
     const auto mark = [&]<class P>() {
         if constexpr (PatternPrimitive<P> || PatternDataPrimitive<P>) traits_of(all, op_of<P>()).is_pattern = true;
-        if constexpr (PatternDataPrimitive<P>) traits_of(all, op_of<P>()).is_grid = true;
+        if constexpr (PatternDataPrimitive<P>) traits_of(all, op_of<P>()).is_voxel_grid = true;
         if constexpr (AnyLocalPrimitive<P>) {
             OpTraits& local = traits_of(all, op_of<P>());
             local.is_local = true;
             local.half_instructions = 800;  // a rough estimate of the cost of all sites of a Voronoi pattern
-            local.is_many = PrimitiveOfParts<P>;
+            local.has_many_parts = PrimitiveOfParts<P>;
             traits_of(all, op_of<typename P::Specialised>()).is_specialised = true;
         }
         if constexpr (requires { P::search_half_instructions; })

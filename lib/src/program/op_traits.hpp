@@ -17,10 +17,10 @@ struct OpTraits {
     bool is_long_primitive = false;  ///< a primitive whose equation is long (concepts.hpp)
     bool is_network = false;         ///< a neural field: Siren::Network
     bool is_fold = false;            ///< it folds space, so it is not continuous
-    bool is_pattern = false;         ///< a PatternPrimitive, or one with data
-    bool is_grid = false;            ///< a PatternDataPrimitive
-    bool is_local = false;           ///< a LocalPrimitive
-    bool is_many = false;            ///< a PrimitiveOfParts
+    bool is_pattern = false;         ///< a PatternPrimitive or a PatternDataPrimitive: it has a period
+    bool is_voxel_grid = false;      ///< a PatternDataPrimitive
+    bool is_local = false;           ///< a LocalPrimitive or a LocalDataPrimitive: little of it matters in a small box
+    bool has_many_parts = false;     ///< a PrimitiveOfParts
     bool is_specialised = false;     ///< the form that a LocalPrimitive takes in a small box
 };
 /// There are no more operations than this, those of fused.hpp included.

@@ -23,9 +23,10 @@
 /// What replaces a value is equal to it within its required interval, and outside on the same side of it. Both operands
 /// of min(a, b) may be replaced at once. Where a is the smaller, it does not exceed the largest value of b, so what
 /// replaces a is equal to it. What replaces b is equal to b, or it is not below the largest value of a. So the minimum
-/// is still a, and likewise where b is the smaller. A replacement has the same sign relative to each threshold and is
-/// Lipschitz itself, so its distance from the threshold is still a lower bound of the distance to where the sign
-/// changes.
+/// is still a, and likewise where b is the smaller. That is as far as the minimum itself is required: if a is above
+/// that interval, so is what replaces a and what replaces b, and if a is below it, so is what replaces a. A replacement
+/// has the same sign relative to each threshold and is Lipschitz itself, so its distance from the threshold is still a
+/// lower bound of the distance to where the sign changes.
 namespace phasetree::pruning {
 
 using bounding::ValueRanges;

@@ -45,14 +45,17 @@ inline bool has_local_primitive(const WorkingProgram& program) {
     return std::ranges::any_of(program.code, [](const Instruction& in) { return traits(in.op).is_local; });
 }
 
-/// The program with specialised primitives in the place of local ones. Their data are appended to `floats`, and that is
-/// what these instructions' indices of data refer to; `first` is the index of the first of these floats.
+/// The program with specialised primitives in the place of local ones. Their data are appended to `floats`. Such an
+/// instruction (OpTraits::is_specialised) no longer refers to the whole program's constants: its index is `first` plus
+/// the place in `floats`. To evaluate the program at once `first` is where a copy of `floats` stands behind those
+/// constants (SharedConstants); in a cell that is kept it is 0, until routines give these data a place
+/// (RoutineBuilder).
 WorkingProgram specialised(const WorkingProgram&, std::span<const Specialisation>, std::vector<float>& floats,
                            Arena& scratch, std::uint32_t first = 0);
 
 /// Whether a program has a grid of voxels (PatternDataPrimitive).
 inline bool has_grid(const WorkingProgram& program) {
-    return std::ranges::any_of(program.code, [](const Instruction& in) { return traits(in.op).is_grid; });
+    return std::ranges::any_of(program.code, [](const Instruction& in) { return traits(in.op).is_voxel_grid; });
 }
 
 /// The size of the smallest features among a program's patterns, in the object's space: a pattern's period is divided

@@ -17,8 +17,8 @@ using rewriting::ArenaScope;
 
 namespace {
 
-// The steps of a routine for interpret(). They end before a fold of space that jumps between the values of its point,
-// because an enclosure across a jump would be wrong.
+// The steps of a routine for interpret(), which asks for size() before each step. They end behind a fold of space that
+// jumps between the values of its point, because an enclosure across a jump would be wrong; has_jumped() says so.
 class StepsUpToJump {
   public:
     StepsUpToJump(const Routine& routine, const Enclosure* registers)

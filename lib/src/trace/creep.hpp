@@ -6,7 +6,8 @@
 //
 // *Enclosed stretches.* The component φ of the ray's phase is bounded over a whole stretch of the ray by interval
 // arithmetic with derivatives (ComponentAlongRay). Where φ < resolution/16 all along it, no other phase is deeper than
-// rounding, so there is no change of label that counts (March::is_crossing), and the ray goes on behind the stretch. A
+// rounding, and the ray goes on behind the stretch. (This is where creeping rays differ from others: for these a phase
+// that is never deeper than rounding counts as well if it lasts for one and a half resolutions, March::is_crossing.) A
 // creep along a plane is one such stretch; along a curved surface stretches are about √(resolution · radius) long.
 //
 // *Walks.* Where nothing can be proven (outlines, patterns and images, whose derivatives are not known) the ray walks

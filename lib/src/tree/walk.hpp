@@ -6,7 +6,8 @@ namespace phasetree {
 
 /// Evaluates a tree by walking it, over any number type. This is the definition of what a tree means. Nodes are
 /// evaluated in a *domain*, which gives them the values of their children, of primitives and of maps of space; this is
-/// one, and the recorder (program/record.cpp) is the other.
+/// one; the others are the recorder (program/record.cpp) and SourceWalk (value_source.cpp). A domain has the members
+/// that this one has.
 template <class T>
 struct Walk {
     using Scalar = T;

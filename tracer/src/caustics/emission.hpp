@@ -29,7 +29,7 @@ namespace phasetree::tracer {
 struct EmittedPhoton {
     Ray ray;                    ///< its origin is outside of the object, or at the light if that is nearer
     Lights::Emission emission;  ///< what is seen from the origin backwards if nothing is in the way
-    glm::vec3 power;            ///< radiance of the light over the density
+    glm::vec3 power;            ///< radiance of the light over p(line)
     float line_density;  ///< p(line) over the square of the refractive index at the origin; of a point, cᵢ t d²
     std::size_t light;   ///< the number of the light that proposed it: less than PhotonEmission::lights()
     std::size_t cell;    ///< of that light's target

@@ -12,9 +12,9 @@ namespace phasetree::tracer {
 struct Photon {
     glm::vec3 position;   ///< where it fell
     glm::vec3 direction;  ///< of unit length, from there to where it came from
-    glm::vec3 power;      ///< radiance of the light over line_density, less what was absorbed on the way
-    /// How densely the photon's line was sampled at the light, per area perpendicular to it and steradian, over the
-    /// square of the refractive index around the light. Of a point light, per steradian alone.
+    glm::vec3 power;      ///< radiance of the light over p(line), less what was absorbed on the way
+    /// p(line)/m²: how densely the photon's line was sampled at the light, p(line), per area perpendicular to it and
+    /// steradian, over the square of the refractive index m around the light. Of a point light, per steradian alone.
     float line_density;
     Phase phase;                  ///< in which it travelled when it fell
     Lights::Emission emission;    ///< of the light, and

@@ -24,7 +24,7 @@ constexpr int window_radius = 5;
 constexpr int window_side = 2 * window_radius + 1;
 constexpr std::size_t window_size = window_side * window_side;
 static_assert(window_radius + patch_radius <= grid_margin);
-// The k of similarity.hpp. Of 0.25, 0.35, 0.5 and 1 it left the least error in a crop of the hourglass's picture.
+// The k of similarity.hpp. Of 0.25, 0.35, 0.5 and 1 it left the least error in a crop of scenes/hourglass.json.
 constexpr float k = 0.35f;
 // What is weighed less adds nothing that can be seen, and takes time.
 constexpr float least_weight = 1e-4f;

@@ -13,7 +13,8 @@
 //
 // Source: Bitterli, Rousselle, Moon, Iglesias-Guitián, Adler, Mitchell, Jarosz & Novák, Nonlinearly Weighted
 // First-order Regression for Denoising Monte Carlo Renderings, Computer Graphics Forum 35(4), 2016. Here the weights
-// are applied in one pass, and the features are the four that are named above.
+// are applied in one pass, and the features are the albedo and the normal of the first
+// surface and of the first that is not smooth (halves.hpp).
 #pragma once
 
 #include <functional>

@@ -10,8 +10,8 @@
 namespace phasetree::tracer {
 
 /// 1 where a pixel of a picture is a glint, which is brighter than 32 times the median of the 24 pixels around them,
-/// and than 32 times the picture's mean, so that in dark places none is whose brightness is usual elsewhere. The margin
-/// is of no glint.
+/// and than 32 times the picture's mean, so that in dark places none is whose brightness is usual elsewhere. It is 0 in
+/// the margin.
 Grid<std::uint8_t> glints_of(const Grid<Estimate<3>>& picture);
 
 }  // namespace phasetree::tracer

@@ -1,7 +1,7 @@
 // The film: it says where on a pixel a sample falls, keeps what the planes accumulate, and gives images of that.
 //
-// Threads work on tiles. A tile is a rectangle of pixels to which nothing has been added yet; samples are added to the
-// tile, and the film adds up tiles, in any order (contract.hpp says why that changes no bit).
+// A tile is what a rectangle of pixels has recorded. The film has one of its whole area; a thread fills a small one,
+// which is empty at first, and the film adds up such tiles, in any order (contract.hpp says why that changes no bit).
 //
 // A pixel of the picture takes 52 bytes: three sums of 16 bytes, and the number of its samples. That is 431 MB for
 // 3840×2160 pixels. A further plane adds what its sums take, 16 bytes for each value of which it keeps the mean, and
@@ -97,7 +97,7 @@ class Film {
     const PixelRange& area() const { return pixels_.area(); }
     const FilmSettings& settings() const { return settings_; }
     const PlaneSubjects& subjects() const { return subjects_; }
-    /// While tiles are being added, only what is asked of pixels that none of them has may be asked.
+    /// While other threads add tiles, only pixels outside of those tiles may be read.
     const FilmTile& pixels() const { return pixels_; }
 
     /// Where a sample of pixel (x, y) falls, for u in [0, 1)²: in pixels from the top left corner of the picture,

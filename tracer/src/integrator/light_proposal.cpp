@@ -42,7 +42,7 @@ float bent_pdf(const Lights& lights, const LightReceiver& at, const glm::vec3& i
     return outside ? lights.pdf(at, outside->direction) * outside->widening : 0.0f;
 }
 
-// The normal, on the outer side, of where a line leaves the last medium that bends light.
+// The normal, on the outer side, of the first place along a line behind which the index is 1.
 std::optional<glm::vec3> boundary_along(const glm::vec3& line, const Surface& surface, const World& world,
                                         const Scene& scene, PathCounters& counters) {
     constexpr int max_interfaces = 8;
@@ -109,7 +109,7 @@ std::optional<LightSample> LightProposal::sample(const Lights& lights, glm::vec2
     std::optional<LightSample> sample = lights.sample(at_, u);
     if (!sample) return std::nullopt;
     if (sample->is_point) {
-        // Bent by a plane, the way to a point is another one, which no direction to it tells.
+        // A direction to a point light, bent by a plane, does not lead to it, so only the straight part proposes it.
         sample->pdf /= static_cast<float>(1 + planes_);
         return by == 0 ? sample : std::nullopt;
     }

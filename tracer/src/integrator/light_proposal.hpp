@@ -5,9 +5,11 @@
 // between in parallel layers), light that comes from ω' outside arrives from
 //     ω = (ω' − n cos θ')/η + n cos θ,   sin θ' = η sin θ,   dω'/dω = η² cos θ / cos θ'.
 // So a part of the directions is bent by that, with the normal of the place where light from the brightest lamp would
-// come in, as near as two straight lines find it; a curved boundary is near enough to that plane for lamps that are not
-// small. And light can come in by several sides: more parts are bent by the flat ones that lamps shine on
-// (flat_boundaries.hpp). Where they are bad guesses the density knows, and nothing is biased: with n planes
+// come in. Two straight lines find that place nearly: the direction straight to the lamp is bent as by a plane parallel
+// to the surface, and followed, without being bent again, to where the index is 1 for the first time. A curved boundary
+// is near enough to that plane for lamps that are not small. And light can come in by several sides: more parts are
+// bent by the flat ones that lamps shine on (flat_boundaries.hpp). Where they are bad guesses the density knows, and
+// nothing is biased: with n planes
 //     p(ω) = (p(ω | lights) + Σ p(ω'(ω) | lights) η² cos θ / cos θ') / (1 + n).
 //
 // Manifold walks (Hanika, Droske & Fascione: Manifold Next Event Estimation, EGSR 2015) find the way to one point of a

@@ -26,6 +26,10 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 
 // A path that can still bring this share of what it began with survives Russian roulette for certain: 1 / 4.
 constexpr float survival_per_worth = 4.0f;
+// The first interfaces are seen by all that is behind them, and a path's weight should never grow by more than 20 at
+// once; where nearly all survive, a random number would be drawn for nothing.
+constexpr int depth_without_roulette = 3;
+constexpr float least_survival = 0.05f, nearly_certain = 0.95f;
 
 // Photons that come in flatter than this are left to the other techniques: what they bring is divided by the cosine.
 constexpr float least_photon_cosine = 1e-3f;
@@ -34,7 +38,7 @@ constexpr float least_photon_cosine = 1e-3f;
 // there is rarely worth a ray. Below this share it goes on in proportion to what is left.
 constexpr float least_share_of_shadow_ray = 0.1f;
 
-bool passes_roulette(glm::vec3& throughput, Sampler& sampler) {
+bool shadow_ray_survives(glm::vec3& throughput, Sampler& sampler) {
     const float survival = std::max({throughput.x, throughput.y, throughput.z}) / least_share_of_shadow_ray;
     if (survival >= 1.0f) return true;
     if (!(sampler.next() < survival)) return false;
@@ -88,7 +92,7 @@ std::optional<Arrival> emission_through_chain(const World& world, const Scene& s
         if (light)
             return Arrival{throughput * for_light(light->radiance, only), *light, ray.direction,
                            length > 0 ? line_density(photons, ray) : 0.0f};
-        if (phase_function(medium) && !passes_roulette(throughput, sampler)) return std::nullopt;
+        if (phase_function(medium) && !shadow_ray_survives(throughput, sampler)) return std::nullopt;
         if (surface->optics.get().disperses()) only = &hero;
         const Bsdf bsdf = surface->bsdf(only);
         if (bsdf.passes_through()) {
@@ -333,8 +337,8 @@ class Path {
         const float ior = clear_at(scene_, ray_.phase).ior / camera_ior_;
         const float worth = std::max({throughput_.x, throughput_.y, throughput_.z}) * ior * ior;
         if (!(worth > 0)) return false;
-        const float survival = std::max(survival_per_worth * worth, 0.05f);
-        if (depth > 3 && survival < 0.95f) {
+        const float survival = std::max(survival_per_worth * worth, least_survival);
+        if (depth > depth_without_roulette && survival < nearly_certain) {
             if (sampler_.next() >= survival) return false;
             throughput_ /= survival;
         }
@@ -352,8 +356,8 @@ class Path {
     Chain chain_;
     std::optional<glm::vec3> entered_;  // the outward normal of the boundary that the path met last in this medium
     bool is_camera_ray_ = true;
-    Wavelength hero_;                   // of the path once it was dispersed, and
-    const Wavelength* only_ = nullptr;  // that wavelength from then on
+    Wavelength hero_;                   // the path's wavelength from where it is dispersed
+    const Wavelength* only_ = nullptr;  // &hero_ from there on; before, the path is of all wavelengths
     PathRecorder recorder_;
 };
 

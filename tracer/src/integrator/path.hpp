@@ -32,19 +32,20 @@ struct Photons {
 /// which directions shadow rays start is for light_proposal.hpp.
 ///
 /// Media that scatter. On its way a path may be scattered in a medium, which is a place like a surface: light is looked
-/// for there, and a direction sampled, with the phase function in place of the BSDF. E then has the media's extinction
-/// for its transmittance, whichever technique finds it.
+/// for there, and a direction sampled, with the phase function in place of the BSDF. E then includes the transmittance
+/// along the chain, by absorption and scattering together, whichever technique finds it.
 ///
 /// Photons are a third technique for the same integral, for chains of at least one interface: E as found from the
 /// light's end (caustics/caustics.hpp). Where N of them are traced and those within r of the surface count, directions
 /// ω are found with the expected density
-///     N π r² p(line) n² cos θ,
-/// of which p(line) is the density at the light (caustics/emission.hpp), and n² cos θ, with the index n at the surface,
-/// turns its measure into area times solid angle there: the étendue is the same all along a chain, however its
-/// interfaces are curved. Fresnel's odds are the same in both directions and cancel. Gathering is the one estimate here
+///     N π r² (p(line)/m²) n² cos θ,
+/// of which p(line) is the density at the light, per area across the line and solid angle, m the index around the light
+/// (p(line)/m² is EmittedPhoton::line_density), n the index at the surface, and cos θ turns area across the line into
+/// area of the surface: the étendue, index² · area · solid angle, is the same all along a chain, however its interfaces
+/// are curved. Fresnel's odds are the same in both directions and cancel. Gathering is the one estimate here
 /// that is biased: it blurs within r (Georgiev et al.: Light Transport Simulation with Vertex Connection and Merging,
-/// SIGGRAPH Asia 2012, has the general case). Photons light surfaces alone: they pass through media that scatter with
-/// what E has of them, and places in such a medium are left to the other two techniques.
+/// SIGGRAPH Asia 2012, has the general case). Photons light surfaces alone: media that scatter dim
+/// them and never scatter them, and places in such a medium are left to the other two techniques.
 ///
 /// Dispersion. Where a path, a shadow ray or a photon meets an interface that disperses, one wavelength is chosen for
 /// all of them (spectrum/wavelength.hpp), so that the techniques still estimate the same: the integral over directions

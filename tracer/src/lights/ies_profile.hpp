@@ -18,8 +18,8 @@ class IesProfile {
     /// Throws std::runtime_error, whose what() says the line and what is wrong there, for a text that is no such file.
     explicit IesProfile(std::string_view text);
 
-    /// Of the greatest candelas in the file, at an angle in [0, 180] degrees from straight down, and at any about the
-    /// vertical.
+    /// The candelas at an angle in [0, 180] degrees from straight down, and at any angle about the vertical, as a share
+    /// of the greatest in the file.
     float relative_intensity(double vertical_degrees, double horizontal_degrees) const;
     double greatest_candelas() const { return greatest_; }
 

@@ -122,6 +122,7 @@ class Lights {
 
   private:
     std::size_t size() const { return infinite_.size() + area_.size() + points_.size() + portals_.size(); }
+    /// Fills in the share of each light in the choice among them, not normalised, and returns their sum.
     float shares(const LightReceiver& at, std::span<float> shares) const;
     void share_with_portals(const glm::vec3& p, std::span<float> shares) const;
     float portals_pdf(const glm::vec3& p, const glm::vec3& direction, std::span<const float> shares,

@@ -39,8 +39,9 @@ Turn corner(const EdgeNormal& a, const EdgeNormal& b) {
     return {-a.z * b.z, std::sqrt(std::max(0.0, sin_squared))};
 }
 
-// Of two such angles the sum, less π: from −π to π. The two are not taken for each other, for where it is near one of
-// them the cosines have one sign, and so have the products of which the sum's sine is made.
+// The sum of two such angles less π, which is in [−π, π]. Rounding does not exchange the two ends of that range: near
+// them both cosines have the same sign, so the sine of the sum is itself a sum of two products of one sign, and its
+// sign is right.
 double excess(const Turn& a, const Turn& b) {
     const Turn sum = a * b;
     return std::atan2(-sum.sine, -sum.cosine);

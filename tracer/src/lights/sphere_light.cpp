@@ -52,7 +52,7 @@ std::optional<float> SphereLight::intersect(const glm::vec3& origin, const glm::
     const double squared_half_chord = radius_ * radius_ - glm::dot(across, across);
     const bool inside = cap_height(to_centre) == 2.0;
     if (inside) return static_cast<float>(along + std::sqrt(std::max(0.0, squared_half_chord)));
-    // Of a direction's three coordinates, after a rotation of some roundings.
+    // How far a unit direction may be off, whose three coordinates were rounded several times by a change of frame.
     constexpr double rounding = 2e-7;
     const double reach = radius_ + rounding * along;
     if (!(glm::dot(across, across) <= reach * reach) || !(along > 0.0)) return std::nullopt;

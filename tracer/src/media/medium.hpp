@@ -42,7 +42,7 @@ inline Flight fly(const Medium& medium, const Way& way, const glm::vec3& through
         medium);
 }
 
-/// How a medium scatters light; none for one that does not.
+/// How a medium scatters light; none for a kind that never does.
 inline const HenyeyGreenstein* phase_function(const Medium& medium) {
     return std::visit(
         []<class Kind>(const Kind& kind) -> const HenyeyGreenstein* {

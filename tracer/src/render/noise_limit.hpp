@@ -7,9 +7,9 @@
 //
 // Whoever stops when the noise looks small stops a little too often where it was underestimated, which is where bright
 // paths were missed: a bias (Kirk & Arvo, Unbiased Sampling Techniques for Image Synthesis, SIGGRAPH 1991). So blocks
-// are looked at seldom, after 32, 48, 64, 96, 128, 192, … samples a pixel, of which the first look has 2,048 of a
-// block, and a pixel that met one bright path counts no more than others do (tests/tracer/noise_limit.cpp measures the
-// rest).
+// are looked at seldom, after 32, 48, 64, 96, 128, 192, … samples a pixel: at the first look a block has 2,048. And a
+// bright path raises its pixel's mean as well as its error, so that pixel counts with an error of about 1, however
+// bright the path is (tests/tracer/noise_limit.cpp measures the bias that is left).
 //
 // Whether a block goes on follows from its own samples and from their number alone: not from other blocks, nor from
 // threads, nor from when a render was interrupted.

@@ -42,9 +42,9 @@ struct Rendering {
     PathCounters counters;
 };
 
-/// Adds to the film what its pixels lack of the job's samples. It is one of film_of, and has none but samples of the
-/// job, of each pixel those of the lowest numbers: nothing, or what a rendering has left that was cancelled. While this
-/// runs, others may write the film's rows.
+/// Adds to the film what its pixels lack of the job's samples. The film comes from film_of(). It is empty, or was left
+/// by a cancelled render() of the same job: each pixel then has the job's samples from the lowest number on, without
+/// gaps. While this runs, others may write the film's rows to a file.
 ///
 /// Gives the same film for any number of threads and whatever the film had: a pixel's samples are numbered and seeded
 /// by pixel and number, and the film's sums do not depend on their order. Works in passes over the whole image, so that

@@ -17,7 +17,7 @@ ValueRange range_of(const Number& number) {
     return {least_of(number), greatest_of(number)};
 }
 
-// Of what rough surfaces of that range need tables for; nothing, if none is rough.
+// The part of a range of roughness that is not treated as smooth, which needs tables; none, if all of it is smooth.
 std::optional<ValueRange> rough_part(const ValueRange& roughness) {
     if (is_smooth(roughness.greatest)) return std::nullopt;
     return ValueRange{std::clamp(roughness.least, least_roughness, 1.0f), std::min(roughness.greatest, 1.0f)};

@@ -44,8 +44,8 @@ class Interface {
             float from_ior, to_ior;  ///< of a side without dispersion
         };
         std::shared_ptr<const DielectricSurface> surface;
-        Number from, to;  ///< roughness of both materials, of which the greater counts
-        Number thickness;
+        Number from, to;   ///< the roughnesses of the two materials, of which the greater counts
+        Number thickness;  ///< of the film in nanometres, as in the other kinds; 0 without one
         std::optional<Dispersive> dispersive{};
     };
     struct MetalOptics {

@@ -41,7 +41,9 @@ struct PlacedQuery {
     /// Out: the copy that the hit is in, if the hit is one of a copy.
     Copy hit{};
 
-    // On the way: the map from the scene to where the ray is now, the ray as it was there, and the copies before.
+    // On the way down through nested places: the map from the scene to the space that the ray is in now; the ray in the
+    // scene's space, of unit direction (inner directions are not normalised, so that distances stay the scene's); and
+    // the number of the first copy below, which is the sum of PlaceInEmbree::first_copy over the places on the way.
     Transform here{};
     glm::dvec3 origin{0}, direction{0};
     std::uint32_t first_copy = 0;
@@ -96,7 +98,9 @@ class PlacedGeometry {
     struct Places {
         std::vector<PlaceInEmbree> list;
         const std::vector<Target>* targets = nullptr;
-        const PlacedObjects* placed = nullptr;  ///< and the same list there, of which those that move are asked
+        /// The scene's own places, of which `source` is the list that this one was made from: a place that moves has
+        /// its transform at a ray's time from there.
+        const PlacedObjects* placed = nullptr;
         const std::vector<Place>* source = nullptr;
         Bounds bounds{};
         double resolution = 0;  ///< the coarsest there, in the space of the list

@@ -5,7 +5,8 @@
 // resolution, and coordinates are rounded, so the two are found a little apart, and in either order. They count as one
 // if they lie apart, across the interface, by no more than the sum of the two objects' tolerances
 // (PlacedGeometry::tolerance). A ray that leaves such an interface starts displaced from it by that distance, so that
-// neither object is in doubt of where it is.
+// neither object is in doubt of where it is. So an object, or a gap between two, that is thinner than that distance
+// along the ray may be passed unseen; interfaces of more than two objects at one place are joined two at a time.
 //
 // Objects should not overlap. Where they do, the first of those that a point is in is there, and the others' interfaces
 // are not seen.

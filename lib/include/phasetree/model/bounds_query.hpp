@@ -11,10 +11,12 @@ namespace phasetree {
 class Field;
 class Phased;
 
-/// Asks subtrees for a box around {f ≤ level}; for a multiphase object, around all points within `level` of a phase.
+/// Asks subtrees for a box around {f ≤ level}; for a multiphase object, around all points within `level` of a material
+/// (a phase that is not the vacuum).
 /// Answers are kept, so that a shared subtree is asked once for each level.
 ///
-/// There are two ways to answer, and the result is the intersection of both boxes.
+/// There are two ways to answer. The result is the box by boxes, with those sides by directions that are tighter by
+/// more than a hundredth of its size.
 ///
 /// *By boxes:* each node makes its box from those of its children, along its own axes. That is fast, but each rotation
 /// puts a box around a rotated box.

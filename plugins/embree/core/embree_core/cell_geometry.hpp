@@ -9,8 +9,9 @@ namespace phasetree::embree {
 /// An object's cells as the primitives of an RTCGeometry of type user. A hit is the first change of phase along the
 /// ray:
 ///     tfar         distance to where the old phase ends (in units of the ray's direction, as Embree has it)
-///     Ng           normal on the side the ray came from; unit in object space (for rays that carry phases against the
-///                  direction: they ask for the normal of the hit they keep)
+///     Ng           normal on the side the ray came from; unit in object space. For rays that carry phases it is minus
+///                  the direction, which stands for it: their host asks InterfaceCells::normal() for the one hit that
+///                  it keeps
 ///     u, v         index of the phase left and of the phase entered
 ///     primID       the cell
 /// A ray's direction may have any length. Rays with numbers that are not finite hit nothing.

@@ -19,7 +19,7 @@ struct Closest {
 
 /// The closest interface to a point of the object's space, where distances are measured behind a linear map (that of an
 /// instance or a placement). Ends when the empty radius is within the share `tolerance` of the distance, or within four
-/// resolutions, or after 2¹⁴ batches of eight points have been evaluated.
+/// resolutions, or after 2¹⁴ divisions of boxes, each of which may trace a ray as well.
 Closest find_closest(const CellScene&, const glm::vec3& point, const glm::dmat3& to_world, float radius,
                      float tolerance);
 

@@ -96,7 +96,9 @@ class FixedSum {
     bool operator==(const FixedSum&) const = default;
 
     /// Most sums have few significant bytes between the signs above and the zeros below; only those are written, behind
-    /// a byte that says how many of each there are.
+    /// a byte of the number of bytes written plus (bytes + 1) times that of zeros below. A byte above is left out if
+    /// the one below it says the same sign; of a negative number one byte is always left, because no byte at all means
+    /// 0. So equal sums have equal bytes.
     void write(ByteWriter& out) const {
         const std::uint64_t sign = is_negative() ? 0xff : 0;
         std::size_t low = 0, high = bytes;

@@ -49,7 +49,8 @@ class CoatingAlbedo {
 
         const CoatingAlbedo* albedo_;
         float roughness_, thickness_;
-        std::size_t below_ = 0;  ///< of the tables by roughness, and how far towards the next
+        std::size_t below_ =
+            0;  ///< the table of the next lower roughness; part_ is the way to the one above, in [0, 1]
         float part_ = 0.0f;
         glm::vec3 average_{0.0f};
     };

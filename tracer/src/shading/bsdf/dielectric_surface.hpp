@@ -1,11 +1,12 @@
 // What is the same all over an interface of two clear media, smooth or rough, with a thin film or without: how much it
 // reflects, and for a rough one the light that its BSDF has to give back after several scatterings (lost_energy.hpp).
 //
-// Of the light that is scattered several times on the side a, the part t_ab leaves through the surface to the side b.
-// Reciprocity asks that t_ab/t_ba = n_b² L̄_b / (n_a² L̄_a), with L̄ the loss of lost_energy.hpp of each side. Of what is
-// free after that, t_ab + t_ba, we take (1 − F̄_a) + (1 − F̄_b), with F̄ Fresnel's reflectance under uniform light:
-// each further scattering lets through so much. Neither is more than 1. A walk on the microsurface lets through up to 7
-// % of the light more from outside (η = 1.5), and up to 30 % more or less from inside where α is 1.
+// Of the light that is scattered several times on one side, a, the part t_ab leaves through the surface to the other,
+// b. Reciprocity asks that t_ab/t_ba = n_b² L̄_b / (n_a² L̄_a), with L̄ the loss of lost_energy.hpp of each side. It
+// leaves the sum t_ab + t_ba free, which we set to (1 − F̄_a) + (1 − F̄_b), with F̄ Fresnel's reflectance under uniform
+// light, as if each further scattering let through so much: a model, not a derivation. Neither part is more than 1. A
+// walk on the microsurface lets through up to 7 % of the light more than this from outside (η = 1.5), and up to 30 %
+// more or less from inside where α is 1.
 #pragma once
 
 #include <memory>
@@ -40,7 +41,7 @@ class DielectricSurface {
     /// Equal indices, and nothing between: light goes on as if there were no interface.
     bool is_none() const { return eta_ == 1.0f && !film_; }
     bool has_film() const { return film_ != nullptr; }
-    /// Of the film where the interface is rough.
+    /// The thickness that the film counts with where the interface is rough: the middle of its range.
     float middle_thickness() const { return middle_thickness_; }
 
     struct Fresnel {

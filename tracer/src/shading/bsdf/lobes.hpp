@@ -6,7 +6,7 @@
 
 namespace phasetree::tracer {
 
-/// By which a lobe of several colours is chosen.
+/// The number in proportion to which a lobe of several colours is chosen.
 inline float mean_of_channels(const glm::vec3& v) {
     return (v.x + v.y + v.z) / 3.0f;
 }

@@ -8,8 +8,8 @@
 extern "C" {
 #endif
 
-/* A crossing: a change of phase on a ray, bracketed by two places of which each has been evaluated and has its phase.
- * The bracket is no longer than the resolution, or up to 2.7 of them where rounding puts a third phase between solids
+/* A crossing: a change of phase on a ray, bracketed by two places of which each is proven to be in its phase.
+ * The bracket is no longer than the resolution, or up to 2.75 of them where rounding puts a third phase between solids
  * that abut. A ray that is reflected goes on from pointIn in phaseLeft, one that passes from pointOut in phaseEntered;
  * nothing needs to be moved along a normal, and it meets this crossing no more if it carries that phase. */
 typedef struct PhasetreeHit {

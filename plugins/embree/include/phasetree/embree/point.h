@@ -91,8 +91,8 @@ typedef struct PhasetreeClosest {
  * point, time   as above.
  * radius        a distance: how far to look; +∞: everywhere.
  * tolerance     how near emptyRadius and distance come to each other before the search ends, as a share of distance:
- *               0.001 … 1; it also ends when they are within four resolutions, and after 2^14 evaluations of eight
- *               points at the latest. The larger, the quicker.
+ *               0.001 … 1; it also ends when they are within four resolutions, and after 2^14 divisions of
+ *               the bounds at the latest. The larger, the quicker.
  *
  * Searches by branch and bound: divides the object's bounds into octants again and again, and excludes those in which
  * the 1-Lipschitz distances at the middle leave no room for an interface. */
