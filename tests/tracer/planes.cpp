@@ -22,15 +22,16 @@ using namespace phasetree::tracer::tests;
 namespace {
 
 // A ball of radius 1 of clay in the middle, over a floor, seen from 5 m away; two groups of lights.
-Scene ball() {
+Scene ball(const std::string& camera = R"({"position": [0, -5, 0], "look_at": [0, 0, 0], "fov": 60})") {
     Scene scene = scene_of(
         R"("clay": {"diffuse": {"color": [0.6, 0.3, 0.2]}}, "a.b": {"clear": {"ior": 1.5}})",
         R"({"set": {"phase": "clay", "of": {"sphere": {"radius": 1}}}})",
         std::string(R"("meshes": [{"floor": {"height": -1.5, "material": {"diffuse": {"color": [0.5, 0.5, 0.5]}}}}],
                               "lights": [{"constant": {"group": "sky"}},
                                          {"rectangle": {"centre": [0, -3, 4], "target": [0, 0, 0], "width": 1, "height": 1, "radiance": [9, 9, 9]}}],
-                              "camera": {"position": [0, -5, 0], "look_at": [0, 0, 0], "fov": 60},
-                              "render": {"width": 21, "height": 15, "samples": 8})"));
+                              "render": {"width": 21, "height": 15, "samples": 8},
+                              "camera": )") +
+            camera);
     scene.film.planes = Planes::all();
     return scene;
 }
@@ -121,6 +122,25 @@ TEST_CASE("numbers of names: published values of the hash, and no exponent of a 
         }
     }
     CHECK(flipped > 5);  // 31 are expected
+}
+
+TEST_CASE("depth is along the axis, also where the middle of the picture or of the lens is beside it") {
+    for (const char* const camera :
+         {R"({"tilt_shift": {"position": [0, -5, 0], "look_at": [0, 0, 0], "fov": 60, "shift": [0.1, -0.3]}})",
+          R"({"position": [0, -5, 0], "look_at": [0, 0, 0], "fov": 60, "lens_radius": 0.5, "blades": 5})"}) {
+        CAPTURE(camera);
+        const Scene scene = ball(camera);
+        const World world(scene);
+        const Image image = image_of(world, scene);
+        const auto &depth = channel(image, "depth.Z"), &y = channel(image, "position.Y");
+        int seen = 0;
+        for (std::size_t p = 0; p < image.pixels.size(); ++p) {
+            if (depth[p] == 1e10f) continue;
+            ++seen;
+            CHECK(depth[p] == doctest::Approx(y[p] + 5).epsilon(1e-5));
+        }
+        CHECK(seen > 100);
+    }
 }
 
 TEST_CASE("a ball: depth, position, normal, albedo, numbers, lengths") {

@@ -15,6 +15,8 @@ import time
 import unittest
 
 COMMAND = os.environ["PHASETREE_COMMAND"]
+# How many times as long as usual the command may take: a sanitizer slows it down.
+PATIENCE = float(os.environ.get("PHASETREE_PATIENCE", "1"))
 
 SCENE = """{"version": 1,
 "phases": {"glass": {"clear": {"ior": 1.5}}, "wood": {"diffuse": {"color": [0.6, 0.3, 0.1]}}},
@@ -103,7 +105,7 @@ class View:
 
     def wait_for(self, condition, within=60):
         """The first answer whose state the condition holds for."""
-        version, end = 0, time.monotonic() + within
+        version, end = 0, time.monotonic() + within * PATIENCE
         while time.monotonic() < end:
             answer = self.get(f"picture?after={version}")
             if condition(answer.state):

@@ -55,7 +55,7 @@ class Renderer {
           phases_(world.geometry(), camera_, scene),
           // Of a picture alone no path need tell more.
           recording_(scene.film.planes.count() > 1),
-          axis_(camera_.generate(glm::dvec2(scene.film.resolution()) * 0.5, glm::vec2(0.5f))),
+          axis_{position_of(scene.camera), glm::normalize(look_at_of(scene.camera) - position_of(scene.camera))},
           film_(film),
           noise_(NoiseLimit::of(scene.settings)),
           blocks_(blocks_of(film.area())) {
@@ -197,7 +197,7 @@ class Renderer {
     MovingCamera camera_;
     StartingPhases phases_;
     bool recording_;
-    CameraRay axis_;  // through the middle of the picture
+    CameraRay axis_;  // from where the camera is when the shutter opens to where it looks
     Film& film_;
     std::optional<NoiseLimit> noise_;
     std::vector<PixelRange> blocks_;  // which tiles of the film are, without those that have stopped
