@@ -124,7 +124,7 @@ void run(const float* data, const Vec3<T>& p, T* value) {
 /// The solid where a formula is negative. Its minima, maxima and absolute values, down to what is inside of other
 /// functions, become instructions like those of any operator; what is left, sums and products and roots, become
 /// primitives: terms. All are divided by λ, a bound of the slope that is found by enclosure
-/// (src/nodes/formula_slope.hpp). With bounds, λ holds in a box, onto which points outside are projected, and the
+/// (src/nodes/formula_slope). With bounds, λ holds in a box, onto which points outside are projected, and the
 /// distance to the box takes over where it is larger, as with warps of limited reach (nodes/warps/warped.hpp).
 struct Formula {
     static constexpr bool is_field_node = true;
