@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <string>
 
 #include "model/text_error.hpp"
@@ -90,6 +91,9 @@ TEST_CASE("slopes are found: of distances the least bound that there is") {
     CHECK(prepared("max(abs(x) - 1, abs(y) - 1, abs(z) - 1)").lipschitz == doctest::Approx(1));
     CHECK(prepared("sqrt(4 * x^2 + y^2) - 1").lipschitz == doctest::Approx(2));
     CHECK(prepared("3 * x + 4 * y").lipschitz == doctest::Approx(5));
+    // Of a length whose operands rise together: √2, and the largest singular value of the rows (1, 0) and (1, 1).
+    CHECK(prepared("length(x, x)").lipschitz == doctest::Approx(std::sqrt(2.0)).epsilon(0.03));
+    CHECK(prepared("length(x, x + y)").lipschitz >= 1.618f);
     // Over the box of the ball itself, not over the whole box.
     const Formula ball = prepared("x^2 + y^2 + z^2 - 1", cube);
     CHECK(ball.lipschitz < 4);
@@ -102,7 +106,7 @@ TEST_CASE("formulas are 1-Lipschitz, also beyond their bounds") {
     for (const char* text :
          {"x^2 + y^2 + z^2 - 1", "sin(4*x)*cos(4*y) + sin(4*y)*cos(4*z) + sin(4*z)*cos(4*x)",
           "(x^2 + 9/4*y^2 + z^2 - 1)^3 - x^2*z^3 - 9/80*y^2*z^3", "r = length(x, y); exp(-4 * r^2) - 0.3 + z^2",
-          "z - tanh(3 * x) * y", "1 / (x^2 + 0.5) - 1 + abs(y * z)"}) {
+          "z - tanh(3 * x) * y", "1 / (x^2 + 0.5) - 1 + abs(y * z)", "length(x, x + 0.1 * y, x - z) - 0.5"}) {
         CAPTURE(text);
         const Field f = prepared(text, cube);
         for (int n = 0; n < 20'000; ++n) {

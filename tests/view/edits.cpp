@@ -47,3 +47,27 @@ TEST_CASE("a clear phase's colour is what is left of light after half the diagon
     CHECK(std::exp(-medium->absorption.x * half) == doctest::Approx(0.5).epsilon(1e-4));
     CHECK(std::exp(-medium->absorption.z * half) == doctest::Approx(0.9).epsilon(1e-4));
 }
+
+TEST_CASE("every kind of material tells its name and what of it can be changed") {
+    struct Case {
+        const char *material, *kind;
+        bool has_color, has_ior, has_roughness;
+    };
+    const view::Look look{.color = glm::vec3(0.25f), .ior = 1.25f, .roughness = 0.75f};
+    for (const Case& c : {Case{R"({"clear": {"ior": 1.5}})", "clear", true, true, true},
+                          Case{R"({"diffuse": {"color": [0.5, 0.5, 0.5]}})", "diffuse", true, false, false},
+                          Case{R"({"conductor": {"metal": "gold"}})", "conductor", false, false, true},
+                          Case{R"({"coated": {"color": [0.5, 0.5, 0.5]}})", "coated", true, true, true}}) {
+        CAPTURE(c.material);
+        const view::Optics optics = view::optics_of(ball(c.material).materials[1], 1);
+        CHECK(optics.kind == c.kind);
+        CHECK(optics.has_color == c.has_color);
+        CHECK(optics.ior.has_value() == c.has_ior);
+        CHECK(optics.has_roughness == c.has_roughness);
+        // What a material does not have is not given to it.
+        const view::Optics changed = view::looking(optics, look);
+        CHECK((changed.color == look.color) == c.has_color);
+        CHECK((changed.ior == look.ior) == c.has_ior);
+        CHECK((changed.roughness == look.roughness) == c.has_roughness);
+    }
+}

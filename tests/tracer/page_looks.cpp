@@ -1,0 +1,37 @@
+// How an exported page shows the materials of a scene: each kind by what it has.
+#include <doctest/doctest.h>
+
+#include "page/page.hpp"
+#include "paths.hpp"
+
+using namespace phasetree::tracer;
+using namespace phasetree::tracer::tests;
+
+namespace {
+
+Look look_of_material(const std::string& material) {
+    const Scene scene = scene_of("\"m\": " + material, R"({"set": {"phase": "m", "of": {"sphere": {"radius": 1}}}})");
+    return look_of("m", scene.materials[1], phasetree::bounds(scene.object));
+}
+
+}  // namespace
+
+TEST_CASE("a page shows each kind of material as what it is") {
+    const Look glass = look_of_material(R"({"clear": {"ior": 1.5, "absorption": [1, 2, 3]}})");
+    CHECK(glass.kind == Look::clear);
+    CHECK(glass.ior == 1.5f);
+    CHECK(glass.absorption == glm::vec3(1, 2, 3));
+    const Look milk =
+        look_of_material(R"({"clear": {"ior": 1.3, "albedo": [0.9, 0.9, 0.9], "mean_free_path": [1, 1, 1]}})");
+    CHECK(milk.kind == Look::diffuse);
+    CHECK(milk.color.x > 0.2f);
+    const Look paper = look_of_material(R"({"diffuse": {"color": [0.1, 0.2, 0.3]}})");
+    CHECK(paper.kind == Look::diffuse);
+    CHECK(paper.color.z == doctest::Approx(0.3));
+    const Look varnish = look_of_material(R"({"coated": {"color": [0.1, 0.2, 0.3]}})");
+    CHECK(varnish.kind == Look::coated);
+    CHECK(varnish.color.z == doctest::Approx(0.3));
+    const Look gold = look_of_material(R"({"conductor": {"metal": "gold"}})");
+    CHECK(gold.kind == Look::metal);
+    CHECK(gold.color.x > gold.color.z);
+}
