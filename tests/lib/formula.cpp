@@ -148,6 +148,10 @@ TEST_CASE("what is refused, and where") {
     check_refused("smooth_min(x, y, z)", 0, "must be a positive number");
 }
 
+TEST_CASE("an exponent that is no number is refused where the call stands") {
+    check_refused("z + pow(x, y)", 4, "an exponent must be a number");
+}
+
 TEST_CASE("a slope without bound is refused, and what it is that has none") {
     check_refused("x^2 + y^2 + z^2 - 1", 16, "no bound far from the origin");
     check_refused("sin(x)", 0, "no bound far from the origin");

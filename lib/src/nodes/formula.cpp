@@ -15,9 +15,12 @@ namespace {
 using nodes::BoxOfDoubles, nodes::fail_in_formula, nodes::FormulaStep, nodes::FormulaTerms, nodes::slope_in,
     nodes::TermSteps;
 
-constexpr int most_boxes = 4000;                  // for the slope of one term
-constexpr double steepest = 1e6;                  // of a formula that can be used
-constexpr double everywhere = 1e6, nearby = 1e3;  // half the sides of the cubes for a formula without bounds
+constexpr int most_boxes = 4000;  // for the slope of one term
+constexpr double steepest = 1e6;  // of a formula that can be used
+// Without bounds a formula must not be steeper in a cube of half the side `everywhere` than in one of `nearby`, for
+// then its slope does not seem to grow with the distance. Beyond the larger cube, 1000 km from the origin, nothing is
+// proven.
+constexpr double everywhere = 1e6, nearby = 1e3;
 
 BoxOfDoubles box_of(const std::vector<glm::vec3>& corners) {
     if (corners.size() != 2) throw ModelError("formula: \"bounds\" are two corners, [[x, y, z], [x, y, z]]");

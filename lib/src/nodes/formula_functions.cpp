@@ -47,11 +47,7 @@ std::span<const FormulaFunction> formula_functions() {
         {"smooth_max", 3, 3,
          [](FormulaSteps& s, Values v) { return s.negate(s.smooth_minimum(s.negate(v[0]), s.negate(v[1]), v[2])); }},
         {"square", 1, 1, [](FormulaSteps& s, Values v) { return s.multiply(v[0], v[0]); }},
-        {"pow", 2, 2,
-         [](FormulaSteps& s, Values v) {
-             if (s[v[1]].op != Op::constant) fail_in_formula(s[v[1]].offset, "an exponent must be a number");
-             return s.power(v[0], s[v[1]].value);
-         }},
+        {"pow", 2, 2, [](FormulaSteps& s, Values v) { return s.power_of(v[0], v[1]); }},
     }};
     return all;
 }

@@ -97,6 +97,11 @@ FormulaIndex FormulaSteps::power(Index a, double n) {
     return std::fmod(n, 2) == 0 ? even : multiply(even, a);
 }
 
+FormulaIndex FormulaSteps::power_of(Index a, Index exponent) {
+    if (!is_constant(exponent)) fail_in_formula(offset_, "an exponent must be a number");
+    return power(a, value(exponent));
+}
+
 FormulaIndex FormulaSteps::square_root(Index a) {
     if (is_constant(a)) {
         if (value(a) < 0) fail_in_formula(offset_, "this is the root of a negative number");

@@ -39,7 +39,6 @@ class FormulaSteps {
   public:
     using Index = FormulaIndex;
 
-    const FormulaStep& operator[](Index i) const { return steps_[i]; }
     /// Where in the text the steps stand that follow.
     void stand_at(std::size_t offset) { offset_ = offset; }
 
@@ -51,6 +50,8 @@ class FormulaSteps {
     Index multiply(Index a, Index b);
     Index divide(Index a, Index b);
     Index power(Index a, double n);
+    /// The same with an exponent that has been read as a step; it must be a constant.
+    Index power_of(Index a, Index exponent);
     Index square_root(Index a);
     Index length_of(Index a, Index b) { return emit({.op = formula::Op::length_of_two, .a = a, .b = b}); }
     Index length_of(Index a, Index b, Index c) {

@@ -11,6 +11,8 @@ namespace phasetree::nodes {
 
 /// A term as it is evaluated, and where its steps stand in the text.
 struct TermSteps {
+    /// As formula::run() reads it: the number of steps, the factor of the result (1 until the slope is known), and four
+    /// floats for each step.
     std::vector<float> data;
     std::vector<FormulaStep> steps;
 

@@ -26,8 +26,8 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 
 // A path that can still bring this share of what it began with survives Russian roulette for certain: 1 / 4.
 constexpr float survival_per_worth = 4.0f;
-// The first interfaces are seen by all that is behind them, and a path's weight should never grow by more than 20 at
-// once; where nearly all survive, a random number would be drawn for nothing.
+// Roulette spares the first three interfaces, behind which most of what one sees lies. At least a twentieth of the
+// paths survive, so that no weight grows by more than 20 at once; where nearly all would, no random number is drawn.
 constexpr int depth_without_roulette = 3;
 constexpr float least_survival = 0.05f, nearly_certain = 0.95f;
 
