@@ -15,11 +15,12 @@ namespace {
 using nodes::BoxOfDoubles, nodes::fail_in_formula, nodes::FormulaStep, nodes::FormulaTerms, nodes::slope_in,
     nodes::TermSteps;
 
-constexpr int most_boxes = 4000;  // for the slope of one term
-constexpr double steepest = 1e6;  // of a formula that can be used
-// Without bounds a formula must not be steeper in a cube of half the side `everywhere` than in one of `nearby`, for
-// then its slope does not seem to grow with the distance. Beyond the larger cube, 1000 km from the origin, nothing is
-// proven.
+constexpr int most_boxes = 4000;  // are looked at to find the slope of one term
+constexpr double steepest = 1e6;  // a steeper formula is refused
+// Without bounds the slope is found in a large cube and in a small one, of half these sides, with fewer boxes: nothing
+// is to be refined there. If it is larger in the large one, it is taken to grow without limit, and the formula is
+// refused. Beyond the large cube, 1000 km from the origin, nothing is proven, so the author's bounds may not reach
+// farther either.
 constexpr double everywhere = 1e6, nearby = 1e3;
 
 BoxOfDoubles box_of(const std::vector<glm::vec3>& corners) {

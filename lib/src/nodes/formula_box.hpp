@@ -24,7 +24,7 @@ struct BoxOfDoubles {
         return {enclosure::Enclosure::coordinate(0, m[0], half(0)), enclosure::Enclosure::coordinate(1, m[1], half(1)),
                 enclosure::Enclosure::coordinate(2, m[2], half(2))};
     }
-    /// Both halves across the longest of those sides that count.
+    /// The two halves of the box, which is divided across its longest side among the axes that count.
     std::pair<BoxOfDoubles, BoxOfDoubles> parts(const std::array<bool, 3>& counts = {true, true, true}) const {
         std::size_t longest = 3;
         for (std::size_t i = 0; i < 3; ++i)
@@ -39,7 +39,7 @@ struct BoxOfDoubles {
         const auto m = middle();
         const auto text = [](double v) {
             std::array<char, 32> buffer;
-            std::snprintf(buffer.data(), buffer.size(), "%.3g", v + 0.0);
+            std::snprintf(buffer.data(), buffer.size(), "%.3g", v + 0.0);  // −0 + 0 is 0
             return std::string(buffer.data());
         };
         return "(" + text(m[0]) + ", " + text(m[1]) + ", " + text(m[2]) + ")";

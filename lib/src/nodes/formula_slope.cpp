@@ -13,8 +13,8 @@ using formula::Op;
 
 namespace {
 
-constexpr double close_enough = 1.02;  // of the bound to the steepest gradient that is seen
-constexpr double no_bound = 1e50;      // what is larger came from a division by zero
+constexpr double close_enough = 1.02;  // the search ends when the bound is so many times the steepest gradient seen
+constexpr double no_bound = 1e50;      // a bound above this stands for none: Range::most is larger
 
 // Why a term has no bound in a box: the first step that has none although its operands have.
 [[noreturn]] void refuse(const TermSteps& term, const TermInBox& in, const BoxOfDoubles& box, bool has_bounds) {
@@ -54,16 +54,16 @@ double slope_in(const TermSteps& term, const BoxOfDoubles& whole, int most_boxes
     const std::array<bool, 3> axes = term.axes();
     double seen = 0;
     std::priority_queue<Candidate> open;
-    const auto look = [&](const BoxOfDoubles& box, double around) {
+    const auto look = [&](const BoxOfDoubles& box, double bound_around) {
         budget.pay(work_of_a_step * term.steps.size());
         in.run(term, box);
         double squared = 0;
         for (const double g : in.result().centre_gradient) squared += g * g;
         if (std::isfinite(squared)) seen = std::max(seen, std::sqrt(squared));
-        open.push({std::min(around, in.bound()), box});
+        open.push({std::min(bound_around, in.bound()), box});
     };
     look(whole, Range::most);
-    // As large as a box is along what the term depends on.
+    // Half of the longest side of a box along the axes that the term depends on.
     const auto size = [&](const BoxOfDoubles& box) {
         double longest = 0;
         for (std::size_t i = 0; i < 3; ++i)

@@ -1,7 +1,8 @@
-// How steep a term of a formula is. Over a box its gradient lies between bounds (src/enclosure). Where they are far
-// above what the gradient at the box's middle is, the box is divided, the steepest part first, until little is to be
-// gained. A part so small that it says nothing any more, and still without bound, is a place where there is none: the
-// formula is refused.
+// How steep a term of a formula is. Over a box its gradient lies between bounds (src/enclosure). If the bound of the
+// steepest box is more than two per cent above the steepest gradient that was seen at the middle of any box, that box
+// is divided, and so on, until the two are near each other or so many boxes as are allowed have been looked at. If a
+// box has no bound when it is tiny, or when no more boxes are allowed, the formula is refused, with the middle of that
+// box.
 #pragma once
 
 #include "model/preparation.hpp"

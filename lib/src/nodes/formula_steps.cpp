@@ -13,7 +13,8 @@ using formula::Op;
 namespace {
 
 constexpr std::size_t most_steps = 2'000;
-constexpr std::size_t most_squares = 16;  // under a root that becomes a length
+// A root of a sum of more squares than these stays a root.
+constexpr std::size_t most_squares = 16;
 
 }  // namespace
 
@@ -45,7 +46,7 @@ int operands(Op op) {
 }
 
 FormulaIndex FormulaSteps::constant(double v) {
-    if (!(std::abs(v) < 1e30)) fail_in_formula(offset_, "a number is too large, or none");
+    if (!(std::abs(v) < 1e30)) fail_in_formula(offset_, "a number is too large, or is none");
     return emit({.op = Op::constant, .value = v});
 }
 
@@ -147,10 +148,12 @@ FormulaIndex FormulaSteps::emit(FormulaStep s) {
     return index;
 }
 
-// Whether a value is a sum of a few squares, and of what. Shared parts could make many of few steps.
+// Tells whether a value is a sum of squares, and appends to `sides` what is squared. It may append steps, and may leave
+// `sides` half filled if it returns false. A step that is used twice counts twice, so a few steps could make very many
+// squares; hence the limit.
 bool FormulaSteps::collect_squares(Index i, std::vector<Index>& sides, int depth) {
     const FormulaStep s = steps_[i];
-    if (depth > deepest_formula || sides.size() > most_squares) return false;
+    if (depth > deepest_formula || sides.size() >= most_squares) return false;
     if (s.op == Op::add) return collect_squares(s.a, sides, depth + 1) && collect_squares(s.b, sides, depth + 1);
     if (s.op == Op::square) {
         sides.push_back(s.a);
@@ -182,7 +185,7 @@ std::vector<FormulaStep> needed_steps(const std::vector<FormulaStep>& all, Formu
         if (!is_needed[i]) continue;
         place[i] = static_cast<FormulaIndex>(needed.size());
         FormulaStep s = all[i];
-        // What an operation does not take says nothing.
+        // Operands that an operation does not take are set to 0.
         const int n = operands(s.op);
         s.a = n > 0 ? place[s.a] : 0;
         s.b = n > 1 ? place[s.b] : 0;

@@ -23,7 +23,7 @@ struct FormulaStep {
 /// How many values an operation takes.
 int operands(formula::Op);
 
-/// Which of a formula's steps; operands have lower numbers than what is made of them.
+/// The index of a step. Operands have lower indices than what is made of them.
 using FormulaIndex = std::uint32_t;
 
 /// No formula, and no expression in one, is nested deeper than this.
@@ -32,9 +32,11 @@ inline constexpr int deepest_formula = 100;
 /// Throws TextError about the place in the formula's text.
 [[noreturn]] void fail_in_formula(std::size_t offset, const std::string& message);
 
-/// Each member appends an operation and returns its number, or that of a step that has the same value: constants are
-/// computed, and roots of sums of squares are lengths, whose slope is bounded where the root's is not. Throws TextError
-/// for what has no value, such as a division by zero, and for more than 2,000 steps.
+/// The steps of a formula while it is read. Each member that returns an Index appends an operation, unless the same one
+/// is there already, which is then meant again. Operations on constants are computed at once. A root of a sum of
+/// squares becomes a length, because the slope of a length has a bound and that of a root has none. Members throw
+/// TextError for what has no value (a division by zero, a number of 10³⁰ or more), for an exponent or a radius that is
+/// not allowed, and for more than 2,000 steps.
 class FormulaSteps {
   public:
     using Index = FormulaIndex;

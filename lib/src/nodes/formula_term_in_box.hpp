@@ -1,6 +1,6 @@
-// The values of a formula's term in a box, and a bound of the slope of each. The box of a value's gradient knows what
-// cancels; a rule for each operation knows what that does not: a length is no steeper than the vector that it is of.
-// The smaller of the two bounds counts.
+// The values of a formula's term in a box, and two bounds of the slope of each, of which the smaller counts: the
+// longest vector in the range of its gradient, in which what cancels does cancel; and a bound that a rule of each
+// operation makes of the slopes of its operands, which is better for lengths.
 #pragma once
 
 #include <array>
@@ -14,10 +14,10 @@ namespace phasetree::nodes {
 class TermInBox {
   public:
     void run(const TermSteps& term, const BoxOfDoubles& box);
-    /// Of the whole term.
+    /// The bound of the slope, and the enclosure, of the whole term.
     double bound() const { return slopes_.back(); }
     const enclosure::Enclosure& result() const { return values_.back(); }
-    /// Of one of its steps.
+    /// The bound of the slope of one of its steps.
     double slope(std::size_t i) const { return slopes_[i]; }
 
   private:

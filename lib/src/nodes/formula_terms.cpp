@@ -7,7 +7,7 @@ using Index = FormulaIndex;
 
 namespace {
 
-// What a step and those that it needs are, as a term of its own.
+// Makes a term of a step and of all that it needs.
 TermSteps term_of(const std::vector<FormulaStep>& all, Index root) {
     TermSteps term{{}, needed_steps(all, root)};
     if (term.steps.size() > most_operations)

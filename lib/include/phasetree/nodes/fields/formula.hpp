@@ -36,9 +36,9 @@ enum class Op : std::uint8_t {
 };
 
 inline constexpr std::size_t most_operations = 128;
-/// Floats of a term before its operations: their number, and the factor of the result.
+/// A term begins with two floats: how many operations follow, and the factor of the result, 1/λ.
 inline constexpr std::size_t header = 2;
-/// Floats of an operation: its number, a, b and c.
+/// An operation is four floats: its Op, a, b and c.
 inline constexpr std::size_t stride = 4;
 
 template <class T>
@@ -121,11 +121,12 @@ void run(const float* data, const Vec3<T>& p, T* value) {
 
 }  // namespace formula
 
-/// The solid where a formula is negative. Its minima, maxima and absolute values, down to what is inside of other
-/// functions, become instructions like those of any operator; what is left, sums and products and roots, become
-/// primitives: terms. All are divided by λ, a bound of the slope that is found by enclosure
-/// (src/nodes/formula_slope). With bounds, λ holds in a box, onto which points outside are projected, and the
-/// distance to the box takes over where it is larger, as with warps of limited reach (nodes/warps/warped.hpp).
+/// The solid where a formula is negative. Its minima, maxima, absolute values, negations and added constants become
+/// instructions like those of any operator, except where they are inside of other functions. What is left, sums and
+/// products and roots, become primitives: terms. All are divided by λ, a bound of the slope that is found by enclosure
+/// (src/nodes/formula_slope). If the author gives bounds, λ holds in a box B around what of the solid is in them.
+/// Points outside are projected onto B, and the distance to it takes over where that is larger, as with warps of
+/// limited reach (nodes/warps/warped.hpp).
 struct Formula {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{
@@ -148,7 +149,8 @@ struct Formula {
     };
     using Parts = TypeList<Term>;
 
-    /// What the terms are joined by. Operands are indices of parts before it.
+    /// A term, or an operation on parts before it. Of a term, `a` is its index in `terms`; of an operation, `a` and `b`
+    /// are indices in `parts`. `constant` is a summand or a radius.
     struct Part {
         enum class What : std::uint8_t { term, negate, absolute, minimum, maximum, add_constant, smooth_minimum };
         What what = What::term;
@@ -157,11 +159,12 @@ struct Formula {
     };
 
     std::string text{};
-    std::vector<glm::vec3> box{};
-    std::vector<Term> terms{};  ///< derived, as all below
-    std::vector<Part> parts{};
-    BoundingBox bound{};
-    float lipschitz = 1;  ///< λ
+    std::vector<glm::vec3> box{};  ///< the author's two corners, or empty
+    // What follows is derived.
+    std::vector<Term> terms{};
+    std::vector<Part> parts{};  ///< the last is the formula
+    BoundingBox bound{};        ///< B: around what of the solid is in the author's box; λ holds there
+    float lipschitz = 1;        ///< λ: the largest bound of all terms; 1 for a formula that is nearly constant
 
     template <class V>
     static void parameters(V&& v) {
