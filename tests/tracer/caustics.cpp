@@ -4,11 +4,11 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 #include <random>
 
 #include "paths.hpp"
+#include "photons.hpp"
 #include "shading/fresnel.hpp"
 
 using namespace phasetree::tracer;
@@ -24,52 +24,10 @@ const std::string sun_at_60_degrees = R"({"sun": {"direction": [0, 0.8660254, 0.
 // What a member "render" says for few photons, gathered in a wide radius.
 const std::string few_wide_photons = R"(, "render": {"width": 32, "height": 32, "photons": 8, "photon_radius": 6})";
 
-constexpr std::uint32_t paths_a_pass = 64;
-
-// The long form finds an error of 3 %, the short one of 10 %.
-const bool long_form = std::getenv("PHASETREE_LONG_TESTS") != nullptr;
-const int passes = long_form ? 6000 : 200;
-const double planted = long_form ? 1.03 : 1.1;
-
-// The radiance along a ray, by passes of which each has photons of its own.
-Moments with_photons(const Scene& scene, const glm::vec3& origin, const glm::vec3& direction, int count = passes) {
-    const phasetree::FlushSubnormals flush;
-    const World world(scene);
-    const Caustics caustics(world, scene);
-    Moments moments;
-    PathCounters counters;
-    const Ray ray{origin, glm::normalize(direction), world.geometry().label(origin), {}};
-    for (int pass = 0; pass < count; ++pass) {
-        const auto map = caustics.photons(pass, counters, [] { return false; });
-        REQUIRE(map.has_value());
-        // Paths of one pass see the same photons, so their mean is one independent number.
-        double sum = 0;
-        for (std::uint32_t path = 0; path < paths_a_pass; ++path) {
-            Sampler sampler(static_cast<std::uint32_t>(pass), path, 0, 1);
-            sum += static_cast<double>(
-                trace_path(world, scene, ray, sampler, counters, nullptr, {&caustics.emission(), &*map}).x);
-        }
-        moments.add(sum / paths_a_pass);
-    }
-    return moments;
-}
-
-// That the floor below what hangs there is as bright with photons as by paths alone. Both are estimates, so the error
-// of their difference is that of both.
+// That the floor below what hangs there is as bright with photons as by paths alone.
 void check_against_paths(const Scene& scene, int passes_of_photons, double significance) {
-    const World world(scene);
-    const glm::vec3 origin(-2, -2, 0.1f), direction(1.9f, 1.9f, -0.1f);
-    const Moments paths = radiance_along(world, scene, origin, direction, long_form ? 3000000 : 300000)[0];
-    const Moments photons = with_photons(scene, origin, direction, passes_of_photons);
-    const double error = std::hypot(paths.standard_error(), photons.standard_error());
-    const auto p_value = [&](double factor) {
-        return phasetree::tests::normal_two_sided((factor * photons.mean() - paths.mean()) / error);
-    };
-    CAPTURE(photons.mean() / paths.mean());
-    CAPTURE(paths.standard_error() / paths.mean());
-    CAPTURE(photons.standard_error() / photons.mean());
-    CHECK(p_value(1) > significance);
-    CHECK(p_value(planted) < significance);
+    phasetree::tracer::tests::check_against_paths(scene, {-2, -2, 0.1f}, {1.9f, 1.9f, -0.1f}, passes_of_photons,
+                                                  significance);
 }
 
 double reflectance(double cosine, double eta) {
@@ -216,7 +174,8 @@ TEST_CASE("the bright parts of an image, through a ball of glass: as bright as b
 TEST_CASE("the map finds what lies within the radius, each photon once") {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> place(-3, 3);
-    std::vector<Photon> photons;
+    TracedPhotons traced;
+    std::vector<Photon>& photons = traced.on_surfaces;
     for (int i = 0; i < 3000; ++i)
         photons.push_back({{place(random), place(random), 0.1f * place(random)},
                            {0, 0, 1},
@@ -226,7 +185,7 @@ TEST_CASE("the map finds what lies within the radius, each photon once") {
                            {},
                            {0, 0, 1}});
     const float radius = 0.4f;
-    const PhotonMap map(photons, 3000, radius);
+    const PhotonMap map(traced, 3000, radius);
     CHECK(map.expected() == doctest::Approx(3000 * std::numbers::pi * 0.16));
     const glm::vec3 normal(0, 0, 1);
     for (int i = 0; i < 200; ++i) {

@@ -111,13 +111,13 @@ void Encloser::enclose_values(const WorkingProgram& program) {
     const std::span<Specialisation> found = previous_specialisations(program, previous);
     registers_ = registers.data();
     last_ = {program, box_, &context_, registers_, slot};
-    enclose_primitives(program, previous, found);
+    enclose_instructions(program, previous, found);
     keep_specialisations(found);
 }
 
 // Computes the enclosures that are not known from the previous program.
-void Encloser::enclose_primitives(const WorkingProgram& program, std::span<const std::uint32_t> previous,
-                                  std::span<Specialisation> found) {
+void Encloser::enclose_instructions(const WorkingProgram& program, std::span<const std::uint32_t> previous,
+                                    std::span<Specialisation> found) {
     const UnknownSteps steps{program.code, previous, context_.constants.data(), last_.slot};
     const auto enclose_rounded = [&](const auto& solid, const auto& q, Enclosure& result) {
         // Most primitives are given the point of the box itself, of which enough is known already.
@@ -173,8 +173,9 @@ void Encloser::keep_specialisations(std::span<Specialisation> found) {
     specialisations_ = found.first(count);
 }
 
-// The enclosure of the value of an output, without the output's sign. Components are 1-Lipschitz, whatever bounds
-// follow from their instructions.
+// The enclosure of the value of an output, without the output's sign. Components are 1-Lipschitz, also in pruned
+// programs (pruning/prune.hpp has the proof), so their gradients are within ±1 even where the enclosures of the
+// instructions say less.
 Enclosure Encloser::enclosure_of_output(const ProgramOutput& o) const {
     Enclosure e = last_[o.value];
     for (Range& g : e.gradient) g = {std::max(g.low, -1.0), std::min(g.high, 1.0)};

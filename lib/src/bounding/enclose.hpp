@@ -48,8 +48,8 @@ class Encloser {
 
   private:
     void enclose_values(const WorkingProgram&);
-    void enclose_primitives(const WorkingProgram&, std::span<const std::uint32_t> previous,
-                            std::span<Specialisation> found);
+    void enclose_instructions(const WorkingProgram&, std::span<const std::uint32_t> previous,
+                              std::span<Specialisation> found);
     std::span<const std::uint32_t> previous_numbers(const WorkingProgram&) const;
     std::span<Specialisation> previous_specialisations(const WorkingProgram&,
                                                        std::span<const std::uint32_t> previous) const;

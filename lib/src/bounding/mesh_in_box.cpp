@@ -15,6 +15,8 @@ using mesh::Edge, mesh::Face, mesh::PieceList, mesh::Vertex;
 
 namespace {
 
+// Gradients within this angle of an axis differ from it by a chord of 1 at most. With a wider cone their ranges would
+// hold 0 along every coordinate, and say little more than that the field is 1-Lipschitz.
 constexpr double widest = std::numbers::pi / 3;
 
 // Calls f(normal, spread) for each piece.

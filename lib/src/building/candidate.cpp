@@ -16,6 +16,17 @@ using rewriting::ArenaScope, rewriting::finest_spacing, rewriting::has_grid, rew
 
 namespace {
 
+// Of a box that is cut, what is left is enclosed again if its surface is less than this share of that before.
+constexpr float much_smaller = 0.7f;
+// A ray that crosses a box as large as a fold's period is expected to pass so many interfaces of its copies.
+constexpr float copies_in_period = 4;
+// What joins the lists of parts of several phases, in simple instructions.
+constexpr float work_of_joining = 24;
+// Lists of parts are much of a program's work if they are at least a quarter of it, what joins them left aside.
+constexpr float least_part_of_work = 0.25f;
+// A box less than this times as large as a part has lists that are short enough.
+constexpr float few_parts = 1.5f;
+
 // Finds the cell that a node could become.
 class CandidateSearch {
   public:
@@ -73,7 +84,7 @@ class CandidateSearch {
     // Whether the program is worth being enclosed again in what is left of the box. That is not done with local
     // primitives, because the parts of the node start from the specialisations in the node's whole box.
     bool is_much_smaller(const Candidate& cell, const Bounds& before) const {
-        return surface(cell.facts.box) < 0.7f * surface(before) &&
+        return surface(cell.facts.box) < much_smaller * surface(before) &&
                !(context_.program.has_local_primitives && has_local_primitive(cell.program));
     }
     // An encloser for a part of the region. It reaches as far around a box as the programs of its parts must be right.
@@ -89,17 +100,17 @@ class CandidateSearch {
         const bool has_blocks = std::isfinite(node_.pattern_period) && !(cell.facts.bound.spread < 1) &&
                                 (has_local_primitive(cell.program) || has_grid(cell.program));
         const float blocks = has_blocks ? std::max(1.f, size / node_.pattern_period) : 1.f;
-        const float repetitions = (1 + 4 * size / node_.fold_period) * blocks;
+        const float repetitions = (1 + copies_in_period * size / node_.fold_period) * blocks;
         cell.work = work(cell.program, context_.program.constants, cell.specialisations, worker_.scratch);
         cell.cost = repetitions * cost(cell.facts, cell.program, cell.work, context_.program.opaque);
         if (!context_.program.has_local_primitives) return;
         const bool is_searched = has_search(cell);
-        // What joins the lists of several phases is some two dozen instructions.
         const float of_parts = work_of_parts(cell.program, cell.specialisations);
-        if (!is_searched && 4 * of_parts + 24 >= cell.work.all) cell.work_of_parts = of_parts;
-        // In a box that is hardly larger than a part, lists are short enough; unless what is wanted is far from them,
-        // as a wide wall around a mesh is, and then smaller boxes would be very many.
-        cell.is_searched = is_searched && size > 1.5f * finest_spacing(cell.program, context_.program.constants);
+        if (!is_searched && of_parts >= least_part_of_work * (cell.work.all - work_of_joining))
+            cell.work_of_parts = of_parts;
+        // Lists in small boxes are short unless what is wanted is far from the parts, as a wide wall around a mesh is;
+        // and then smaller boxes would be very many.
+        cell.is_searched = is_searched && size > few_parts * finest_spacing(cell.program, context_.program.constants);
     }
 
     // Whether a primitive of many parts has no list of those that matter.

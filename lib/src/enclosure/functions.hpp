@@ -53,7 +53,7 @@ inline Enclosure falloff(const Enclosure& d, float reach) {
 namespace detail {
 /// Improves the enclosure of a convex function of the numbers x that grows with each of them and is 1-Lipschitz: its
 /// derivatives by them are weights from 0 to 1.
-inline Enclosure convex_combination(Enclosure f, std::initializer_list<const Enclosure*> x) {
+inline Enclosure tightened_by_convexity(Enclosure f, std::initializer_list<const Enclosure*> x) {
     double sum = 0;
     for (const Enclosure* e : x) sum += std::min(e->curvature.low, 0.0) * std::min(e->curvature.low, 0.0);
     f.curvature.low = std::max(f.curvature.low, std::max(-std::sqrt(sum), -Range::most));
@@ -72,13 +72,13 @@ inline Enclosure convex_combination(Enclosure f, std::initializer_list<const Enc
 /// length without negative components.
 inline Enclosure corner(const Enclosure& a, const Enclosure& b) {
     if (a.value.high <= 0 || b.value.high <= 0) return max(a, b);
-    return detail::convex_combination(phasetree::corner<Enclosure>(a, b), {&a, &b});
+    return detail::tightened_by_convexity(phasetree::corner<Enclosure>(a, b), {&a, &b});
 }
 inline Enclosure corner(const Enclosure& a, const Enclosure& b, const Enclosure& c) {
     if (a.value.high <= 0) return max(a, corner(b, c));
     if (b.value.high <= 0) return max(b, corner(a, c));
     if (c.value.high <= 0) return max(c, corner(a, b));
-    return detail::convex_combination(phasetree::corner<Enclosure>(a, b, c), {&a, &b, &c});
+    return detail::tightened_by_convexity(phasetree::corner<Enclosure>(a, b, c), {&a, &b, &c});
 }
 
 /// The slopes of both operands agree on the seam, so the seam adds no curvature.

@@ -1,6 +1,9 @@
 #include "phasetree/nodes/fields/voxel_grid.hpp"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <cmath>
@@ -38,16 +41,25 @@ void for_each_block(const std::array<int, 3>& size, F&& f) {
             for (int x = 0; x < size[0]; x += side) f(std::array{x, y, z});
 }
 
-// Calls f(values about a voxel) for the voxels of all blocks that are kept; the neighbours along x, y and z are 1, 10
-// and 100 places before and behind. In other blocks, and next to them, nothing changes. Voxels behind the grid's last
-// ones are copies of them, and neither steeper nor flatter.
+// The largest f(values about a voxel) of the voxels of all blocks that are kept; the neighbours along x, y and z are 1,
+// 10 and 100 places before and behind. In other blocks, and next to them, nothing changes. Voxels behind the grid's
+// last ones are copies of them, and neither steeper nor flatter.
 template <class F>
-void for_each_kept_voxel(const std::vector<float>& table, F&& f) {
-    for (const float* block = Table(table.data()).values; block < table.data() + table.size();
-         block += VoxelGrid::kept_values)
-        for (int z = 1; z <= side; ++z)
-            for (int y = 1; y <= side; ++y)
-                for (int x = 1; x <= side; ++x) f(block + x + 10 * y + 100 * z);
+double largest_at_kept_voxels(const std::vector<float>& table, F&& f) {
+    const float* values = Table(table.data()).values;
+    const auto count = static_cast<std::size_t>(table.data() + table.size() - values) / VoxelGrid::kept_values;
+    return tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, count), 0.0,
+        [&](const auto& range, double largest) {
+            for (std::size_t i = range.begin(); i < range.end(); ++i)
+                for (int z = 1; z <= side; ++z)
+                    for (int y = 1; y <= side; ++y)
+                        for (int x = 1; x <= side; ++x)
+                            largest =
+                                std::max(largest, f(values + i * VoxelGrid::kept_values + (x + 10 * y + 100 * z)));
+            return largest;
+        },
+        [](double a, double b) { return std::max(a, b); });
 }
 
 double squared(double x) {
@@ -81,57 +93,141 @@ float Table::operator()(int x, int y, int z) const {
     return values[VoxelGrid::kept_values * static_cast<std::size_t>(block[0]) + static_cast<std::size_t>(within)];
 }
 
-VoxelGrid VoxelGrid::make(std::string_view who, const VoxelLattice& lattice, const Fill& fill) {
+namespace {
+
+void check(std::string_view who, const VoxelLattice& lattice) {
     for (std::size_t i = 0; i < 3; ++i) {
         if (lattice.size[i] < 1) throw ModelError(fmt::format("{}: the grid is empty", who));
-        if (lattice.size[i] > most_along_axis)
+        if (lattice.size[i] > VoxelGrid::most_along_axis)
             throw ModelError(fmt::format("{}: the grid has {} voxels along an axis; at most {} can be", who,
-                                         lattice.size[i], most_along_axis));
+                                         lattice.size[i], VoxelGrid::most_along_axis));
         const auto axis = static_cast<glm::length_t>(i);
         if (!(lattice.spacing[axis] >= 1e-9 && lattice.spacing[axis] <= 1e6) || !(std::abs(lattice.first[axis]) <= 1e9))
             throw ModelError(fmt::format("{}: voxels must be 1e-9 to 1e6 m apart, at most 1e9 m from the origin", who));
     }
+}
+
+ModelError too_many_values(std::string_view who) {
+    return ModelError(fmt::format("{}: the grid has more than {} values that differ from their neighbours", who,
+                                  VoxelGrid::most_values));
+}
+
+// What the directory says of a block, and what is wrong with it.
+struct BlockRange {
+    float low = 0, high = 0;
+    bool has_bad_value = false;  // too large, or no number
+
+    explicit BlockRange(std::span<const float, VoxelGrid::kept_values> values) : low(values[0]), high(values[0]) {
+        for (const float v : values) {
+            has_bad_value = has_bad_value || !(std::abs(v) <= 1e9f);
+            low = std::min(low, v);
+            high = std::max(high, v);
+        }
+    }
+    BlockRange() = default;
+};
+
+// The error that names the first bad value of a block whose first voxel is `at`.
+ModelError bad_value(std::string_view who, const VoxelLattice& lattice, const std::array<int, 3>& at,
+                     std::span<const float, VoxelGrid::kept_values> values) {
+    const auto bad = std::ranges::find_if(values, [](float v) { return !(std::abs(v) <= 1e9f); });
+    const auto i = static_cast<int>(bad - values.begin());
+    constexpr int kept = VoxelGrid::kept_side;
+    const std::array<int, 3> within{i % kept, i / kept % kept, i / kept / kept};
+    std::array<int, 3> voxel;
+    // What is beyond the border is the border's.
+    for (std::size_t a = 0; a < 3; ++a) voxel[a] = std::clamp(at[a] - 1 + within[a], 0, lattice.size[a] - 1);
+    return ModelError(fmt::format("{}: the value at the voxel ({}, {}, {}) is too large, or no number", who, voxel[0],
+                                  voxel[1], voxel[2]));
+}
+
+// A grid with its head and an empty directory.
+VoxelGrid empty_grid(std::string_view who, const VoxelLattice& lattice) {
+    check(who, lattice);
     VoxelGrid grid{lattice, head_of(lattice)};
-    const std::array<int, 3> blocks = blocks_of(lattice.size);
-    const std::size_t count =
-        static_cast<std::size_t>(blocks[0]) * static_cast<std::size_t>(blocks[1]) * static_cast<std::size_t>(blocks[2]);
-    const auto too_many = [&] {
-        return ModelError(
-            fmt::format("{}: the grid has more than {} values that differ from their neighbours", who, most_values));
-    };
-    if (count > most_values / 8) throw too_many();
+    std::size_t count = 1;
+    for (const int n : blocks_of(lattice.size)) count *= static_cast<std::size_t>(n);
+    if (count > VoxelGrid::most_values / 8) throw too_many_values(who);
     grid.table.resize(voxels::head + voxels::entry * count);
+    return grid;
+}
+
+// Enters a block, and returns whether its values are kept.
+bool enter(const BlockRange& range, std::size_t kept, float* entry) {
+    entry[0] = range.low < range.high ? static_cast<float>(kept) : -1.f;
+    entry[1] = range.low;
+    entry[2] = range.high;
+    return range.low < range.high;
+}
+
+// Shaders look up the values of some block also where they do not use them.
+void keep_some_block(std::vector<float>& table, std::size_t kept) {
+    if (kept == 0) table.insert(table.end(), VoxelGrid::kept_values, table[voxels::head + 1]);
+}
+
+}  // namespace
+
+VoxelGrid VoxelGrid::make(std::string_view who, const VoxelLattice& lattice, const Fill& fill) {
+    VoxelGrid grid = empty_grid(who, lattice);
     std::array<float, kept_values> values;
     std::size_t entry = voxels::head, kept = 0;
     for_each_block(lattice.size, [&](const std::array<int, 3>& at) {
         fill({at[0] - 1, at[1] - 1, at[2] - 1}, values);
-        float low = values[0], high = values[0];
-        for (std::size_t i = 0; i < values.size(); ++i) {
-            if (!(std::abs(values[i]) <= 1e9f)) {
-                // What is beyond the border is the border's.
-                const std::array<int, 3> within{static_cast<int>(i) % kept_side,
-                                                static_cast<int>(i) / kept_side % kept_side,
-                                                static_cast<int>(i) / kept_side / kept_side};
-                std::array<int, 3> voxel;
-                for (std::size_t a = 0; a < 3; ++a)
-                    voxel[a] = std::clamp(at[a] - 1 + within[a], 0, lattice.size[a] - 1);
-                throw ModelError(fmt::format("{}: the value at the voxel ({}, {}, {}) is too large, or no number", who,
-                                             voxel[0], voxel[1], voxel[2]));
-            }
-            low = std::min(low, values[i]);
-            high = std::max(high, values[i]);
-        }
-        grid.table[entry] = low < high ? static_cast<float>(kept) : -1.f;
-        grid.table[entry + 1] = low;
-        grid.table[entry + 2] = high;
+        const BlockRange range(values);
+        if (range.has_bad_value) throw bad_value(who, lattice, at, values);
+        const bool is_kept = enter(range, kept, &grid.table[entry]);
         entry += voxels::entry;
-        if (!(low < high)) return;
+        if (!is_kept) return;
         ++kept;
-        if (kept * kept_values > most_values) throw too_many();
+        if (kept * kept_values > most_values) throw too_many_values(who);
         grid.table.insert(grid.table.end(), values.begin(), values.end());
     });
-    // Shaders look up the values of some block also where they do not use them.
-    if (kept == 0) grid.table.insert(grid.table.end(), kept_values, grid.table[voxels::head + 1]);
+    keep_some_block(grid.table, kept);
+    return grid;
+}
+
+// Blocks are looked at on all threads, then numbered in their order, then copied on all threads.
+VoxelGrid VoxelGrid::of_values(std::string_view who, const VoxelLattice& lattice, std::span<const float> values) {
+    VoxelGrid grid = empty_grid(who, lattice);
+    const std::array<int, 3> size = lattice.size;
+    std::vector<std::array<int, 3>> first;
+    for_each_block(size, [&](const std::array<int, 3>& at) { first.push_back(at); });
+    // The values about a block, from the voxel before its first along each axis.
+    const auto copy_about = [&](const std::array<int, 3>& at, std::span<float, kept_values> to) {
+        const auto inside = [&](std::size_t axis, int i) {
+            return static_cast<std::size_t>(std::clamp(at[axis] - 1 + i, 0, size[axis] - 1));
+        };
+        float* next = to.data();
+        for (int z = 0; z < kept_side; ++z)
+            for (int y = 0; y < kept_side; ++y) {
+                const float* row = values.data() + (inside(2, z) * static_cast<std::size_t>(size[1]) + inside(1, y)) *
+                                                       static_cast<std::size_t>(size[0]);
+                for (int x = 0; x < kept_side; ++x) *next++ = row[inside(0, x)];
+            }
+    };
+    std::vector<BlockRange> ranges(first.size());
+    tbb::parallel_for(std::size_t{0}, first.size(), [&](std::size_t i) {
+        std::array<float, kept_values> about;
+        copy_about(first[i], about);
+        ranges[i] = BlockRange(about);
+    });
+    std::vector<std::size_t> blocks;  // those that are kept
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        if (ranges[i].has_bad_value) {
+            std::array<float, kept_values> about;
+            copy_about(first[i], about);
+            throw bad_value(who, lattice, first[i], about);
+        }
+        if (enter(ranges[i], blocks.size(), &grid.table[voxels::head + voxels::entry * i])) blocks.push_back(i);
+    }
+    if (blocks.size() * kept_values > most_values) throw too_many_values(who);
+    const std::size_t begin = grid.table.size();
+    grid.table.resize(begin + blocks.size() * kept_values);
+    tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
+        copy_about(first[blocks[i]],
+                   std::span<float, kept_values>(grid.table.data() + begin + i * kept_values, kept_values));
+    });
+    keep_some_block(grid.table, blocks.size());
     return grid;
 }
 
@@ -139,23 +235,21 @@ VoxelGrid VoxelGrid::make(std::string_view who, const VoxelLattice& lattice, con
 // square of the slope is convex along each axis, and largest at one of the eight voxels, where the derivatives are
 // the differences to the neighbours.
 double VoxelGrid::steepest_linear() const {
-    double steepest = 0;
-    for_each_kept_voxel(table, [&](const float* v) {
+    const double steepest = largest_at_kept_voxels(table, [&](const float* v) {
         double sum = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const int step = std::array{1, 10, 100}[axis];
             const float most = std::max(std::abs(v[step] - v[0]), std::abs(v[-step] - v[0]));
             sum += squared(static_cast<double>(most) / lattice.spacing[static_cast<glm::length_t>(axis)]);
         }
-        steepest = std::max(steepest, sum);
+        return sum;
     });
     return std::sqrt(steepest) * (1 + 1e-6);
 }
 
 // The derivative along x is an average of the differences along x between the 27 voxels.
 double VoxelGrid::steepest_spline() const {
-    double steepest = 0;
-    for_each_kept_voxel(table, [&](const float* v) {
+    const double steepest = largest_at_kept_voxels(table, [&](const float* v) {
         double sum = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const std::array<int, 3> stride{1, 10, 100};
@@ -168,7 +262,7 @@ double VoxelGrid::steepest_spline() const {
                 }
             sum += squared(static_cast<double>(most) / lattice.spacing[static_cast<glm::length_t>(axis)]);
         }
-        steepest = std::max(steepest, sum);
+        return sum;
     });
     return std::sqrt(steepest) * (1 + 1e-6);
 }

@@ -112,7 +112,11 @@ class BackwardSweep {
                 continue;
             }
             const Instruction& in = code[i];
-            written[i] = rewriter.write({op_[i], in.a, in.b, in.data}, written[in.a], written[in.b], slope[i],
+            // A changed operation, a negation or a maximum, is as steep as its steepest operand.
+            const float bound = op_[i] == in.op        ? slope[i]
+                                : operands(op_[i]) > 1 ? std::max(slope[in.a], slope[in.b])
+                                                       : slope[in.a];
+            written[i] = rewriter.write({op_[i], in.a, in.b, in.data}, written[in.a], written[in.b], bound,
                                         required_[i].is_sign());
         }
         const std::span<ProgramOutput> rest = scratch.allocate<ProgramOutput>(outputs.size());

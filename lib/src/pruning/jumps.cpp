@@ -34,7 +34,9 @@ bool may_jump(const WorkingProgram& program) {
 }
 
 // The guard above a fold tells whether it jumps in the ball: its bound exceeds half of its constant wherever the fold
-// jumps (`guarded` in math/number.hpp).
+// jumps (`guarded` in math/number.hpp). A guard and its fold are known by their point: endless_grid measures the bound
+// at the very point that it folds. Only equal values take the place of a bound (resolve_guarded), so if its operand is
+// no longer that point, no fold is found, and one that no guard vouches for counts as one that may jump.
 std::span<const float> slopes_in_ball(const WorkingProgram& program, const ValuesAtPoint& centre, float radius,
                                       const ProgramContext& context, Arena& arena) {
     const std::span<float> slope = arena.copy(program.lipschitz);

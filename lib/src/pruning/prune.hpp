@@ -27,6 +27,17 @@
 /// that interval, so is what replaces a and what replaces b, and if a is below it, so is what replaces a. A replacement
 /// has the same sign relative to each threshold and is Lipschitz itself, so its distance from the threshold is still a
 /// lower bound of the distance to where the sign changes.
+///
+/// *What replaces a value is no steeper than the value's recorded bound* (WorkingProgram::lipschitz), so the components
+/// of a pruned program are 1-Lipschitz in the region. This is shown from the first instruction to the last.
+///   - An instruction that is kept has the bound that follows from those of its operands, in all operations but three.
+///     Corners are no steeper than the steeper operand because these vary along orthogonal directions; what replaces an
+///     operand is made of parts of it, so it varies along the same directions. Guards are as steep as their bound,
+///     which is required everywhere and hence not changed. The bound of a blob is that of a sum of falloffs; each of
+///     them is required as far as it is not zero, so that none of them changes.
+///   - An operand that replaces a minimum, a maximum, a smooth minimum or a corner is no steeper than the steeper
+///     operand, which is the instruction's bound; nor is one that replaces a sum, whose bound is that of both together.
+///   - The maximum that takes the place of a guard gets the bound of its steeper operand.
 namespace phasetree::pruning {
 
 using bounding::ValueRanges;

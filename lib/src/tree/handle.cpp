@@ -40,18 +40,10 @@ void count(const Handle& handle, std::unordered_set<const void*>& seen, TreeStat
                     if (value.content) s.bytes += value.content->bytes();
             });
             // What nodes derive from their parameters and keep counts, too.
-            if constexpr (requires { n.data(); }) s.bytes += n.data().size_bytes();
-            if constexpr (requires { n.network; }) s.bytes += n.network.data().size_bytes();
-            if constexpr (requires { n.found; }) s.bytes += n.found.size() * sizeof(n.found[0]);
-            if constexpr (requires { n.slabs; }) s.bytes += n.slabs.size() * sizeof(n.slabs[0]);
-            if constexpr (requires { n.heights; }) s.bytes += n.heights.size() * sizeof(n.heights[0]);
-            if constexpr (requires { n.terms; })
-                for (const auto& term : n.terms) s.bytes += sizeof(term) + term.data().size_bytes();
-            if constexpr (requires { n.groups; })
-                for (const auto& group : n.groups) s.bytes += sizeof(group) + group.data().size_bytes();
-            if constexpr (requires { n.parts[0].depth; })
-                for (const auto& part : n.parts) s.bytes += sizeof(part) + part.depth->bytes();
-            if constexpr (requires { n.segments; }) s.bytes += n.segments.size() * sizeof(n.segments[0]);
+            if constexpr (requires { n.derived_bytes(); })
+                s.bytes += n.derived_bytes();
+            else if constexpr (requires { n.data(); })
+                s.bytes += n.data().size_bytes();
             for_each_child(n, [&](const auto& child) { count(child, seen, s); });
         },
         handle.node()->node);

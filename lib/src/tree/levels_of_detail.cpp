@@ -12,9 +12,8 @@ namespace phasetree {
 namespace {
 
 template <class Node>
-concept IsLevelOfDetail = requires(const Node& n) {
-    n.viewpoint;
-    n.errors;
+concept IsLevelOfDetail = requires {
+    Node::is_level_of_detail;
 };
 
 // A warp that keeps angles and puts its child in one place.
@@ -50,8 +49,7 @@ class Choice {
                 if (!node.over.empty() || !node.under.empty()) return std::nullopt;
             const Vec3<float> q = node.warp.map()(Vec3<float>{view.x, view.y, view.z});
             return glm::vec3(q.x, q.y, q.z);
-        } else if constexpr (
-            requires { node.placement(0); } || requires { node.boxes.fold; }) {
+        } else if constexpr (requires { Node::has_copies; }) {
             return std::nullopt;
         } else {
             return view;

@@ -68,8 +68,18 @@ std::optional<Wavelength> Caustics::wavelength(int pass) const {
     return sampled_wavelength(sampler.next());
 }
 
-// What a photon is worth is its power times the weight that it has on a white diffuse surface against the other
-// techniques, in the first pass.
+// What a photon is worth is its power times the weight that it has in the first pass against the other techniques: on a
+// white diffuse surface, or in a medium that scatters alike in all directions. `expected` is N π r² cos θ, and `pdf`
+// the density with which a path would go on in its direction.
+double Caustics::worth_of(const Photon& photon, float expected, float pdf) const {
+    const float ior = clear_at(scene_, photon.phase).ior;
+    const float by_photons = expected * photon.line_density * ior * ior;
+    const float weight = photon.of_point_light
+                             ? 1.0f
+                             : power_heuristic(by_photons, pdf, scene_.lights.pdf(photon.position, photon.direction));
+    return static_cast<double>(luminance(photon.power) * weight);
+}
+
 void Caustics::learn() {
     const std::size_t count = std::min(most_learnt, learnt_a_light * emission_.lights());
     struct Worth {
@@ -91,15 +101,14 @@ void Caustics::learn() {
             if (!emitted) continue;
             std::optional<Wavelength> wavelength;
             if (world_.disperses()) wavelength = sampled_wavelength(sampler.next());
-            const std::optional<Photon> photon = trace_photon(world_, scene_, *emitted, sampler, uncounted, wavelength);
-            if (!photon) continue;
-            const float ior = clear_at(scene_, photon->phase).ior, cosine = 0.5f;
-            const float by_photons = expected * photon->line_density * ior * ior * cosine;
-            const float weight = photon->of_point_light
-                                     ? 1.0f
-                                     : power_heuristic(by_photons, cosine_hemisphere_pdf(cosine),
-                                                       scene_.lights.pdf(photon->position, photon->direction));
-            found[i] = {emitted->light, emitted->cell, static_cast<double>(luminance(photon->power) * weight)};
+            TracedPhotons traced;
+            trace_photon(world_, scene_, *emitted, sampler, uncounted, traced, wavelength);
+            double worth = 0;
+            for (const Photon& photon : traced.on_surfaces)
+                worth += worth_of(photon, expected * 0.5f, cosine_hemisphere_pdf(0.5f));
+            for (const MediumPhoton& medium : traced.in_media)
+                worth += worth_of(medium.photon, expected, HenyeyGreenstein().evaluate(0.0f));
+            found[i] = {emitted->light, emitted->cell, worth};
         }
     });
     // Added up in their order, whatever thread found them.
@@ -108,17 +117,14 @@ void Caustics::learn() {
     emission_.learn(std::move(worth));
 }
 
-std::vector<Photon> Caustics::traced(std::uint32_t pass, std::size_t from, std::size_t to,
-                                     PathCounters& counters) const {
+TracedPhotons Caustics::traced(std::uint32_t pass, std::size_t from, std::size_t to, PathCounters& counters) const {
     const FlushSubnormals flush;
     const std::optional<Wavelength> one = wavelength(static_cast<int>(pass));
-    std::vector<Photon> photons;
+    TracedPhotons photons;
     for (std::size_t i = from; i < to; ++i) {
         Sampler sampler(column_of_passes, pass, static_cast<std::uint32_t>(i), scene_.settings.seed);
         const std::optional<EmittedPhoton> emitted = emission_.sample(sampler, time(static_cast<int>(pass)));
-        if (!emitted) continue;
-        if (const auto photon = trace_photon(world_, scene_, *emitted, sampler, counters, one))
-            photons.push_back(*photon);
+        if (emitted) trace_photon(world_, scene_, *emitted, sampler, counters, photons, one);
     }
     return photons;
 }
@@ -127,7 +133,7 @@ std::optional<PhotonMap> Caustics::photons(int pass, PathCounters& counters,
                                            const std::function<bool()>& cancelled) const {
     const std::size_t count = emission_.lights() > 0 ? photons_a_pass_ : 0;
     const std::size_t tasks = (count + photons_a_task - 1) / photons_a_task;
-    std::vector<std::vector<Photon>> parts(tasks);
+    std::vector<TracedPhotons> parts(tasks);
     std::vector<PathCounters> costs(tasks);
     std::atomic<bool> stopped{false};
     tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
@@ -140,12 +146,14 @@ std::optional<PhotonMap> Caustics::photons(int pass, PathCounters& counters,
             traced(static_cast<std::uint32_t>(pass), from, std::min(from + photons_a_task, count), costs[task]);
     });
     if (stopped) return std::nullopt;
-    std::vector<Photon> photons;
+    TracedPhotons photons;
+    const auto append = [](auto& all, const auto& part) { all.insert(all.end(), part.begin(), part.end()); };
     for (std::size_t task = 0; task < tasks; ++task) {
-        photons.insert(photons.end(), parts[task].begin(), parts[task].end());
+        append(photons.on_surfaces, parts[task].on_surfaces);
+        append(photons.in_media, parts[task].in_media);
         counters += costs[task];
     }
-    return PhotonMap(std::move(photons), count, radius(pass), wavelength(pass));
+    return PhotonMap(photons, count, radius(pass), wavelength(pass));
 }
 
 }  // namespace phasetree::tracer

@@ -34,8 +34,9 @@ class Caustics {
     std::optional<Wavelength> wavelength(int pass) const;
 
   private:
-    std::vector<Photon> traced(std::uint32_t pass, std::size_t from, std::size_t to, PathCounters& counters) const;
+    TracedPhotons traced(std::uint32_t pass, std::size_t from, std::size_t to, PathCounters& counters) const;
     void learn();
+    double worth_of(const Photon& photon, float expected, float pdf) const;
 
     const World& world_;
     const Scene& scene_;

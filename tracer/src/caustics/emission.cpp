@@ -139,7 +139,8 @@ std::optional<EmittedPhoton> PhotonEmission::of_point_light(std::size_t number, 
         static_cast<float>(source.share) * source.target.crossing(from, direction).density * back * back;
     const std::optional<Ray> ray = start(aim.point, direction, back, time);
     if (!ray || !(density > 0.0f) || intensity == glm::vec3(0.0f)) return std::nullopt;
-    const Lights::Emission emission{glm::length(ray->origin - from), intensity, Lights::point_source(*source.point)};
+    const Lights::Emission emission{glm::length(ray->origin - from), intensity,
+                                    OfPointLight{static_cast<std::uint32_t>(*source.point)}};
     return EmittedPhoton{*ray, emission, intensity / density, density, number, aim.cell, true};
 }
 

@@ -1,8 +1,9 @@
-// A photon: light that came from a lamp through at least one smooth interface of clear phases and fell on something
-// that is not clear. It stands for the whole chain of interfaces behind it.
+// A photon: light that came from a lamp through at least one smooth interface of clear phases, and fell on something
+// that is not clear or into a medium that scatters. It stands for the whole chain of interfaces behind it.
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <vector>
 
 #include "lights/lights.hpp"
 #include "phasetree/model/phase.hpp"
@@ -21,6 +22,18 @@ struct Photon {
     glm::vec3 towards_light;      ///< the direction in which it is seen from where the photon met the first interface
     bool of_point_light = false;  ///< no other technique finds such light
     bool of_one_wavelength = false;  ///< that of its map, and then `power` is what it is at this wavelength
+};
+
+/// A photon in a medium: a place that stands for all of the photon's line through it (photon_placement.hpp).
+struct MediumPhoton {
+    Photon photon;  ///< its power is that with which it came into the medium
+    float depth;    ///< how far the place is behind the boundary, along the line
+};
+
+/// What becomes of photons: one falls on a surface, and leaves a place in each scattering medium on its way there.
+struct TracedPhotons {
+    std::vector<Photon> on_surfaces{};
+    std::vector<MediumPhoton> in_media{};
 };
 
 }  // namespace phasetree::tracer

@@ -2,61 +2,122 @@
 
 #include <limits>
 
+#include "caustics/photon_placement.hpp"
 #include "world/chain.hpp"
 
 namespace phasetree::tracer {
+
+namespace {
+
+// One photon on its way.
+class PhotonFlight {
+  public:
+    PhotonFlight(const World& world, const Scene& scene, const EmittedPhoton& emitted, Sampler& sampler,
+                 PathCounters& counters, const std::optional<Wavelength>& wavelength)
+        : world_(world),
+          scene_(scene),
+          emitted_(emitted),
+          sampler_(sampler),
+          counters_(counters),
+          wavelength_(wavelength),
+          ray_(emitted.ray),
+          power_(emitted.power) {}
+
+    void trace(TracedPhotons& traced) {
+        for (;;) {
+            const Hit hit = world_.geometry().intersect(ray_, counters_);
+            const Surface* surface = std::get_if<Surface>(&hit);
+            const float distance = surface ? surface->distance : std::numeric_limits<float>::infinity();
+            if (links_ > 0) keep_in_medium(distance, traced);
+            if (!surface) return;
+            power_ *= transmittance(medium(), {ray_.origin, ray_.direction, distance, only_}, sampler_);
+            if (!only_ && surface->optics.get().disperses()) {
+                only_ = &wavelength_.value();
+                power_ = for_light(power_, only_);
+            }
+            const Bsdf bsdf = surface->bsdf(only_);
+            if (bsdf.passes_through()) {
+                ray_ = surface->transmitted(ray_.direction);
+                continue;
+            }
+            if (!is_link(bsdf, *surface)) {
+                if (links_ > 0 && is_lit_by_photons(*surface, bsdf) && came_from_light())
+                    traced.on_surfaces.push_back(photon_at(surface->near_side.origin));
+                return;
+            }
+            if (++links_ > longest_chain || !pass(*surface, bsdf)) return;
+        }
+    }
+
+  private:
+    const Medium& medium() const { return clear_at(scene_, ray_.phase).interior; }
+
+    Photon photon_at(const glm::vec3& position) const {
+        return {position,
+                -ray_.direction,
+                power_,
+                emitted_.line_density,
+                ray_.phase,
+                emitted_.emission,
+                -emitted_.ray.direction,
+                emitted_.of_point_light,
+                only_ != nullptr};
+    }
+
+    void keep_in_medium(float distance, TracedPhotons& traced) {
+        const std::optional<PhotonPlacement> placement = PhotonPlacement::in(medium());
+        if (!placement) return;
+        const float depth = placement->sample(sampler_.next());
+        if (depth < distance && came_from_light())
+            traced.in_media.push_back({photon_at(ray_.origin + depth * ray_.direction), depth});
+    }
+
+    // Whether nothing is between where the photon started and its light.
+    bool came_from_light() {
+        if (!came_from_light_) {
+            const Ray back{emitted_.ray.origin, -emitted_.ray.direction, emitted_.ray.phase, {}, emitted_.ray.in};
+            const Visibility light = world_.geometry().visibility(back, emitted_.emission.distance, counters_);
+            came_from_light_ = std::holds_alternative<Escaped>(light);
+        }
+        return *came_from_light_;
+    }
+
+    // Reflects or refracts the photon. False if it ends there.
+    bool pass(const Surface& surface, const Bsdf& bsdf) {
+        const Frame frame(surface.normal);
+        const auto next = bsdf.sample(frame.to_local(-ray_.direction), sampler_.next(), glm::vec2(0.0f));
+        if (!next) return false;
+        const float before = clear_at(scene_, ray_.phase).ior_for(only_);
+        ray_ = continued(surface, frame, *next);
+        // A BSDF's weight is of radiance, which a refraction scales by the squared quotient of the indices; power is
+        // not scaled.
+        const float after = clear_at(scene_, ray_.phase).ior_for(only_), ratio = after / before;
+        power_ *= for_light(next->weight, only_) * (ratio * ratio);
+        return true;
+    }
+
+    const World& world_;
+    const Scene& scene_;
+    const EmittedPhoton& emitted_;
+    Sampler& sampler_;
+    PathCounters& counters_;
+    const std::optional<Wavelength>& wavelength_;
+    Ray ray_;
+    glm::vec3 power_;
+    const Wavelength* only_ = nullptr;  // the wavelength from the first interface that disperses on
+    int links_ = 0;                     // how many interfaces have reflected or refracted it
+    std::optional<bool> came_from_light_{};
+};
+
+}  // namespace
 
 bool is_lit_by_photons(const Surface& surface, const Bsdf& bsdf) {
     return !surface.far_side && !bsdf.is_delta();
 }
 
-std::optional<Photon> trace_photon(const World& world, const Scene& scene, const EmittedPhoton& emitted,
-                                   Sampler& sampler, PathCounters& counters,
-                                   const std::optional<Wavelength>& wavelength) {
-    const Wavelength* only = nullptr;
-    Ray ray = emitted.ray;
-    glm::vec3 power = emitted.power;
-    for (int length = 0;;) {
-        const Hit hit = world.geometry().intersect(ray, counters);
-        const Surface* surface = std::get_if<Surface>(&hit);
-        if (!surface) return std::nullopt;
-        power *= transmittance(clear_at(scene, ray.phase).interior,
-                               {ray.origin, ray.direction, surface->distance, only}, sampler);
-        if (!only && surface->optics.get().disperses()) {
-            only = &wavelength.value();
-            power = for_light(power, only);
-        }
-        const Bsdf bsdf = surface->bsdf(only);
-        if (bsdf.passes_through()) {
-            ray = surface->transmitted(ray.direction);
-            continue;
-        }
-        if (!is_link(bsdf, *surface)) {
-            if (length == 0 || !is_lit_by_photons(*surface, bsdf)) return std::nullopt;
-            const Ray back{emitted.ray.origin, -emitted.ray.direction, emitted.ray.phase, {}, emitted.ray.in};
-            const Visibility light = world.geometry().visibility(back, emitted.emission.distance, counters);
-            if (!std::holds_alternative<Escaped>(light)) return std::nullopt;
-            return Photon{surface->near_side.origin,
-                          -ray.direction,
-                          power,
-                          emitted.line_density,
-                          ray.phase,
-                          emitted.emission,
-                          back.direction,
-                          emitted.of_point_light,
-                          only != nullptr};
-        }
-        if (++length > longest_chain) return std::nullopt;
-        const Frame frame(surface->normal);
-        const auto next = bsdf.sample(frame.to_local(-ray.direction), sampler.next(), glm::vec2(0.0f));
-        if (!next) return std::nullopt;
-        const float before = clear_at(scene, ray.phase).ior_for(only);
-        ray = continued(*surface, frame, *next);
-        // A BSDF's weight is of radiance, which a refraction scales by the squared quotient of the indices; power is
-        // not scaled.
-        const float after = clear_at(scene, ray.phase).ior_for(only), ratio = after / before;
-        power *= for_light(next->weight, only) * (ratio * ratio);
-    }
+void trace_photon(const World& world, const Scene& scene, const EmittedPhoton& emitted, Sampler& sampler,
+                  PathCounters& counters, TracedPhotons& traced, const std::optional<Wavelength>& wavelength) {
+    PhotonFlight(world, scene, emitted, sampler, counters, wavelength).trace(traced);
 }
 
 }  // namespace phasetree::tracer

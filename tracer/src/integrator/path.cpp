@@ -5,22 +5,17 @@
 #include <limits>
 
 #include "caustics/photon_map.hpp"
+#include "caustics/photon_placement.hpp"
 #include "caustics/trace_photon.hpp"
 #include "integrator/light_proposal.hpp"
 #include "integrator/path_recorder.hpp"
-#include "sampling/heuristic.hpp"
+#include "integrator/shadow_ray.hpp"
+#include "integrator/technique_weight.hpp"
 #include "world/chain.hpp"
 
 namespace phasetree::tracer {
 
 namespace {
-
-// The weight of what one technique found with the density `pdf`, and others would have found with theirs. It is 1 or 0
-// where one of them works alone.
-float technique_weight(const Scene& scene, Techniques own, float pdf, float other, float by_photons) {
-    if (scene.settings.techniques == Techniques::all) return power_heuristic(pdf, other, by_photons);
-    return scene.settings.techniques == own ? 1.0f : 0.0f;
-}
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
@@ -34,81 +29,6 @@ constexpr float least_survival = 0.05f, nearly_certain = 0.95f;
 // Photons that come in flatter than this are left to the other techniques: what they bring is divided by the cosine.
 constexpr float least_photon_cosine = 1e-3f;
 
-// Deep in a medium next to nothing of a shadow ray is left when it gets to the boundary, and where the chain goes from
-// there is rarely worth a ray. Below this share it goes on in proportion to what is left.
-constexpr float least_share_of_shadow_ray = 0.1f;
-
-bool shadow_ray_survives(glm::vec3& throughput, Sampler& sampler) {
-    const float survival = std::max({throughput.x, throughput.y, throughput.z}) / least_share_of_shadow_ray;
-    if (survival >= 1.0f) return true;
-    if (!(sampler.next() < survival)) return false;
-    throughput /= survival;
-    return true;
-}
-
-// What a shadow ray finds: the radiance that arrives, and of which emission, in which direction in the end, it is.
-struct Arrival {
-    glm::vec3 radiance;
-    Lights::Emission emission;
-    glm::vec3 direction;
-    float line_density;  // with which photons start on the chain's last line; 0 for a chain of no interface
-};
-
-// With which density photons start on the line on which a ray leads to a light.
-float line_density(const Photons& photons, const Ray& ray) {
-    return photons ? photons.emission->line_density(ray.origin, ray.direction, ray.phase) : 0.0f;
-}
-
-// One random sample of E (path.hpp) along a shadow ray: the emission at the end of a chain of smooth clear interfaces,
-// each of which reflects or refracts the ray at random, times the transmittance of the media and the weights of the
-// interfaces; none if there is no light. Up to its first interface the ray goes straight to the light that was sampled,
-// which is known; after that it is asked what light it sees. A point light is seen by the straight ray alone: what it
-// sends through an interface that bends light is left to photons, because no direction that is sampled here leads
-// through the interface to a point.
-// The light of the path is of one wavelength only, or becomes so by dispersion on the way: of the wavelength `hero`.
-std::optional<Arrival> emission_through_chain(const World& world, const Scene& scene, Ray ray,
-                                              const LightSample& sampled, const Photons& photons,
-                                              const Wavelength& hero, const Wavelength* only, Sampler& sampler,
-                                              PathCounters& counters) {
-    const bool was_dispersed = only != nullptr;
-    glm::vec3 throughput(1.0f);
-    float to_point = sampled.distance;  // of the way to a point light, what is still before the ray
-    for (int length = 0, segment = 0;; ++segment) {
-        const bool is_straight = segment == 0 || (sampled.is_point && length == 0);
-        const float far = is_straight ? to_point : infinity;
-        const Visibility met = world.geometry().visibility(ray, far, counters);
-        const Surface* surface = std::get_if<Surface>(&met);
-        const Blocked* blocked = std::get_if<Blocked>(&met);
-        const bool escaped = !surface && !blocked;
-        const float distance = surface ? surface->distance : blocked ? blocked->distance : infinity;
-        const Medium& medium = clear_at(scene, ray.phase).interior;
-        const auto light = !is_straight ? scene.lights.seen(ray.origin, ray.direction, distance, false)
-                           : escaped    ? std::optional(Lights::Emission{to_point, sampled.radiance, sampled.source})
-                                        : std::nullopt;
-        if (!light && !surface) return std::nullopt;
-        throughput *=
-            transmittance(medium, {ray.origin, ray.direction, light ? light->distance : distance, only}, sampler);
-        if (light && only && !was_dispersed) throughput *= only->response;
-        if (light)
-            return Arrival{throughput * for_light(light->radiance, only), *light, ray.direction,
-                           length > 0 ? line_density(photons, ray) : 0.0f};
-        if (phase_function(medium) && !shadow_ray_survives(throughput, sampler)) return std::nullopt;
-        if (surface->optics.get().disperses()) only = &hero;
-        const Bsdf bsdf = surface->bsdf(only);
-        if (bsdf.passes_through()) {
-            to_point = std::max(to_point - distance, 0.0f);
-            ray = surface->transmitted(ray.direction);
-            continue;
-        }
-        if (sampled.is_point || !is_link(bsdf, *surface) || ++length > longest_chain) return std::nullopt;
-        const Frame frame(surface->normal);
-        const auto next = bsdf.sample(frame.to_local(-ray.direction), sampler.next(), glm::vec2(0.0f));
-        if (!next) return std::nullopt;
-        throughput *= for_light(next->weight, only);
-        ray = continued(*surface, frame, *next);
-    }
-}
-
 // What a path remembers of the last place where light was sampled. The weight of emission that it finds at the end of a
 // chain depends on it.
 struct Chain {
@@ -119,6 +39,14 @@ struct Chain {
     // Photons find the direction with this density, times the line density at the end of the chain.
     float by_photons = 0;
     int length = 0;
+    // Of a chain that began in a medium which photons light, until it leaves the medium.
+    std::optional<PhotonPlacement> placement{};
+
+    // Tells it of the first boundary that it comes to, at this distance from its beginning.
+    void reach_boundary(float distance, float half_length) {
+        if (placement) by_photons *= placement->coverage(distance, half_length);
+        placement.reset();
+    }
 
     // Of light that is seen along the ray.
     float weight(const Scene& scene, const Photons& photons, const Ray& ray) const {
@@ -171,6 +99,7 @@ class Path {
                 continue;
             }
             if (!surface) break;
+            if (photons_) chain_.reach_boundary(distance, photons_.map->half_length());
             recorder_.travelled(ray_.phase, distance);
             ++depth;
             if (surface->optics.get().disperses()) only_ = &hero_;
@@ -203,7 +132,7 @@ class Path {
     void add_emission_of_medium(const glm::vec3& emitted) {
         if (emitted == glm::vec3(0.0f)) return;
         const glm::vec3 radiance = throughput_ * emitted;
-        add_light(radiance, {infinity, radiance, {LightSource::background}}, ray_.direction, false);
+        add_light(radiance, {infinity, radiance, Background{}}, ray_.direction, false);
     }
 
     // Adds to the path's radiance, of an emission that was seen in the direction. It is that at the path's wavelength,
@@ -259,14 +188,17 @@ class Path {
         is_camera_ray_ = false;
         const HenyeyGreenstein& phase = point.phase_function;
         const auto proposal = LightProposal::at(point, entered_, world_, scene_);
+        const auto placement = photons_ ? PhotonPlacement::in(medium()) : std::nullopt;
+        const float by_photons = placement ? density_by_photons(point.phase) : 0.0f;
         if (const auto light = sampled_light(proposal)) {
             const float f = phase.evaluate(glm::dot(ray_.direction, light->wi));
-            add_direct_light(*light, glm::vec3(f), f, 0.0f, point.leaving(light->wi));
+            add_direct_light(*light, glm::vec3(f), f, by_photons, point.leaving(light->wi), placement);
         }
+        if (placement) add_caustics(point, *placement, proposal);
         const glm::vec3 direction = glm::normalize(Frame(ray_.direction).to_world(phase.sample(sampler_.next2())));
         const float pdf = phase.evaluate(glm::dot(ray_.direction, direction));
         ray_ = point.leaving(direction);
-        chain_ = {pdf, proposal, direction, 0.0f, 0};
+        chain_ = {pdf, proposal, direction, by_photons, 0, placement};
     }
 
     // Next-event estimation: what arrives from the lights by a shadow ray, and is scattered into the path.
@@ -286,16 +218,18 @@ class Path {
     }
 
     // f is what of the light is scattered into the path, and pdf the density with which the path itself would go on in
-    // that direction; photons find it with the density by_photons, per line density at the light.
-    void add_direct_light(const LightSample& light, const glm::vec3& f, float pdf, float by_photons,
-                          const Ray& shadow) {
+    // that direction; photons find it with the density by_photons, per line density at the light, and in a medium
+    // times their coverage.
+    void add_direct_light(const LightSample& light, const glm::vec3& f, float pdf, float by_photons, const Ray& shadow,
+                          const std::optional<PhotonPlacement>& placement = {}) {
         if (scene_.settings.techniques == Techniques::directions_alone) return;
-        const auto arrival =
-            emission_through_chain(world_, scene_, shadow, light, photons_, hero_, only_, sampler_, counters_);
+        const auto arrival = trace_shadow_ray({world_, scene_, photons_, sampler_, counters_}, shadow, light,
+                                              {.hero = hero_, .only = only_});
         if (!arrival) return;
-        const float weight = light.is_point ? 1.0f
-                                            : technique_weight(scene_, Techniques::shadow_rays_alone, light.pdf, pdf,
-                                                               by_photons * arrival->line_density);
+        if (placement) by_photons *= placement->coverage(arrival->to_boundary, photons_.map->half_length());
+        const float weight = light.is_point() ? 1.0f
+                                              : technique_weight(scene_, Techniques::shadow_rays_alone, light.pdf, pdf,
+                                                                 by_photons * arrival->line_density);
         add_light(throughput_ * f * arrival->radiance * (weight / light.pdf), arrival->emission, arrival->direction,
                   true);
     }
@@ -303,31 +237,57 @@ class Path {
     // With which density photons find a direction of this cosine at a surface, per line density at the light.
     float density_by_photons(const Surface& surface, const Bsdf& bsdf, float cosine) const {
         if (!photons_ || !(cosine > least_photon_cosine) || !is_lit_by_photons(surface, bsdf)) return 0.0f;
-        const float ior = clear_at(scene_, surface.near_side.phase).ior;
-        return photons_.map->expected() * ior * ior * cosine;
+        return density_by_photons(surface.near_side.phase) * cosine;
+    }
+    // The same across the direction, at a point in a phase.
+    float density_by_photons(Phase phase) const {
+        const float ior = clear_at(scene_, phase).ior;
+        return photons_.map->expected() * ior * ior;
+    }
+
+    // What a photon brings to a point, of the light whose share f is scattered into the path; `power` is what is left
+    // of the photon's there, and `pdf` the density with which the path itself would go on in the photon's direction.
+    void add_photon(const Photon& photon, const glm::vec3& power, const glm::vec3& f, float by_photons, float pdf,
+                    const LightProposal& proposal) {
+        const float weight = photon.of_point_light
+                                 ? 1.0f
+                                 : power_heuristic(by_photons, pdf, proposal.pdf(scene_.lights, photon.direction));
+        glm::vec3 irradiance = power / photons_.map->expected();
+        if (!photon.of_one_wavelength)
+            irradiance = for_light(irradiance, only_);
+        else if (!only_)
+            irradiance *= hero_.response;
+        add_light(throughput_ * f * irradiance * weight, photon.emission, photon.towards_light, true);
     }
 
     // What photons bring that fell near the surface's point.
     void add_caustics(const Surface& surface, const Bsdf& bsdf, const Frame& frame, const glm::vec3& wo,
                       const LightProposal& proposal) {
         if (!photons_ || scene_.settings.techniques != Techniques::all || !is_lit_by_photons(surface, bsdf)) return;
-        photons_.map->near(
-            surface.near_side.origin, surface.normal, surface.near_side.phase, [&](const Photon& photon) {
-                const glm::vec3 wi = frame.to_local(photon.direction);
-                const float by_photons = density_by_photons(surface, bsdf, wi.z) * photon.line_density;
-                if (!(by_photons > 0.0f)) return;
-                const float weight =
-                    photon.of_point_light
-                        ? 1.0f
-                        : power_heuristic(by_photons, bsdf.pdf(wo, wi), proposal.pdf(scene_.lights, photon.direction));
-                glm::vec3 irradiance = photon.power / photons_.map->expected();
-                if (!photon.of_one_wavelength)
-                    irradiance = for_light(irradiance, only_);
-                else if (!only_)
-                    irradiance *= hero_.response;
-                const glm::vec3 f = for_light(bsdf.evaluate(wo, wi), only_);
-                add_light(throughput_ * f * irradiance * (weight / wi.z), photon.emission, photon.towards_light, true);
-            });
+        photons_.map->near(surface.near_side.origin, surface.normal, surface.near_side.phase,
+                           [&](const Photon& photon) {
+                               const glm::vec3 wi = frame.to_local(photon.direction);
+                               const float by_photons = density_by_photons(surface, bsdf, wi.z) * photon.line_density;
+                               if (!(by_photons > 0.0f)) return;
+                               const glm::vec3 f = for_light(bsdf.evaluate(wo, wi), only_) / wi.z;
+                               add_photon(photon, photon.power, f, by_photons, bsdf.pdf(wo, wi), proposal);
+                           });
+    }
+
+    // The same in a medium.
+    void add_caustics(const MediumPoint& point, const PhotonPlacement& placement, const LightProposal& proposal) {
+        if (scene_.settings.techniques != Techniques::all) return;
+        const float across = density_by_photons(point.phase);
+        photons_.map->near_in_medium(point.position, point.phase, [&](const Photon& photon, float depth) {
+            const float coverage = placement.coverage(depth, photons_.map->half_length());
+            if (!(coverage > 0.0f)) return;
+            const Wavelength* wavelength = photon.of_one_wavelength ? &hero_ : only_;
+            const glm::vec3 left =
+                transmittance(medium(), {point.position, photon.direction, depth, wavelength}, sampler_);
+            const float f = point.phase_function.get().evaluate(glm::dot(ray_.direction, photon.direction));
+            add_photon(photon, photon.power * left / coverage, glm::vec3(f), across * photon.line_density * coverage, f,
+                       proposal);
+        });
     }
 
     // Russian roulette on what the path can still bring to the camera: radiance over η² is what refraction preserves.

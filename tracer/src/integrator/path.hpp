@@ -44,8 +44,12 @@ struct Photons {
 /// area of the surface: the étendue, index² · area · solid angle, is the same all along a chain, however its interfaces
 /// are curved. Fresnel's odds are the same in both directions and cancel. Gathering is the one estimate here
 /// that is biased: it blurs within r (Georgiev et al.: Light Transport Simulation with Vertex Connection and Merging,
-/// SIGGRAPH Asia 2012, has the general case). Photons light surfaces alone: media that scatter dim
-/// them and never scatter them, and places in such a medium are left to the other two techniques.
+/// SIGGRAPH Asia 2012, has the general case). Photons are not scattered on their way: media dim them.
+///
+/// Places in a medium that scatters are lit by photons, too, if its transmittance has a closed form: it is homogeneous.
+/// There is no cos θ there, and a line of length t through the medium counts with the probability F(t) of
+/// photon_placement.hpp, so the density is
+///     N π r² (p(line)/m²) n² F(t).
 ///
 /// Dispersion. Where a path, a shadow ray or a photon meets an interface that disperses, one wavelength is chosen for
 /// all of them (spectrum/wavelength.hpp), so that the techniques still estimate the same: the integral over directions

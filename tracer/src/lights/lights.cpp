@@ -15,10 +15,6 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-LightSource area_source(std::size_t index) {
-    return {static_cast<std::int32_t>(index)};
-}
-
 // One number a light, without the heap for the usual handful of them.
 class Scratch {
   public:
@@ -91,13 +87,12 @@ void Lights::add(AnyPointLight light, std::string_view group) {
 
 void Lights::add_to_groups(const glm::vec3& radiance, const Emission& emission, const glm::vec3& direction,
                            std::span<glm::vec3> groups) const {
-    const std::int32_t source = emission.source.area_light;
     const auto is_like_first = [&](std::size_t group) { return group == infinite_group_.front(); };
-    if (source >= 0) {
-        groups[area_group_[static_cast<std::size_t>(source)]] += radiance;
-    } else if (source <= LightSource::first_point) {
-        groups[point_group_[static_cast<std::size_t>(LightSource::first_point - source)]] += radiance;
-    } else if (source == LightSource::background || infinite_.empty()) {
+    if (const auto* area = std::get_if<OfAreaLight>(&emission.source)) {
+        groups[area_group_[area->index]] += radiance;
+    } else if (const auto* point = std::get_if<OfPointLight>(&emission.source)) {
+        groups[point_group_[point->index]] += radiance;
+    } else if (std::holds_alternative<Background>(emission.source) || infinite_.empty()) {
         groups[0] += radiance;
     } else if (std::ranges::all_of(infinite_group_, is_like_first)) {
         groups[infinite_group_.front()] += radiance;
@@ -230,12 +225,8 @@ std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u) 
     const std::size_t first_point = infinite_.size() + area_.size(), first_portal = first_point + points_.size();
     if (chosen >= first_point && chosen < first_portal) {
         const FromPoint point = seen_from(p, points_[chosen - first_point]);
-        return LightSample{point.direction,
-                           point.distance,
-                           point.irradiance,
-                           share_of[chosen] / total,
-                           point_source(chosen - first_point),
-                           true};
+        return LightSample{point.direction, point.distance, point.irradiance, share_of[chosen] / total,
+                           OfPointLight{static_cast<std::uint32_t>(chosen - first_point)}};
     }
     std::optional<DirectionSample> sampled;
     if (chosen < infinite_.size())
@@ -265,7 +256,8 @@ std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u) 
                 const auto distance = light.intersect(p, wi);
                 if (!distance) return;
                 if (!nearest || *distance < nearest->distance)
-                    nearest = Emission{*distance, light.radiance(), area_source(i - infinite_.size())};
+                    nearest = Emission{*distance, light.radiance(),
+                                       OfAreaLight{static_cast<std::uint32_t>(i - infinite_.size())}};
                 if (i == chosen)
                     is_met = true;
                 else if (share_of[i] > 0.0f)
@@ -276,7 +268,7 @@ std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u) 
     // At the very rim of a light rounding can put the direction just outside.
     if (!is_met || !(density > 0.0f)) return std::nullopt;
     if (nearest) return LightSample{wi, nearest->distance, nearest->radiance, density, nearest->source};
-    return LightSample{wi, infinity, infinite_radiance(wi), density, {}};
+    return LightSample{wi, infinity, infinite_radiance(wi), density, InfiniteLights{}};
 }
 
 std::optional<glm::vec3> Lights::towards_brightest(const glm::vec3& p, const glm::vec3& normal) const {
@@ -307,9 +299,9 @@ std::optional<glm::vec3> Lights::towards_brightest(const glm::vec3& p, const glm
 std::optional<Lights::Emission> Lights::seen(const glm::vec3& origin, const glm::vec3& direction, float geometry,
                                              bool camera_ray) const {
     std::optional<Emission> nearest;
-    std::size_t index = 0;
+    std::uint32_t index = 0;
     for (const AreaLight& any : area_) {
-        const LightSource source = area_source(index++);
+        const OfAreaLight source{index++};
         std::visit(
             [&](const auto& light) {
                 if (camera_ray && !light.visible_to_camera()) return;
@@ -320,8 +312,8 @@ std::optional<Lights::Emission> Lights::seen(const glm::vec3& origin, const glm:
             any);
     }
     if (nearest || geometry < infinity) return nearest;
-    if (camera_ray && background_) return Emission{infinity, *background_, {LightSource::background}};
-    return Emission{infinity, infinite_radiance(direction), {}};
+    if (camera_ray && background_) return Emission{infinity, *background_, Background{}};
+    return Emission{infinity, infinite_radiance(direction), InfiniteLights{}};
 }
 
 glm::vec3 Lights::infinite_radiance(const glm::vec3& direction) const {

@@ -32,6 +32,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "lights/diffuse_irradiance.hpp"
@@ -50,12 +51,17 @@ struct LightReceiver {
     LightReceiver(const glm::vec3& point, const glm::vec3& up) : p(point), normal(up) {}
 };
 
-/// What shines in some direction: the area light of that number, all infinite lights together, the background, or a
-/// point light.
-struct LightSource {
-    static constexpr std::int32_t infinite = -1, background = -2, first_point = -3;
-    std::int32_t area_light = infinite;  ///< or one of the constants; first_point − i is point light i
+/// What shines in some direction: all infinite lights together, what camera rays see instead of them, an area light,
+/// or a point light; the last two by their number in area() or points().
+struct InfiniteLights {};
+struct Background {};
+struct OfAreaLight {
+    std::uint32_t index;
 };
+struct OfPointLight {
+    std::uint32_t index;
+};
+using LightSource = std::variant<InfiniteLights, Background, OfAreaLight, OfPointLight>;
 
 struct LightSample {
     glm::vec3 wi;        ///< unit, from the point towards the light
@@ -63,8 +69,10 @@ struct LightSample {
     glm::vec3 radiance;  ///< that arrives from there if no geometry is in between
     float pdf;           ///< per steradian, of the whole mixture; of a point light, the probability that it was chosen
     LightSource source;  ///< what the radiance is of
-    /// A point light: `radiance` is its irradiance on a surface that faces it, and no other technique finds it.
-    bool is_point = false;
+
+    /// Whether it is of a point light. Then `radiance` is its irradiance on a surface that faces it, and no other
+    /// technique finds it.
+    bool is_point() const { return std::holds_alternative<OfPointLight>(source); }
 };
 
 inline constexpr std::string_view default_group = "default";
@@ -99,9 +107,6 @@ class Lights {
     std::span<const InfiniteLight> infinite() const { return infinite_; }
     std::span<const AreaLight> area() const { return area_; }
     std::span<const AnyPointLight> points() const { return points_; }
-    static LightSource point_source(std::size_t index) {
-        return {LightSource::first_point - static_cast<std::int32_t>(index)};
-    }
 
     /// `u` in [0, 1)². Its x chooses the light, and what is left of it, stretched to [0, 1) again, is the x that the
     /// light's own sampling gets: points that are stratified in the square are so for each light. Nothing when no light

@@ -21,10 +21,9 @@ auto found_or_made(Made& made, const Key& key, const Make& make) {
 std::shared_ptr<const DielectricSurface> SharedSurfaces::dielectric(float ior_from, float ior_to,
                                                                     const std::optional<ValueRange>& roughness,
                                                                     const std::optional<FilmOfSurface>& film) {
-    const auto key = [&](float from, float to) { return Key{glm::vec3(from), glm::vec3(0.0f), to, roughness, film}; };
-    return found_or_made(dielectrics_, key(ior_from, ior_to), [&] {
-        const auto other =
-            std::ranges::find(dielectrics_, key(ior_to, ior_from), &decltype(dielectrics_)::value_type::first);
+    return found_or_made(dielectrics_, Dielectric{ior_from, ior_to, roughness, film}, [&] {
+        const auto other = std::ranges::find(dielectrics_, Dielectric{ior_to, ior_from, roughness, film},
+                                             &decltype(dielectrics_)::value_type::first);
         return other != dielectrics_.end()
                    ? std::make_shared<const DielectricSurface>(other->second->reversed())
                    : std::make_shared<const DielectricSurface>(ior_from, ior_to, roughness, film, films_);
@@ -34,14 +33,14 @@ std::shared_ptr<const DielectricSurface> SharedSurfaces::dielectric(float ior_fr
 std::shared_ptr<const ConductorSurface> SharedSurfaces::conductor(float ior, const glm::vec3& eta, const glm::vec3& k,
                                                                   const std::optional<ValueRange>& roughness,
                                                                   const std::optional<FilmOfSurface>& film) {
-    return found_or_made(conductors_, Key{eta, k, ior, roughness, film},
+    return found_or_made(conductors_, Conductor{ior, eta, k, roughness, film},
                          [&] { return std::make_shared<const ConductorSurface>(ior, eta, k, roughness, film); });
 }
 
 std::shared_ptr<const CoatingAlbedo> SharedSurfaces::coating(float ior_from, float ior_coat,
                                                              const ValueRange& roughness,
                                                              const std::optional<FilmOfSurface>& film) {
-    return found_or_made(coatings_, Key{glm::vec3(ior_from), glm::vec3(0.0f), ior_coat, roughness, film}, [&] {
+    return found_or_made(coatings_, Coating{ior_from, ior_coat, roughness, film}, [&] {
         return std::make_shared<const CoatingAlbedo>(DielectricSurface(ior_from, ior_coat, std::nullopt, film, films_),
                                                      roughness, film ? film->thickness : ValueRange{});
     });

@@ -29,19 +29,32 @@ class SharedSurfaces {
                                                  const std::optional<FilmOfSurface>& film);
 
   private:
-    struct Key {
-        glm::vec3 eta, k;
-        float ior;
+    // What a surface is made of. `ior_from` is that of the side from which it is seen.
+    struct Dielectric {
+        float ior_from, ior_to;
         std::optional<ValueRange> roughness;
         std::optional<FilmOfSurface> film;
-        bool operator==(const Key&) const = default;
+        bool operator==(const Dielectric&) const = default;
     };
-    template <class Surface>
+    struct Conductor {
+        float ior_from;
+        glm::vec3 eta, k;
+        std::optional<ValueRange> roughness;
+        std::optional<FilmOfSurface> film;
+        bool operator==(const Conductor&) const = default;
+    };
+    struct Coating {
+        float ior_from, ior_coat;
+        ValueRange roughness;
+        std::optional<FilmOfSurface> film;
+        bool operator==(const Coating&) const = default;
+    };
+    template <class Key, class Surface>
     using Made = std::vector<std::pair<Key, std::shared_ptr<const Surface>>>;
 
-    Made<DielectricSurface> dielectrics_;
-    Made<ConductorSurface> conductors_;
-    Made<CoatingAlbedo> coatings_;
+    Made<Dielectric, DielectricSurface> dielectrics_;
+    Made<Conductor, ConductorSurface> conductors_;
+    Made<Coating, CoatingAlbedo> coatings_;
     ThinFilms films_;
 };
 

@@ -50,6 +50,7 @@ struct EndlessGrid {
         "max(b, min(φ(q), 2g − b)),  q = p − s ⌊(p − c)/s + ½⌋,  b = distance to the copies' "
         "boxes,  g = half the smallest gap between boxes",
         "Copies without end along the axes; they must not touch."};
+    static constexpr bool has_copies = true;
     using Parts = TypeList<FoldMap, FoldedBox>;
     Child of{};
     glm::vec3 spacing{0};

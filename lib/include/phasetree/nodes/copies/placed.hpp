@@ -83,6 +83,7 @@ struct Placement {
 /// of each. Placements are computed when they are asked for, so that a thousand copies weigh as much as one.
 template <class Node, class Child>
 struct Copies {
+    static constexpr bool has_copies = true;
     using Parts = TypeList<PlacementMap, StandingMap>;
     Child of;
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "phasetree/nodes/copies/placed.hpp"
 
 namespace phasetree {
@@ -45,6 +47,8 @@ struct Scatter : Copies<Scatter<Child>, Child> {
         v(&Scatter::seed, Parameter{"seed", "", "Another number, other places.", {.low = 0, .high = 1'000'000}, true});
     }
     void prepare() { found = detail::scattered_placements(surface, count, spacing, smallest, seed); }
+    /// What is derived and kept, in bytes.
+    std::size_t derived_bytes() const { return std::span(found).size_bytes(); }
     std::size_t many() const { return found.size(); }
     const Placement& placement(std::size_t i) const { return found[i]; }
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "phasetree/nodes/fields/profile.hpp"
@@ -101,6 +102,8 @@ struct Blob {
         for (const Field& f : of) add(d.field(f, p));
         return far_bound(d.one_lipschitz((threshold - *sum) * (1 / slope), p), *nearest);
     }
+    /// What is derived and kept, in bytes.
+    std::size_t derived_bytes() const { return std::span(segments).size_bytes(); }
     Bounds bounds(BoundsQuery& q, float at_level) const {
         Bounds all;
         std::size_t i = 0;

@@ -211,6 +211,12 @@ struct Formula {
         }
         return box.empty() ? value.back() : max(d.primitive(bound, p), value.back());
     }
+    /// What is derived and kept, in bytes.
+    std::size_t derived_bytes() const {
+        std::size_t sum = 0;
+        for (const Term& term : terms) sum += sizeof term + term.data().size_bytes();
+        return sum;
+    }
     Bounds bounds(BoundsQuery& q, float level) const {
         if (box.empty()) return Bounds::everything();
         const glm::vec3 half = bound.half + level;

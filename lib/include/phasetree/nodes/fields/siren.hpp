@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "phasetree/model/from_file.hpp"
 #include "phasetree/nodes/fields/profile.hpp"
@@ -104,6 +105,8 @@ struct Siren {
     typename D::Scalar evaluate(D& d, const typename D::Point& p) const {
         return max(d.primitive(Sphere{.radius = file.content->radius}, p), d.primitive(network, p));
     }
+    /// What is derived and kept, in bytes.
+    std::size_t derived_bytes() const { return network.data().size_bytes(); }
     Bounds bounds(BoundsQuery& q, float level) const {
         const float r = file.content->radius + level;
         if (r < 0) return {};

@@ -120,6 +120,12 @@ struct Labels {
         for (const Part& part : parts) all = all | PhaseSet{std::uint64_t{1} << part.phase};
         return all;
     }
+    /// What is derived and kept, in bytes.
+    std::size_t derived_bytes() const {
+        std::size_t sum = 0;
+        for (const Part& part : parts) sum += sizeof part + part.depth->bytes();
+        return sum;
+    }
     Bounds bounds(BoundsQuery& q, float level) const {
         return q.placed(level <= 0 ? solid : Bounds{box.centre - box.half, box.centre + box.half}.inflated(level));
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "phasetree/nodes/phased/combine.hpp"
@@ -84,6 +85,8 @@ struct Layers {
         return result;
     }
     PhaseSet phases() const { return PhaseSet::of(of_phases); }
+    /// What is derived and kept, in bytes.
+    std::size_t derived_bytes() const { return std::span(slabs).size_bytes(); }
     Bounds bounds(BoundsQuery&, float) const { return Bounds::everything(); }
 
   private:

@@ -61,6 +61,12 @@ struct Particles {
         return result;
     }
     PhaseSet phases() const { return PhaseSet::of(vacuum) | PhaseSet::of(group_of); }
+    /// What is derived and kept, in bytes.
+    std::size_t derived_bytes() const {
+        std::size_t sum = std::span(group_of).size_bytes();
+        for (const Balls& group : groups) sum += sizeof group + group.data().size_bytes();
+        return sum;
+    }
     Bounds bounds(BoundsQuery& q, float level) const;
 };
 

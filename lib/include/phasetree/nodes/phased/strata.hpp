@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "phasetree/nodes/fields/plane.hpp"
@@ -60,6 +61,8 @@ struct Strata {
         return result;
     }
     PhaseSet phases() const { return PhaseSet::of(of_phases); }
+    /// What is derived and kept, in bytes.
+    std::size_t derived_bytes() const { return std::span(heights).size_bytes(); }
     Bounds bounds(BoundsQuery&, float) const { return Bounds::everything(); }
 };
 

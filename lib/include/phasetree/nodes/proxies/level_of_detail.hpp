@@ -36,6 +36,7 @@ Phases<T> switched(const T& n, const Phases<T>& a, const Phases<T>& b) {
 /// whole, is 1-Lipschitz with the sign of the level that stands there.
 template <class Child>
 struct LevelOfDetail {
+    static constexpr bool is_level_of_detail = true;
     static constexpr NodeInfo info{
         "level_of_detail", "4.1, 7.3", "min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike",
         "Levels of a field or an object, from fine to coarse: each stands between two distances from a viewpoint. "

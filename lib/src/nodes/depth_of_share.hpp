@@ -1,0 +1,51 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace phasetree {
+
+/// Φ⁻¹, the inverse of the normal distribution, by Newton's method on the complementary error function; u from 0.001 to
+/// 0.999.
+inline double inverse_normal(double u) {
+    double x = 0;
+    for (int i = 0; i < 20; ++i) {
+        const double value = 0.5 * std::erfc(-x / std::numbers::sqrt2);
+        const double slope = std::exp(-0.5 * x * x) / std::sqrt(2 * std::numbers::pi);
+        // A step of more than 1 could leave the range in which the slope is not almost 0.
+        x -= std::clamp((value - u) / slope, -1.0, 1.0);
+    }
+    return x;
+}
+
+/// How deep in a phase a point is, in voxels, by what blurring has left there of the phase's indicator, its share: the
+/// distance to a flat interface with that share, σ Φ⁻¹(share). It is asked for at each voxel and phase, hence
+/// tabulated.
+class DepthOfShare {
+  public:
+    explicit DepthOfShare(float sigma) : most_(sigma > 0 ? 2.5f * sigma : 0.5f) {
+        for (std::size_t i = 0; i < table_.size(); ++i) {
+            const double share = static_cast<double>(i) / static_cast<double>(table_.size() - 1);
+            const double inner = std::clamp(share, 0.001, 0.999);
+            // Without a blur a share is 0 or 1.
+            const double depth = sigma > 0 ? static_cast<double>(sigma) * inverse_normal(inner) : share - 0.5;
+            table_[i] = std::clamp(static_cast<float>(depth), -most_, most_);
+        }
+    }
+    /// The greatest depth that is told, in voxels.
+    float most() const { return most_; }
+    float operator()(float share) const {
+        const float at = std::clamp(share, 0.f, 1.f) * static_cast<float>(table_.size() - 1);
+        const auto i = std::min(static_cast<std::size_t>(at), table_.size() - 2);
+        const float t = at - static_cast<float>(i);
+        return table_[i] + t * (table_[i + 1] - table_[i]);
+    }
+
+  private:
+    float most_;
+    std::array<float, 4097> table_;
+};
+
+}  // namespace phasetree

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "nodes/depth_of_share.hpp"
+#include "nodes/voxel_lines.hpp"
+#include "phasetree/nodes/phased/labels.hpp"
+
+namespace phasetree {
+
+/// From whole numbers at voxels to a smooth field for each phase, as phased/labels.hpp defines it. All of it is done on
+/// all threads, and does not depend on how many there are.
+class LabelDepths {
+  public:
+    /// `phases` are those of each of the grid's numbers; `sigma` is in voxels.
+    LabelDepths(const LabelGrid& grid, const VoxelLattice& lattice, std::vector<int> phases, float sigma)
+        : grid_(grid), lattice_(lattice), phases_(std::move(phases)), blur_(sigma), depth_of_(sigma) {}
+
+    /// The fields Dₖ of the phases that are present.
+    std::vector<Labels::Part> of(const std::vector<int>& present);
+
+  private:
+    /// What a voxel's own phase has as its depth, and by how much it is above that of any other.
+    struct Own {
+        float depth = 0, margin = 0;
+    };
+
+    int phase_at(std::size_t voxel) const { return phases_[grid_.voxels[voxel]]; }
+    std::vector<float> blurred(int phase) const;
+    void compare_with_own(int phase, const std::vector<float>& depths);
+    void set_margins();
+    VoxelGrid grid_of(int phase, std::vector<float> depths) const;
+
+    const LabelGrid& grid_;
+    VoxelLattice lattice_;
+    std::vector<int> phases_;
+    voxels::Blur blur_;
+    DepthOfShare depth_of_;
+    std::vector<Own> own_{};
+};
+
+}  // namespace phasetree

@@ -1,0 +1,98 @@
+// Photons in media that scatter: against a closed form behind a plane, and against paths alone behind curved
+// interfaces.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "caustics/photon_placement.hpp"
+#include "photons.hpp"
+#include "shading/fresnel.hpp"
+
+using namespace phasetree::tracer;
+using namespace phasetree::tracer::tests;
+
+namespace {
+
+PhotonPlacement placement_in(const glm::vec3& absorption, const glm::vec3& scattering) {
+    return PhotonPlacement::in(HomogeneousMedium({.absorption = absorption, .scattering = scattering})).value();
+}
+
+}  // namespace
+
+TEST_CASE("a place on a line counts for a point as often as the coverage says") {
+    // The third channel does not scatter, and its extinction does not matter.
+    const PhotonPlacement placement = placement_in({0.5f, 0.1f, 9}, {2, 0.4f, 0});
+    Sampler sampler(1, 2, 3, 4);
+    constexpr int count = 200000;
+    std::vector<float> depths(count);
+    for (float& depth : depths) depth = placement.sample(sampler.next());
+    for (const float depth : {-0.05f, 0.0f, 0.07f, 0.3f, 1.5f, 4.0f}) {
+        CAPTURE(depth);
+        constexpr float half_length = 0.1f;
+        Moments counted;
+        for (const float at : depths) counted.add(std::abs(at - depth) <= half_length ? 1.0 : 0.0);
+        const auto expected = static_cast<double>(placement.coverage(depth, half_length));
+        CHECK(mean_p_value(counted, expected, 0) > 1e-4);
+        if (expected > 0.01) CHECK(mean_p_value(counted, planted * expected, 0) < 1e-4);
+    }
+    CHECK_FALSE(PhotonPlacement::in(AbsorbingMedium{glm::vec3(1)}).has_value());
+}
+
+TEST_CASE("a point above a tank of murky water: a closed form") {
+    // At the depth z on the axis the point, h above the plane, shines as from h + z/n. What is scattered back along the
+    // axis once comes to ∫ σs p(180°) I (1 − R)/(h + z/n)² exp(−2 σt z) dz; more often, to next to nothing.
+    constexpr double scattering = 0.006, extinction = 3, intensity = 20, height = 1, index = 1.5, g = -0.3;
+    const auto r = static_cast<double>(fresnel_dielectric(1, 1.5f).reflectance);
+    const double backwards = (1 - g * g) / std::pow(1 + g * g + 2 * g, 1.5) / (4 * std::numbers::pi);
+    double expected = 0;
+    constexpr int steps = 20000;
+    constexpr double from = 0.2, depth = 2;
+    for (int i = 0; i < steps; ++i) {
+        const double z = from + (depth - from) * (i + 0.5) / steps, away = height + z / index;
+        expected += std::exp(-extinction * (2 * z - from)) / (away * away) * (depth - from) / steps;
+    }
+    expected *= scattering * backwards * intensity * (1 - r);
+    const Scene scene = scene_of(
+        R"("water": {"clear": {"ior": 1.5, "absorption": [2.994, 2.994, 2.994], "scattering": [0.006, 0.006, 0.006], "anisotropy": -0.3}})",
+        R"({"set": {"phase": "water", "of": {"translate": {"by": [0, 0, -1], "of": {"box": {"size": [3, 3, 2]}}}}}})",
+        R"("lights": [{"point": {"position": [0, 0, 1], "intensity": 20}}],
+           "render": {"width": 32, "height": 32, "photons": 8, "photon_radius": 1.5})");
+    const glm::vec3 origin(0, 0, -0.2f), direction(0, 0, -1);
+    const Moments m = with_photons(scene, origin, direction, 3 * passes);
+    CAPTURE(m.mean() / expected);
+    CAPTURE(m.standard_error() / expected);
+    // The disc in which photons are gathered is darker by 3/4 of (radius/distance)² on average.
+    const double significance = sidak(1e-4, 2);
+    CHECK(mean_p_value(m, expected, 3e-3 * expected) > significance);
+    CHECK(mean_p_value(m, planted * expected, 3e-3 * expected) < significance);
+    // It is photons alone that find it.
+    CHECK(radiance_along(World(scene), scene, origin, direction, 1000)[0].mean() < 1e-4 * expected);
+}
+
+TEST_CASE("within a ball that scatters it is as bright as by paths alone") {
+    const std::string sun = R"({"sun": {"direction": [0.2, 0.3, 1], "irradiance": [4, 4, 4], "diameter": 60}})";
+    const std::string rectangle = R"({"rectangle": {"centre": [1, 1, 4], "target": [0, 0, 0], "width": 5, "height": 5,
+                                      "radiance": [5, 5, 5]}})";
+    const std::string thin = R"("absorption": [0.3, 0.3, 0.3], "scattering": [0.9, 0.9, 0.9], "anisotropy": 0.4)";
+    const std::string thick = R"("absorption": [0.5, 0.5, 0.5], "scattering": [6, 6, 6])";
+    // Of the first channel, which is looked at, the others differ much.
+    const std::string coloured = R"("absorption": [0.2, 2, 0.1], "scattering": [1.5, 12, 0.2], "anisotropy": -0.2)";
+    struct Case {
+        std::string light, inside, around;
+    };
+    const std::string water = R"(, {"set": {"phase": "water", "of": {"box": {"size": [4, 4, 4]}}}})";
+    const Case cases[] = {{sun, thin, ""}, {rectangle, thick, ""}, {sun, coloured, ""}, {rectangle, thin, water}};
+    const double significance = sidak(1e-4, std::size(cases));
+    for (const Case& c : cases) {
+        CAPTURE(c.light);
+        CAPTURE(c.inside);
+        CAPTURE(c.around);
+        const Scene scene =
+            scene_of(R"("jelly": {"clear": {"ior": 1.45, )" + c.inside + R"(}}, "water": {"clear": {"ior": 1.2}})",
+                     R"({"over": [{"set": {"phase": "jelly", "of": {"sphere": {"radius": 1}}}})" + c.around + "]}",
+                     R"("lights": [)" + c.light +
+                         R"(], "render": {"width": 64, "height": 64, "photons": 3, "photon_radius": 2})");
+        check_against_paths(scene, {0.3f, -3, 0.4f}, {0, 1, 0}, passes, significance);
+    }
+}

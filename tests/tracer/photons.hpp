@@ -1,0 +1,63 @@
+// Pictures of one ray with photons, held against paths alone.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "caustics/caustics.hpp"
+#include "paths.hpp"
+
+namespace phasetree::tracer::tests {
+
+inline constexpr std::uint32_t paths_a_pass = 64;
+
+// The long form finds an error of 3 %, the short one of 10 %.
+inline const bool long_form = std::getenv("PHASETREE_LONG_TESTS") != nullptr;
+inline const int passes = long_form ? 6000 : 200;
+inline const double planted = long_form ? 1.03 : 1.1;
+
+// The radiance along a ray, by passes of which each has photons of its own.
+inline Moments with_photons(const Scene& scene, const glm::vec3& origin, const glm::vec3& direction,
+                            int count = passes) {
+    const phasetree::FlushSubnormals flush;
+    const World world(scene);
+    const Caustics caustics(world, scene);
+    Moments moments;
+    PathCounters counters;
+    const Ray ray{origin, glm::normalize(direction), world.geometry().label(origin), {}};
+    for (int pass = 0; pass < count; ++pass) {
+        const auto map = caustics.photons(pass, counters, [] { return false; });
+        REQUIRE(map.has_value());
+        // Paths of one pass see the same photons, so their mean is one independent number.
+        double sum = 0;
+        for (std::uint32_t path = 0; path < paths_a_pass; ++path) {
+            Sampler sampler(static_cast<std::uint32_t>(pass), path, 0, 1);
+            sum += static_cast<double>(
+                trace_path(world, scene, ray, sampler, counters, nullptr, {&caustics.emission(), &*map}).x);
+        }
+        moments.add(sum / paths_a_pass);
+    }
+    return moments;
+}
+
+// That what a ray sees is as bright with photons as by paths alone. Both are estimates, so the error of their
+// difference is that of both.
+inline void check_against_paths(const Scene& scene, const glm::vec3& origin, const glm::vec3& direction,
+                                int passes_of_photons, double significance) {
+    const World world(scene);
+    const Moments paths = radiance_along(world, scene, origin, direction, long_form ? 3000000 : 300000)[0];
+    const Moments photons = with_photons(scene, origin, direction, passes_of_photons);
+    const double error = std::hypot(paths.standard_error(), photons.standard_error());
+    const auto p_value = [&](double factor) {
+        return phasetree::tests::normal_two_sided((factor * photons.mean() - paths.mean()) / error);
+    };
+    CAPTURE(photons.mean() / paths.mean());
+    CAPTURE(paths.standard_error() / paths.mean());
+    CAPTURE(photons.standard_error() / photons.mean());
+    CHECK(p_value(1) > significance);
+    CHECK(p_value(planted) < significance);
+}
+
+}  // namespace phasetree::tracer::tests

@@ -1,0 +1,65 @@
+// A grid of cubes in which photons near a point are found. Cubes are as wide as the sphere that is searched, so that at
+// most eight of them are looked at.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace phasetree::tracer {
+
+/// `position` is given a photon and says where it is.
+template <class Photon, class Position>
+class PhotonGrid {
+  public:
+    /// For searches within the radius. The order of the photons is that in which near() gives those of a cube.
+    PhotonGrid(const std::vector<Photon>& photons, float radius, Position position = {})
+        : radius_(radius), position_(position) {
+        if (photons.empty()) return;
+        // A counting sort, which keeps the order of photons within a bucket.
+        starts_.assign(std::bit_ceil(photons.size()) + 1, 0);
+        for (const Photon& photon : photons) ++starts_[bucket_of(cube_of(position_(photon))) + 1];
+        for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
+        std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
+        photons_.resize(photons.size());
+        for (const Photon& photon : photons) photons_[next[bucket_of(cube_of(position_(photon)))]++] = photon;
+    }
+
+    /// Calls use(photon, offset) for each photon within the radius of a point, with where it lies from there.
+    template <class Use>
+    void near(const glm::vec3& point, Use&& use) const {
+        if (photons_.empty()) return;
+        const glm::ivec3 first = cube_of(point - radius_), last = cube_of(point + radius_);
+        for (int z = first.z; z <= last.z; ++z)
+            for (int y = first.y; y <= last.y; ++y)
+                for (int x = first.x; x <= last.x; ++x) {
+                    const std::size_t bucket = bucket_of({x, y, z});
+                    for (std::uint32_t i = starts_[bucket]; i < starts_[bucket + 1]; ++i) {
+                        const Photon& photon = photons_[i];
+                        const glm::vec3 offset = position_(photon) - point;
+                        if (glm::dot(offset, offset) > radius_ * radius_) continue;
+                        // Different cubes may share a bucket; each photon counts in its own cube alone.
+                        if (cube_of(position_(photon)) == glm::ivec3(x, y, z)) use(photon, offset);
+                    }
+                }
+    }
+
+  private:
+    glm::ivec3 cube_of(const glm::vec3& p) const { return glm::ivec3(glm::floor(p / (2.0f * radius_))); }
+    // The multipliers are those of Teschner et al.: Optimized Spatial Hashing for Collision Detection of Deformable
+    // Objects, VMV 2003.
+    std::size_t bucket_of(const glm::ivec3& cube) const {
+        const glm::uvec3 c(cube);
+        const std::uint32_t hash = c.x * 73856093u ^ c.y * 19349663u ^ c.z * 83492791u;
+        return (hash ^ hash >> 15) & (starts_.size() - 2);
+    }
+
+    float radius_;
+    Position position_;
+    std::vector<Photon> photons_{};        ///< by bucket
+    std::vector<std::uint32_t> starts_{};  ///< of each bucket, and the end of the last
+};
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,78 @@
+#include "integrator/shadow_ray.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "caustics/trace_photon.hpp"
+#include "world/chain.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+// Deep in a medium next to nothing of a shadow ray is left when it gets to the boundary, and where the chain goes from
+// there is rarely worth a ray. Below this share it goes on in proportion to what is left.
+constexpr float least_share_of_shadow_ray = 0.1f;
+
+// Russian roulette by that share.
+bool survives(glm::vec3& throughput, Sampler& sampler) {
+    const float survival = std::max({throughput.x, throughput.y, throughput.z}) / least_share_of_shadow_ray;
+    if (survival >= 1.0f) return true;
+    if (!(sampler.next() < survival)) return false;
+    throughput /= survival;
+    return true;
+}
+
+}  // namespace
+
+float line_density(const Photons& photons, const Ray& ray) {
+    return photons ? photons.emission->line_density(ray.origin, ray.direction, ray.phase) : 0.0f;
+}
+
+std::optional<Arrival> trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSample& sampled,
+                                        const PathWavelength& wavelength) {
+    const Wavelength* only = wavelength.only;
+    const bool was_dispersed = only != nullptr;
+    glm::vec3 throughput(1.0f);
+    float to_boundary = 0;
+    float to_point = sampled.distance;  // of the way to a point light, what is still before the ray
+    for (int length = 0, segment = 0;; ++segment) {
+        const bool is_straight = segment == 0 || (sampled.is_point() && length == 0);
+        const float far = is_straight ? to_point : infinity;
+        const Visibility met = context.world.geometry().visibility(ray, far, context.counters);
+        const Surface* surface = std::get_if<Surface>(&met);
+        const Blocked* blocked = std::get_if<Blocked>(&met);
+        const bool escaped = !surface && !blocked;
+        const float distance = surface ? surface->distance : blocked ? blocked->distance : infinity;
+        if (segment == 0) to_boundary = distance;
+        const Medium& medium = clear_at(context.scene, ray.phase).interior;
+        const auto light = !is_straight ? context.scene.lights.seen(ray.origin, ray.direction, distance, false)
+                           : escaped    ? std::optional(Lights::Emission{to_point, sampled.radiance, sampled.source})
+                                        : std::nullopt;
+        if (!light && !surface) return std::nullopt;
+        throughput *= transmittance(medium, {ray.origin, ray.direction, light ? light->distance : distance, only},
+                                    context.sampler);
+        if (light && only && !was_dispersed) throughput *= only->response;
+        if (light)
+            return Arrival{throughput * for_light(light->radiance, only), *light, ray.direction,
+                           length > 0 ? line_density(context.photons, ray) : 0.0f, to_boundary};
+        if (phase_function(medium) && !survives(throughput, context.sampler)) return std::nullopt;
+        if (surface->optics.get().disperses()) only = &wavelength.hero;
+        const Bsdf bsdf = surface->bsdf(only);
+        if (bsdf.passes_through()) {
+            to_point = std::max(to_point - distance, 0.0f);
+            ray = surface->transmitted(ray.direction);
+            continue;
+        }
+        if (sampled.is_point() || !is_link(bsdf, *surface) || ++length > longest_chain) return std::nullopt;
+        const Frame frame(surface->normal);
+        const auto next = bsdf.sample(frame.to_local(-ray.direction), context.sampler.next(), glm::vec2(0.0f));
+        if (!next) return std::nullopt;
+        throughput *= for_light(next->weight, only);
+        ray = continued(*surface, frame, *next);
+    }
+}
+
+}  // namespace phasetree::tracer
