@@ -209,7 +209,7 @@ TEST_CASE("what changes nothing of the object keeps its cells, and the picture i
     session.change(change);
     REQUIRE(bench.is_ready());
     CHECK(cells() == first);
-    CHECK(session.shown()->picture->prepared->quality() == BuildQuality::medium);
+    CHECK_FALSE(session.shown()->picture->prepared->is_first_look());
     CHECK(session.shown()->picture->pixels != pixels);
     bench.position = "[0, -4, 0]";
     bench.save();

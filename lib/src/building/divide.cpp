@@ -35,8 +35,12 @@ constexpr int reported_depth = 5;
 constexpr int parallel_depth = 3;
 
 // A box in which millions of parts are searched may be divided this often beyond CellOptions::deepest, because rays pay
-// for each search far more than the division takes.
+// for each search far more than the division takes; unless fewer divisions than usual are wanted, as for a first look,
+// which has few rays.
 constexpr int more_divisions_of_searches = 3;
+int more_divisions(const Candidate& cell, const CellOptions& options) {
+    return cell.is_searched && options.deepest >= CellOptions().deepest ? more_divisions_of_searches : 0;
+}
 
 // What cells cost together, and about how much area of interfaces is in them.
 struct CellCosts {
@@ -83,7 +87,7 @@ bool is_final(const BuildNode& node, const BuildContext& context, CellBudget& bu
     constexpr int divided_in_any_case = 3;  // levels
     const bool has_few_parts =
         cell.work_of_parts > 0 && cell.work_of_parts <= short_list && node.depth >= divided_in_any_case;
-    const int deepest = context.options.deepest + (cell.is_searched ? more_divisions_of_searches : 0);
+    const int deepest = context.options.deepest + more_divisions(cell, context.options);
     const bool is_small = diagonal < 64 * context.reach;
     // is_worth_dividing() must come last, because it notes the saving that it refuses: that of a box which would be
     // divided if there were more memory.

@@ -31,12 +31,14 @@ bool is_program_of(const Program& recorded, const Program& of_cells, std::size_t
 
 bool are_cells_of(const InterfaceCells& cells, const Phased& object, const CellOptions& options) {
     const auto [tables, program, own] = CellsFile::contents(cells);
-    if (!is_program_of(record(object), program, tables.recorded_constants)) return false;
     const BuildSettings wanted = CellsFile::settings(object, options);
     const bool has_same_limit =
         tables.is_coarser ? own.most_bytes == wanted.most_bytes : own.most_bytes <= wanted.most_bytes;
-    return own.resolution == wanted.resolution && own.quality == wanted.quality && own.deepest == wanted.deepest &&
-           own.opaque.bits == wanted.opaque.bits && has_same_limit;
+    const bool has_same_settings = own.resolution == wanted.resolution && own.quality == wanted.quality &&
+                                   own.deepest == wanted.deepest && own.opaque.bits == wanted.opaque.bits &&
+                                   has_same_limit;
+    // The program is compared last, because recording it may take longest.
+    return has_same_settings && is_program_of(record(object), program, tables.recorded_constants);
 }
 
 }  // namespace phasetree

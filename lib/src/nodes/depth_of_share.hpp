@@ -25,7 +25,7 @@ inline double inverse_normal(double u) {
 /// tabulated.
 class DepthOfShare {
   public:
-    explicit DepthOfShare(float sigma) : most_(sigma > 0 ? 2.5f * sigma : 0.5f) {
+    explicit DepthOfShare(float sigma) : most_(most(sigma)) {
         for (std::size_t i = 0; i < table_.size(); ++i) {
             const double share = static_cast<double>(i) / static_cast<double>(table_.size() - 1);
             const double inner = std::clamp(share, 0.001, 0.999);
@@ -35,6 +35,7 @@ class DepthOfShare {
         }
     }
     /// The greatest depth that is told, in voxels.
+    static float most(float sigma) { return sigma > 0 ? 2.5f * sigma : 0.5f; }
     float most() const { return most_; }
     float operator()(float share) const {
         const float at = std::clamp(share, 0.f, 1.f) * static_cast<float>(table_.size() - 1);

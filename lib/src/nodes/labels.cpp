@@ -108,7 +108,7 @@ void Labels::prepare() {
         for (std::size_t i = 1; i < parts.size(); ++i) {
             const VoxelGrid& depth = *parts[i].depth;
             const double most =
-                DepthOfShare(smoothing).most() * std::min({lattice.spacing.x, lattice.spacing.y, lattice.spacing.z});
+                DepthOfShare::most(smoothing) * std::min({lattice.spacing.x, lattice.spacing.y, lattice.spacing.z});
             const auto lowest = static_cast<float>(most / depth.divided_by * (1 - 1e-5));
             const Bounds part = depth.blocks_below(lowest);
             if (!part.empty()) solid = unite(solid, part);

@@ -1,10 +1,12 @@
 #include "program/dead_code.hpp"
 
+#include <algorithm>
+
 #include "program/op_traits.hpp"
 
 namespace phasetree::program {
 
-Program without_dead_code(const Program& program) {
+Program without_dead_code(Program program) {
     std::vector<char> live(program.instructions.size(), 0);
     live[0] = 1;
     for (const Output& o : program.outputs) live[o.value] = 1;
@@ -14,6 +16,8 @@ Program without_dead_code(const Program& program) {
         if (operands(in.op) > 0) live[in.a] = 1;
         if (operands(in.op) > 1) live[in.b] = 1;
     }
+    // Programs may carry images, which take long to copy.
+    if (std::ranges::all_of(live, [](char is_live) { return is_live != 0; })) return program;
     std::vector<std::uint32_t> moved(live.size(), 0);  // the new index of each live value
     Program kept;
     for (std::size_t i = 0; i < live.size(); ++i) {

@@ -10,6 +10,22 @@
 
 namespace phasetree::program {
 
+namespace {
+
+// Of long lists of constants, as those of images are, so many are looked at to tell them from others: evenly spread.
+// Lists that have these in common are compared in full.
+constexpr std::size_t most_hashed = 512;
+
+std::uint64_t hash_of(std::span<const float> constants) {
+    std::uint64_t hash = support::mixed(0, constants.size());
+    const std::size_t step = std::max<std::size_t>(1, constants.size() / most_hashed);
+    for (std::size_t i = 0; i < constants.size(); i += step)
+        hash = support::mixed(hash, std::bit_cast<std::uint32_t>(constants[i]));
+    return hash;
+}
+
+}  // namespace
+
 InstructionList::InstructionList(Program& program, std::size_t limit) : program_(program), limit_(limit) {
     program_.instructions.push_back({});
     program_.lipschitz.push_back(1.f);
@@ -19,7 +35,7 @@ std::uint32_t InstructionList::emit(Op op, std::uint32_t a, std::uint32_t b, std
                                     float lipschitz) {
     work(1 + constants.size() / 16);
     std::uint64_t hash = support::mixed(support::mixed(static_cast<std::uint64_t>(op), a), b);
-    for (const float f : constants) hash = support::mixed(hash, std::bit_cast<std::uint32_t>(f));
+    hash = support::mixed(hash, hash_of(constants));
     for (;; ++hash) {
         const auto next = static_cast<std::uint32_t>(program_.instructions.size());
         const auto [where, is_new] = known_.emplace(hash, next);

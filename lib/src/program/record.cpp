@@ -112,7 +112,7 @@ Program record(const Phased& object, std::size_t limit) {
     for_each_phase(phases.present, [&](int i) {
         program.outputs.push_back({Phase{static_cast<std::uint8_t>(i)}, phases[i].value});
     });
-    return program::without_dead_code(program);
+    return program::without_dead_code(std::move(program));
 }
 
 Program record(const Field& field, std::size_t limit) {

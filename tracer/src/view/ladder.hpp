@@ -27,7 +27,7 @@ class Ladder {
     }
 
   private:
-    static constexpr int most = 16;
+    static constexpr int most = 32;
     static constexpr double most_seconds = 0.06;  // for the first
 
     double pixels_a_second_ = 100'000;  // of a slow scene, until it is known better

@@ -13,20 +13,21 @@ namespace phasetree::tracer::view {
 
 class Prepared {
   public:
-    /// Shares the scene, whose camera, film and number of samples its owner may go on to change: nothing here reads
-    /// them. Throws as World does.
+    /// Options that limit how deep boxes are divided are those of a first look. Shares the scene, whose camera, film
+    /// and number of samples its owner may go on to change: nothing here reads them. Throws as World does.
     Prepared(std::shared_ptr<const Scene> scene, const WorldOptions& options);
 
     const Scene& scene() const { return *scene_; }
     const World& world() const { return world_; }
-    BuildQuality quality() const { return quality_; }
+    /// Whether it is of coarse cells for a first look, for which less was found out about the scene, too.
+    bool is_first_look() const { return is_first_look_; }
     /// Traces through opaque phases, too. It is made when it is first asked for, which no picture does. Throws
     /// ModelError.
     const InterfaceTracer& tracer() const;
 
   private:
     std::shared_ptr<const Scene> scene_;
-    BuildQuality quality_;
+    bool is_first_look_;
     World world_;
     mutable std::once_flag once_;
     mutable std::optional<InterfaceTracer> tracer_;

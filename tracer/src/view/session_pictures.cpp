@@ -52,7 +52,7 @@ bool Session::draw(const Wishes& wishes) {
     });
     for (const int scale : ladder_.scales(file.film.resolution()))
         if (scale > 1 && !draw_coarser(wishes, scale)) return false;
-    if (prepared_->quality() != options_.quality) {
+    if (prepared_->is_first_look()) {
         // Where the whole picture is quick there is no coarser one, and something is to be seen before better cells
         // are.
         if (is_first_of(wishes) && !draw_whole(wishes, 1)) return false;
@@ -90,6 +90,8 @@ bool Session::draw_coarser(const Wishes& wishes, int scale) {
     scene_->film.width = size.x;
     scene_->film.height = size.y;
     scene_->settings.samples = 1;
+    // Photons would take longer than all of a coarse picture, because where they are worth something is learnt anew.
+    scene_->settings.caustics = false;
     const bool is_first = is_first_of(wishes);
     RenderJob job;
     job.pixels = scene_->film.whole();
@@ -106,6 +108,7 @@ bool Session::draw_whole(const Wishes& wishes, int samples) {
     scene_->film.width = viewed_->scene.film.width;
     scene_->film.height = viewed_->scene.film.height;
     scene_->settings.samples = samples;
+    scene_->settings.caustics = viewed_->scene.settings.caustics;
     RenderJob job;
     job.pixels = scene_->film.whole();
     job.threads = options_.threads;

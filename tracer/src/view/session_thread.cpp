@@ -131,6 +131,7 @@ void Session::build(const Wishes& wishes) {
     const Clock::time_point begun = Clock::now();
     WorldOptions options{.quality = BuildQuality::low,
                          .deepest = divisions_of_first_cells,
+                         .finds_flat_boundaries = false,
                          .cancelled =
                              [&] {
                                  const bool is_over = Clock::now() - begun > first_cells_deadline;
@@ -183,6 +184,7 @@ void Session::keep_cells(const Scene& scene, WorldOptions& options) const {
     WorldOptions better = options;
     better.quality = options_.quality;
     better.deepest.reset();
+    better.finds_flat_boundaries = true;
     if (are_cells_of(*options.known_cells, scene.object, cell_options(scene, better))) options = better;
 }
 

@@ -15,6 +15,9 @@ namespace phasetree::tracer {
 struct WorldOptions {
     BuildQuality quality = BuildQuality::medium;
     std::optional<int> deepest{};  ///< CellOptions::deepest, if it is another than usual
+    /// Whether the flat sides of the object are looked for (flat_boundaries.hpp). Without them a picture shows the same
+    /// with more noise; a first look does not wait for them.
+    bool finds_flat_boundaries = true;
     std::function<bool()> cancelled{};
     std::function<void(float)> progress{};
     std::size_t most_bytes = 0;

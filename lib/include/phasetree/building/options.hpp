@@ -24,7 +24,7 @@ enum class BuildQuality {
 struct CellOptions {
     float resolution = 0;  ///< in the scene's unit of length; 0 chooses one: see InterfaceTracer
     /// The most divisions from the bounds to the smallest cell; a box in which meshes or listed balls would have to be
-    /// searched at each sample may be divided three times more.
+    /// searched at each sample may be divided three times more, unless this is less than the default.
     int deepest = 14;
     BuildQuality quality = BuildQuality::medium;
     /// Phases that no ray is ever in, because they are opaque. Where two of them meet no interface is looked for and no
