@@ -106,6 +106,7 @@ const std::vector<Meant> meant = {
      "The screen is a braid of thin wires, which the sheath fills."},
     {"cable", {film("vacuum", "copper", "vacuum")}, "Strands of copper are thin."},
     {"cable", {film("copper", "vacuum", "copper")}, "Twisted strands lie a hair from each other."},
+    {"candles", {film("vacuum", "molten", "wax")}, "The pool of molten wax is shallow at its shore."},
     {"carving",
      {film("vacuum", "air", any), film("air", "glass", any), film("air", "wire", any)},
      "Bounds touch what they hold, so the air within them is thin there; edges are wires, and the bulb is a shell."},

@@ -6,6 +6,7 @@
 
 #include "bounding/enclose.hpp"
 #include "pruning/prune.hpp"
+#include "rewriting/features.hpp"
 
 namespace phasetree::building {
 

@@ -15,6 +15,7 @@
 #include "building/sub_boxes.hpp"
 #include "evaluation/target.hpp"
 #include "pruning/jumps.hpp"
+#include "rewriting/features.hpp"
 #include "rewriting/first_component.hpp"
 #include "rewriting/readable_steps.hpp"
 

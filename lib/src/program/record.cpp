@@ -4,6 +4,7 @@
 #include "phasetree/program/program.hpp"
 #include "program/dead_code.hpp"
 #include "program/recorded.hpp"
+#include "tree/domain.hpp"
 #include "tree/node.hpp"
 
 namespace phasetree {
@@ -12,7 +13,7 @@ using program::InstructionList, program::Recorded, program::RecordedPoint;
 
 namespace {
 
-// The domain in which nodes are evaluated to record them: see tree/walk.hpp, which has the same functions.
+// The domain in which nodes are evaluated to record them (EvaluationDomain).
 class Recorder {
   public:
     using Scalar = Recorded;
@@ -97,6 +98,7 @@ class Recorder {
     std::unordered_map<Key, Recorded, Hash> fields_;
     std::unordered_map<Key, std::vector<std::pair<int, std::uint32_t>>, Hash> objects_;
 };
+static_assert(EvaluationDomain<Recorder>);
 
 }  // namespace
 

@@ -53,22 +53,6 @@ inline bool has_local_primitive(const WorkingProgram& program) {
 WorkingProgram specialised(const WorkingProgram&, std::span<const Specialisation>, std::vector<float>& floats,
                            Arena& scratch, std::uint32_t first = 0);
 
-/// Whether a program has a grid of voxels (PatternDataPrimitive).
-inline bool has_grid(const WorkingProgram& program) {
-    return std::ranges::any_of(program.code, [](const Instruction& in) { return traits(in.op).is_voxel_grid; });
-}
-
-/// The size of the smallest features among a program's patterns, in the object's space: a pattern's period is divided
-/// by the slope of the map into the pattern's own space. Infinity if the program has no pattern.
-float finest_pattern(const WorkingProgram&, std::span<const float> constants);
-
-/// How far apart the parts of a program's primitives of parts are at least, in the object's space (PrimitiveOfParts).
-/// Infinity if it has no such primitive.
-float finest_spacing(const WorkingProgram&, std::span<const float> constants);
-
-/// How much work those specialised primitives are that stand for primitives of parts, in simple instructions.
-float work_of_parts(const WorkingProgram&, std::span<const Specialisation>);
-
 /// The data of an instruction that specialised() has made: the first of `floats`.
 std::span<const float> data_of_specialised(Op, std::span<const float> floats);
 

@@ -84,6 +84,7 @@ class SourceWalk {
     std::vector<Step> steps_;
     std::int32_t here_ = Source::none;
 };
+static_assert(EvaluationDomain<SourceWalk>);
 
 }  // namespace
 

@@ -1,13 +1,12 @@
 #pragma once
 
+#include "tree/domain.hpp"
 #include "tree/node.hpp"
 
 namespace phasetree {
 
 /// Evaluates a tree by walking it, over any number type. This is the definition of what a tree means. Nodes are
-/// evaluated in a *domain*, which gives them the values of their children, of primitives and of maps of space; this is
-/// one; the others are the recorder (program/record.cpp) and SourceWalk (value_source.cpp). A domain has the members
-/// that this one has.
+/// evaluated in a *domain* (EvaluationDomain), of which this is one.
 template <class T>
 struct Walk {
     using Scalar = T;
@@ -35,12 +34,12 @@ struct Walk {
     T primitive(const P& primitive, const Point& p) const {
         return P::distance(primitive.data().data(), p);
     }
-    /// The node vouches that the value is 1-Lipschitz in p, where the recorder would derive a larger bound.
     T one_lipschitz(const T& value, const Point&) const { return value; }
     template <PointMap M>
     Point map(const M& m, const Point& p, float /*lipschitz*/) const {
         return m(p);
     }
 };
+static_assert(EvaluationDomain<const Walk<float>>);
 
 }  // namespace phasetree

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <concepts>
+
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/warps/translate.hpp"
+
+namespace phasetree {
+
+/// A domain is what nodes are evaluated in: it gives them the values of their children, of primitives and of maps of
+/// space. There are three: Walk (walk.hpp), which computes with numbers of any type, the recorder (program/record.cpp),
+/// which writes instructions, and SourceWalk (value_source.cpp), which notes whose value is taken.
+///
+/// * Scalar and Point: a value, and a place.
+/// * field(f, p), phases(a, p): the value of a field and the components of an object at a place.
+/// * primitive(s, p): the value of a solid or pattern that is one instruction; of any Primitive or DataPrimitive.
+/// * map(m, p, lipschitz): where a PointMap takes a place, and by how much it lengthens distances at most.
+/// * one_lipschitz(v, p): the value v; the node vouches that it is 1-Lipschitz in p, where the domain would derive a
+///   larger bound.
+///
+/// A sphere and a translation stand for all primitives and maps here.
+template <class D>
+concept EvaluationDomain = requires(D& domain, const Field& field, const Phased& object, const typename D::Point& p,
+                                    const typename D::Scalar& value, const Sphere& primitive,
+                                    const Translate::Map& map) {
+    { domain.field(field, p) } -> std::same_as<typename D::Scalar>;
+    { domain.phases(object, p) } -> std::same_as<Phases<typename D::Scalar>>;
+    { domain.primitive(primitive, p) } -> std::same_as<typename D::Scalar>;
+    { domain.map(map, p, 1.f) } -> std::same_as<typename D::Point>;
+    { domain.one_lipschitz(value, p) } -> std::same_as<typename D::Scalar>;
+};
+
+}  // namespace phasetree
