@@ -23,8 +23,7 @@ namespace phasetree::python {
 
 namespace {
 
-// With `document`, of a scene, what textures and numbers of materials follow is a handle: it may be the name of a
-// shape.
+// With `document`, of a scene, the fields of materials are handles: they may be names of shapes.
 py::object as_python(Value value, const Document* document = nullptr) {
     switch (value.kind()) {
         case Kind::null:
@@ -48,9 +47,11 @@ py::object as_python(Value value, const Document* document = nullptr) {
             break;
     }
     py::dict dict;
-    const bool follows = document != nullptr && value.find("ramp");
+    // The members that are fields: what a texture or number follows, and the density of a medium.
+    std::string_view field;
+    if (document != nullptr) field = value.find("ramp") ? "of" : value.find("density_depth") ? "density" : "";
     for (const Value member : value)
-        dict[py::str(std::string(member.key()))] = follows && member.key() == "of"
+        dict[py::str(std::string(member.key()))] = member.key() == field
                                                        ? py::cast(read_field(*document, member, tracer::file_readers()))
                                                        : as_python(member, document);
     return dict;
