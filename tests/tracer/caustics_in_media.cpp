@@ -78,21 +78,25 @@ TEST_CASE("within a ball that scatters it is as bright as by paths alone") {
     const std::string thick = R"("absorption": [0.5, 0.5, 0.5], "scattering": [6, 6, 6])";
     // Of the first channel, which is looked at, the others differ much.
     const std::string coloured = R"("absorption": [0.2, 2, 0.1], "scattering": [1.5, 12, 0.2], "anisotropy": -0.2)";
+    // With many photons they alone bring the light; with few they share it with the other techniques, by their weights.
     struct Case {
-        std::string light, inside, around;
+        std::string light, inside, around, photons;
     };
     const std::string water = R"(, {"set": {"phase": "water", "of": {"box": {"size": [4, 4, 4]}}}})";
-    const Case cases[] = {{sun, thin, ""}, {rectangle, thick, ""}, {sun, coloured, ""}, {rectangle, thin, water}};
+    const Case cases[] = {{sun, thin, "", "0.1"},
+                          {rectangle, thick, "", "0.2"},
+                          {sun, coloured, "", "3"},
+                          {rectangle, thin, water, "0.1"}};
     const double significance = sidak(1e-4, std::size(cases));
     for (const Case& c : cases) {
         CAPTURE(c.light);
         CAPTURE(c.inside);
         CAPTURE(c.around);
-        const Scene scene =
-            scene_of(R"("jelly": {"clear": {"ior": 1.45, )" + c.inside + R"(}}, "water": {"clear": {"ior": 1.2}})",
-                     R"({"over": [{"set": {"phase": "jelly", "of": {"sphere": {"radius": 1}}}})" + c.around + "]}",
-                     R"("lights": [)" + c.light +
-                         R"(], "render": {"width": 64, "height": 64, "photons": 3, "photon_radius": 2})");
+        const Scene scene = scene_of(
+            R"("jelly": {"clear": {"ior": 1.45, )" + c.inside + R"(}}, "water": {"clear": {"ior": 1.2}})",
+            R"({"over": [{"set": {"phase": "jelly", "of": {"sphere": {"radius": 1}}}})" + c.around + "]}",
+            R"("lights": [)" + c.light + R"(], "render": {"width": 64, "height": 64, "photon_radius": 2, "photons": )" +
+                c.photons + "}");
         check_against_paths(scene, {0.3f, -3, 0.4f}, {0, 1, 0}, passes, significance);
     }
 }

@@ -30,7 +30,9 @@ class PhotonFlight {
             const float distance = surface ? surface->distance : std::numeric_limits<float>::infinity();
             if (links_ > 0) keep_in_medium(distance, traced);
             if (!surface) return;
-            power_ *= transmittance(medium(), {ray_.origin, ray_.direction, distance, only_}, sampler_);
+            glm::vec3 left = transmittance(medium(), {ray_.origin, ray_.direction, distance, only_}, sampler_);
+            if (links_ > 0 && phase_function(medium()) && !chain_survives(left, sampler_)) return;
+            power_ *= left;
             if (!only_ && surface->optics.get().disperses()) {
                 only_ = &wavelength_.value();
                 power_ = for_light(power_, only_);

@@ -12,19 +12,6 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// Deep in a medium next to nothing of a shadow ray is left when it gets to the boundary, and where the chain goes from
-// there is rarely worth a ray. Below this share it goes on in proportion to what is left.
-constexpr float least_share_of_shadow_ray = 0.1f;
-
-// Russian roulette by that share.
-bool survives(glm::vec3& throughput, Sampler& sampler) {
-    const float survival = std::max({throughput.x, throughput.y, throughput.z}) / least_share_of_shadow_ray;
-    if (survival >= 1.0f) return true;
-    if (!(sampler.next() < survival)) return false;
-    throughput /= survival;
-    return true;
-}
-
 }  // namespace
 
 float line_density(const Photons& photons, const Ray& ray) {
@@ -58,7 +45,7 @@ std::optional<Arrival> trace_shadow_ray(const ShadowRayContext& context, Ray ray
         if (light)
             return Arrival{throughput * for_light(light->radiance, only), *light, ray.direction,
                            length > 0 ? line_density(context.photons, ray) : 0.0f, to_boundary};
-        if (phase_function(medium) && !survives(throughput, context.sampler)) return std::nullopt;
+        if (phase_function(medium) && !chain_survives(throughput, context.sampler)) return std::nullopt;
         if (surface->optics.get().disperses()) only = &wavelength.hero;
         const Bsdf bsdf = surface->bsdf(only);
         if (bsdf.passes_through()) {

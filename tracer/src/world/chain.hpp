@@ -1,8 +1,10 @@
 // Chains of smooth interfaces between clear phases, which shadow rays and photons follow by Fresnel's odds (path.hpp).
 #pragma once
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "sampling/sobol.hpp"
 #include "scene/scene.hpp"
 #include "shading/frame.hpp"
 #include "world/hit.hpp"
@@ -21,6 +23,19 @@ inline const Clear& clear_at(const Scene& scene, Phase phase) {
 /// Whether a surface is a link of a chain: smooth, and clear on both sides. A mirror is none: shadow rays end there.
 inline bool is_link(const Bsdf& bsdf, const Surface& surface) {
     return bsdf.is_delta() && surface.far_side;
+}
+
+/// Deep in a medium that scatters next to nothing of a shadow ray or a photon is left when it gets to the boundary, and
+/// where the chain goes from there is rarely worth a ray. Below this share it goes on in proportion to what is left.
+inline constexpr float least_share_of_chain = 0.1f;
+
+/// Russian roulette by that share; what goes on is scaled up for what does not.
+inline bool chain_survives(glm::vec3& share, Sampler& sampler) {
+    const float survival = std::max({share.x, share.y, share.z}) / least_share_of_chain;
+    if (survival >= 1.0f) return true;
+    if (!(sampler.next() < survival)) return false;
+    share /= survival;
+    return true;
 }
 
 /// The ray on which a sampled direction goes on.
