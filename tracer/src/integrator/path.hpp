@@ -47,8 +47,8 @@ struct Photons {
 /// SIGGRAPH Asia 2012, has the general case). Photons are not scattered on their way: media dim them.
 ///
 /// Places in a medium that scatters are lit by photons, too, if its transmittance has a closed form: it is homogeneous.
-/// There is no cos θ there, and a line of length t through the medium counts with the probability F(t) of
-/// photon_placement.hpp, so the density is
+/// There is no cos θ there, and a photon counts for the point of its line that is t behind the boundary with the
+/// probability F(t) of photon_placement.hpp, so the density is
 ///     N π r² (p(line)/m²) n² F(t).
 ///
 /// Dispersion. Where a path, a shadow ray or a photon meets an interface that disperses, one wavelength is chosen for
