@@ -1,9 +1,7 @@
 #include "phasetree/nodes/fields/voxel_grid.hpp"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <cmath>
@@ -46,14 +44,13 @@ template <class F>
 double largest_at_kept_blocks(const std::vector<float>& table, F&& f) {
     const float* values = Table(table.data()).values;
     const auto count = static_cast<std::size_t>(table.data() + table.size() - values) / VoxelGrid::kept_values;
-    return tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>(0, count), 0.0,
-        [&](const auto& range, double largest) {
-            for (std::size_t i = range.begin(); i < range.end(); ++i)
-                largest = std::max(largest, f(values + i * VoxelGrid::kept_values));
-            return largest;
-        },
-        [](double a, double b) { return std::max(a, b); });
+    constexpr std::size_t at_once = 64;
+    std::vector<double> largest((count + at_once - 1) / at_once, 0.0);
+    tbb::parallel_for(std::size_t{0}, largest.size(), [&](std::size_t part) {
+        for (std::size_t i = part * at_once; i < std::min((part + 1) * at_once, count); ++i)
+            largest[part] = std::max(largest[part], f(values + i * VoxelGrid::kept_values));
+    });
+    return largest.empty() ? 0.0 : *std::ranges::max_element(largest);
 }
 
 // The same of f(values about a voxel); the neighbours along x, y and z are 1, 10 and 100 places before and behind.
