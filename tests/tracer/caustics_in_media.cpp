@@ -14,8 +14,11 @@ using namespace phasetree::tracer::tests;
 
 namespace {
 
+constexpr float half_length = 0.1f;
+
 PhotonPlacement placement_in(const glm::vec3& absorption, const glm::vec3& scattering) {
-    return PhotonPlacement::in(HomogeneousMedium({.absorption = absorption, .scattering = scattering})).value();
+    const HomogeneousMedium medium({.absorption = absorption, .scattering = scattering});
+    return PhotonPlacement::in(medium, half_length).value();
 }
 
 }  // namespace
@@ -29,14 +32,19 @@ TEST_CASE("a place on a line counts for a point as often as the coverage says") 
     for (float& depth : depths) depth = placement.sample(sampler.next());
     for (const float depth : {-0.05f, 0.0f, 0.07f, 0.3f, 1.5f, 4.0f}) {
         CAPTURE(depth);
-        constexpr float half_length = 0.1f;
         Moments counted;
         for (const float at : depths) counted.add(std::abs(at - depth) <= half_length ? 1.0 : 0.0);
-        const auto expected = static_cast<double>(placement.coverage(depth, half_length));
+        const auto expected = static_cast<double>(placement.coverage(depth));
         CHECK(mean_p_value(counted, expected, 0) > 1e-4);
         if (expected > 0.01) CHECK(mean_p_value(counted, planted * expected, 0) < 1e-4);
     }
-    CHECK_FALSE(PhotonPlacement::in(AbsorbingMedium{glm::vec3(1)}).has_value());
+    // Also where hardly anything is left, nothing is infinite.
+    for (const float depth : {-0.1f, 0.0f, 0.1f, 1e6f}) {
+        const float coverage = placement_in({0, 0, 0}, {1e-30f, 1e30f, 1}).coverage(depth);
+        CHECK(coverage >= 0);
+        CHECK(coverage <= 1);
+    }
+    CHECK_FALSE(PhotonPlacement::in(AbsorbingMedium{glm::vec3(1)}, half_length).has_value());
 }
 
 TEST_CASE("a point above a tank of murky water: a closed form") {
@@ -82,11 +90,15 @@ TEST_CASE("within a ball that scatters it is as bright as by paths alone") {
     struct Case {
         std::string light, inside, around, photons;
     };
+    // A line ends where it leaves the ball, and does not go on straight into the next one, of the same phase.
+    const std::string neighbour =
+        R"(, {"set": {"phase": "jelly", "of": {"translate": {"by": [0.45, 0.65, 2.2], "of": {"sphere": {"radius": 1}}}}}})";
     const std::string water = R"(, {"set": {"phase": "water", "of": {"box": {"size": [4, 4, 4]}}}})";
     const Case cases[] = {{sun, thin, "", "0.1"},
                           {rectangle, thick, "", "0.2"},
                           {sun, coloured, "", "3"},
-                          {rectangle, thin, water, "0.1"}};
+                          {rectangle, thin, water, "0.1"},
+                          {sun, thin, neighbour, "3"}};
     const double significance = sidak(1e-4, std::size(cases));
     for (const Case& c : cases) {
         CAPTURE(c.light);

@@ -102,7 +102,7 @@ void Caustics::learn() {
             std::optional<Wavelength> wavelength;
             if (world_.disperses()) wavelength = sampled_wavelength(sampler.next());
             TracedPhotons traced;
-            trace_photon(world_, scene_, *emitted, sampler, uncounted, traced, wavelength);
+            trace_photon(world_, scene_, *emitted, first_radius_, sampler, uncounted, traced, wavelength);
             double worth = 0;
             for (const Photon& photon : traced.on_surfaces)
                 worth += worth_of(photon, expected * 0.5f, cosine_hemisphere_pdf(0.5f));
@@ -120,11 +120,12 @@ void Caustics::learn() {
 TracedPhotons Caustics::traced(std::uint32_t pass, std::size_t from, std::size_t to, PathCounters& counters) const {
     const FlushSubnormals flush;
     const std::optional<Wavelength> one = wavelength(static_cast<int>(pass));
+    const float gathered_within = radius(static_cast<int>(pass));
     TracedPhotons photons;
     for (std::size_t i = from; i < to; ++i) {
         Sampler sampler(column_of_passes, pass, static_cast<std::uint32_t>(i), scene_.settings.seed);
         const std::optional<EmittedPhoton> emitted = emission_.sample(sampler, time(static_cast<int>(pass)));
-        if (emitted) trace_photon(world_, scene_, *emitted, sampler, counters, photons, one);
+        if (emitted) trace_photon(world_, scene_, *emitted, gathered_within, sampler, counters, photons, one);
     }
     return photons;
 }

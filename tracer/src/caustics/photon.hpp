@@ -27,7 +27,7 @@ struct Photon {
 /// A photon in a medium: a place that stands for all of the photon's line through it (photon_placement.hpp).
 struct MediumPhoton {
     Photon photon;  ///< its power is that with which it came into the medium
-    float depth;    ///< how far the place is behind the boundary, along the line
+    float depth;    ///< how far the place is behind the boundary, along the line; down to −h before it
 };
 
 /// What becomes of photons: one falls on a surface, and leaves a place in each scattering medium on its way there.

@@ -24,8 +24,10 @@ class PhotonMap {
 
     /// How many photons a unit of density of lines brings to the disc in which photons are gathered: N π r².
     float expected() const { return expected_; }
-    /// How far along its line a photon in a medium counts: h of photon_placement.hpp.
-    float half_length() const { return radius_; }
+    /// How far along its line a photon in a medium counts, if photons are gathered within this radius: h of
+    /// photon_placement.hpp.
+    static float half_length(float radius) { return radius; }
+    float half_length() const { return half_length(radius_); }
 
     /// Calls use(photon) for each photon of the phase within the radius of a point of a surface. Those that lie off its
     /// plane by more than a quarter of the radius are left out, because they fell on another surface. The estimate of

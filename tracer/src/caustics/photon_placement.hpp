@@ -1,14 +1,19 @@
-// Where a photon is kept on its line through a medium that scatters, and for which places of the line it counts.
+// Where a photon is kept on its line through a medium that scatters, and for which points of the line it counts.
 //
-// A line is kept by one place of it, at a depth t behind the boundary. It is sampled as a free flight in one of the n
-// colour channels that scatter, each of them as often,
-//     p(t) = Σ σt_c exp(−σt_c t)/n,
-// whether or not the photon is scattered there: it goes on behind as light that was not. The place counts for all
-// points of the line that are within h of it. So the point at the depth t is covered with the probability
-//     F(t) = ∫ p over [t − h, t + h] = Σ (exp(−σt_c max(t − h, 0)) − exp(−σt_c (t + h)))/n,
-// and what the line brings there, its power times the transmittance T(t), counts 1/F(t) times. Across the line photons
-// are gathered in a disc, as those on a surface are; along it nothing is blurred. Only media whose transmittance has a
-// closed form are lit so, which are the homogeneous ones.
+// A line is kept by one place on it, at the depth t behind the boundary. The place counts for all points of the line
+// that are at most h away from it. It is sampled as a free flight would be that starts at the depth −h, in one of the n
+// colour channels that scatter, each of which is chosen as often,
+//     p(t) = Σ σ_c exp(−σ_c (t + h))/n   for t ≥ −h,
+// with the extinction σ_c of the channel. The photon itself is not scattered there: it goes on to the medium's end. So
+// a point at the depth t is covered with the probability
+//     F(t) = ∫ p over [t − h, t + h] = Σ (exp(−σ_c max(t, 0)) − exp(−σ_c (t + 2h)))/n,
+// and what the line brings there, its power times the transmittance T(t), counts 1/F(t) times. Flights start before the
+// boundary so that F is not small at it, which would make a few places count very often.
+//
+// Across the line photons are gathered in a disc, as those on a surface are; along it nothing is blurred. Where the
+// boundary is oblique to a line, a point within the disc may lie before the place where the line comes in; its depth is
+// then negative, and T is 1. Only media whose transmittance has a closed form are lit so, which are the homogeneous
+// ones.
 //
 // This is a short beam of Jarosz, Nowrouzezahrai, Sadeghi & Jensen, A Comprehensive Theory of Volumetric Radiance
 // Estimation Using Photon Points and Beams, TOG 30(1), 2011, gathered at a point.
@@ -18,6 +23,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <variant>
 
 #include "media/medium.hpp"
@@ -26,27 +32,23 @@ namespace phasetree::tracer {
 
 class PhotonPlacement {
   public:
-    /// Nothing for a medium that photons do not light.
-    static std::optional<PhotonPlacement> in(const Medium& medium) {
+    /// With the h of the photons' pass (PhotonMap::half_length). Nothing for a medium that photons do not light.
+    static std::optional<PhotonPlacement> in(const Medium& medium, float half_length) {
         const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium);
-        if (!homogeneous) return std::nullopt;
-        const ScatteringCoefficients& coefficients = homogeneous->coefficients();
-        PhotonPlacement placement;
-        for (int c = 0; c < 3; ++c)
-            if (coefficients.scattering[c] > 0.0f)
-                placement.extinction_[placement.channels_++] = coefficients.extinction()[c];
-        return placement.channels_ > 0 ? std::optional(placement) : std::nullopt;
+        if (!homogeneous || !homogeneous->coefficients().scatters()) return std::nullopt;
+        return PhotonPlacement(homogeneous->coefficients(), half_length);
     }
 
     /// A depth, with u in [0, 1).
     float sample(float u) const {
         const float at = u * static_cast<float>(channels_);
         const std::size_t channel = std::min(static_cast<std::size_t>(at), channels_ - 1);
-        return -std::log1p(-std::min(at - static_cast<float>(channel), 0x1.fffffep-1f)) / extinction_[channel];
+        const float rest = std::min(at - static_cast<float>(channel), 0x1.fffffep-1f);
+        return -std::log1p(-rest) / extinction_[channel] - half_length_;
     }
-    /// F(depth) for the half length h of what a place counts for.
-    float coverage(float depth, float half_length) const {
-        const float from = std::max(depth - half_length, 0.0f), to = std::max(depth + half_length, 0.0f);
+    /// F(depth). It is 0 where it is less than floats hold.
+    float coverage(float depth) const {
+        const float from = std::max(depth, 0.0f), to = std::max(depth + 2.0f * half_length_, 0.0f);
         float sum = 0.0f;
         for (std::size_t c = 0; c < channels_; ++c)
             sum += std::exp(-extinction_[c] * from) * -std::expm1(-extinction_[c] * (to - from));
@@ -54,9 +56,17 @@ class PhotonPlacement {
     }
 
   private:
-    PhotonPlacement() = default;
+    PhotonPlacement(const ScatteringCoefficients& coefficients, float half_length) : half_length_(half_length) {
+        const glm::vec3 extinction = coefficients.extinction();
+        for (int c = 0; c < 3; ++c)
+            if (coefficients.scattering[c] > 0.0f) extinction_[channels_++] = extinction[c];
+        // Channels that are all alike are one, which is computed once.
+        if (std::ranges::all_of(std::span(extinction_).first(channels_), [&](float e) { return e == extinction_[0]; }))
+            channels_ = 1;
+    }
 
-    std::array<float, 3> extinction_{};
+    float half_length_;
+    std::array<float, 3> extinction_{};  ///< of the channels that scatter
     std::size_t channels_ = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "caustics/photon_map.hpp"
 #include "caustics/photon_placement.hpp"
 #include "world/chain.hpp"
 
@@ -12,11 +13,12 @@ namespace {
 // One photon on its way.
 class PhotonFlight {
   public:
-    PhotonFlight(const World& world, const Scene& scene, const EmittedPhoton& emitted, Sampler& sampler,
+    PhotonFlight(const World& world, const Scene& scene, const EmittedPhoton& emitted, float radius, Sampler& sampler,
                  PathCounters& counters, const std::optional<Wavelength>& wavelength)
         : world_(world),
           scene_(scene),
           emitted_(emitted),
+          half_length_(PhotonMap::half_length(radius)),
           sampler_(sampler),
           counters_(counters),
           wavelength_(wavelength),
@@ -67,7 +69,7 @@ class PhotonFlight {
     }
 
     void keep_in_medium(float distance, TracedPhotons& traced) {
-        const std::optional<PhotonPlacement> placement = PhotonPlacement::in(medium());
+        const std::optional<PhotonPlacement> placement = PhotonPlacement::in(medium(), half_length_);
         if (!placement) return;
         const float depth = placement->sample(sampler_.next());
         if (depth < distance && came_from_light())
@@ -101,6 +103,7 @@ class PhotonFlight {
     const World& world_;
     const Scene& scene_;
     const EmittedPhoton& emitted_;
+    float half_length_;
     Sampler& sampler_;
     PathCounters& counters_;
     const std::optional<Wavelength>& wavelength_;
@@ -117,9 +120,9 @@ bool is_lit_by_photons(const Surface& surface, const Bsdf& bsdf) {
     return !surface.far_side && !bsdf.is_delta();
 }
 
-void trace_photon(const World& world, const Scene& scene, const EmittedPhoton& emitted, Sampler& sampler,
+void trace_photon(const World& world, const Scene& scene, const EmittedPhoton& emitted, float radius, Sampler& sampler,
                   PathCounters& counters, TracedPhotons& traced, const std::optional<Wavelength>& wavelength) {
-    PhotonFlight(world, scene, emitted, sampler, counters, wavelength).trace(traced);
+    PhotonFlight(world, scene, emitted, radius, sampler, counters, wavelength).trace(traced);
 }
 
 }  // namespace phasetree::tracer

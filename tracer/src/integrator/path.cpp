@@ -43,8 +43,8 @@ struct Chain {
     std::optional<PhotonPlacement> placement{};
 
     // Tells it of the first boundary that it comes to, at this distance from its beginning.
-    void reach_boundary(float distance, float half_length) {
-        if (placement) by_photons *= placement->coverage(distance, half_length);
+    void reach_boundary(float distance) {
+        if (placement) by_photons *= placement->coverage(distance);
         placement.reset();
     }
 
@@ -99,7 +99,7 @@ class Path {
                 continue;
             }
             if (!surface) break;
-            if (photons_) chain_.reach_boundary(distance, photons_.map->half_length());
+            chain_.reach_boundary(distance);
             recorder_.travelled(ray_.phase, distance);
             ++depth;
             if (surface->optics.get().disperses()) only_ = &hero_;
@@ -188,7 +188,7 @@ class Path {
         is_camera_ray_ = false;
         const HenyeyGreenstein& phase = point.phase_function;
         const auto proposal = LightProposal::at(point, entered_, world_, scene_);
-        const auto placement = photons_ ? PhotonPlacement::in(medium()) : std::nullopt;
+        const auto placement = photons_ ? PhotonPlacement::in(medium(), photons_.map->half_length()) : std::nullopt;
         const float by_photons = placement ? density_by_photons(point.phase) : 0.0f;
         if (const auto light = sampled_light(proposal)) {
             const float f = phase.evaluate(glm::dot(ray_.direction, light->wi));
@@ -226,7 +226,7 @@ class Path {
         const auto arrival = trace_shadow_ray({world_, scene_, photons_, sampler_, counters_}, shadow, light,
                                               {.hero = hero_, .only = only_});
         if (!arrival) return;
-        if (placement) by_photons *= placement->coverage(arrival->to_boundary, photons_.map->half_length());
+        if (placement) by_photons *= placement->coverage(arrival->to_boundary);
         const float weight = light.is_point() ? 1.0f
                                               : technique_weight(scene_, Techniques::shadow_rays_alone, light.pdf, pdf,
                                                                  by_photons * arrival->line_density);
@@ -279,11 +279,11 @@ class Path {
         if (scene_.settings.techniques != Techniques::all) return;
         const float across = density_by_photons(point.phase);
         photons_.map->near_in_medium(point.position, point.phase, [&](const Photon& photon, float depth) {
-            const float coverage = placement.coverage(depth, photons_.map->half_length());
+            const float coverage = placement.coverage(depth);
             if (!(coverage > 0.0f)) return;
             const Wavelength* wavelength = photon.of_one_wavelength ? &hero_ : only_;
-            const glm::vec3 left =
-                transmittance(medium(), {point.position, photon.direction, depth, wavelength}, sampler_);
+            const glm::vec3 left = transmittance(
+                medium(), {point.position, photon.direction, std::max(depth, 0.0f), wavelength}, sampler_);
             const float f = point.phase_function.get().evaluate(glm::dot(ray_.direction, photon.direction));
             add_photon(photon, photon.power * left / coverage, glm::vec3(f), across * photon.line_density * coverage, f,
                        proposal);
