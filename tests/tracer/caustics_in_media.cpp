@@ -112,3 +112,13 @@ TEST_CASE("within a ball that scatters it is as bright as by paths alone") {
         check_against_paths(scene, {0.3f, -3, 0.4f}, {0, 1, 0}, passes, significance);
     }
 }
+
+TEST_CASE("a lamp in the same medium is seen straight, beside photons through a ball of glass") {
+    const Scene scene = scene_of(
+        R"("glass": {"clear": {"ior": 1.5}}, "fog": {"clear": {"ior": 1, "absorption": [0.1, 0.1, 0.1], "scattering": [0.3, 0.3, 0.3]}})",
+        R"({"over": [{"set": {"phase": "glass", "of": {"sphere": {"radius": 0.6}}}},
+                     {"set": {"phase": "fog", "of": {"box": {"size": [8, 8, 8]}}}}]})",
+        R"("lights": [{"sphere": {"centre": [0, 0, 3], "radius": 0.8, "radiance": [5, 5, 5]}}],
+           "render": {"width": 64, "height": 64, "photon_radius": 2, "photons": 0.3})");
+    check_against_paths(scene, {-3, -0.5f, -0.9f}, {1, 0.1f, -0.05f}, 3 * passes, 1e-4);
+}

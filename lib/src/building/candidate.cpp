@@ -35,6 +35,7 @@ class CandidateSearch {
         : node_(node),
           context_(context),
           worker_(worker),
+          size_(node.box.diagonal()),
           region_(node.box.inflated(context.reach)),
           encloser_(context.program, region_, node.specialisations, node.required, worker.scratch) {}
 
@@ -97,11 +98,10 @@ class CandidateSearch {
     void price(Candidate& cell) const {
         // A ray passes through many of the copies of a fold, and through many blocks of a pattern of which nothing is
         // known in the box. So the cost is multiplied by the expected numbers of copies and of blocks.
-        const float size = node_.box.diagonal();
         const bool has_blocks = std::isfinite(node_.pattern_period) && !(cell.facts.bound.spread < 1) &&
                                 (has_local_primitive(cell.program) || has_grid(cell.program));
-        const float blocks = has_blocks ? std::max(1.f, size / node_.pattern_period) : 1.f;
-        const float repetitions = (1 + copies_in_period * size / node_.fold_period) * blocks;
+        const float blocks = has_blocks ? std::max(1.f, size_ / node_.pattern_period) : 1.f;
+        const float repetitions = (1 + copies_in_period * size_ / node_.fold_period) * blocks;
         cell.work = work(cell.program, context_.program.constants, cell.specialisations, worker_.scratch);
         cell.cost = repetitions * cost(cell.facts, cell.program, cell.work, context_.program.opaque);
         if (!context_.program.has_local_primitives) return;
@@ -111,7 +111,7 @@ class CandidateSearch {
             cell.work_of_parts = of_parts;
         // Lists in small boxes are short unless what is wanted is far from the parts, as a wide wall around a mesh is;
         // and then smaller boxes would be very many.
-        cell.is_searched = is_searched && size > few_parts * finest_spacing(cell.program, context_.program.constants);
+        cell.is_searched = is_searched && size_ > few_parts * finest_spacing(cell.program, context_.program.constants);
     }
 
     // Whether a primitive of many parts has no list of those that matter.
@@ -127,6 +127,7 @@ class CandidateSearch {
     const BuildNode& node_;
     const BuildContext& context_;
     Worker& worker_;
+    float size_;     // of the node's box, which is cut once the first candidate has been found
     Bounds region_;  // the node's box, inflated by what its cells reach beyond it
     Encloser encloser_;
 };

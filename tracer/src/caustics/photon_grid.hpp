@@ -47,7 +47,11 @@ class PhotonGrid {
     }
 
   private:
-    glm::ivec3 cube_of(const glm::vec3& p) const { return glm::ivec3(glm::floor(p / (2.0f * radius_))); }
+    // What is very far away lies in the outermost cubes.
+    glm::ivec3 cube_of(const glm::vec3& p) const {
+        constexpr float outermost = 1e9f;
+        return glm::ivec3(glm::clamp(glm::floor(p / (2.0f * radius_)), -outermost, outermost));
+    }
     // The multipliers are those of Teschner et al.: Optimized Spatial Hashing for Collision Detection of Deformable
     // Objects, VMV 2003.
     std::size_t bucket_of(const glm::ivec3& cube) const {

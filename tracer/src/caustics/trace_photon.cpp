@@ -72,7 +72,8 @@ class PhotonFlight {
         const std::optional<PhotonPlacement> placement = PhotonPlacement::in(medium(), half_length_);
         if (!placement) return;
         const float depth = placement->sample(sampler_.next());
-        if (depth < distance && came_from_light())
+        // Places up to h behind the line's end count for points before it.
+        if (depth < distance + half_length_ && came_from_light())
             traced.in_media.push_back({photon_at(ray_.origin + depth * ray_.direction), depth});
     }
 

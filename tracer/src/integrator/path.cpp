@@ -226,10 +226,12 @@ class Path {
         const auto arrival = trace_shadow_ray({world_, scene_, photons_, sampler_, counters_}, shadow, light,
                                               {.hero = hero_, .only = only_});
         if (!arrival) return;
-        if (placement) by_photons *= placement->coverage(arrival->to_boundary);
-        const float weight = light.is_point() ? 1.0f
-                                              : technique_weight(scene_, Techniques::shadow_rays_alone, light.pdf, pdf,
-                                                                 by_photons * arrival->line_density);
+        // Where there is no boundary in between, there are no photons either.
+        by_photons *= arrival->line_density;
+        if (placement && by_photons > 0.0f) by_photons *= placement->coverage(arrival->to_boundary);
+        const float weight = light.is_point()
+                                 ? 1.0f
+                                 : technique_weight(scene_, Techniques::shadow_rays_alone, light.pdf, pdf, by_photons);
         add_light(throughput_ * f * arrival->radiance * (weight / light.pdf), arrival->emission, arrival->direction,
                   true);
     }
@@ -280,13 +282,13 @@ class Path {
         const float across = density_by_photons(point.phase);
         photons_.map->near_in_medium(point.position, point.phase, [&](const Photon& photon, float depth) {
             const float coverage = placement.coverage(depth);
-            if (!(coverage > 0.0f)) return;
+            const float by_photons = across * photon.line_density * coverage;
+            if (!(by_photons > 0.0f)) return;
             const Wavelength* wavelength = photon.of_one_wavelength ? &hero_ : only_;
             const glm::vec3 left = transmittance(
                 medium(), {point.position, photon.direction, std::max(depth, 0.0f), wavelength}, sampler_);
             const float f = point.phase_function.get().evaluate(glm::dot(ray_.direction, photon.direction));
-            add_photon(photon, photon.power * left / coverage, glm::vec3(f), across * photon.line_density * coverage, f,
-                       proposal);
+            add_photon(photon, photon.power * left / coverage, glm::vec3(f), by_photons, f, proposal);
         });
     }
 
