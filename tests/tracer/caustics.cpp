@@ -117,16 +117,14 @@ TEST_CASE("behind a ball of coloured glass, or of what scatters, it is as bright
     const std::string coloured = R"("absorption": [0.3, 0.3, 0.3])";
     // Photons lose all that is scattered on their way, which paths find.
     const std::string murky = R"("absorption": [0.1, 0.1, 0.1], "scattering": [0.5, 0.5, 0.5], "anisotropy": 0.3)";
-    // So little is left of them that most are given up, and the others carry more.
-    const std::string dark = R"("absorption": [1.5, 1.5, 1.5], "scattering": [0.02, 0.02, 0.02])";
     const std::string cloudy = R"("scattering": [1, 1, 1], "density_depth": 0.5, "density": {"translate":
                                   {"by": [0, 0, 1.1], "of": {"sphere": {"radius": 0.8}}}})";
     struct Case {
         std::string light, inside;
         int passes;  // in multiples: the sphere's photons differ most in their power
     };
-    const Case cases[] = {{sun, coloured, 1}, {rectangle, coloured, 1}, {sphere, coloured, 3},
-                          {sun, murky, 1},    {sun, dark, 1},           {rectangle, cloudy, 1}};
+    const Case cases[] = {
+        {sun, coloured, 1}, {rectangle, coloured, 1}, {sphere, coloured, 3}, {sun, murky, 1}, {rectangle, cloudy, 1}};
     const double significance = sidak(1e-4, std::size(cases));
     for (const Case& c : cases) {
         CAPTURE(c.light);
