@@ -12,6 +12,7 @@
 #include <functional>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -26,7 +27,7 @@ using support::write_text;
 
 // How long an error may take, in seconds of processor time. The promise is one; a machine that runs other things too
 // gets a few more.
-inline constexpr double at_once = 5;
+inline constexpr double at_once = 5 * sanitizer_slowdown;
 
 struct Outcome {
     int code = -1;   // exit code; −1 if a signal ended it
@@ -59,8 +60,17 @@ inline bool catches(pid_t process, int signal) {
 
 // No run of the command in a test works for longer than a few seconds. On a machine that is busy otherwise it may wait
 // for the processors much longer than that.
-inline constexpr auto give_up_after = std::chrono::seconds(60);
+inline constexpr auto give_up_after = std::chrono::seconds(60 * sanitizer_slowdown);
 inline constexpr int waiting_per_work = 10;
+
+// Without the lines that begin so.
+inline std::string without_lines(const std::string& text, std::string_view begin) {
+    std::istringstream lines(text);
+    std::string rest;
+    for (std::string line; std::getline(lines, line);)
+        if (!line.starts_with(begin)) rest += line + "\n";
+    return rest;
+}
 
 // A directory for scenes and images, and the command run there.
 class Shell {
@@ -115,6 +125,8 @@ class Shell {
         if (WIFSIGNALED(status)) outcome.signal = WTERMSIG(status);
         outcome.out = bytes_of(out);
         outcome.err = bytes_of(err);
+        // TBB warns of the limit that thread_sanitizer/embree_device.cpp sets.
+        if (under_sanitizer) outcome.err = without_lines(outcome.err, "TBB Warning:");
         return outcome;
     }
 

@@ -31,7 +31,7 @@ struct Interrupt {
         if (is_sent || !catches(child, signal)) return;
         used = processor_seconds(child);
         if (!ready) ready = used;
-        if (used - *ready < 0.7) return;
+        if (used - *ready < 0.7 * sanitizer_slowdown) return;
         is_sent = true;
         ::kill(child, signal);
     }
@@ -221,7 +221,7 @@ TEST_CASE("Ctrl-C writes what there is and exits with 130") {
     CHECK(interrupt.is_sent);
     CHECK(o.code == 130);
     CHECK(o.signal == 0);
-    CHECK(o.processor_seconds - interrupt.used < 3);
+    CHECK(o.processor_seconds - interrupt.used < 3 * sanitizer_slowdown);
     CHECK(o.err.find("interrupted") != std::string::npos);
     CHECK(std::regex_search(o.err, std::regex("[1-9][0-9]* of 16000000 samples")));
     CHECK(shell.directory.size() == 3);
@@ -244,7 +244,7 @@ TEST_CASE("Ctrl-C while the object is prepared ends it at once and writes nothin
     CAPTURE(o.err);
     CHECK(interrupt.is_sent);
     CHECK(o.code == 1);
-    CHECK(o.processor_seconds - interrupt.used < 3);
+    CHECK(o.processor_seconds - interrupt.used < 3 * sanitizer_slowdown);
     CHECK(o.err == "phasetree: interrupted while the object was being prepared; nothing is written\n");
     CHECK(shell.directory.size() == 1);
 }

@@ -61,7 +61,7 @@ TEST_CASE("point light: the irradiance of the inverse square, alone and among ot
     lights.add(AnyPointLight(PointLight({0, 0, 3}, glm::vec3(40.0f))));
     const auto sample = lights.sample(glm::vec3(4, 0, 0), {0.1f, 0.5f});
     REQUIRE(sample);
-    CHECK(sample->is_point());
+    CHECK(sample->is_of_point_light());
     CHECK(sample->distance == 5.0f);
     CHECK(irradiance(lights, {4, 0, 0}, {0, 0, 1}) == doctest::Approx(3 * expected).epsilon(1e-4));
 }

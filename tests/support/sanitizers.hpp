@@ -17,4 +17,7 @@ inline constexpr bool under_sanitizer = false;
 inline constexpr bool under_sanitizer = false;
 #endif
 
+// About how many times as long the command takes. What is to be interrupted in the middle is given as much longer.
+inline constexpr int sanitizer_slowdown = under_sanitizer ? 10 : 1;
+
 }  // namespace phasetree::tests

@@ -1,5 +1,5 @@
-// Embree's devices for tests with the thread sanitizer and for the command that they run, and for nothing else: they build
-// on the thread that commits.
+// Embree's devices for tests with the thread sanitizer and for the command that they run, and for nothing else: they
+// build on the thread that commits.
 //
 // Embree builds with tasks of a TBB that is not built for the sanitizer. Their callbacks are our code, and everything
 // that these read was written by the thread that commits, so each hand-over looks like a race; whether it is reported

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "denoise/features.hpp"
+#include "film/film.hpp"
 #include "film/half_plane.hpp"
 #include "paths.hpp"
 #include "support/uniform.hpp"

@@ -86,6 +86,7 @@ class Bench {
     void release() { holds_reading = false; }
 
     std::string position = "[0, -3, 0]";
+    std::function<Scene(const std::string&)> scene_with = scene_with_camera;
     bool is_endless = false;  // so that it cannot be built
     std::function<void(float)> before_display = [](float) {};
     std::function<void(const std::string&)>& write() { return options_.write_camera; }
@@ -96,7 +97,7 @@ class Bench {
     ViewedScene read(WatchedFiles& files) {
         files.add(file_);
         ++readings;
-        Scene scene = scene_with_camera(position);
+        Scene scene = scene_with(position);
         if (is_endless) scene.object = Set{.phase = Phase{1}, .of = Plane{}};
         (void)comes([&] { return !holds_reading; });
         return {std::move(scene), [this](float exposure_ev) {
@@ -237,10 +238,39 @@ TEST_CASE("cells that are known are taken for the object that they are of and fo
     const auto& known = first.geometry().objects().front();
     CHECK(World(scene, {.known_cells = known}).geometry().objects().front() == known);
     CHECK(World(scene, {.quality = BuildQuality::low, .known_cells = known}).geometry().objects().front() != known);
-    CHECK(World(scene, {.deepest = 5, .known_cells = known}).geometry().objects().front() != known);
+    CHECK(World(scene, {.is_first_look = true, .known_cells = known}).geometry().objects().front() != known);
     Scene clear = scene;
     clear.materials[1] = Clear{.ior = 1.5f};
     CHECK(World(clear, {.known_cells = known}).geometry().objects().front() != known);
+}
+
+TEST_CASE("the whole picture is the one that is rendered, photons and all, though coarser ones go without") {
+    Bench bench;
+    bench.scene_with = [](const std::string& position) {
+        return read_scene(Document::from_text(fmt::format(
+            R"({{"version": 1, "phases": {{"glass": {{"clear": {{"ior": 1.5}}}},
+                                           "floor": {{"diffuse": {{"color": [0.8, 0.8, 0.8]}}}}}},
+                 "tree": {{"union": {{"of": [
+                     {{"set": {{"phase": "glass", "of": {{"sphere": {{"radius": 0.5}}}}}}}},
+                     {{"translate": {{"by": [0, 0, -0.9], "of":
+                         {{"set": {{"phase": "floor", "of": {{"box": {{"size": [4, 4, 0.2]}}}}}}}}}}}}]}}}},
+                 "lights": [{{"sun": {{"direction": [0.3, 0.2, 1], "irradiance": [9, 9, 9]}}}}],
+                 "camera": {{"position": {}, "look_at": [0, 0, -0.5]}},
+                 "render": {{"width": 24, "height": 16, "samples": 2}}}})",
+            position)));
+    };
+    Session& session = bench.begin();
+    REQUIRE(bench.is_ready());
+    const Image shown = session.shown()->picture->linear;
+    const auto rendered = [&](bool has_photons) {
+        Scene scene = bench.scene_with(bench.position);
+        scene.settings.caustics = has_photons;
+        RenderJob job;
+        job.pixels = scene.film.whole();
+        return render(World(scene), scene, job).image.pixels;
+    };
+    CHECK(shown.pixels == rendered(true));
+    CHECK(shown.pixels != rendered(false));
 }
 
 TEST_CASE("a camera that is wished is told at once and by whatever is shown from then on") {

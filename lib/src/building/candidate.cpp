@@ -19,13 +19,15 @@ namespace {
 
 // Of a box that is cut, what is left is enclosed again if its surface is less than this share of that before.
 constexpr float much_smaller = 0.7f;
-// A ray that crosses a box as large as a fold's period is expected to pass so many interfaces of its copies.
+// A ray that crosses a box as large as a fold's period is expected to pass so many interfaces of its copies: it enters
+// and leaves one in each of about two copies.
 constexpr float copies_in_period = 4;
-// What joins the lists of parts of several phases, in simple instructions.
+// The work, in simple instructions, of the few operations by which the lists of parts of several phases are joined to a
+// program's outputs.
 constexpr float work_of_joining = 24;
 // Lists of parts are much of a program's work if they are at least a quarter of it, what joins them left aside.
 constexpr float least_part_of_work = 0.25f;
-// A box less than this times as large as a part has lists that are short enough.
+// A box less than this times as large as a part has lists that are short enough, for few parts are near it.
 constexpr float few_parts = 1.5f;
 
 // Finds the cell that a node could become.
@@ -50,11 +52,12 @@ class CandidateSearch {
         Encloser* encloser = &encloser_;
         for (int round = 0;; ++round) {
             const std::optional<ValueRanges> ranges = encloser->value_ranges(cell.program);
-            if (!ranges) break;
+            if (!ranges) break;  // The program is too long to be enclosed, or folds space.
             const auto pruned = prune(cell.program, *ranges, context_.program, worker_.arenas());
             if (!pruned) return std::nullopt;
-            // A program of the same length is taken for the same program. It may differ in an operation or a slope, but
-            // the one before it is as right. After the last round, too, the program stays the one that was enclosed.
+            // A program of the same length is taken for the same program. It may have a cheaper operation or a smaller
+            // slope, which is not worth another round; the one that was enclosed is right, too. After the last round
+            // pruning still tells whether anything is left.
             const bool is_all_left = pruned->code.size() == cell.program.code.size() &&
                                      pruned->outputs.size() == cell.program.outputs.size();
             if (!is_all_left && round < most_rounds) {
@@ -98,6 +101,7 @@ class CandidateSearch {
     void price(Candidate& cell) const {
         // A ray passes through many of the copies of a fold, and through many blocks of a pattern of which nothing is
         // known in the box. So the cost is multiplied by the expected numbers of copies and of blocks.
+        // Components have slopes of at most 1, so a linear bound that is off by 1 tells nothing of them.
         const bool has_blocks = std::isfinite(node_.pattern_period) && !(cell.facts.bound.spread < 1) &&
                                 (has_local_primitive(cell.program) || has_grid(cell.program));
         const float blocks = has_blocks ? std::max(1.f, size_ / node_.pattern_period) : 1.f;
@@ -117,7 +121,7 @@ class CandidateSearch {
     // Whether a primitive of many parts has no list of those that matter.
     bool has_search(const Candidate& cell) const {
         const std::span<const Instruction> code = cell.program.code;
-        for (std::uint32_t i = 1; i < code.size(); ++i)
+        for (std::uint32_t i = 1; i < code.size(); ++i)  // the instruction 0 is the point
             if (program::traits(code[i].op).has_many_parts &&
                 std::ranges::find(cell.specialisations, i, &Specialisation::value) == cell.specialisations.end())
                 return true;
@@ -149,7 +153,7 @@ bool prepare(BuildNode& node, const BuildContext& context, Worker& worker) {
     // A cell may be cheaper without far bounds. The node keeps them, since they may be of use to its parts.
     if (const auto near = without_far_bounds(node.program, context.program, worker.arenas())) {
         const auto other = search.find(*near);
-        if (!other) return false;
+        if (!other) return false;  // It has the same signs, and is proven to have no interface in the box.
         if (other->cost < node.cell.cost) node.cell = *other;
     }
     return true;

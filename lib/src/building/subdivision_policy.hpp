@@ -20,8 +20,9 @@ struct SubdivisionPolicy {
 
     SubdivisionPolicy() = default;
     /// The policy for a program that takes this much work. Programs of little but long primitives (Voronoi cells) are
-    /// tried less, because a trial costs as much as many rays. But a neural field costs rays so much, and is known so
-    /// much better in small boxes, that boxes are divided until its gradient hardly varies.
+    /// tried less, because a trial costs as much as many rays. A neural field costs rays so much, and is known so much
+    /// better in small boxes, that boxes are divided until its gradient hardly varies (`uneven`); that is known of each
+    /// box, so beyond it fewer divisions are tried than usually.
     SubdivisionPolicy(const WorkingProgram&, float work);
 };
 

@@ -8,14 +8,14 @@
 namespace phasetree {
 
 /// Φ⁻¹, the inverse of the normal distribution, by Newton's method on the complementary error function; u from 0.001 to
-/// 0.999.
+/// 0.999. From 0 no step goes beyond the root, because Φ is concave on one side of 0 and convex on the other; within
+/// the range 11 steps reach the rounding of doubles.
 inline double inverse_normal(double u) {
     double x = 0;
-    for (int i = 0; i < 20; ++i) {
+    for (int i = 0; i < 12; ++i) {
         const double value = 0.5 * std::erfc(-x / std::numbers::sqrt2);
         const double slope = std::exp(-0.5 * x * x) / std::sqrt(2 * std::numbers::pi);
-        // A step of more than 1 could leave the range in which the slope is not almost 0.
-        x -= std::clamp((value - u) / slope, -1.0, 1.0);
+        x -= (value - u) / slope;
     }
     return x;
 }
@@ -28,13 +28,15 @@ class DepthOfShare {
     explicit DepthOfShare(float sigma) : most_(most(sigma)) {
         for (std::size_t i = 0; i < table_.size(); ++i) {
             const double share = static_cast<double>(i) / static_cast<double>(table_.size() - 1);
+            // Beyond this range depths are cut off anyway, at shares of 0.006 and 0.994.
             const double inner = std::clamp(share, 0.001, 0.999);
             // Without a blur a share is 0 or 1.
             const double depth = sigma > 0 ? static_cast<double>(sigma) * inverse_normal(inner) : share - 0.5;
             table_[i] = std::clamp(static_cast<float>(depth), -most_, most_);
         }
     }
-    /// The greatest depth that is told, in voxels.
+    /// The greatest depth that is told, in voxels. Further away a share is so near to 0 or 1 that the table, and the
+    /// Gaussian's end, no longer tell depths apart.
     static float most(float sigma) { return sigma > 0 ? 2.5f * sigma : 0.5f; }
     float most() const { return most_; }
     float operator()(float share) const {

@@ -10,14 +10,15 @@ namespace phasetree {
 
 namespace {
 
-// In voxels: by how much a voxel's own phase is deeper there than all others, at least. Where blurring has made another
-// phase deeper by some amount, the own one leads by that amount afterwards, but by most_margin at most; else thin walls
-// and threads would vanish.
+// By how much, in voxels, the depth of a voxel's own phase is greater than that of any other. Where blurring has made
+// another phase deeper by some amount, the own one leads by that amount afterwards, but by most_margin at most: enough
+// for a wall of one voxel to stay about half a voxel thick, and the slope, by which all is divided, stays small. The
+// least margin is far more than what is lost by rounding and by all_the_same.
 constexpr float least_margin = 0.02f, most_margin = 0.3f;
-// Depths nearer than this to the greatest or least depth are set to it, so that most blocks hold one value and take no
-// room.
+// Coefficients of the spline nearer than this to the greatest or least depth are set to it, so that most blocks hold
+// one value and take no room. The spline then misses the depths by at most as much.
 constexpr float all_the_same = 1e-4f;
-// Blurred phases are needed twice. If they take more than this, they are blurred twice.
+// Blurred phases are needed twice. If they take more than this, a quarter of a gigabyte, they are blurred twice.
 constexpr std::size_t most_kept_bytes = std::size_t{1} << 28;
 
 // Calls f(i) for each voxel.
@@ -32,15 +33,15 @@ void for_each_voxel(std::size_t count, const F& f) {
 
 std::vector<Labels::Part> LabelDepths::of(const std::vector<int>& present) {
     const std::size_t count = voxels::count_of(lattice_.size);
-    own_.assign(count, {-depth_of_.most(), -depth_of_.most()});
+    depths_.assign(count, {-depth_of_.most(), -depth_of_.most()});
     const bool keeps = count * present.size() * sizeof(float) <= most_kept_bytes;
     std::vector<std::vector<float>> kept;
     for (const int phase : present) {
         std::vector<float> depths = blurred(phase);
-        compare_with_own(phase, depths);
+        enter(phase, depths);
         if (keeps) kept.push_back(std::move(depths));
     }
-    set_margins();
+    settle();
     std::vector<VoxelGrid> grids;
     double steepest = 0;
     for (std::size_t i = 0; i < present.size(); ++i) {
@@ -49,7 +50,8 @@ std::vector<Labels::Part> LabelDepths::of(const std::vector<int>& present) {
     }
     std::vector<Labels::Part> parts;
     for (std::size_t i = 0; i < present.size(); ++i) {
-        // One divisor for all, so that each is 1-Lipschitz and their differences keep their signs.
+        // One divisor for all, so that each is 1-Lipschitz, also after rounding, and their differences keep their
+        // signs.
         if (steepest > 0) grids[i].divide_by(steepest * (1 + 1e-6));
         parts.push_back({present[i], std::make_shared<const VoxelGrid>(std::move(grids[i]))});
     }
@@ -65,36 +67,37 @@ std::vector<float> LabelDepths::blurred(int phase) const {
     return share;
 }
 
-// Of the voxels that are the phase's takes the depth; of the others keeps the greatest depth of a phase that is not
-// theirs, in place of the margin.
-void LabelDepths::compare_with_own(int phase, const std::vector<float>& depths) {
+// Enters the depths in a phase at all voxels: those of the phase itself, and others.
+void LabelDepths::enter(int phase, const std::vector<float>& depths) {
     for_each_voxel(depths.size(), [&](std::size_t i) {
+        Depths& at = depths_[i];
         if (phase_at(i) == phase)
-            own_[i].depth = depths[i];
+            at.own = depths[i];
         else
-            own_[i].margin = std::max(own_[i].margin, depths[i]);
+            at.others = std::max(at.others, depths[i]);
     });
 }
 
-void LabelDepths::set_margins() {
-    for_each_voxel(own_.size(), [&](std::size_t i) {
-        Own& own = own_[i];
-        // The own depth takes half of what is lacking; grid_of() lowers the others by the rest.
-        const float ahead = own.depth - own.margin;
-        own.margin = std::max(least_margin, std::min(-ahead, most_margin));
-        own.depth += 0.5f * std::max(own.margin - ahead, 0.f);
+void LabelDepths::settle() {
+    for_each_voxel(depths_.size(), [&](std::size_t i) {
+        Depths& at = depths_[i];
+        const float ahead = at.own - at.others;
+        const float margin = std::max(least_margin, std::min(-ahead, most_margin));
+        // The own depth is raised by half of what is lacking, and the others are lowered by the rest.
+        at.own += 0.5f * std::max(margin - ahead, 0.f);
+        at.others = at.own - margin;
     });
 }
 
-// The spline through minus the depths in a phase, in metres.
+// The spline through minus the depths in a phase. They are in voxels; that they are multiplied by the least spacing
+// matters only where no depth changes anywhere, because else all are divided by the steepest slope in the end.
 VoxelGrid LabelDepths::grid_of(int phase, std::vector<float> depths) const {
     for_each_voxel(depths.size(), [&](std::size_t i) {
-        depths[i] = phase_at(i) == phase ? own_[i].depth : std::min(depths[i], own_[i].depth - own_[i].margin);
+        depths[i] = phase_at(i) == phase ? depths_[i].own : std::min(depths[i], depths_[i].others);
     });
     for (std::size_t axis = 0; axis < 3; ++axis) voxels::to_spline_along(axis, depths, lattice_.size);
-    const double h = std::min({lattice_.spacing.x, lattice_.spacing.y, lattice_.spacing.z});
-    const auto scale = static_cast<float>(-h);
-    // Blocks that are deep in the phase, or far from it, hold one value.
+    const double least_spacing = std::min({lattice_.spacing.x, lattice_.spacing.y, lattice_.spacing.z});
+    const auto scale = static_cast<float>(-least_spacing);
     const float most = depth_of_.most();
     for_each_voxel(depths.size(), [&](std::size_t i) {
         float d = depths[i];

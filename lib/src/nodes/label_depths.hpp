@@ -14,19 +14,20 @@ class LabelDepths {
     LabelDepths(const LabelGrid& grid, const VoxelLattice& lattice, std::vector<int> phases, float sigma)
         : grid_(grid), lattice_(lattice), phases_(std::move(phases)), blur_(sigma), depth_of_(sigma) {}
 
-    /// The fields Dₖ of the phases that are present.
+    /// The fields Dₖ of the phases that are present: all that voxels have.
     std::vector<Labels::Part> of(const std::vector<int>& present);
 
   private:
-    /// What a voxel's own phase has as its depth, and by how much it is above that of any other.
-    struct Own {
-        float depth = 0, margin = 0;
+    /// Depths at a voxel. settle() raises that of its own phase and lowers those of others where they are too close.
+    struct Depths {
+        float own = 0;
+        float others = 0;  ///< the greatest of any other phase; after settle(), the greatest that others may have
     };
 
     int phase_at(std::size_t voxel) const { return phases_[grid_.voxels[voxel]]; }
     std::vector<float> blurred(int phase) const;
-    void compare_with_own(int phase, const std::vector<float>& depths);
-    void set_margins();
+    void enter(int phase, const std::vector<float>& depths);
+    void settle();
     VoxelGrid grid_of(int phase, std::vector<float> depths) const;
 
     const LabelGrid& grid_;
@@ -34,7 +35,7 @@ class LabelDepths {
     std::vector<int> phases_;
     voxels::Blur blur_;
     DepthOfShare depth_of_;
-    std::vector<Own> own_{};
+    std::vector<Depths> depths_{};  ///< of each voxel
 };
 
 }  // namespace phasetree

@@ -1,6 +1,7 @@
 #include "phasetree/nodes/fields/voxel_grid.hpp"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -31,15 +32,31 @@ std::vector<float> head_of(const VoxelLattice& lattice) {
     return head;
 }
 
-// Calls f(first voxel) for each block, x fastest.
-template <class F>
-void for_each_block(const std::array<int, 3>& size, F&& f) {
-    for (int z = 0; z < size[2]; z += side)
-        for (int y = 0; y < size[1]; y += side)
-            for (int x = 0; x < size[0]; x += side) f(std::array{x, y, z});
+std::size_t count_of_blocks(const std::array<int, 3>& size) {
+    std::size_t count = 1;
+    for (const int n : blocks_of(size)) count *= static_cast<std::size_t>(n);
+    return count;
 }
 
-// The largest f(values) of all blocks that are kept. In other blocks, and next to them, nothing changes.
+// The first voxel of a block, of which x varies fastest.
+std::array<int, 3> first_voxel_of(std::size_t block, const std::array<int, 3>& size) {
+    std::array<int, 3> first;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto blocks = static_cast<std::size_t>(blocks_of(size)[axis]);
+        first[axis] = static_cast<int>(block % blocks) * side;
+        block /= blocks;
+    }
+    return first;
+}
+
+// Calls f(first voxel) for each block.
+template <class F>
+void for_each_block(const std::array<int, 3>& size, F&& f) {
+    for (std::size_t block = 0; block < count_of_blocks(size); ++block) f(first_voxel_of(block, size));
+}
+
+// The largest f(values) of all blocks that are kept, but at least 0. In other blocks, and next to them, nothing
+// changes.
 template <class F>
 double largest_at_kept_blocks(const std::vector<float>& table, F&& f) {
     const float* values = Table(table.data()).values;
@@ -54,7 +71,7 @@ double largest_at_kept_blocks(const std::vector<float>& table, F&& f) {
 }
 
 // The same of f(values about a voxel); the neighbours along x, y and z are 1, 10 and 100 places before and behind.
-// Voxels behind the grid's last ones are copies of them, and neither steeper nor flatter.
+// Voxels behind the grid's last ones are copies of them, at which nothing is steeper than at those.
 template <class F>
 double largest_at_kept_voxels(const std::vector<float>& table, F&& f) {
     return largest_at_kept_blocks(table, [&](const float* block) {
@@ -149,9 +166,10 @@ ModelError bad_value(std::string_view who, const VoxelLattice& lattice, const st
 VoxelGrid empty_grid(std::string_view who, const VoxelLattice& lattice) {
     check(who, lattice);
     VoxelGrid grid{lattice, head_of(lattice)};
-    std::size_t count = 1;
-    for (const int n : blocks_of(lattice.size)) count *= static_cast<std::size_t>(n);
-    if (count > VoxelGrid::most_values / 8) throw too_many_values(who);
+    // A directory takes 180 MB at most.
+    constexpr std::size_t most_blocks = VoxelGrid::most_values / 8;
+    const std::size_t count = count_of_blocks(lattice.size);
+    if (count > most_blocks) throw too_many_values(who);
     grid.table.resize(voxels::head + voxels::entry * count);
     return grid;
 }
@@ -194,8 +212,6 @@ VoxelGrid VoxelGrid::make(std::string_view who, const VoxelLattice& lattice, con
 VoxelGrid VoxelGrid::of_values(std::string_view who, const VoxelLattice& lattice, std::span<const float> values) {
     VoxelGrid grid = empty_grid(who, lattice);
     const std::array<int, 3> size = lattice.size;
-    std::vector<std::array<int, 3>> first;
-    for_each_block(size, [&](const std::array<int, 3>& at) { first.push_back(at); });
     // The values about a block, from the voxel before its first along each axis.
     const auto copy_about = [&](const std::array<int, 3>& at, std::span<float, kept_values> to) {
         const auto inside = [&](std::size_t axis, int i) {
@@ -209,18 +225,18 @@ VoxelGrid VoxelGrid::of_values(std::string_view who, const VoxelLattice& lattice
                 for (int x = 0; x < kept_side; ++x) *next++ = row[inside(0, x)];
             }
     };
-    std::vector<BlockRange> ranges(first.size());
-    tbb::parallel_for(std::size_t{0}, first.size(), [&](std::size_t i) {
+    std::vector<BlockRange> ranges(count_of_blocks(size));
+    tbb::parallel_for(std::size_t{0}, ranges.size(), [&](std::size_t i) {
         std::array<float, kept_values> about;
-        copy_about(first[i], about);
+        copy_about(first_voxel_of(i, size), about);
         ranges[i] = BlockRange(about);
     });
     std::vector<std::size_t> blocks;  // those that are kept
-    for (std::size_t i = 0; i < first.size(); ++i) {
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
         if (ranges[i].has_bad_value) {
             std::array<float, kept_values> about;
-            copy_about(first[i], about);
-            throw bad_value(who, lattice, first[i], about);
+            copy_about(first_voxel_of(i, size), about);
+            throw bad_value(who, lattice, first_voxel_of(i, size), about);
         }
         if (enter(ranges[i], blocks.size(), &grid.table[voxels::head + voxels::entry * i])) blocks.push_back(i);
     }
@@ -228,7 +244,7 @@ VoxelGrid VoxelGrid::of_values(std::string_view who, const VoxelLattice& lattice
     const std::size_t begin = grid.table.size();
     grid.table.resize(begin + blocks.size() * kept_values);
     tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
-        copy_about(first[blocks[i]],
+        copy_about(first_voxel_of(blocks[i], size),
                    std::span<float, kept_values>(grid.table.data() + begin + i * kept_values, kept_values));
     });
     keep_some_block(grid.table, blocks.size());
@@ -267,10 +283,11 @@ void larger_of_three(std::array<float, VoxelGrid::kept_values>& values, std::siz
 
 }  // namespace
 
-// The derivative along x is an average of the differences along x between the 27 voxels. Their largest is found for all
-// voxels of a block at once, along one axis after the other; what these loops compute for voxels at the block's border
-// wraps around it, and is not used. The sum of squares is taken in floats first, and in doubles where it may be the
-// largest.
+// The derivative along x is an average of the differences along x between the 27 voxels, so it is at most the largest
+// of them. The bound on the slope takes the largest along each axis, which need not be at one place. They are found for
+// all voxels of a block at once, along one axis after the other; what these loops compute for voxels at the block's
+// border wraps around it, and is not used. The sum of squares is taken in floats first, which lose less than a part in
+// 10⁵, and in doubles where it may be the largest.
 double VoxelGrid::steepest_spline() const {
     using Block = std::array<float, kept_values>;
     const glm::vec3 inverse(1.0 / lattice.spacing);
@@ -312,10 +329,12 @@ void VoxelGrid::divide_by(double by) {
     const Table at(table.data());
     const auto directory = static_cast<std::size_t>(at.directory - table.data());
     const auto values = static_cast<std::size_t>(at.values - table.data());
-    const auto divided = [&](float v) { return static_cast<float>(static_cast<double>(v) / by); };
+    const auto divide = [&](float& v) { v = static_cast<float>(static_cast<double>(v) / by); };
     for (std::size_t i = directory; i < values; i += voxels::entry)
-        for (const std::size_t k : {i + 1, i + 2}) table[k] = divided(table[k]);
-    for (std::size_t i = values; i < table.size(); ++i) table[i] = divided(table[i]);
+        for (const std::size_t k : {i + 1, i + 2}) divide(table[k]);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(values, table.size(), 1 << 14), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) divide(table[i]);
+    });
     divided_by *= by;
 }
 
@@ -330,11 +349,13 @@ Bounds VoxelGrid::blocks_below(float level) const {
         }
     });
     if (high[0] < 0) return {};
+    // In voxels: as far as a spline has influence, and a little for the rounding of coordinates to floats.
+    constexpr double influence = 1.5 + 0.001;
     Bounds box;
     for (glm::length_t i = 0; i < 3; ++i) {
         const auto k = static_cast<std::size_t>(i);
-        box.low[i] = static_cast<float>(lattice.first[i] + (low[k] - 1.501) * lattice.spacing[i]);
-        box.high[i] = static_cast<float>(lattice.first[i] + (high[k] + 1.501) * lattice.spacing[i]);
+        box.low[i] = static_cast<float>(lattice.first[i] + (low[k] - influence) * lattice.spacing[i]);
+        box.high[i] = static_cast<float>(lattice.first[i] + (high[k] + influence) * lattice.spacing[i]);
     }
     return intersect(box, extent());
 }
@@ -353,7 +374,9 @@ namespace voxels {
 
 namespace {
 
-// Where a point is, as whole numbers of voxels, and the values from there on; a null pointer stands for one value.
+// Where in the table the value of a voxel is, and those of its neighbours 1, 10 and 100 places before and behind it; a
+// null pointer if the block is not kept because all of these are the value `only`. It reads the table as Table does,
+// but faster, since it is called for each point.
 struct Around {
     const float* values;
     float only;

@@ -1,5 +1,6 @@
 #include "nodes/voxel_lines.hpp"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -9,26 +10,28 @@ namespace phasetree::voxels {
 
 namespace {
 
-// So many lines are worked on at a time, one in each lane: the same operations on neighbours in memory, which compilers
+// So many lines are worked on at a time, a lane for each: the same operations on neighbours in memory, which compilers
 // make vector instructions of. Lanes do not depend on each other.
 constexpr std::size_t lanes = 16;
 
-// Places of many values in each lane; the place k is the numbers from lanes · k on.
+// So many lines, side by side: the value k of the line in a lane is at lanes · k + lane.
 using Bundle = std::vector<float>;
 
-// Calls work(bundle) for all lines along an axis. Lines are copied to a bundle and back, unless they hold one value:
-// most lines are all of one phase, or have none of it, and neither of what is done to lines changes such a line.
+// Calls work(bundle) for all lines along an axis, on all threads. Lines are copied to a bundle and back, unless they
+// hold one value: most lines are all of one phase, or have none of it, and neither of what is done to lines changes
+// such a line.
 template <class Work>
 void for_each_bundle(std::size_t axis, std::vector<float>& values, const Size& size, const Work& work) {
     const std::array<std::size_t, 3> n{static_cast<std::size_t>(size[0]), static_cast<std::size_t>(size[1]),
                                        static_cast<std::size_t>(size[2])};
     const std::array<std::size_t, 3> stride{1, n[0], n[0] * n[1]};
     const std::size_t across = axis == 0 ? 1 : 0, outer = 3 - axis - across;
-    tbb::parallel_for(std::size_t{0}, n[outer], [&](std::size_t j) {
+    const std::size_t bundles = (n[across] + lanes - 1) / lanes;  // at each place along the outer axis
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n[outer] * bundles), [&](const auto& range) {
         Bundle bundle(n[axis] * lanes);
-        for (std::size_t begin = 0; begin < n[across]; begin += lanes) {
-            const std::size_t count = std::min(lanes, n[across] - begin);
-            float* first = values.data() + begin * stride[across] + j * stride[outer];
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            const std::size_t begin = i % bundles * lanes, count = std::min(lanes, n[across] - begin);
+            float* first = values.data() + begin * stride[across] + i / bundles * stride[outer];
             std::array<bool, lanes> varies{};
             for (std::size_t k = 0; k < n[axis]; ++k)
                 for (std::size_t lane = 0; lane < count; ++lane) {
@@ -84,13 +87,13 @@ void Blur::along(std::size_t axis, std::vector<float>& values, const Size& size)
     });
 }
 
-// Elimination without pivots is stable, for the diagonal dominates.
+// Gaussian elimination without pivoting is stable here, for the diagonal dominates.
 void to_spline_along(std::size_t axis, std::vector<float>& values, const Size& size) {
     const auto n = static_cast<std::size_t>(size[axis]);
     std::vector<double> pivot(n), above(n);
     for (std::size_t i = 0; i < n; ++i) {
-        const double diagonal = i == 0 || i + 1 == n ? 7. / 8 : 6. / 8;
-        pivot[i] = diagonal - (i > 0 ? above[i - 1] / 8 : 0);
+        const double beyond = (i == 0 ? 1. / 8 : 0) + (i + 1 == n ? 1. / 8 : 0);  // what goes on as the line ends
+        pivot[i] = 6. / 8 + beyond - (i > 0 ? above[i - 1] / 8 : 0);
         above[i] = 1. / 8 / pivot[i];
     }
     for_each_bundle(axis, values, size, [&](Bundle& bundle) {

@@ -11,8 +11,8 @@ using Size = std::array<int, 3>;
 
 std::size_t count_of(const Size&);
 
-/// Convolution of lines of voxels with a Gaussian of σ voxels, cut off at 3.5 σ; of none if σ is 0. Beyond its ends a
-/// line goes on as it ends.
+/// Convolution of lines of voxels with a Gaussian of σ voxels, cut off at 3.5 σ, beyond which are 0.05 % of it. If σ is
+/// 0, nothing is blurred. Beyond its ends a line goes on as it ends.
 class Blur {
   public:
     explicit Blur(float sigma);

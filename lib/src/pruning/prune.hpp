@@ -11,8 +11,8 @@
 /// (backward_sweep.hpp) with rules for each operation (operation_rules.hpp). There are two kinds of it.
 ///
 /// *By value* (Barbier et al. 2025): of min(a, b) only a is left if a < b is proven for the whole region, and likewise
-/// of maxima and smooth minima. In a ball that follows from b − a at the centre and the Lipschitz bounds of both; in a
-/// box, where gradients are known, from the enclosure of b − a.
+/// of maxima, and of smooth minima if a is below b by their radius. In a ball that follows from b − a at the centre and
+/// the Lipschitz bounds of both; in a box, where gradients are known, from the enclosure of b − a.
 ///
 /// *By the required interval*: of an output only the sign matters, and the sign of max(a, b) − τ is that of b − τ if a
 /// stays below τ. Negations, offsets and scalings only move the threshold τ. Of a in min(a, b) nothing matters above
@@ -21,23 +21,28 @@
 /// far from the region, though each of them is too near to the next to be told from it by value.
 ///
 /// What replaces a value is equal to it within its required interval, and outside on the same side of it. Both operands
-/// of min(a, b) may be replaced at once. Where a is the smaller, it does not exceed the largest value of b, so what
-/// replaces a is equal to it. What replaces b is equal to b, or it is not below the largest value of a. So the minimum
-/// is still a, and likewise where b is the smaller. That is as far as the minimum itself is required: if a is above
-/// that interval, so is what replaces a and what replaces b, and if a is below it, so is what replaces a. A replacement
-/// has the same sign relative to each threshold and is Lipschitz itself, so its distance from the threshold is still a
-/// lower bound of the distance to where the sign changes.
+/// of min(a, b) may be replaced at once, a by a′ and b by b′, which are also equal to them at the interval's ends. Let
+/// the minimum be required in [l, u], and A and B be the largest values of a and b in the region. Then a is required in
+/// [l, min(u, B)] and b in [l, min(u, A)]. Where a ≤ b (and likewise where b ≤ a),
+///     l ≤ a ≤ u   a′ = a, for a ≤ b ≤ B;  b′ = b, or both are above min(u, A) ≥ a   so min(a′, b′) = a
+///     a > u       a′ > u;                 b′ > u, for b ≥ a > u                     so min(a′, b′) > u
+///     a < l       a′ < l                                                            so min(a′, b′) < l
+/// A replacement has the same sign relative to each threshold and is Lipschitz itself, so its distance from the
+/// threshold is still a lower bound of the distance to where the sign changes.
 ///
 /// *What replaces a value is no steeper than the value's recorded bound* (WorkingProgram::lipschitz), so the components
-/// of a pruned program are 1-Lipschitz in the region. This is shown from the first instruction to the last.
+/// of a pruned program are 1-Lipschitz in the region. The proof is by induction over the instructions, from the first
+/// to the last; operations are those of program.hpp.
 ///   - An instruction that is kept has the bound that follows from those of its operands, in all operations but three.
-///     Corners are no steeper than the steeper operand because these vary along orthogonal directions; what replaces an
-///     operand is made of parts of it, so it varies along the same directions. Guards are as steep as their bound,
-///     which is required everywhere and hence not changed. The bound of a blob is that of a sum of falloffs; each of
-///     them is required as far as it is not zero, so that none of them changes.
+///     `corner` is no steeper than the steeper operand because these vary along orthogonal directions; what replaces an
+///     operand is made of parts of it, so it varies along the same directions. `guarded` is as steep as its first
+///     operand, which is required everywhere and hence is not changed. A node that proves a bound of its
+///     own (`one_lipschitz` in tree/domain.hpp), as a blob does for its sum of `falloff`s, has less than the sum of
+///     theirs; each falloff is required as far as it is not zero, so none of them is changed.
 ///   - An operand that replaces a minimum, a maximum, a smooth minimum or a corner is no steeper than the steeper
-///     operand, which is the instruction's bound; nor is one that replaces a sum, whose bound is that of both together.
-///   - The maximum that takes the place of a guard gets the bound of its steeper operand.
+///     operand, which is the instruction's bound; nor is one that replaces a sum of which the other is zero, whose
+///     bound is that of both together.
+///   - The maximum that takes the place of `guarded` gets the bound of its steeper operand.
 namespace phasetree::pruning {
 
 using bounding::ValueRanges;

@@ -141,7 +141,7 @@ std::optional<EmittedPhoton> PhotonEmission::of_point_light(std::size_t number, 
     if (!ray || !(density > 0.0f) || intensity == glm::vec3(0.0f)) return std::nullopt;
     const Lights::Emission emission{glm::length(ray->origin - from), intensity,
                                     OfPointLight{static_cast<std::uint32_t>(*source.point)}};
-    return EmittedPhoton{*ray, emission, intensity / density, density, number, aim.cell, true};
+    return EmittedPhoton{*ray, emission, intensity / density, density, number, aim.cell};
 }
 
 float PhotonEmission::line_density(const glm::vec3& origin, const glm::vec3& towards_light, Phase phase) const {

@@ -33,7 +33,6 @@ struct EmittedPhoton {
     float line_density;  ///< p(line) over the square of the refractive index at the origin; of a point, cᵢ t d²
     std::size_t light;   ///< the number of the light that proposed it: less than PhotonEmission::lights()
     std::size_t cell;    ///< of that light's target
-    bool of_point_light = false;
 };
 
 class PhotonEmission {

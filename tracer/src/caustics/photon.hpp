@@ -1,5 +1,5 @@
-// A photon: light that came from a lamp through at least one smooth interface of clear phases, and fell on something
-// that is not clear or into a medium that scatters. It stands for the whole chain of interfaces behind it.
+// A photon: light that came from a lamp through at least one smooth interface of clear phases, and fell on an opaque
+// surface that is not a mirror, or into a medium that scatters. It stands for the whole chain of interfaces behind it.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -13,15 +13,20 @@ namespace phasetree::tracer {
 struct Photon {
     glm::vec3 position;   ///< where it fell
     glm::vec3 direction;  ///< of unit length, from there to where it came from
-    glm::vec3 power;      ///< radiance of the light over p(line), less what was absorbed on the way
+    /// The radiance of the light over p(line), or of a point light its intensity over the density of directions
+    /// (emission.hpp), times what the media and interfaces on the way left of it.
+    glm::vec3 power;
     /// p(line)/m²: how densely the photon's line was sampled at the light, p(line), per area perpendicular to it and
     /// steradian, over the square of the refractive index m around the light. Of a point light, per steradian alone.
     float line_density;
-    Phase phase;                  ///< in which it travelled when it fell
-    Lights::Emission emission;    ///< of the light, and
-    glm::vec3 towards_light;      ///< the direction in which it is seen from where the photon met the first interface
-    bool of_point_light = false;  ///< no other technique finds such light
-    bool of_one_wavelength = false;  ///< that of its map, and then `power` is what it is at this wavelength
+    Phase phase;                ///< in which it travelled when it fell
+    Lights::Emission emission;  ///< what is seen of the light from where the photon started
+    glm::vec3 towards_light;    ///< the direction in which the light is seen from there
+    /// It was dispersed: every component of `power` is that at the wavelength of the photon's map.
+    bool of_one_wavelength = false;
+
+    /// Whether no other technique finds such light.
+    bool is_of_point_light() const { return emission.is_of_point_light(); }
 };
 
 /// A photon in a medium: a place that stands for all of the photon's line through it (photon_placement.hpp).

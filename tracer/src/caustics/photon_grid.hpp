@@ -1,5 +1,5 @@
-// A grid of cubes in which photons near a point are found. Cubes are as wide as the sphere that is searched, so that at
-// most eight of them are looked at.
+// A grid of cubes in which photons near a point are found. Cubes are as wide as the sphere that is searched, so that no
+// more than two are looked at along each axis, or three where rounding makes the sphere wider.
 #pragma once
 
 #include <bit>
@@ -10,24 +10,25 @@
 
 namespace phasetree::tracer {
 
-/// `position` is given a photon and says where it is.
-template <class Photon, class Position>
+/// `position` is given a photon, of whatever sort, and says where it is.
+template <class Kept, class Position>
 class PhotonGrid {
   public:
     /// For searches within the radius. The order of the photons is that in which near() gives those of a cube.
-    PhotonGrid(const std::vector<Photon>& photons, float radius, Position position = {})
+    PhotonGrid(const std::vector<Kept>& photons, float radius, Position position = {})
         : radius_(radius), position_(position) {
         if (photons.empty()) return;
         // A counting sort, which keeps the order of photons within a bucket.
         starts_.assign(std::bit_ceil(photons.size()) + 1, 0);
-        for (const Photon& photon : photons) ++starts_[bucket_of(cube_of(position_(photon))) + 1];
+        for (const Kept& photon : photons) ++starts_[bucket_of(cube_of(position_(photon))) + 1];
         for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
         std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
         photons_.resize(photons.size());
-        for (const Photon& photon : photons) photons_[next[bucket_of(cube_of(position_(photon)))]++] = photon;
+        for (const Kept& photon : photons) photons_[next[bucket_of(cube_of(position_(photon)))]++] = photon;
     }
 
-    /// Calls use(photon, offset) for each photon within the radius of a point, with where it lies from there.
+    /// Calls use(photon, offset) for each photon within the radius of a point; the offset leads from the point to the
+    /// photon's position.
     template <class Use>
     void near(const glm::vec3& point, Use&& use) const {
         if (photons_.empty()) return;
@@ -37,7 +38,7 @@ class PhotonGrid {
                 for (int x = first.x; x <= last.x; ++x) {
                     const std::size_t bucket = bucket_of({x, y, z});
                     for (std::uint32_t i = starts_[bucket]; i < starts_[bucket + 1]; ++i) {
-                        const Photon& photon = photons_[i];
+                        const Kept& photon = photons_[i];
                         const glm::vec3 offset = position_(photon) - point;
                         if (glm::dot(offset, offset) > radius_ * radius_) continue;
                         // Different cubes may share a bucket; each photon counts in its own cube alone.
@@ -62,7 +63,7 @@ class PhotonGrid {
 
     float radius_;
     Position position_;
-    std::vector<Photon> photons_{};        ///< by bucket
+    std::vector<Kept> photons_{};          ///< by bucket
     std::vector<std::uint32_t> starts_{};  ///< of each bucket, and the end of the last
 };
 

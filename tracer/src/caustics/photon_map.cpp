@@ -1,5 +1,7 @@
 #include "caustics/photon_map.hpp"
 
+#include <numbers>
+
 #include "sampling/warps.hpp"
 
 namespace phasetree::tracer {

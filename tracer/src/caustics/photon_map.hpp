@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <optional>
 
 #include "caustics/photon.hpp"
@@ -22,7 +21,8 @@ class PhotonMap {
     /// Of the photons that were dispersed, and so of the paths that gather them.
     const std::optional<Wavelength>& wavelength() const { return wavelength_; }
 
-    /// How many photons a unit of density of lines brings to the disc in which photons are gathered: N π r².
+    /// N π r², by which a density of lines, p(line), becomes the expected number of photons in the disc in which
+    /// photons are gathered.
     float expected() const { return expected_; }
     /// How far along its line a photon in a medium counts, if photons are gathered within this radius: h of
     /// photon_placement.hpp.
@@ -30,8 +30,10 @@ class PhotonMap {
     float half_length() const { return half_length(radius_); }
 
     /// Calls use(photon) for each photon of the phase within the radius of a point of a surface. Those that lie off its
-    /// plane by more than a quarter of the radius are left out, because they fell on another surface. The estimate of
-    /// the irradiance is the sum of their powers over expected().
+    /// plane by more than a quarter of the radius are left out: on a surface that is nearly flat within the radius none
+    /// does, so they fell on another one. The estimate of the irradiance is the sum of their powers over expected(),
+    /// because powers have been divided by p(line). Where a surface is strongly curved or ends, the photons of less
+    /// than the disc are counted, and the estimate is too dark within the radius.
     template <class Use>
     void near(const glm::vec3& point, const glm::vec3& normal, Phase phase, Use&& use) const {
         on_surfaces_.near(point, [&](const Photon& photon, const glm::vec3& offset) {
@@ -39,17 +41,19 @@ class PhotonMap {
         });
     }
     /// Calls use(photon, depth) for each photon of the phase whose line passes within the radius of a point of a
-    /// medium, and counts there; with the depth of the nearest point of the line. The estimate of the fluence is the
-    /// sum of powers · transmittance(depth) / (expected() · coverage(depth)).
+    /// medium, and whose place on the line is near enough to count there (photon_placement.hpp). The depth is that of
+    /// the line's nearest point, and is at least −h. The estimate of the fluence is the sum of
+    /// powers · transmittance(depth) / (expected() · coverage(depth)).
     template <class Use>
     void near_in_medium(const glm::vec3& point, Phase phase, Use&& use) const {
         in_media_.near(point, [&](const MediumPhoton& medium, const glm::vec3& offset) {
             if (medium.photon.phase != phase) return;
-            // How far the nearest point of the line is behind the photon's place.
-            const float behind = glm::dot(offset, medium.photon.direction);
-            const float across = glm::dot(offset, offset) - behind * behind;
-            if (across <= radius_ * radius_ && std::abs(behind) <= half_length())
-                use(medium.photon, medium.depth + behind);
+            // How much further on its way than at its place the photon passed nearest to the point: the offset leads
+            // from the point to the place, and the direction back to where the photon came from.
+            const float further = glm::dot(offset, medium.photon.direction);
+            const float across = glm::dot(offset, offset) - further * further;
+            const float depth = medium.depth + further;
+            if (across <= radius_ * radius_ && std::abs(further) <= half_length()) use(medium.photon, depth);
         });
     }
 

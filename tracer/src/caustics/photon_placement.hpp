@@ -1,19 +1,21 @@
 // Where a photon is kept on its line through a medium that scatters, and for which points of the line it counts.
 //
-// A line is kept by one place on it, at the depth t behind the boundary. The place counts for all points of the line
-// that are at most h away from it. It is sampled as a free flight would be that starts at the depth −h, in one of the n
-// colour channels that scatter, each of which is chosen as often,
+// One place stands for a whole line, at the depth t behind the boundary where the line comes in. The place counts for
+// all points of the line that are at most h away from it. It is sampled as a free flight would be that starts at the
+// depth −h, in one of the n colour channels that scatter, chosen uniformly,
 //     p(t) = Σ σ_c exp(−σ_c (t + h))/n   for t ≥ −h,
 // with the extinction σ_c of the channel. The photon itself is not scattered there: it goes on to the medium's end. So
 // a point at the depth t is covered with the probability
 //     F(t) = ∫ p over [t − h, t + h] = Σ (exp(−σ_c max(t, 0)) − exp(−σ_c (t + 2h)))/n,
 // and what the line brings there, its power times the transmittance T(t), counts 1/F(t) times. Flights start before the
-// boundary so that F is not small at it, which would make a few places count very often.
+// boundary so that F is not small at it, which would make a few places count very often. Channels that do not scatter
+// need no places, because nothing of what arrives in them is scattered. A single wavelength is a mixture of channels,
+// and where one of them is far clearer and does not scatter, a few places do count often.
 //
 // Across the line photons are gathered in a disc, as those on a surface are; along it nothing is blurred. Where the
-// boundary is oblique to a line, a point within the disc may lie before the place where the line comes in; its depth is
-// then negative, and T is 1. Only media whose transmittance has a closed form are lit so, which are the homogeneous
-// ones.
+// boundary is oblique to a line, the disc around a point of the medium may be met by the line before it comes in; the
+// depth is then negative, which is the reason for max(t, 0) above, and T is 1. Only media whose transmittance has a
+// closed form are lit so, which are the homogeneous ones.
 //
 // This is a short beam of Jarosz, Nowrouzezahrai, Sadeghi & Jensen, A Comprehensive Theory of Volumetric Radiance
 // Estimation Using Photon Points and Beams, TOG 30(1), 2011, gathered at a point.
@@ -43,6 +45,7 @@ class PhotonPlacement {
     float sample(float u) const {
         const float at = u * static_cast<float>(channels_);
         const std::size_t channel = std::min(static_cast<std::size_t>(at), channels_ - 1);
+        // Less than 1 after rounding, too: the flight ends.
         const float rest = std::min(at - static_cast<float>(channel), 0x1.fffffep-1f);
         return -std::log1p(-rest) / extinction_[channel] - half_length_;
     }

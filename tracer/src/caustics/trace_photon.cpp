@@ -30,10 +30,11 @@ class PhotonFlight {
             const Hit hit = world_.geometry().intersect(ray_, counters_);
             const Surface* surface = std::get_if<Surface>(&hit);
             const float distance = surface ? surface->distance : std::numeric_limits<float>::infinity();
+            // With the power with which it came into the medium: how much is left at a point depends on the point.
             if (links_ > 0) keep_in_medium(distance, traced);
             if (!surface) return;
             glm::vec3 left = transmittance(medium(), {ray_.origin, ray_.direction, distance, only_}, sampler_);
-            if (links_ > 0 && phase_function(medium()) && !chain_survives(left, sampler_)) return;
+            if (phase_function(medium()) && !chain_survives(left, sampler_)) return;
             power_ *= left;
             if (!only_ && surface->optics.get().disperses()) {
                 only_ = &wavelength_.value();
@@ -57,15 +58,8 @@ class PhotonFlight {
     const Medium& medium() const { return clear_at(scene_, ray_.phase).interior; }
 
     Photon photon_at(const glm::vec3& position) const {
-        return {position,
-                -ray_.direction,
-                power_,
-                emitted_.line_density,
-                ray_.phase,
-                emitted_.emission,
-                -emitted_.ray.direction,
-                emitted_.of_point_light,
-                only_ != nullptr};
+        return {position,          -ray_.direction,         power_,          emitted_.line_density, ray_.phase,
+                emitted_.emission, -emitted_.ray.direction, only_ != nullptr};
     }
 
     void keep_in_medium(float distance, TracedPhotons& traced) {
@@ -90,12 +84,14 @@ class PhotonFlight {
     // Reflects or refracts the photon. False if it ends there.
     bool pass(const Surface& surface, const Bsdf& bsdf) {
         const Frame frame(surface.normal);
+        // A smooth interface has no lobe in which a direction would be chosen by the two numbers.
         const auto next = bsdf.sample(frame.to_local(-ray_.direction), sampler_.next(), glm::vec2(0.0f));
         if (!next) return false;
         const float before = clear_at(scene_, ray_.phase).ior_for(only_);
         ray_ = continued(surface, frame, *next);
-        // A BSDF's weight is of radiance, which a refraction scales by the squared quotient of the indices; power is
-        // not scaled.
+        // The BSDF is sampled as if the photon were a path that comes from the camera, so its weight is of radiance
+        // that arrives from `after` and leaves into `before`: a refraction scales it by (before/after)². Power is not
+        // scaled.
         const float after = clear_at(scene_, ray_.phase).ior_for(only_), ratio = after / before;
         power_ *= for_light(next->weight, only_) * (ratio * ratio);
         return true;

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <thread>
 
+#include "film/film.hpp"
 #include "film_file/header.hpp"
 
 namespace phasetree::tracer {

@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-#include "film/film.hpp"
+#include "film/film_settings.hpp"
 #include "film/sample_range.hpp"
 
 namespace phasetree::tracer {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "film/film.hpp"
 #include "film_file/error.hpp"
 #include "film_file/header.hpp"
 

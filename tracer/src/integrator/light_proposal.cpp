@@ -108,7 +108,7 @@ std::optional<LightSample> LightProposal::sample(const Lights& lights, glm::vec2
     u.x = std::min(scaled - static_cast<float>(by), 1 - 0x1p-24f);
     std::optional<LightSample> sample = lights.sample(at_, u);
     if (!sample) return std::nullopt;
-    if (sample->is_point()) {
+    if (sample->is_of_point_light()) {
         // A direction to a point light, bent by a plane, does not lead to it, so only the straight part proposes it.
         sample->pdf /= static_cast<float>(1 + planes_);
         return by == 0 ? sample : std::nullopt;

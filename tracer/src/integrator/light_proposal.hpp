@@ -26,6 +26,8 @@ namespace phasetree::tracer {
 class LightProposal {
   public:
     LightProposal() = default;
+    /// All directions go straight towards the lights.
+    explicit LightProposal(const LightReceiver& at) : at_(at) {}
     /// For a place to which light comes in through a plane of this unit normal, which points outward. eta is the
     /// refractive index there divided by that beyond the plane. If it is 1, all directions go straight towards the
     /// lights.

@@ -19,41 +19,52 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// A path that can still bring this share of what it began with survives Russian roulette for certain: 1 / 4.
+// A path survives Russian roulette with this times the share of what it began with that it can still bring: for certain
+// from a quarter on. Of 1, 4 and 16 and of the root of the share this had the least variance times time in pictures of
+// glasses and of an hourglass.
 constexpr float survival_per_worth = 4.0f;
-// Roulette spares the first three interfaces, behind which most of what one sees lies. At least a twentieth of the
-// paths survive, so that no weight grows by more than 20 at once; where nearly all would, no random number is drawn.
+// Roulette spares the first three surfaces and places in media that a path meets: with a wall of glass in front, that
+// is as far as what is seen behind it. At least a twentieth of the paths survive, so that no weight grows by more than
+// 20 at once; where nearly all would, no random number is drawn.
 constexpr int depth_without_roulette = 3;
 constexpr float least_survival = 0.05f, nearly_certain = 0.95f;
 
 // Photons that come in flatter than this are left to the other techniques: what they bring is divided by the cosine.
 constexpr float least_photon_cosine = 1e-3f;
 
+// With which density photons find a direction, as long as the line density at the light's end of the chain is not
+// known: N π r² n² cos θ on a surface, and N π r² n² F in a medium, of which F waits until the boundary is known
+// (path.hpp).
+struct PhotonDensity {
+    float per_line_density = 0;
+    std::optional<PhotonPlacement> placement{};  // of a medium that photons light, as long as F is not in the product
+
+    // The boundary at which the chain leaves the medium is at this distance.
+    void reach_boundary(float distance) {
+        if (placement) per_line_density *= placement->coverage(distance);
+        placement.reset();
+    }
+};
+
 // What a path remembers of the last place where light was sampled. The weight of emission that it finds at the end of a
 // chain depends on it.
 struct Chain {
-    // Of the BSDF, for the direction with which the chain began; none if lights were not sampled there.
+    // Of the BSDF or phase function, for the direction with which the chain began; none if lights were not sampled
+    // there.
     std::optional<float> pdf;
     LightProposal proposal{};
     glm::vec3 direction{0};
-    // Photons find the direction with this density, times the line density at the end of the chain.
-    float by_photons = 0;
+    PhotonDensity by_photons{};
     int length = 0;
-    // Of a chain that began in a medium which photons light, until it leaves the medium.
-    std::optional<PhotonPlacement> placement{};
 
-    // Tells it of the first boundary that it comes to, at this distance from its beginning.
-    void reach_boundary(float distance) {
-        if (placement) by_photons *= placement->coverage(distance);
-        placement.reset();
-    }
-
-    // Of light that is seen along the ray.
+    // The weight of light that is seen along the ray. Light at the end of a chain that shadow rays and photons do not
+    // follow to its end is found by the path alone, whichever techniques are asked for.
     float weight(const Scene& scene, const Photons& photons, const Ray& ray) const {
         if (!pdf || length > longest_chain) return 1;
-        const float line = by_photons > 0.0f && length > 0 ? line_density(photons, ray) : 0.0f;
+        const float per_line = by_photons.per_line_density;
+        const float line = per_line > 0.0f && length > 0 ? line_density(photons, ray) : 0.0f;
         return technique_weight(scene, Techniques::directions_alone, *pdf, proposal.pdf(scene.lights, direction),
-                                by_photons * line);
+                                per_line * line);
     }
 };
 
@@ -99,7 +110,7 @@ class Path {
                 continue;
             }
             if (!surface) break;
-            chain_.reach_boundary(distance);
+            chain_.by_photons.reach_boundary(distance);
             recorder_.travelled(ray_.phase, distance);
             ++depth;
             if (surface->optics.get().disperses()) only_ = &hero_;
@@ -122,10 +133,11 @@ class Path {
         return fly(medium(), {ray_.origin, ray_.direction, distance, only_}, throughput_, sampler_);
     }
 
-    // As scatter_and_continue(), at that distance along the ray in a medium, where a path always goes on.
+    // The same as scatter_and_continue() of a surface, in the medium at that distance along the ray. There is always a
+    // next ray.
     void scatter_in_medium(float distance) {
         const HenyeyGreenstein& phase = *phase_function(medium());
-        scatter_and_continue({ray_.origin + distance * ray_.direction, ray_.phase, phase, ray_.in});
+        scatter_and_continue(MediumPoint{ray_.origin + distance * ray_.direction, ray_.phase, phase, ray_.in});
     }
 
     // What a medium shines by itself is of no lamp, and goes with the background.
@@ -161,9 +173,11 @@ class Path {
         is_camera_ray_ = false;
         const Frame frame(surface.normal);
         const glm::vec3 wo = frame.to_local(-ray_.direction);
-        LightProposal proposal(surface.near_side.origin, surface.normal, 1);
+        LightProposal proposal;
         if (!bsdf.is_delta()) {
-            if (!surface.far_side) proposal = LightProposal::at(surface, world_, scene_, counters_);
+            // A rough interface gets light from both sides.
+            proposal = surface.far_side ? LightProposal(surface.near_side.origin)
+                                        : LightProposal::at(surface, world_, scene_, counters_);
             add_direct_light(surface, bsdf, frame, wo, proposal);
             add_caustics(surface, bsdf, frame, wo, proposal);
         }
@@ -175,7 +189,7 @@ class Path {
         ray_ = continued(surface, frame, *next);
         entered_ = next->transmitted ? surface.normal : -surface.normal;
         if (!next->delta)
-            chain_ = {next->pdf, proposal, ray_.direction, density_by_photons(surface, bsdf, next->wi.z), 0};
+            chain_ = {next->pdf, proposal, ray_.direction, {density_by_photons(surface, bsdf, next->wi.z)}, 0};
         else if (is_link(bsdf, surface))
             ++chain_.length;
         else
@@ -189,16 +203,16 @@ class Path {
         const HenyeyGreenstein& phase = point.phase_function;
         const auto proposal = LightProposal::at(point, entered_, world_, scene_);
         const auto placement = photons_ ? PhotonPlacement::in(medium(), photons_.map->half_length()) : std::nullopt;
-        const float by_photons = placement ? density_by_photons(point.phase) : 0.0f;
+        const PhotonDensity by_photons{placement ? density_across(point.phase) : 0.0f, placement};
         if (const auto light = sampled_light(proposal)) {
             const float f = phase.evaluate(glm::dot(ray_.direction, light->wi));
-            add_direct_light(*light, glm::vec3(f), f, by_photons, point.leaving(light->wi), placement);
+            add_direct_light(*light, glm::vec3(f), f, by_photons, point.leaving(light->wi));
         }
         if (placement) add_caustics(point, *placement, proposal);
         const glm::vec3 direction = glm::normalize(Frame(ray_.direction).to_world(phase.sample(sampler_.next2())));
         const float pdf = phase.evaluate(glm::dot(ray_.direction, direction));
         ray_ = point.leaving(direction);
-        chain_ = {pdf, proposal, direction, by_photons, 0, placement};
+        chain_ = {pdf, proposal, direction, by_photons, 0};
     }
 
     // Next-event estimation: what arrives from the lights by a shadow ray, and is scattered into the path.
@@ -209,7 +223,7 @@ class Path {
         const glm::vec3 wi = frame.to_local(light->wi);
         const glm::vec3 f = for_light(bsdf.evaluate(wo, wi), only_);
         if (f == glm::vec3(0.0f)) return;
-        add_direct_light(*light, f, bsdf.pdf(wo, wi), density_by_photons(surface, bsdf, wi.z),
+        add_direct_light(*light, f, bsdf.pdf(wo, wi), {density_by_photons(surface, bsdf, wi.z)},
                          wi.z < 0 ? surface.transmitted(light->wi) : surface.reflected(light->wi));
     }
 
@@ -217,49 +231,50 @@ class Path {
         return proposal.sample(scene_.lights, sampler_.next2());
     }
 
-    // f is what of the light is scattered into the path, and pdf the density with which the path itself would go on in
-    // that direction; photons find it with the density by_photons, per line density at the light, and in a medium
-    // times their coverage.
-    void add_direct_light(const LightSample& light, const glm::vec3& f, float pdf, float by_photons, const Ray& shadow,
-                          const std::optional<PhotonPlacement>& placement = {}) {
+    // f is what of the light is scattered into the path, the cosine included, and pdf the density with which the path
+    // itself would go on in that direction.
+    void add_direct_light(const LightSample& light, const glm::vec3& f, float pdf, PhotonDensity by_photons,
+                          const Ray& shadow) {
         if (scene_.settings.techniques == Techniques::directions_alone) return;
         const auto arrival = trace_shadow_ray({world_, scene_, photons_, sampler_, counters_}, shadow, light,
                                               {.hero = hero_, .only = only_});
         if (!arrival) return;
-        // Where there is no boundary in between, there are no photons either.
-        by_photons *= arrival->line_density;
-        if (placement && by_photons > 0.0f) by_photons *= placement->coverage(arrival->to_boundary);
-        const float weight = light.is_point()
+        // Where there is no boundary in between, the line density is 0, and the boundary's distance infinite.
+        if (arrival->line_density > 0.0f) by_photons.reach_boundary(arrival->to_boundary);
+        const float weight = light.is_of_point_light()
                                  ? 1.0f
-                                 : technique_weight(scene_, Techniques::shadow_rays_alone, light.pdf, pdf, by_photons);
+                                 : technique_weight(scene_, Techniques::shadow_rays_alone, light.pdf, pdf,
+                                                    by_photons.per_line_density * arrival->line_density);
         add_light(throughput_ * f * arrival->radiance * (weight / light.pdf), arrival->emission, arrival->direction,
                   true);
     }
 
-    // With which density photons find a direction of this cosine at a surface, per line density at the light.
+    // PhotonDensity::per_line_density, of a direction of this cosine at a surface; 0 where photons light nothing.
     float density_by_photons(const Surface& surface, const Bsdf& bsdf, float cosine) const {
         if (!photons_ || !(cosine > least_photon_cosine) || !is_lit_by_photons(surface, bsdf)) return 0.0f;
-        return density_by_photons(surface.near_side.phase) * cosine;
+        return density_across(surface.near_side.phase) * cosine;
     }
-    // The same across the direction, at a point in a phase.
-    float density_by_photons(Phase phase) const {
+    // N π r² n². Where a phase disperses, n is that of the d line: all techniques weigh by the same, so their weights
+    // still sum to 1.
+    float density_across(Phase phase) const {
         const float ior = clear_at(scene_, phase).ior;
         return photons_.map->expected() * ior * ior;
     }
 
-    // What a photon brings to a point, of the light whose share f is scattered into the path; `power` is what is left
-    // of the photon's there, and `pdf` the density with which the path itself would go on in the photon's direction.
+    // What a photon brings to a point, of the light whose share f is scattered into the path. `power` is what is left
+    // of the photon's there; photons find its direction with the density `by_photons`, and the path itself would go on
+    // in that direction with the density `pdf`. It is asked only if all techniques are used.
     void add_photon(const Photon& photon, const glm::vec3& power, const glm::vec3& f, float by_photons, float pdf,
                     const LightProposal& proposal) {
-        const float weight = photon.of_point_light
+        const float weight = photon.is_of_point_light()
                                  ? 1.0f
                                  : power_heuristic(by_photons, pdf, proposal.pdf(scene_.lights, photon.direction));
-        glm::vec3 irradiance = power / photons_.map->expected();
+        glm::vec3 fluence = power / photons_.map->expected();
         if (!photon.of_one_wavelength)
-            irradiance = for_light(irradiance, only_);
+            fluence = for_light(fluence, only_);
         else if (!only_)
-            irradiance *= hero_.response;
-        add_light(throughput_ * f * irradiance * weight, photon.emission, photon.towards_light, true);
+            fluence *= hero_.response;
+        add_light(throughput_ * f * fluence * weight, photon.emission, photon.towards_light, true);
     }
 
     // What photons bring that fell near the surface's point.
@@ -271,6 +286,8 @@ class Path {
                                const glm::vec3 wi = frame.to_local(photon.direction);
                                const float by_photons = density_by_photons(surface, bsdf, wi.z) * photon.line_density;
                                if (!(by_photons > 0.0f)) return;
+                               // Photons are counted by area of the surface, and so have the cosine already that
+                               // evaluate() multiplies by.
                                const glm::vec3 f = for_light(bsdf.evaluate(wo, wi), only_) / wi.z;
                                add_photon(photon, photon.power, f, by_photons, bsdf.pdf(wo, wi), proposal);
                            });
@@ -279,11 +296,12 @@ class Path {
     // The same in a medium.
     void add_caustics(const MediumPoint& point, const PhotonPlacement& placement, const LightProposal& proposal) {
         if (scene_.settings.techniques != Techniques::all) return;
-        const float across = density_by_photons(point.phase);
+        const float across = density_across(point.phase);
         photons_.map->near_in_medium(point.position, point.phase, [&](const Photon& photon, float depth) {
             const float coverage = placement.coverage(depth);
             const float by_photons = across * photon.line_density * coverage;
             if (!(by_photons > 0.0f)) return;
+            // What the medium leaves from the boundary on; nothing is lost before it.
             const Wavelength* wavelength = photon.of_one_wavelength ? &hero_ : only_;
             const glm::vec3 left = transmittance(
                 medium(), {point.position, photon.direction, std::max(depth, 0.0f), wavelength}, sampler_);

@@ -25,30 +25,33 @@ struct Photons {
 /// Light through clear interfaces. A shadow ray that meets a smooth interface of two clear phases is not lost: it goes
 /// on as a path would, reflected or refracted by Fresnel's odds, and what it finds in the end is the light that arrives
 /// from its first direction ω. A thin wall hardly bends it, so a lamp behind glass is found about as often as one in
-/// plain sight. Both techniques thus estimate the same integral over ω,
+/// plain sight. Shadow rays, and the path's own way on in a direction that the BSDF samples, are thus two techniques
+/// for the same integral over ω,
 ///     ∫ f(ω) E(ω) dω,   E: emission at the end of a chain of smooth clear interfaces, of any length from 0,
 /// and combine by the power heuristic of their densities *of ω*: of the light sampling, and of the BSDF. A path keeps
-/// these two through the chain. Nothing is counted twice and nothing is lost, whatever the light is seen through. In
-/// which directions shadow rays start is for light_proposal.hpp.
+/// these two through the chain. Nothing is counted twice, whatever the light is seen through, and nothing is lost but
+/// what a path would have found that ends by max_depth within the chain, which no weight knows of. In which directions
+/// shadow rays start is for light_proposal.hpp.
 ///
 /// Media that scatter. On its way a path may be scattered in a medium, which is a place like a surface: light is looked
 /// for there, and a direction sampled, with the phase function in place of the BSDF. E then includes the transmittance
 /// along the chain, by absorption and scattering together, whichever technique finds it.
 ///
 /// Photons are a third technique for the same integral, for chains of at least one interface: E as found from the
-/// light's end (caustics/caustics.hpp). Where N of them are traced and those within r of the surface count, directions
-/// ω are found with the expected density
+/// light's end (caustics/caustics.hpp). Where N of them start and those within r of the surface count, directions ω are
+/// found with the expected density
 ///     N π r² (p(line)/m²) n² cos θ,
 /// of which p(line) is the density at the light, per area across the line and solid angle, m the index around the light
 /// (p(line)/m² is EmittedPhoton::line_density), n the index at the surface, and cos θ turns area across the line into
-/// area of the surface: the étendue, index² · area · solid angle, is the same all along a chain, however its interfaces
-/// are curved. Fresnel's odds are the same in both directions and cancel. Gathering is the one estimate here
-/// that is biased: it blurs within r (Georgiev et al.: Light Transport Simulation with Vertex Connection and Merging,
-/// SIGGRAPH Asia 2012, has the general case). Photons are not scattered on their way: media dim them.
+/// area of the surface: the étendue, index² · area across the line · solid angle, is the same all along a chain,
+/// however its interfaces are curved. Fresnel's odds are the same in both directions and cancel. Gathering is the one
+/// estimate here that is biased: it blurs within r (Georgiev et al.: Light Transport Simulation with Vertex Connection
+/// and Merging, SIGGRAPH Asia 2012, has the general case). Photons are not scattered on their way: media dim them.
 ///
 /// Places in a medium that scatters are lit by photons, too, if its transmittance has a closed form: it is homogeneous.
-/// There is no cos θ there, and a photon counts for the point of its line that is t behind the boundary with the
-/// probability F(t) of photon_placement.hpp, so the density is
+/// There is no cos θ there. A photon stands at one random place of its line through the medium, and with a probability
+/// F(t), which photon_placement.hpp has, that place is near enough to count for the point of the line that is t behind
+/// the boundary. So the density is
 ///     N π r² (p(line)/m²) n² F(t).
 ///
 /// Dispersion. Where a path, a shadow ray or a photon meets an interface that disperses, one wavelength is chosen for

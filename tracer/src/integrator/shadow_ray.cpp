@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "caustics/trace_photon.hpp"
+#include "caustics/emission.hpp"
 #include "world/chain.hpp"
 
 namespace phasetree::tracer {
@@ -24,10 +24,11 @@ std::optional<Arrival> trace_shadow_ray(const ShadowRayContext& context, Ray ray
     const bool was_dispersed = only != nullptr;
     glm::vec3 throughput(1.0f);
     float to_boundary = 0;
-    float to_point = sampled.distance;  // of the way to a point light, what is still before the ray
+    float to_sampled =
+        sampled.distance;  // how far the sampled light is from the ray's origin, as long as it is straight
     for (int length = 0, segment = 0;; ++segment) {
-        const bool is_straight = segment == 0 || (sampled.is_point() && length == 0);
-        const float far = is_straight ? to_point : infinity;
+        const bool is_straight = segment == 0 || (sampled.is_of_point_light() && length == 0);
+        const float far = is_straight ? to_sampled : infinity;
         const Visibility met = context.world.geometry().visibility(ray, far, context.counters);
         const Surface* surface = std::get_if<Surface>(&met);
         const Blocked* blocked = std::get_if<Blocked>(&met);
@@ -36,7 +37,7 @@ std::optional<Arrival> trace_shadow_ray(const ShadowRayContext& context, Ray ray
         if (segment == 0) to_boundary = distance;
         const Medium& medium = clear_at(context.scene, ray.phase).interior;
         const auto light = !is_straight ? context.scene.lights.seen(ray.origin, ray.direction, distance, false)
-                           : escaped    ? std::optional(Lights::Emission{to_point, sampled.radiance, sampled.source})
+                           : escaped    ? std::optional(Lights::Emission{to_sampled, sampled.radiance, sampled.source})
                                         : std::nullopt;
         if (!light && !surface) return std::nullopt;
         throughput *= transmittance(medium, {ray.origin, ray.direction, light ? light->distance : distance, only},
@@ -49,12 +50,13 @@ std::optional<Arrival> trace_shadow_ray(const ShadowRayContext& context, Ray ray
         if (surface->optics.get().disperses()) only = &wavelength.hero;
         const Bsdf bsdf = surface->bsdf(only);
         if (bsdf.passes_through()) {
-            to_point = std::max(to_point - distance, 0.0f);
+            to_sampled = std::max(to_sampled - distance, 0.0f);
             ray = surface->transmitted(ray.direction);
             continue;
         }
-        if (sampled.is_point() || !is_link(bsdf, *surface) || ++length > longest_chain) return std::nullopt;
+        if (sampled.is_of_point_light() || !is_link(bsdf, *surface) || ++length > longest_chain) return std::nullopt;
         const Frame frame(surface->normal);
+        // A smooth interface has no lobe in which a direction would be chosen by the two numbers.
         const auto next = bsdf.sample(frame.to_local(-ray.direction), context.sampler.next(), glm::vec2(0.0f));
         if (!next) return std::nullopt;
         throughput *= for_light(next->weight, only);

@@ -29,20 +29,23 @@ struct Arrival {
     glm::vec3 radiance;
     Lights::Emission emission;
     glm::vec3 direction;
-    float line_density;  ///< as the function of that name, of the chain's last line; 0 for a chain of no interface
-    float to_boundary;   ///< the length of the first part of the way, in the phase in which the ray started
+    float line_density;  ///< line_density() of the chain's last ray; 0 for a chain of no interface
+    float to_boundary;   ///< how far the first boundary is from the start; infinity if the light is before it
 };
 
 /// One random sample of E (path.hpp) along a shadow ray: the emission at the end of a chain of smooth clear interfaces,
 /// each of which reflects or refracts the ray at random, times the transmittance of the media and the weights of the
-/// interfaces; none if there is no light. Up to its first interface the ray goes straight to the light that was
-/// sampled, which is known; after that it is asked what light it sees. A point light is seen by the straight ray alone:
-/// what it sends through an interface that bends light is left to photons, because no direction that is sampled here
-/// leads through the interface to a point.
+/// interfaces; none if there is no light. Up to the first boundary that it meets the ray goes straight to the light
+/// that was sampled, which is known; after that it is asked what light it sees. Of a shadow ray that is dispersed on
+/// its way the radiance includes the response to its wavelength; a path that was dispersed before multiplies by that
+/// itself, as for all light that it finds. A point light is seen by the straight ray alone, through boundaries that
+/// bend nothing: what it sends through an interface that bends light is left to photons, because no direction that is
+/// sampled here leads through the interface to a point.
 std::optional<Arrival> trace_shadow_ray(const ShadowRayContext&, Ray ray, const LightSample& sampled,
                                         const PathWavelength&);
 
-/// With which density photons start on the line on which a ray leads to a light; 0 if there are none.
+/// With which density photons start on the line on which a ray leads to a light (EmittedPhoton::line_density); 0 if
+/// there are none.
 float line_density(const Photons&, const Ray&);
 
 }  // namespace phasetree::tracer

@@ -72,7 +72,7 @@ struct LightSample {
 
     /// Whether it is of a point light. Then `radiance` is its irradiance on a surface that faces it, and no other
     /// technique finds it.
-    bool is_point() const { return std::holds_alternative<OfPointLight>(source); }
+    bool is_of_point_light() const { return std::holds_alternative<OfPointLight>(source); }
 };
 
 inline constexpr std::string_view default_group = "default";
@@ -83,6 +83,8 @@ class Lights {
         float distance;  ///< infinity for infinite lights
         glm::vec3 radiance;
         LightSource source;
+
+        bool is_of_point_light() const { return std::holds_alternative<OfPointLight>(source); }
     };
 
     /// Lights belong to groups, whose shares of a picture can be recorded separately (add_to_groups). The background

@@ -5,12 +5,15 @@
 #include <functional>
 #include <optional>
 
-#include "film/film.hpp"
+#include "film/faults.hpp"
+#include "film/film_settings.hpp"
 #include "film/image.hpp"
 #include "film/sample_range.hpp"
 #include "integrator/path.hpp"
 
 namespace phasetree::tracer {
+
+class Film;
 
 struct RenderJob {
     PixelRange pixels;

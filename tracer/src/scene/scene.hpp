@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "camera/moving_camera.hpp"
-#include "film/film.hpp"
+#include "film/film_settings.hpp"
 #include "lights/lights.hpp"
 #include "phasetree/io/tree.hpp"
 #include "scene/placed.hpp"

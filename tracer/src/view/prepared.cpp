@@ -3,7 +3,7 @@
 namespace phasetree::tracer::view {
 
 Prepared::Prepared(std::shared_ptr<const Scene> scene, const WorldOptions& options)
-    : scene_(std::move(scene)), is_first_look_(options.deepest.has_value()), world_(*scene_, options) {}
+    : scene_(std::move(scene)), is_first_look_(options.is_first_look), world_(*scene_, options) {}
 
 const InterfaceTracer& Prepared::tracer() const {
     std::call_once(once_, [&] { tracer_.emplace(scene_->object); });

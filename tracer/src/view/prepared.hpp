@@ -13,13 +13,13 @@ namespace phasetree::tracer::view {
 
 class Prepared {
   public:
-    /// Options that limit how deep boxes are divided are those of a first look. Shares the scene, whose camera, film
-    /// and number of samples its owner may go on to change: nothing here reads them. Throws as World does.
+    /// Shares the scene, whose camera, film and number of samples its owner may go on to change: nothing here reads
+    /// them. Throws as World does.
     Prepared(std::shared_ptr<const Scene> scene, const WorldOptions& options);
 
     const Scene& scene() const { return *scene_; }
     const World& world() const { return world_; }
-    /// Whether it is of coarse cells for a first look, for which less was found out about the scene, too.
+    /// Whether it is for a first look (WorldOptions::is_first_look).
     bool is_first_look() const { return is_first_look_; }
     /// Traces through opaque phases, too. It is made when it is first asked for, which no picture does. Throws
     /// ModelError.

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "film/film.hpp"
 #include "output/quantise.hpp"
 #include "view/session.hpp"
 

@@ -19,9 +19,6 @@ namespace {
 // While a slider is drawn, each wish comes before the picture of the last is there. Its coarse cells are finished all
 // the same, until so long after they were begun.
 constexpr std::chrono::milliseconds first_cells_deadline{1000};
-// The first picture of an object is taken with cells that are not divided further: they are there at once, also where a
-// tree is so slow that good ones take seconds, and a picture of few pixels has few rays.
-constexpr int divisions_of_first_cells = 5;
 // What a terminal would show.
 std::string error_text(std::exception_ptr failure) {
     try {
@@ -129,9 +126,8 @@ void Session::read(Wishes& wishes) {
 void Session::build(const Wishes& wishes) {
     show([](Shown& shown) { shown.doing = "Building cells"; });
     const Clock::time_point begun = Clock::now();
-    WorldOptions options{.quality = BuildQuality::low,
-                         .deepest = divisions_of_first_cells,
-                         .finds_flat_boundaries = false,
+    WorldOptions options{.quality = options_.quality,
+                         .is_first_look = true,
                          .cancelled =
                              [&] {
                                  const bool is_over = Clock::now() - begun > first_cells_deadline;
@@ -182,9 +178,7 @@ void Session::keep_cells(const Scene& scene, WorldOptions& options) const {
     if (!prepared_) return;
     options.known_cells = prepared_->world().geometry().objects().front();
     WorldOptions better = options;
-    better.quality = options_.quality;
-    better.deepest.reset();
-    better.finds_flat_boundaries = true;
+    better.is_first_look = false;
     if (are_cells_of(*options.known_cells, scene.object, cell_options(scene, better))) options = better;
 }
 

@@ -29,7 +29,8 @@ inline bool is_link(const Bsdf& bsdf, const Surface& surface) {
 /// where the chain goes from there is rarely worth a ray. Below this share it goes on in proportion to what is left.
 inline constexpr float least_share_of_chain = 0.1f;
 
-/// Russian roulette by that share; what goes on is scaled up for what does not.
+/// Russian roulette by the greatest component of the share, which is what the last medium left of a photon, or all of
+/// its way of a shadow ray; the share of what goes on is scaled up for what does not.
 inline bool chain_survives(glm::vec3& share, Sampler& sampler) {
     const float survival = std::max({share.x, share.y, share.z}) / least_share_of_chain;
     if (survival >= 1.0f) return true;

@@ -15,6 +15,10 @@ namespace phasetree::tracer {
 
 namespace {
 
+// How often boxes are divided for a first look: such cells are there at once, also where a tree is so slow that good
+// ones take seconds.
+constexpr int divisions_for_first_look = 5;
+
 // The geometries of the Embree scene: the object or the places of several, then the meshes in their order.
 constexpr unsigned object_id = 0;
 constexpr unsigned first_mesh_id = object_id + 1;
@@ -84,7 +88,10 @@ std::optional<glm::vec2> uv_at(const Mesh& mesh, const RTCRayHit& hit) {
 CellOptions cell_options(const Scene& scene, const WorldOptions& wanted) {
     CellOptions options;
     options.quality = wanted.quality;
-    if (wanted.deepest) options.deepest = *wanted.deepest;
+    if (wanted.is_first_look) {
+        options.quality = BuildQuality::low;
+        options.deepest = divisions_for_first_look;
+    }
     options.cancelled = wanted.cancelled;
     options.progress = wanted.progress;
     options.most_bytes = wanted.most_bytes;

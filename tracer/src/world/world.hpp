@@ -15,8 +15,8 @@ class World {
     /// Refers to the scene, which must outlive it. Throws as TracedGeometry's constructor does.
     explicit World(const Scene& scene, const WorldOptions& options = {})
         : geometry_(scene, options),
-          flat_boundaries_(options.finds_flat_boundaries ? tracer::flat_boundaries(geometry_, scene)
-                                                         : std::vector<FlatBoundary>{}),
+          flat_boundaries_(!options.is_first_look ? tracer::flat_boundaries(geometry_, scene)
+                                                  : std::vector<FlatBoundary>{}),
           disperses_(std::ranges::any_of(scene.materials, [](const Material& material) {
               const Clear* clear = std::get_if<Clear>(&material);
               return clear && clear->dispersion;

@@ -14,10 +14,10 @@ namespace phasetree::tracer {
 
 struct WorldOptions {
     BuildQuality quality = BuildQuality::medium;
-    std::optional<int> deepest{};  ///< CellOptions::deepest, if it is another than usual
-    /// Whether the flat sides of the object are looked for (flat_boundaries.hpp). Without them a picture shows the same
-    /// with more noise; a first look does not wait for them.
-    bool finds_flat_boundaries = true;
+    /// Whether the world is for a first look, of few rays, which does not wait: it has few large cells, whatever the
+    /// quality, and the flat sides of the object are not looked for (flat_boundaries.hpp). Its pictures show the same,
+    /// with more noise.
+    bool is_first_look = false;
     std::function<bool()> cancelled{};
     std::function<void(float)> progress{};
     std::size_t most_bytes = 0;

@@ -71,9 +71,10 @@ struct VoxelGrid {
     /// The same from the values of all voxels, x fastest. Works on all threads.
     static VoxelGrid of_values(std::string_view who, const VoxelLattice&, std::span<const float> values);
 
-    /// The greatest slope of what linear() or spline() makes of the values.
+    /// The greatest slope of what linear() makes of the values, and a bound on that of spline(). On all threads.
     double steepest_linear() const;
     double steepest_spline() const;
+    /// Divides all values by a positive number. Works on all threads.
     void divide_by(double);
 
     /// A box around all places whose value is made of a voxel in a block that has a value of at most `level`; nothing
