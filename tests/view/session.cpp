@@ -246,17 +246,18 @@ TEST_CASE("cells that are known are taken for the object that they are of and fo
 
 TEST_CASE("the whole picture is the one that is rendered, photons and all, though coarser ones go without") {
     Bench bench;
+    // Of more pixels than the first picture has.
     bench.scene_with = [](const std::string& position) {
         return read_scene(Document::from_text(fmt::format(
             R"({{"version": 1, "phases": {{"glass": {{"clear": {{"ior": 1.5}}}},
                                            "floor": {{"diffuse": {{"color": [0.8, 0.8, 0.8]}}}}}},
-                 "tree": {{"union": {{"of": [
+                 "tree": {{"over": {{"of": [
                      {{"set": {{"phase": "glass", "of": {{"sphere": {{"radius": 0.5}}}}}}}},
                      {{"translate": {{"by": [0, 0, -0.9], "of":
                          {{"set": {{"phase": "floor", "of": {{"box": {{"size": [4, 4, 0.2]}}}}}}}}}}}}]}}}},
                  "lights": [{{"sun": {{"direction": [0.3, 0.2, 1], "irradiance": [9, 9, 9]}}}}],
                  "camera": {{"position": {}, "look_at": [0, 0, -0.5]}},
-                 "render": {{"width": 24, "height": 16, "samples": 2}}}})",
+                 "render": {{"width": 120, "height": 80, "samples": 1, "caustics": true}}}})",
             position)));
     };
     Session& session = bench.begin();
