@@ -69,6 +69,18 @@ struct RandomProgram {
         return result;
     }
 
+    /// A guard whose field is steeper than its bound, as that of a fold may be. That it is no steeper than the bound is
+    /// vouched for, as a node would.
+    static RandomProgram of_guard(Random& rng, float steepness) {
+        RandomProgram result;
+        result.add_leaf(Plane{.normal = rng.direction(), .offset = rng.uniform(-1, 1)});
+        result.add_leaf(Plane{.normal = rng.direction(), .offset = rng.uniform(-1, 1)});
+        result.add(Op::multiply_constant, 2, 0, std::array{steepness}, steepness);
+        result.add(Op::guarded, 1, 3, std::array{4.f}, 1);
+        result.outputs = {{Phase{0}, 4, true}, {Phase{1}, 4, false}};
+        return result;
+    }
+
     WorkingProgram working() const { return {code, lipschitz, outputs}; }
 
   private:
@@ -164,30 +176,52 @@ std::vector<float> values(std::span<const Instruction> code, std::span<const flo
 
 constexpr float rounding = 1e-4f;
 
+std::optional<WorkingProgram> pruned_in_ball(const RandomProgram& program, const glm::vec3& centre, float radius,
+                                             Arena& results, Arena& scratch) {
+    const std::vector<float> at_centre = values(program.code, program.constants, centre);
+    std::vector<BatchOfFloats> registers(program.code.size());
+    std::vector<std::uint32_t> slot(program.code.size());
+    for (std::size_t i = 0; i < slot.size(); ++i) {
+        registers[i].lane[0] = at_centre[i];
+        slot[i] = static_cast<std::uint32_t>(i);
+    }
+    const RangesInBall ranges{{registers.data(), slot, 0}, program.lipschitz, radius, rounding};
+    const WorkingProgram whole = program.working();
+    const ProgramContext context(whole, program.constants, {}, rounding);
+    return prune(whole, ranges, context, {results, scratch});
+}
+
 /// What was compared of programs and what is left of them in balls.
 struct Outcome {
-    std::size_t shortened = 0, gone = 0, points = 0, wrong = 0;
-    int first_wrong = -1;  ///< the number of a program
+    std::size_t shortened = 0, gone = 0, points = 0, wrong = 0, too_steep = 0;
+    int first_wrong = -1, first_too_steep = -1;  ///< numbers of programs
     Arena results{}, scratch{};
 
-    void compare(const RandomProgram& program, const glm::vec3& centre, float radius, Random& rng, int number) {
-        const std::vector<float> at_centre = values(program.code, program.constants, centre);
-        std::vector<BatchOfFloats> registers(program.code.size());
-        std::vector<std::uint32_t> slot(program.code.size());
-        for (std::size_t i = 0; i < slot.size(); ++i) {
-            registers[i].lane[0] = at_centre[i];
-            slot[i] = static_cast<std::uint32_t>(i);
+    /// Whether a value differs between two points by more than its recorded slope allows.
+    static bool is_too_steep(const WorkingProgram& program, std::span<const float> constants, const glm::vec3& p,
+                             const glm::vec3& q) {
+        const std::vector<float> at_p = values(program.code, constants, p), at_q = values(program.code, constants, q);
+        for (std::size_t i = 1; i < program.code.size(); ++i) {
+            const float allowed = program.lipschitz[i] * glm::distance(p, q) * (1 + 1e-5f) + rounding;
+            if (std::abs(at_p[i] - at_q[i]) > allowed + 1e-5f * std::abs(at_p[i])) return true;
         }
+        return false;
+    }
+
+    void compare(const RandomProgram& program, const glm::vec3& centre, float radius, Random& rng, int number) {
         const ArenaScope results_of_this(results), scratch_of_this(scratch);
-        const RangesInBall ranges{{registers.data(), slot, 0}, program.lipschitz, radius, rounding};
-        const WorkingProgram whole = program.working();
-        const ProgramContext context(whole, program.constants, {}, rounding);
-        const auto left = prune(whole, ranges, context, {results, scratch});
+        const auto left = pruned_in_ball(program, centre, radius, results, scratch);
         if (!left) ++gone;
         if (left && left->code.size() < program.code.size()) ++shortened;
         float only = 0;
+        glm::vec3 before = centre;
         for (int k = 0; k < 40; ++k) {
             const glm::vec3 p = centre + radius * std::cbrt(rng.uniform(0, 1)) * rng.direction();
+            if (left && k < 4 && is_too_steep(*left, program.constants, before, p)) {
+                ++too_steep;
+                if (first_too_steep < 0) first_too_steep = number;
+            }
+            before = p;
             const float expected = values(program.code, program.constants, p).back();
             if (std::abs(expected) < rounding) continue;
             // Where nothing is left, there is one sign: that of the first point, for the centre's value may be zero.
@@ -226,9 +260,26 @@ TEST_CASE("what is left of a program in a ball has its sign there, whatever stan
     }
     outcome.tell(programs);
     CAPTURE(outcome.first_wrong);
+    CAPTURE(outcome.first_too_steep);
     CHECK(outcome.wrong == 0);
+    CHECK(outcome.too_steep == 0);
     CHECK(outcome.shortened > static_cast<std::size_t>(programs / 4));
     CHECK(outcome.points > 10 * static_cast<std::size_t>(programs));
+}
+
+TEST_CASE("the maximum that takes the place of a guard is as steep as the field may be") {
+    Outcome outcome;
+    int maxima = 0;
+    for (int n = 0; n < 1000; ++n) {
+        Random rng(53'000 + static_cast<unsigned>(n));
+        const RandomProgram program = RandomProgram::of_guard(rng, 1.75f);
+        const auto left =
+            pruned_in_ball(program, rng.in({glm::vec3(-1), glm::vec3(1)}), 0.5f, outcome.results, outcome.scratch);
+        if (!left || left->code.back().op != Op::maximum) continue;
+        ++maxima;
+        CHECK(left->lipschitz.back() == 1.75f);
+    }
+    CHECK(maxima > 50);
 }
 
 // Where balls of two phases and the vacuum meet, both operands are almost 0, and what is required of them ends at 0.
@@ -259,7 +310,9 @@ TEST_CASE("what is left of particles in a ball at the edge of two phases has the
     }
     outcome.tell(programs);
     CAPTURE(outcome.first_wrong);
+    CAPTURE(outcome.first_too_steep);
     CHECK(outcome.wrong == 0);
+    CHECK(outcome.too_steep == 0);
     CHECK(outcome.shortened > static_cast<std::size_t>(programs / 8));
     CHECK(outcome.points > 10 * static_cast<std::size_t>(programs));
 }
