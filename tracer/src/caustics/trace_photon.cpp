@@ -33,14 +33,14 @@ class PhotonFlight {
             // With the power with which it came into the medium: how much is left at a point depends on the point.
             if (links_ > 0) keep_in_medium(distance, traced);
             if (!surface) return;
-            glm::vec3 left = transmittance(medium(), {ray_.origin, ray_.direction, distance, only_}, sampler_);
+            glm::vec3 left = transmittance(medium(), {ray_.origin, ray_.direction, distance, single_}, sampler_);
             if (phase_function(medium()) && !chain_survives(left, sampler_)) return;
             power_ *= left;
-            if (!only_ && surface->optics.get().disperses()) {
-                only_ = &wavelength_.value();
-                power_ = for_light(power_, only_);
+            if (!single_ && surface->optics.get().disperses()) {
+                single_ = &wavelength_.value();
+                power_ = for_light(power_, single_);
             }
-            const Bsdf bsdf = surface->bsdf(only_);
+            const Bsdf bsdf = surface->bsdf(single_);
             if (bsdf.passes_through()) {
                 ray_ = surface->transmitted(ray_.direction);
                 continue;
@@ -58,8 +58,14 @@ class PhotonFlight {
     const Medium& medium() const { return clear_at(scene_, ray_.phase).interior; }
 
     Photon photon_at(const glm::vec3& position) const {
-        return {position,          -ray_.direction,         power_,          emitted_.line_density, ray_.phase,
-                emitted_.emission, -emitted_.ray.direction, only_ != nullptr};
+        return {position,
+                -ray_.direction,
+                power_,
+                emitted_.line_density,
+                ray_.phase,
+                emitted_.emission,
+                -emitted_.ray.direction,
+                single_ != nullptr};
     }
 
     void keep_in_medium(float distance, TracedPhotons& traced) {
@@ -87,13 +93,13 @@ class PhotonFlight {
         // A smooth interface has no lobe in which a direction would be chosen by the two numbers.
         const auto next = bsdf.sample(frame.to_local(-ray_.direction), sampler_.next(), glm::vec2(0.0f));
         if (!next) return false;
-        const float before = clear_at(scene_, ray_.phase).ior_for(only_);
+        const float before = clear_at(scene_, ray_.phase).ior_for(single_);
         ray_ = continued(surface, frame, *next);
         // The BSDF is sampled as if the photon were a path that comes from the camera, so its weight is of radiance
         // that arrives from `after` and leaves into `before`: a refraction scales it by (before/after)². Power is not
         // scaled.
-        const float after = clear_at(scene_, ray_.phase).ior_for(only_), ratio = after / before;
-        power_ *= for_light(next->weight, only_) * (ratio * ratio);
+        const float after = clear_at(scene_, ray_.phase).ior_for(single_), ratio = after / before;
+        power_ *= for_light(next->weight, single_) * (ratio * ratio);
         return true;
     }
 
@@ -106,8 +112,8 @@ class PhotonFlight {
     const std::optional<Wavelength>& wavelength_;
     Ray ray_;
     glm::vec3 power_;
-    const Wavelength* only_ = nullptr;  // the wavelength from the first interface that disperses on
-    int links_ = 0;                     // how many interfaces have reflected or refracted it
+    const Wavelength* single_ = nullptr;  // the wavelength from the first interface that disperses on
+    int links_ = 0;                       // how many interfaces have reflected or refracted it
     std::optional<bool> came_from_light_{};
 };
 

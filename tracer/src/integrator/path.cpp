@@ -98,7 +98,7 @@ class Path {
             add_emission_of_medium(flight.emitted);
             if (light && !flight.scattered_at) {
                 add_light(throughput_ * chain_.weight(scene_, photons_, ray_) * flight.weight *
-                              for_light(light->radiance, only_),
+                              for_light(light->radiance, single_),
                           *light, ray_.direction, false);
                 break;
             }
@@ -113,8 +113,8 @@ class Path {
             chain_.by_photons.reach_boundary(distance);
             recorder_.travelled(ray_.phase, distance);
             ++depth;
-            if (surface->optics.get().disperses()) only_ = &hero_;
-            const Bsdf bsdf = surface->bsdf(only_);
+            if (surface->optics.get().disperses()) single_ = &hero_;
+            const Bsdf bsdf = surface->bsdf(single_);
             if (bsdf.passes_through()) {  // equal indices scatter nothing, but do count for max_depth
                 ray_ = surface->transmitted(ray_.direction);
                 entered_ = surface->normal;
@@ -130,7 +130,7 @@ class Path {
     const Medium& medium() const { return clear_at(scene_, ray_.phase).interior; }
 
     Flight through_medium(float distance) {
-        return fly(medium(), {ray_.origin, ray_.direction, distance, only_}, throughput_, sampler_);
+        return fly(medium(), {ray_.origin, ray_.direction, distance, single_}, throughput_, sampler_);
     }
 
     // The same as scatter_and_continue() of a surface, in the medium at that distance along the ray. There is always a
@@ -151,7 +151,7 @@ class Path {
     // if it has one.
     void add_light(const glm::vec3& found, const Lights::Emission& emission, const glm::vec3& direction,
                    bool by_shadow_ray) {
-        const glm::vec3 radiance = only_ ? found * only_->response : found;
+        const glm::vec3 radiance = single_ ? found * single_->response : found;
         radiance_ += radiance;
         recorder_.add_light(radiance, emission, direction, by_shadow_ray);
     }
@@ -185,7 +185,7 @@ class Path {
         const auto next = bsdf.sample(wo, lobe, sampler_.next2());
         record(surface, bsdf, next);
         if (!next) return false;
-        throughput_ *= for_light(next->weight, only_);
+        throughput_ *= for_light(next->weight, single_);
         ray_ = continued(surface, frame, *next);
         entered_ = next->transmitted ? surface.normal : -surface.normal;
         if (!next->delta)
@@ -221,7 +221,7 @@ class Path {
         const auto light = sampled_light(proposal);
         if (!light) return;
         const glm::vec3 wi = frame.to_local(light->wi);
-        const glm::vec3 f = for_light(bsdf.evaluate(wo, wi), only_);
+        const glm::vec3 f = for_light(bsdf.evaluate(wo, wi), single_);
         if (f == glm::vec3(0.0f)) return;
         add_direct_light(*light, f, bsdf.pdf(wo, wi), {density_by_photons(surface, bsdf, wi.z)},
                          wi.z < 0 ? surface.transmitted(light->wi) : surface.reflected(light->wi));
@@ -237,7 +237,7 @@ class Path {
                           const Ray& shadow) {
         if (scene_.settings.techniques == Techniques::directions_alone) return;
         const auto arrival = trace_shadow_ray({world_, scene_, photons_, sampler_, counters_}, shadow, light,
-                                              {.hero = hero_, .only = only_});
+                                              {.hero = hero_, .single = single_});
         if (!arrival) return;
         // Where there is no boundary in between, the line density is 0, and the boundary's distance infinite.
         if (arrival->line_density > 0.0f) by_photons.reach_boundary(arrival->to_boundary);
@@ -271,8 +271,8 @@ class Path {
                                  : power_heuristic(by_photons, pdf, proposal.pdf(scene_.lights, photon.direction));
         glm::vec3 fluence = power / photons_.map->expected();
         if (!photon.of_one_wavelength)
-            fluence = for_light(fluence, only_);
-        else if (!only_)
+            fluence = for_light(fluence, single_);
+        else if (!single_)
             fluence *= hero_.response;
         add_light(throughput_ * f * fluence * weight, photon.emission, photon.towards_light, true);
     }
@@ -288,7 +288,7 @@ class Path {
                                if (!(by_photons > 0.0f)) return;
                                // Photons are counted by area of the surface, and so have the cosine already that
                                // evaluate() multiplies by.
-                               const glm::vec3 f = for_light(bsdf.evaluate(wo, wi), only_) / wi.z;
+                               const glm::vec3 f = for_light(bsdf.evaluate(wo, wi), single_) / wi.z;
                                add_photon(photon, photon.power, f, by_photons, bsdf.pdf(wo, wi), proposal);
                            });
     }
@@ -302,7 +302,7 @@ class Path {
             const float by_photons = across * photon.line_density * coverage;
             if (!(by_photons > 0.0f)) return;
             // What the medium leaves from the boundary on; nothing is lost before it.
-            const Wavelength* wavelength = photon.of_one_wavelength ? &hero_ : only_;
+            const Wavelength* wavelength = photon.of_one_wavelength ? &hero_ : single_;
             const glm::vec3 left = transmittance(
                 medium(), {point.position, photon.direction, std::max(depth, 0.0f), wavelength}, sampler_);
             const float f = point.phase_function.get().evaluate(glm::dot(ray_.direction, photon.direction));
@@ -336,8 +336,8 @@ class Path {
     Chain chain_;
     std::optional<glm::vec3> entered_;  // the outward normal of the boundary that the path met last in this medium
     bool is_camera_ray_ = true;
-    Wavelength hero_;                   // the path's wavelength from where it is dispersed
-    const Wavelength* only_ = nullptr;  // &hero_ from there on; before, the path is of all wavelengths
+    Wavelength hero_;                     // the path's wavelength from where it is dispersed
+    const Wavelength* single_ = nullptr;  // &hero_ from there on; before, the path is of all wavelengths
     PathRecorder recorder_;
 };
 

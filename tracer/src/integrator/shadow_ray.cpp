@@ -20,8 +20,8 @@ float line_density(const Photons& photons, const Ray& ray) {
 
 std::optional<Arrival> trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSample& sampled,
                                         const PathWavelength& wavelength) {
-    const Wavelength* only = wavelength.only;
-    const bool was_dispersed = only != nullptr;
+    const Wavelength* single = wavelength.single;
+    const bool was_dispersed = single != nullptr;
     glm::vec3 throughput(1.0f);
     float to_boundary = 0;
     float to_sampled =
@@ -40,15 +40,15 @@ std::optional<Arrival> trace_shadow_ray(const ShadowRayContext& context, Ray ray
                            : escaped    ? std::optional(Lights::Emission{to_sampled, sampled.radiance, sampled.source})
                                         : std::nullopt;
         if (!light && !surface) return std::nullopt;
-        throughput *= transmittance(medium, {ray.origin, ray.direction, light ? light->distance : distance, only},
+        throughput *= transmittance(medium, {ray.origin, ray.direction, light ? light->distance : distance, single},
                                     context.sampler);
-        if (light && only && !was_dispersed) throughput *= only->response;
+        if (light && single && !was_dispersed) throughput *= single->response;
         if (light)
-            return Arrival{throughput * for_light(light->radiance, only), *light, ray.direction,
+            return Arrival{throughput * for_light(light->radiance, single), *light, ray.direction,
                            length > 0 ? line_density(context.photons, ray) : 0.0f, to_boundary};
         if (phase_function(medium) && !chain_survives(throughput, context.sampler)) return std::nullopt;
-        if (surface->optics.get().disperses()) only = &wavelength.hero;
-        const Bsdf bsdf = surface->bsdf(only);
+        if (surface->optics.get().disperses()) single = &wavelength.hero;
+        const Bsdf bsdf = surface->bsdf(single);
         if (bsdf.passes_through()) {
             to_sampled = std::max(to_sampled - distance, 0.0f);
             ray = surface->transmitted(ray.direction);
@@ -59,7 +59,7 @@ std::optional<Arrival> trace_shadow_ray(const ShadowRayContext& context, Ray ray
         // A smooth interface has no lobe in which a direction would be chosen by the two numbers.
         const auto next = bsdf.sample(frame.to_local(-ray.direction), context.sampler.next(), glm::vec2(0.0f));
         if (!next) return std::nullopt;
-        throughput *= for_light(next->weight, only);
+        throughput *= for_light(next->weight, single);
         ray = continued(*surface, frame, *next);
     }
 }

@@ -20,8 +20,8 @@ struct ShadowRayContext {
 
 /// The wavelength of the path that a shadow ray belongs to.
 struct PathWavelength {
-    const Wavelength& hero;  ///< the wavelength that is taken where the shadow ray is dispersed
-    const Wavelength* only;  ///< that of the path; null as long as it is of all wavelengths
+    const Wavelength& hero;    ///< the wavelength that is taken where the shadow ray is dispersed
+    const Wavelength* single;  ///< that of the path; null as long as it is of all wavelengths
 };
 
 /// What a shadow ray finds: the radiance that arrives, and of which emission, in which direction in the end, it is.

@@ -20,7 +20,7 @@ struct AbsorbingMedium {
     glm::vec3 absorption{0.0f};  ///< a, per unit of length of the scene; not negative
 
     glm::vec3 transmittance(const Way& way, Sampler&) const {
-        return beer_lambert(for_light(absorption, way.only), way.length);
+        return beer_lambert(for_light(absorption, way.single), way.length);
     }
 };
 

@@ -17,9 +17,9 @@ struct ScatteringCoefficients {
     HenyeyGreenstein phase_function{};
 
     /// The same of one wavelength, or as they are for light of all.
-    ScatteringCoefficients for_light(const Wavelength* only) const {
-        return {tracer::for_light(absorption, only), tracer::for_light(scattering, only),
-                tracer::for_light(emission, only), phase_function};
+    ScatteringCoefficients for_light(const Wavelength* single) const {
+        return {tracer::for_light(absorption, single), tracer::for_light(scattering, single),
+                tracer::for_light(emission, single), phase_function};
     }
     glm::vec3 extinction() const { return absorption + scattering; }  ///< σt
     bool scatters() const { return scattering != glm::vec3(0.0f); }

@@ -20,7 +20,7 @@ struct Way {
     glm::vec3 origin;
     glm::vec3 direction;  ///< of unit length
     float length;
-    const Wavelength* only = nullptr;  ///< of the light, if it is of one wavelength
+    const Wavelength* single = nullptr;  ///< of the light, if it is of one wavelength
 };
 
 /// What becomes of a path on its way. Every colour channel has a weight, which multiplies the path's throughput.

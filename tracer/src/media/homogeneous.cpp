@@ -8,11 +8,11 @@
 namespace phasetree::tracer {
 
 glm::vec3 HomogeneousMedium::transmittance(const Way& way, Sampler&) const {
-    return beer_lambert(coefficients_.for_light(way.only).extinction(), way.length);
+    return beer_lambert(coefficients_.for_light(way.single).extinction(), way.length);
 }
 
 Flight HomogeneousMedium::fly(const Way& way, const glm::vec3& throughput, Sampler& sampler) const {
-    const ScatteringCoefficients coefficients = coefficients_.for_light(way.only);
+    const ScatteringCoefficients coefficients = coefficients_.for_light(way.single);
     const glm::vec3 extinction = coefficients.extinction();
     const glm::vec3 passed = beer_lambert(extinction, way.length);
     Flight flight;

@@ -59,7 +59,7 @@ void VaryingMedium::for_each_tentative_collision(const Way& way, Sampler& sample
 }
 
 glm::vec3 VaryingMedium::transmittance(const Way& way, Sampler& sampler) const {
-    const glm::vec3 share = coefficients_.for_light(way.only).extinction() / majorant_;
+    const glm::vec3 share = coefficients_.for_light(way.single).extinction() / majorant_;
     glm::vec3 left(1.0f);
     for_each_tentative_collision(way, sampler, [&](float, float density) {
         left *= 1.0f - share * density;
@@ -70,7 +70,7 @@ glm::vec3 VaryingMedium::transmittance(const Way& way, Sampler& sampler) const {
 
 Flight VaryingMedium::fly(const Way& way, const glm::vec3& throughput, Sampler& sampler) const {
     // No wavelength has more than the densest channel, so the majorant is one for each.
-    const ScatteringCoefficients coefficients = coefficients_.for_light(way.only);
+    const ScatteringCoefficients coefficients = coefficients_.for_light(way.single);
     Flight flight;
     for_each_tentative_collision(way, sampler, [&](float distance, float density) {
         const glm::vec3 scattering = coefficients.scattering * density;

@@ -119,8 +119,8 @@ bool Interface::disperses() const {
     return clear && clear->dispersive;
 }
 
-Bsdf Interface::at(const TexturePoint& point, const Wavelength* only) const& {
-    if (only && disperses()) return dispersive_bsdf(*std::get<ClearOptics>(optics_).dispersive, only->nanometres);
+Bsdf Interface::at(const TexturePoint& point, const Wavelength* single) const& {
+    if (single && disperses()) return dispersive_bsdf(*std::get<ClearOptics>(optics_).dispersive, single->nanometres);
     return std::visit([&](const auto& optics) { return bsdf_of(optics, point); }, optics_);
 }
 

@@ -31,8 +31,8 @@ class Interface {
     /// The BSDF at a place, which is in the space textures are defined in, for light of one wavelength or of all: that
     /// of all is refracted as light of the line d. It refers to data of this interface and must
     /// not outlive it.
-    Bsdf at(const TexturePoint& point, const Wavelength* only = nullptr) const&;
-    Bsdf at(const TexturePoint& point, const Wavelength* only = nullptr) && = delete;
+    Bsdf at(const TexturePoint& point, const Wavelength* single = nullptr) const&;
+    Bsdf at(const TexturePoint& point, const Wavelength* single = nullptr) && = delete;
     /// Whether it refracts light of different wavelengths differently.
     bool disperses() const;
 

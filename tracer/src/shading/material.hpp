@@ -31,8 +31,8 @@ struct Clear {
     /// How the index changes with the wavelength, and then `ior` is that at the line d; not at all without it.
     std::optional<Dispersion> dispersion{};
 
-    float ior_for(const Wavelength* only) const {
-        return only && dispersion ? dispersion->index(only->nanometres) : ior;
+    float ior_for(const Wavelength* single) const {
+        return single && dispersion ? dispersion->index(single->nanometres) : ior;
     }
 };
 

@@ -41,9 +41,9 @@ glm::vec3 primaries_at(double wavelength);
 double daylight_at(double wavelength);
 
 /// What is given as red, green and blue, as a path takes it: its value at the wavelength, in all three; or as it is,
-/// for light of all wavelengths, which has no `only`.
-inline glm::vec3 for_light(const glm::vec3& rgb, const Wavelength* only) {
-    return only ? glm::vec3(glm::dot(rgb, only->primaries)) : rgb;
+/// for light of all wavelengths, which has no `single`.
+inline glm::vec3 for_light(const glm::vec3& rgb, const Wavelength* single) {
+    return single ? glm::vec3(glm::dot(rgb, single->primaries)) : rgb;
 }
 
 }  // namespace phasetree::tracer

@@ -38,7 +38,7 @@ struct Surface {
     std::uint32_t copy = 0;                          ///< of the object (scene/placed.hpp); 0 of one that is there once
 
     /// For light of one wavelength, or of all.
-    Bsdf bsdf(const Wavelength* only = nullptr) const { return optics.get().at(place, only); }
+    Bsdf bsdf(const Wavelength* single = nullptr) const { return optics.get().at(place, single); }
     /// A ray that leaves the surface to the side from which it was met.
     Ray reflected(const glm::vec3& direction) const { return leaving(near_side, direction); }
     /// A ray that leaves the surface to its far side. Throws std::bad_optional_access if light does not travel there.
