@@ -107,20 +107,15 @@ TEST_CASE("cellular noise: the nearest point is no farther than the next, and ce
 
 TEST_CASE("cellular noise: distances change by no more than one moves, so no near point is overlooked") {
     Uniform uniform(64);
-    int compared = 0;
     float steepest_nearest = 0.0f, steepest_next = 0.0f;
     for (int i = 0; i < 200000; ++i) {
         const auto one = [&] { return 2.0f * uniform() - 1.0f; };
         const glm::vec3 p{3.0f * one(), 3.0f * one(), 3.0f * one()};
         const glm::vec3 step = 0.02f * glm::normalize(glm::vec3{one(), one(), one()});
         const Cell a = cellular_noise(p, 7), b = cellular_noise(p + step, 7);
-        // Farther ones may lie in cubes that are not neighbours.
-        if (a.next > 0.98f || b.next > 0.98f) continue;
-        ++compared;
         steepest_nearest = std::max(steepest_nearest, std::abs(a.nearest - b.nearest));
         steepest_next = std::max(steepest_next, std::abs(a.next - b.next));
     }
-    CHECK(compared > 100000);
     CHECK(steepest_nearest < 0.02f + 1e-5f);
     CHECK(steepest_next < 0.02f + 1e-5f);
 }

@@ -1,7 +1,9 @@
 #include "shading/texture/noise.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdlib>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -115,18 +117,23 @@ Cell cellular_noise(const glm::vec3& p, std::uint32_t seed) {
     for (int corner = 0; corner < 8; ++corner) look_in(corner & 1 ? si : 0, corner & 2 ? sj : 0, corner & 4 ? sk : 0);
     // How far away the cubes are that lie i before or behind, squared.
     const auto squared_gap = [](int i, float inside) {
-        const float gap = i < 0 ? inside : i > 0 ? 1.0f - inside : 0.0f;
+        const float gap = i < 0 ? inside - static_cast<float>(i + 1) : i > 0 ? static_cast<float>(i) - inside : 0.0f;
         return gap * gap;
     };
-    for (int k = -1; k <= 1; ++k) {
-        for (int j = -1; j <= 1; ++j) {
-            const float gap = squared_gap(k, l.inside.z) + squared_gap(j, l.inside.y);
-            for (int i = -1; i <= 1; ++i) {
-                if (i != -si && j != -sj && k != -sk) continue;  // seen
-                if (gap + squared_gap(i, l.inside.x) < next) look_in(i, j, k);
+    const auto look_around = [&](int reach, const auto& is_seen) {
+        for (int k = -reach; k <= reach; ++k) {
+            for (int j = -reach; j <= reach; ++j) {
+                const float gap = squared_gap(k, l.inside.z) + squared_gap(j, l.inside.y);
+                for (int i = -reach; i <= reach; ++i)
+                    if (!is_seen(i, j, k) && gap + squared_gap(i, l.inside.x) < next) look_in(i, j, k);
             }
         }
-    }
+    };
+    look_around(1, [&](int i, int j, int k) { return i != -si && j != -sj && k != -sk; });
+    // Cubes beyond those are more than 1 away. Two points are always within √3, that of p's own cube and that of the
+    // one across its nearest face, so none lies beyond the next layer of cubes, which is 2 away.
+    if (next > 1.0f)
+        look_around(2, [](int i, int j, int k) { return std::max({std::abs(i), std::abs(j), std::abs(k)}) < 2; });
     return {std::sqrt(nearest), std::sqrt(next), nearest_id};
 }
 
