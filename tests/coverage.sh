@@ -14,7 +14,7 @@ set -uo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../tracer/packages.sh"
 
 lines=
-tests=(-R '^(io|command|output|fuzz|volume)/|^lib/(balls|labels|mesh|model_errors|round_trip|siren|volume)|^tracer/(height_grid|determinism)|^embree[34]/(trees|edits|misuse|hostile|points|instances|motion|filters)')
+tests=(-R '^(io|command|output|fuzz|volume|view|python)/|^lib/(balls|labels|mesh|model_errors|round_trip|siren|volume)|^tracer/(cameras|height_grid|determinism|dispersion|film|light_points|media|moving_objects|noise_limit|objects|page_looks|planes|reading|rooms|scene_reference|several_objects|textures)|^faults/(interface|writes)|^embree[34]/')
 while [ $# -gt 0 ]; do
     case $1 in
         --lines) lines=yes ;;
