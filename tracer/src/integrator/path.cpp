@@ -20,8 +20,8 @@ namespace {
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 // A path survives Russian roulette with this times the share of what it began with that it can still bring: for certain
-// from a quarter on. Of 1, 4 and 16 and of the root of the share this had the least variance times time in pictures of
-// glasses and of an hourglass.
+// from a quarter on. With 4 a picture of glasses had half of the variance times time that it had with 1, one of an
+// hourglass 0.82 of it; with 16 it was 0.49 and 0.85.
 constexpr float survival_per_worth = 4.0f;
 // Roulette spares the first three surfaces and places in media that a path meets: with a wall of glass in front, that
 // is as far as what is seen behind it. At least a twentieth of the paths survive, so that no weight grows by more than
