@@ -17,104 +17,41 @@ namespace {
 
 constexpr int side = VoxelGrid::block_side;
 
-std::array<int, 3> blocks_of(const std::array<int, 3>& size) {
-    std::array<int, 3> blocks;
-    for (std::size_t i = 0; i < 3; ++i) blocks[i] = (size[i] + side - 1) / side;
-    return blocks;
-}
+// The blocks of a grid of so many voxels, of which x varies fastest.
+class Blocks {
+  public:
+    explicit Blocks(const std::array<int, 3>& size) {
+        for (std::size_t i = 0; i < 3; ++i) along_[i] = (size[i] + side - 1) / side;
+    }
+    const std::array<int, 3>& along() const { return along_; }
+    std::size_t count() const {
+        std::size_t count = 1;
+        for (const int n : along_) count *= static_cast<std::size_t>(n);
+        return count;
+    }
+    std::array<int, 3> first_voxel(std::size_t block) const {
+        std::array<int, 3> first;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto n = static_cast<std::size_t>(along_[axis]);
+            first[axis] = static_cast<int>(block % n) * side;
+            block /= n;
+        }
+        return first;
+    }
+
+  private:
+    std::array<int, 3> along_;  ///< how many there are along each axis
+};
 
 std::vector<float> head_of(const VoxelLattice& lattice) {
     std::vector<float> head;
     for (const int n : lattice.size) head.push_back(static_cast<float>(n));
-    for (const int n : blocks_of(lattice.size)) head.push_back(static_cast<float>(n));
+    const Blocks blocks(lattice.size);
+    for (const int n : blocks.along()) head.push_back(static_cast<float>(n));
     for (int i = 0; i < 3; ++i) head.push_back(static_cast<float>(lattice.first[i]));
     for (int i = 0; i < 3; ++i) head.push_back(static_cast<float>(1 / lattice.spacing[i]));
     return head;
 }
-
-std::size_t count_of_blocks(const std::array<int, 3>& size) {
-    std::size_t count = 1;
-    for (const int n : blocks_of(size)) count *= static_cast<std::size_t>(n);
-    return count;
-}
-
-// The first voxel of a block, of which x varies fastest.
-std::array<int, 3> first_voxel_of(std::size_t block, const std::array<int, 3>& size) {
-    std::array<int, 3> first;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto blocks = static_cast<std::size_t>(blocks_of(size)[axis]);
-        first[axis] = static_cast<int>(block % blocks) * side;
-        block /= blocks;
-    }
-    return first;
-}
-
-// Calls f(first voxel) for each block.
-template <class F>
-void for_each_block(const std::array<int, 3>& size, F&& f) {
-    for (std::size_t block = 0; block < count_of_blocks(size); ++block) f(first_voxel_of(block, size));
-}
-
-// The largest f(values) of all blocks that are kept, but at least 0. In other blocks, and next to them, nothing
-// changes.
-template <class F>
-double largest_at_kept_blocks(const std::vector<float>& table, F&& f) {
-    const float* values = Table(table.data()).values;
-    const auto count = static_cast<std::size_t>(table.data() + table.size() - values) / VoxelGrid::kept_values;
-    constexpr std::size_t at_once = 64;
-    std::vector<double> largest((count + at_once - 1) / at_once, 0.0);
-    tbb::parallel_for(std::size_t{0}, largest.size(), [&](std::size_t part) {
-        for (std::size_t i = part * at_once; i < std::min((part + 1) * at_once, count); ++i)
-            largest[part] = std::max(largest[part], f(values + i * VoxelGrid::kept_values));
-    });
-    return largest.empty() ? 0.0 : *std::ranges::max_element(largest);
-}
-
-// The same of f(values about a voxel); the neighbours along x, y and z are 1, 10 and 100 places before and behind.
-// Voxels behind the grid's last ones are copies of them, at which nothing is steeper than at those.
-template <class F>
-double largest_at_kept_voxels(const std::vector<float>& table, F&& f) {
-    return largest_at_kept_blocks(table, [&](const float* block) {
-        double largest = 0;
-        for (int z = 1; z <= side; ++z)
-            for (int y = 1; y <= side; ++y)
-                for (int x = 1; x <= side; ++x) largest = std::max(largest, f(block + x + 10 * y + 100 * z));
-        return largest;
-    });
-}
-
-double squared(double x) {
-    return x * x;
-}
-
-}  // namespace
-
-Table::Table(const float* data) : directory(data + voxels::head) {
-    std::size_t all = 1;
-    for (std::size_t i = 0; i < 3; ++i) {
-        size[i] = static_cast<int>(data[voxels::size + i]);
-        blocks[i] = static_cast<int>(data[voxels::blocks + i]);
-        all *= static_cast<std::size_t>(blocks[i]);
-    }
-    values = directory + voxels::entry * all;
-}
-
-const float* Table::block_of(int x, int y, int z) const {
-    const auto of = [](int a, int count, int b) {
-        return static_cast<std::size_t>(a) * static_cast<std::size_t>(count) + static_cast<std::size_t>(b);
-    };
-    const std::size_t row = of(z >> 3, blocks[1], y >> 3);
-    return directory + voxels::entry * (row * static_cast<std::size_t>(blocks[0]) + static_cast<std::size_t>(x >> 3));
-}
-
-float Table::operator()(int x, int y, int z) const {
-    const float* block = block_of(x, y, z);
-    if (block[0] < 0) return block[1];
-    const int within = (x & 7) + 1 + 10 * ((y & 7) + 1) + 100 * ((z & 7) + 1);
-    return values[VoxelGrid::kept_values * static_cast<std::size_t>(block[0]) + static_cast<std::size_t>(within)];
-}
-
-namespace {
 
 void check(std::string_view who, const VoxelLattice& lattice) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -168,7 +105,7 @@ VoxelGrid empty_grid(std::string_view who, const VoxelLattice& lattice) {
     VoxelGrid grid{lattice, head_of(lattice)};
     // A directory takes 180 MB at most.
     constexpr std::size_t most_blocks = VoxelGrid::most_values / 8;
-    const std::size_t count = count_of_blocks(lattice.size);
+    const std::size_t count = Blocks(lattice.size).count();
     if (count > most_blocks) throw too_many_values(who);
     grid.table.resize(voxels::head + voxels::entry * count);
     return grid;
@@ -192,18 +129,19 @@ void keep_some_block(std::vector<float>& table, std::size_t kept) {
 VoxelGrid VoxelGrid::make(std::string_view who, const VoxelLattice& lattice, const Fill& fill) {
     VoxelGrid grid = empty_grid(who, lattice);
     std::array<float, kept_values> values;
-    std::size_t entry = voxels::head, kept = 0;
-    for_each_block(lattice.size, [&](const std::array<int, 3>& at) {
+    std::size_t kept = 0;
+    const Blocks blocks(lattice.size);
+    for (std::size_t i = 0; i < blocks.count(); ++i) {
+        const std::array<int, 3> at = blocks.first_voxel(i);
         fill({at[0] - 1, at[1] - 1, at[2] - 1}, values);
         const BlockRange range(values);
         if (range.has_bad_value) throw bad_value(who, lattice, at, values);
-        const bool is_kept = enter(range, kept, &grid.table[entry]);
-        entry += voxels::entry;
-        if (!is_kept) return;
+        const bool is_kept = enter(range, kept, &grid.table[voxels::head + voxels::entry * i]);
+        if (!is_kept) continue;
         ++kept;
         if (kept * kept_values > most_values) throw too_many_values(who);
         grid.table.insert(grid.table.end(), values.begin(), values.end());
-    });
+    }
     keep_some_block(grid.table, kept);
     return grid;
 }
@@ -212,6 +150,7 @@ VoxelGrid VoxelGrid::make(std::string_view who, const VoxelLattice& lattice, con
 VoxelGrid VoxelGrid::of_values(std::string_view who, const VoxelLattice& lattice, std::span<const float> values) {
     VoxelGrid grid = empty_grid(who, lattice);
     const std::array<int, 3> size = lattice.size;
+    const Blocks blocks(size);
     // The values about a block, from the voxel before its first along each axis.
     const auto copy_about = [&](const std::array<int, 3>& at, std::span<float, kept_values> to) {
         const auto inside = [&](std::size_t axis, int i) {
@@ -225,104 +164,30 @@ VoxelGrid VoxelGrid::of_values(std::string_view who, const VoxelLattice& lattice
                 for (int x = 0; x < kept_side; ++x) *next++ = row[inside(0, x)];
             }
     };
-    std::vector<BlockRange> ranges(count_of_blocks(size));
+    std::vector<BlockRange> ranges(blocks.count());
     tbb::parallel_for(std::size_t{0}, ranges.size(), [&](std::size_t i) {
         std::array<float, kept_values> about;
-        copy_about(first_voxel_of(i, size), about);
+        copy_about(blocks.first_voxel(i), about);
         ranges[i] = BlockRange(about);
     });
-    std::vector<std::size_t> blocks;  // those that are kept
+    std::vector<std::size_t> kept;  // the blocks whose values are
     for (std::size_t i = 0; i < ranges.size(); ++i) {
         if (ranges[i].has_bad_value) {
             std::array<float, kept_values> about;
-            copy_about(first_voxel_of(i, size), about);
-            throw bad_value(who, lattice, first_voxel_of(i, size), about);
+            copy_about(blocks.first_voxel(i), about);
+            throw bad_value(who, lattice, blocks.first_voxel(i), about);
         }
-        if (enter(ranges[i], blocks.size(), &grid.table[voxels::head + voxels::entry * i])) blocks.push_back(i);
+        if (enter(ranges[i], kept.size(), &grid.table[voxels::head + voxels::entry * i])) kept.push_back(i);
     }
-    if (blocks.size() * kept_values > most_values) throw too_many_values(who);
+    if (kept.size() * kept_values > most_values) throw too_many_values(who);
     const std::size_t begin = grid.table.size();
-    grid.table.resize(begin + blocks.size() * kept_values);
-    tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
-        copy_about(first_voxel_of(blocks[i], size),
+    grid.table.resize(begin + kept.size() * kept_values);
+    tbb::parallel_for(std::size_t{0}, kept.size(), [&](std::size_t i) {
+        copy_about(blocks.first_voxel(kept[i]),
                    std::span<float, kept_values>(grid.table.data() + begin + i * kept_values, kept_values));
     });
-    keep_some_block(grid.table, blocks.size());
+    keep_some_block(grid.table, kept.size());
     return grid;
-}
-
-// In a cell between eight voxels the derivative along x is linear along y and along z and does not depend on x. So the
-// square of the slope is convex along each axis, and largest at one of the eight voxels, where the derivatives are
-// the differences to the neighbours.
-double VoxelGrid::steepest_linear() const {
-    const double steepest = largest_at_kept_voxels(table, [&](const float* v) {
-        double sum = 0;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const int step = std::array{1, 10, 100}[axis];
-            const float most = std::max(std::abs(v[step] - v[0]), std::abs(v[-step] - v[0]));
-            sum += squared(static_cast<double>(most) / lattice.spacing[static_cast<glm::length_t>(axis)]);
-        }
-        return sum;
-    });
-    return std::sqrt(steepest) * (1 + 1e-6);
-}
-
-namespace {
-
-// By value, so that loops over them become vector instructions.
-float larger(float a, float b) {
-    return a < b ? b : a;
-}
-
-// For all voxels of a block at once, the largest of the values before, at and behind along an axis.
-void larger_of_three(std::array<float, VoxelGrid::kept_values>& values, std::size_t stride) {
-    const std::array<float, VoxelGrid::kept_values> from = values;
-    for (std::size_t i = stride; i < from.size() - stride; ++i)
-        values[i] = larger(from[i], larger(from[i - stride], from[i + stride]));
-}
-
-}  // namespace
-
-// The derivative along x is an average of the differences along x between the 27 voxels, so it is at most the largest
-// of them. The bound on the slope takes the largest along each axis, which need not be at one place. They are found for
-// all voxels of a block at once, along one axis after the other; what these loops compute for voxels at the block's
-// border wraps around it, and is not used. The sum of squares is taken in floats first, which lose less than a part in
-// 10⁵, and in doubles where it may be the largest.
-double VoxelGrid::steepest_spline() const {
-    using Block = std::array<float, kept_values>;
-    const glm::vec3 inverse(1.0 / lattice.spacing);
-    const double steepest = largest_at_kept_blocks(table, [&](const float* v) {
-        std::array<Block, 3> most;
-        Block rough{};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const std::array<std::size_t, 3> stride{1, 10, 100};
-            const std::size_t step = stride[axis];
-            Block& along = most[axis];
-            along.fill(0.f);
-            for (std::size_t i = step; i < kept_values - step; ++i)
-                along[i] = larger(std::abs(v[i + step] - v[i]), std::abs(v[i] - v[i - step]));
-            larger_of_three(along, stride[(axis + 1) % 3]);
-            larger_of_three(along, stride[(axis + 2) % 3]);
-            const float per_length = inverse[static_cast<glm::length_t>(axis)];
-            for (std::size_t i = 0; i < kept_values; ++i) rough[i] += along[i] * per_length * (along[i] * per_length);
-        }
-        double largest = 0;
-        float least = 0;  // of the rough sums of squares that may be larger
-        for (std::size_t z = 1; z <= 8; ++z)
-            for (std::size_t y = 1; y <= 8; ++y)
-                for (std::size_t x = 1; x <= 8; ++x) {
-                    const std::size_t i = x + 10 * y + 100 * z;
-                    if (rough[i] < least) continue;
-                    double sum = 0;
-                    for (std::size_t axis = 0; axis < 3; ++axis)
-                        sum += squared(static_cast<double>(most[axis][i]) /
-                                       lattice.spacing[static_cast<glm::length_t>(axis)]);
-                    largest = std::max(largest, sum);
-                    least = static_cast<float>(largest) * (1 - 1e-5f);
-                }
-        return largest;
-    });
-    return std::sqrt(steepest) * (1 + 1e-6);
 }
 
 void VoxelGrid::divide_by(double by) {
@@ -340,14 +205,16 @@ void VoxelGrid::divide_by(double by) {
 
 Bounds VoxelGrid::blocks_below(float level) const {
     const Table at(table.data());
+    const Blocks blocks(lattice.size);
     std::array<int, 3> low = lattice.size, high{-1, -1, -1};
-    for_each_block(lattice.size, [&](const std::array<int, 3>& first) {
-        if (at.block_of(first[0], first[1], first[2])[1] > level) return;
+    for (std::size_t block = 0; block < blocks.count(); ++block) {
+        if (at.directory[voxels::entry * block + 1] > level) continue;
+        const std::array<int, 3> first = blocks.first_voxel(block);
         for (std::size_t i = 0; i < 3; ++i) {
             low[i] = std::min(low[i], first[i]);
             high[i] = std::max(high[i], first[i] + side - 1);
         }
-    });
+    }
     if (high[0] < 0) return {};
     // In voxels: as far as a spline has influence, and a little for the rounding of coordinates to floats.
     constexpr double influence = 1.5 + 0.001;
@@ -370,87 +237,4 @@ Bounds VoxelGrid::extent() const {
     return box;
 }
 
-namespace voxels {
-
-namespace {
-
-// Where in the table the value of a voxel is, and those of its neighbours 1, 10 and 100 places before and behind it; a
-// null pointer if the block is not kept because all of these are the value `only`. It reads the table as Table does,
-// but faster, since it is called for each point.
-struct Around {
-    const float* values;
-    float only;
-};
-[[gnu::always_inline]] inline Around around(const float* data, const std::array<int, 3>& voxel) {
-    const auto blocks = [&](std::size_t axis) { return static_cast<std::size_t>(data[voxels::blocks + axis]); };
-    const auto of = [&](std::size_t axis) { return static_cast<std::size_t>(voxel[axis] >> 3); };
-    const std::size_t nx = blocks(0), ny = blocks(1), nz = blocks(2);
-    const float* directory = data + head;
-    const float* block = directory + entry * (of(0) + nx * (of(1) + ny * of(2)));
-    if (block[0] < 0) return {nullptr, block[1]};
-    const int within = (voxel[0] & 7) + 1 + 10 * ((voxel[1] & 7) + 1) + 100 * ((voxel[2] & 7) + 1);
-    return {directory + entry * (nx * ny * nz) + VoxelGrid::kept_values * static_cast<std::size_t>(block[0]) + within,
-            0};
-}
-
-}  // namespace
-
-void gather_eight(const float* data, const Vec3<float>& p, float* to, std::size_t stride) {
-    const std::array<float, 3> u = places(data, p, 0.f);
-    std::array<int, 3> voxel;
-    for (std::size_t a = 0; a < 3; ++a) {
-        // The place is not negative, so this is its floor.
-        voxel[a] = std::max(std::min(static_cast<int>(u[a]), static_cast<int>(data[size + a]) - 2), 0);
-        to[a * stride] = static_cast<float>(voxel[a]);
-    }
-    to += 3 * stride;
-    const Around at = around(data, voxel);
-    if (!at.values) {
-        for (std::size_t i = 0; i < 8; ++i) to[i * stride] = at.only;
-        return;
-    }
-    for (const int offset : {0, 1, 10, 11, 100, 101, 110, 111}) {
-        *to = at.values[offset];
-        to += stride;
-    }
-}
-
-void gather_twenty_seven(const float* data, const Vec3<float>& p, float* to, std::size_t stride) {
-    const std::array<float, 3> u = places(data, p, 0.5f);
-    std::array<int, 3> voxel;
-    for (std::size_t a = 0; a < 3; ++a) {
-        voxel[a] = std::min(static_cast<int>(u[a] + 0.5f), static_cast<int>(data[size + a]) - 1);
-        to[a * stride] = static_cast<float>(voxel[a]);
-    }
-    to += 3 * stride;
-    const Around at = around(data, voxel);
-    if (!at.values) {
-        for (std::size_t i = 0; i < 27; ++i) to[i * stride] = at.only;
-        return;
-    }
-    for (int k = -100; k <= 100; k += 100)
-        for (int j = -10; j <= 10; j += 10) {
-            const float* row = at.values + (j + k);
-            to[0] = row[-1];
-            to[stride] = row[0];
-            to[2 * stride] = row[1];
-            to += 3 * stride;
-        }
-}
-
-const float* for_shader(std::string_view who, const float* data) {
-    const Table at(data);
-    std::size_t kept = 0;
-    for (const float* block = at.directory; block < at.values; block += entry) kept += block[0] >= 0;
-    constexpr std::size_t most = 1 << 21;
-    // Numbers of places are floats there.
-    if (static_cast<std::size_t>(at.values - at.directory) > most)
-        throw ModelError(fmt::format("{}: the grid has too many voxels for a shader", who));
-    if (kept * VoxelGrid::kept_values > most)
-        throw ModelError(fmt::format("{}: a shader carries at most {} values of a grid, but this has {}", who, most,
-                                     kept * VoxelGrid::kept_values));
-    return data;
-}
-
-}  // namespace voxels
 }  // namespace phasetree
