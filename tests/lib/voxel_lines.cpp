@@ -1,4 +1,4 @@
-// Lines of voxels: blurring and splines against their definitions, and the steepest slope against all differences.
+// Lines of voxels: blurring and splines against their definitions, and the bound on slopes against all differences.
 #include "nodes/voxel_lines.hpp"
 
 #include <doctest/doctest.h>
@@ -40,12 +40,13 @@ std::array<int, 3> moved(std::array<int, 3> voxel, std::size_t axis, int by) {
     return voxel;
 }
 
-// Not multiples of the bundles or the blocks in which lines are worked on; and lines shorter than the blur.
+// Multiples of the 16 lines of a bundle and of the 8 voxels of a block's side, and not; and lines that are shorter than
+// the blur reaches.
 const Size sizes[] = {{19, 5, 37}, {3, 33, 2}, {17, 16, 8}};
 
 }  // namespace
 
-TEST_CASE("blurring is the convolution with a Gaussian, whose ends go on as the line ends") {
+TEST_CASE("blurring is the convolution with a Gaussian of a line that goes on beyond its ends as it ends") {
     for (const Size& size : sizes)
         for (const float sigma : {0.6f, 1.0f, 2.3f})
             for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -55,7 +56,7 @@ TEST_CASE("blurring is the convolution with a Gaussian, whose ends go on as the 
                 double worst = 0;
                 for_each_voxel(size, [&](const std::array<int, 3>& voxel) {
                     double sum = 0, weights = 0;
-                    const int reach = static_cast<int>(std::ceil(3.5f * sigma));
+                    const int reach = static_cast<int>(std::ceil(3.5f * sigma));  // where Blur cuts it off
                     for (int i = -reach; i <= reach; ++i) {
                         const double x = i / static_cast<double>(sigma), weight = std::exp(-0.5 * x * x);
                         sum += weight * at(before, size, moved(voxel, axis, i));
@@ -73,27 +74,30 @@ TEST_CASE("the spline of the coefficients goes through the values") {
     for (const Size& size : sizes)
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const std::vector<float> values = random_values(size, 2);
-            std::vector<float> spline = values;
-            voxels::to_spline_along(axis, spline, size);
+            std::vector<float> coefficients = values;
+            voxels::to_spline_along(axis, coefficients, size);
             double worst = 0;
             for_each_voxel(size, [&](const std::array<int, 3>& voxel) {
-                const double through = (at(spline, size, moved(voxel, axis, -1)) + 6 * at(spline, size, voxel) +
-                                        at(spline, size, moved(voxel, axis, 1))) /
-                                       8;
-                worst = std::max(worst, std::abs(through - at(values, size, voxel)));
+                // Quadratic B-splines have the values 1/8, 6/8 and 1/8 at the voxels' centres.
+                const double interpolated =
+                    (at(coefficients, size, moved(voxel, axis, -1)) + 6 * at(coefficients, size, voxel) +
+                     at(coefficients, size, moved(voxel, axis, 1))) /
+                    8;
+                worst = std::max(worst, std::abs(interpolated - at(values, size, voxel)));
             });
             CAPTURE(axis);
             CHECK(worst < 1e-6);
         }
 }
 
-TEST_CASE("the steepest slope of a spline is that of the largest differences around a voxel") {
+TEST_CASE("the bound on a spline's slope is of the largest difference along each axis around a voxel") {
     for (const Size& size : sizes) {
         const VoxelLattice lattice{size, glm::dvec3(0), {0.5, 0.25, 0.4}};
         for (unsigned seed = 0; seed < 12; ++seed) {
-            // Of noise the largest differences along the axes are in different rows around a voxel.
+            // In noise the largest differences along the axes are in different rows around a voxel, so that a row that
+            // is left out is noticed.
             const std::vector<float> values = random_values(size, 3 + seed);
-            double steepest = 0;
+            double greatest = 0;  // squared
             for_each_voxel(size, [&](const std::array<int, 3>& voxel) {
                 double sum = 0;
                 for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -108,20 +112,21 @@ TEST_CASE("the steepest slope of a spline is that of the largest differences aro
                     const double slope = most / lattice.spacing[static_cast<glm::length_t>(axis)];
                     sum += slope * slope;
                 }
-                steepest = std::max(steepest, sum);
+                greatest = std::max(greatest, sum);
             });
             const VoxelGrid grid = VoxelGrid::of_values("test", lattice, values);
-            CHECK(grid.steepest_spline() == doctest::Approx(std::sqrt(steepest)).epsilon(1e-5));
-            CHECK(grid.steepest_spline() >= std::sqrt(steepest));
+            CHECK(grid.steepest_spline() == doctest::Approx(std::sqrt(greatest)).epsilon(1e-5));
+            CHECK(grid.steepest_spline() >= std::sqrt(greatest));  // rounded upward, so that it is a bound
         }
     }
 }
 
-TEST_CASE("a grid of all values is that of each value") {
+TEST_CASE("a grid that is made of all values at once is the one that is made voxel by voxel") {
     for (const Size& size : sizes) {
         const VoxelLattice lattice{size, glm::dvec3(0), glm::dvec3(1)};
         std::vector<float> values = random_values(size, 9);
-        std::fill_n(values.begin(), values.size() / 2, 0.25f);  // blocks of one value, too
+        std::fill_n(values.begin(), values.size() / 2,
+                    0.25f);  // so that the largest of the grids has blocks of one value, too
         const VoxelGrid each = VoxelGrid::of_voxels("test", lattice, [&](int x, int y, int z) {
             return static_cast<float>(at(values, size, {x, y, z}));
         });

@@ -158,6 +158,37 @@ TEST_CASE("direct light: scattered once, and not at smooth glass") {
     });
 }
 
+TEST_CASE("direct light of a medium is what it scatters once, whichever technique finds that") {
+    Scene scene = scene_of(R"("fog": {"clear": {"ior": 1, "scattering": [0.8, 0.8, 0.8]}})",
+                           R"({"set": {"phase": "fog", "of": {"sphere": {"radius": 1}}}})",
+                           R"("lights": [{"constant": {"radiance": [1, 1, 1]}}])");
+    struct Mean {
+        double sum = 0, squares = 0;
+        double mean(double n) const { return sum / n; }
+        double variance(double n) const { return (squares / n - mean(n) * mean(n)) / n; }
+    };
+    constexpr std::uint32_t paths = 40'000;
+    const auto direct_by = [&](Techniques techniques) {
+        scene.settings.techniques = techniques;
+        Mean direct;
+        trace_recorded(scene, {0.3f, -5, 0.2f}, {0, 1, 0}, paths, [&](const Recorded& path) {
+            const double found = static_cast<double>(path.record.direct.y);
+            direct.sum += found;
+            direct.squares += found * found;
+        });
+        return direct;
+    };
+    const Mean by_directions = direct_by(Techniques::directions_alone);
+    // All is 1 in a furnace. Some of it is scattered more than once.
+    CHECK(by_directions.mean(paths) < 0.95);
+    for (const Techniques techniques : {Techniques::shadow_rays_alone, Techniques::all}) {
+        const Mean direct = direct_by(techniques);
+        const double off = direct.mean(paths) - by_directions.mean(paths);
+        CHECK(std::abs(off) < 4 * std::sqrt(direct.variance(paths) + by_directions.variance(paths)));
+        CHECK(std::abs(off) < 0.01);
+    }
+}
+
 TEST_CASE("parts of the radiance add up, and recording changes nothing") {
     const Scene scene = many_groups();
     REQUIRE(scene.lights.groups() == std::vector<std::string>{"default", "key", "sun"});

@@ -29,17 +29,19 @@ constexpr float survival_per_worth = 4.0f;
 constexpr int depth_without_roulette = 3;
 constexpr float least_survival = 0.05f, nearly_certain = 0.95f;
 
-// Photons that come in flatter than this are left to the other techniques: what they bring is divided by the cosine.
+// Photons that arrive at a more grazing angle than this are left to the other techniques, because what they bring is
+// divided by the cosine: one would count a thousand times.
 constexpr float least_photon_cosine = 1e-3f;
 
-// With which density photons find a direction, as long as the line density at the light's end of the chain is not
-// known: N π r² n² cos θ on a surface, and N π r² n² F in a medium, of which F waits until the boundary is known
-// (path.hpp).
+// The density with which photons find a direction is this factor times the line density at the light's end of the
+// chain: N π r² n² cos θ on a surface, and N π r² n² F in a medium (path.hpp).
 struct PhotonDensity {
     float per_line_density = 0;
-    std::optional<PhotonPlacement> placement{};  // of a medium that photons light, as long as F is not in the product
+    // Of a medium that photons light, until the distance to its boundary, and so F, is known and in the factor.
+    std::optional<PhotonPlacement> placement{};
 
-    // The boundary at which the chain leaves the medium is at this distance.
+    // Multiplies by F: the boundary at which the chain leaves the medium is at this distance. Later boundaries change
+    // nothing.
     void reach_boundary(float distance) {
         if (placement) per_line_density *= placement->coverage(distance);
         placement.reset();
@@ -49,13 +51,13 @@ struct PhotonDensity {
 // What a path remembers of the last place where light was sampled. The weight of emission that it finds at the end of a
 // chain depends on it.
 struct Chain {
-    // Of the BSDF or phase function, for the direction with which the chain began; none if lights were not sampled
-    // there.
+    // The density with which the BSDF or phase function chose the chain's first direction; none if lights were not
+    // sampled there.
     std::optional<float> pdf;
-    LightProposal proposal{};
-    glm::vec3 direction{0};
+    LightProposal proposal{};  // by which lights were
+    glm::vec3 direction{0};    // the chain's first
     PhotonDensity by_photons{};
-    int length = 0;
+    int length = 0;  // how many smooth clear interfaces it has; photons come by one at least
 
     // The weight of light that is seen along the ray. Light at the end of a chain that shadow rays and photons do not
     // follow to its end is found by the path alone, whichever techniques are asked for.
@@ -81,8 +83,9 @@ class Path {
           ray_(ray),
           camera_ior_(clear_at(scene, ray.phase).ior),
           recorder_(record, scene) {
-        // Photons have chosen already. Else it is the first number that a path draws, which is spread the most evenly
-        // over the samples of a pixel.
+        // Photons that were dispersed have a wavelength, and the paths that gather them have the same one. Without
+        // photons it is chosen by the first number that a path draws, which is spread the most evenly over the samples
+        // of a pixel.
         if (world.disperses())
             hero_ =
                 photons && photons.map->wavelength() ? *photons.map->wavelength() : sampled_wavelength(sampler.next());
@@ -104,8 +107,9 @@ class Path {
             }
             throughput_ *= flight.weight;
             if (flight.scattered_at) {
-                recorder_.scattered_in_medium(ray_.phase, *flight.scattered_at);
+                recorder_.travelled(ray_.phase, *flight.scattered_at);
                 scatter_in_medium(*flight.scattered_at);
+                recorder_.scattered_in_medium();
                 if (!roulette(++depth)) break;
                 continue;
             }
@@ -147,19 +151,21 @@ class Path {
         add_light(radiance, {infinity, radiance, Background{}}, ray_.direction, false);
     }
 
-    // Adds to the path's radiance, of an emission that was seen in the direction. It is that at the path's wavelength,
-    // if it has one.
+    // Adds radiance that the path found, of an emission that was seen in the direction. If the path has a single
+    // wavelength it is that at the wavelength, and becomes a colour here.
     void add_light(const glm::vec3& found, const Lights::Emission& emission, const glm::vec3& direction,
-                   bool by_shadow_ray) {
+                   bool is_to_be_scattered) {
         const glm::vec3 radiance = single_ ? found * single_->response : found;
         radiance_ += radiance;
-        recorder_.add_light(radiance, emission, direction, by_shadow_ray);
+        recorder_.add_light(radiance, emission, direction, is_to_be_scattered);
     }
 
     // Tells the recorder of a surface before the path's ray leaves it.
     void record(const Surface& surface, const Bsdf& bsdf, const std::optional<BsdfSample>& next) {
         if (!recorder_.is_asked()) return;
         const auto ior = [&](Phase phase) { return clear_at(scene_, phase).ior; };
+        // The albedo is in all colours though the path may have a single wavelength: it tells what a surface looks
+        // like.
         const Phase after = next && next->transmitted ? surface.far_side->phase : ray_.phase;
         const glm::vec3 weight = next ? next->weight : glm::vec3(0.0f);
         const float bent = ior(after) / ior(ray_.phase), from_camera = ior(after) / camera_ior_;
@@ -167,7 +173,7 @@ class Path {
                             throughput_ * weight * (from_camera * from_camera));
     }
 
-    // Adds direct light, and samples the path's next ray. Whether there is one.
+    // Adds direct light and what photons bring, and samples the path's next ray. Returns whether there is one.
     bool scatter_and_continue(const Surface& surface, const Bsdf& bsdf) {
         ++counters_.interactions;
         is_camera_ray_ = false;
@@ -175,7 +181,7 @@ class Path {
         const glm::vec3 wo = frame.to_local(-ray_.direction);
         LightProposal proposal;
         if (!bsdf.is_delta()) {
-            // A rough interface gets light from both sides.
+            // A rough interface gets light from both sides, so none is preferred and no bending is guessed.
             proposal = surface.far_side ? LightProposal(surface.near_side.origin)
                                         : LightProposal::at(surface, world_, scene_, counters_);
             add_direct_light(surface, bsdf, frame, wo, proposal);
@@ -187,7 +193,7 @@ class Path {
         if (!next) return false;
         throughput_ *= for_light(next->weight, single_);
         ray_ = continued(surface, frame, *next);
-        entered_ = next->transmitted ? surface.normal : -surface.normal;
+        if (surface.far_side) entered_ = next->transmitted ? surface.normal : -surface.normal;
         if (!next->delta)
             chain_ = {next->pdf, proposal, ray_.direction, {density_by_photons(surface, bsdf, next->wi.z)}, 0};
         else if (is_link(bsdf, surface))
@@ -239,7 +245,8 @@ class Path {
         const auto arrival = trace_shadow_ray({world_, scene_, photons_, sampler_, counters_}, shadow, light,
                                               {.hero = hero_, .single = single_});
         if (!arrival) return;
-        // Where there is no boundary in between, the line density is 0, and the boundary's distance infinite.
+        // Without a boundary in between there are no photons: the line density is 0. The boundary's distance is
+        // infinite then, of which there is no coverage.
         if (arrival->line_density > 0.0f) by_photons.reach_boundary(arrival->to_boundary);
         const float weight = light.is_of_point_light()
                                  ? 1.0f
@@ -261,9 +268,9 @@ class Path {
         return photons_.map->expected() * ior * ior;
     }
 
-    // What a photon brings to a point, of the light whose share f is scattered into the path. `power` is what is left
-    // of the photon's there; photons find its direction with the density `by_photons`, and the path itself would go on
-    // in that direction with the density `pdf`. It is asked only if all techniques are used.
+    // Adds what one photon brings to a point. `f` is the BSDF or the phase function for its direction, and `power` what
+    // is left there of the photon's power. Photons find the direction with the density `by_photons`, and the path
+    // itself would go on in it with the density `pdf`. It is called only if all techniques are used.
     void add_photon(const Photon& photon, const glm::vec3& power, const glm::vec3& f, float by_photons, float pdf,
                     const LightProposal& proposal) {
         const float weight = photon.is_of_point_light()
@@ -281,10 +288,12 @@ class Path {
     void add_caustics(const Surface& surface, const Bsdf& bsdf, const Frame& frame, const glm::vec3& wo,
                       const LightProposal& proposal) {
         if (!photons_ || scene_.settings.techniques != Techniques::all || !is_lit_by_photons(surface, bsdf)) return;
+        const float across = density_across(surface.near_side.phase);
         photons_.map->near(surface.near_side.origin, surface.normal, surface.near_side.phase,
                            [&](const Photon& photon) {
                                const glm::vec3 wi = frame.to_local(photon.direction);
-                               const float by_photons = density_by_photons(surface, bsdf, wi.z) * photon.line_density;
+                               if (!(wi.z > least_photon_cosine)) return;
+                               const float by_photons = across * wi.z * photon.line_density;
                                if (!(by_photons > 0.0f)) return;
                                // Photons are counted by area of the surface, and so have the cosine already that
                                // evaluate() multiplies by.
@@ -301,7 +310,8 @@ class Path {
             const float coverage = placement.coverage(depth);
             const float by_photons = across * photon.line_density * coverage;
             if (!(by_photons > 0.0f)) return;
-            // What the medium leaves from the boundary on; nothing is lost before it.
+            // What the medium leaves of the photon between the boundary and the point. A point before the boundary is
+            // one at which nothing is lost yet.
             const Wavelength* wavelength = photon.of_one_wavelength ? &hero_ : single_;
             const glm::vec3 left = transmittance(
                 medium(), {point.position, photon.direction, std::max(depth, 0.0f), wavelength}, sampler_);
@@ -310,9 +320,10 @@ class Path {
         });
     }
 
-    // Russian roulette on what the path can still bring to the camera: radiance over η² is what refraction preserves.
-    // Whether the path goes on. Survival is several times the worth, because in long chains of clear interfaces what is
-    // rouletted often comes back as noise that costs more than the steps that are saved.
+    // Russian roulette on what the path can still bring to the camera. Refraction preserves L/n², so radiance that is
+    // found here counts there as throughput · n²(here)/n²(camera). Returns whether the path goes on. Survival is
+    // several times that worth, because in long chains of clear interfaces what is rouletted often comes back as noise
+    // that costs more than the steps that are saved.
     bool roulette(int depth) {
         const float ior = clear_at(scene_, ray_.phase).ior / camera_ior_;
         const float worth = std::max({throughput_.x, throughput_.y, throughput_.z}) * ior * ior;
@@ -334,7 +345,8 @@ class Path {
     float camera_ior_;
     glm::vec3 radiance_{0.0f}, throughput_{1.0f};
     Chain chain_;
-    std::optional<glm::vec3> entered_;  // the outward normal of the boundary that the path met last in this medium
+    std::optional<glm::vec3>
+        entered_;  // the outward normal of the clear boundary that the path met last in this medium
     bool is_camera_ray_ = true;
     Wavelength hero_;                     // the path's wavelength from where it is dispersed
     const Wavelength* single_ = nullptr;  // &hero_ from there on; before, the path is of all wavelengths

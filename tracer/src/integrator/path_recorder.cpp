@@ -35,8 +35,8 @@ void PathRecorder::scattered(const Surface& surface, bool is_delta, bool is_link
 }
 
 void PathRecorder::add_to_parts(const glm::vec3& radiance, const Lights::Emission& emission, const glm::vec3& direction,
-                                bool by_shadow_ray) {
-    if (scatterings_ + (by_shadow_ray ? 1 : 0) <= 1) record_->direct += radiance;
+                                bool is_to_be_scattered) {
+    if (scatterings_ + (is_to_be_scattered ? 1 : 0) <= 1) record_->direct += radiance;
     lights_.add_to_groups(radiance, emission, direction, record_->groups);
 }
 

@@ -28,17 +28,16 @@ class PathRecorder {
     void scattered(const Surface& surface, bool is_delta, bool is_link, const glm::vec3& weight,
                    const glm::vec3& throughput);
 
-    /// The path has gone so far in the phase, and was scattered there.
-    void scattered_in_medium(Phase phase, float distance) {
-        travelled(phase, distance);
+    /// The path was scattered in a medium.
+    void scattered_in_medium() {
         if (record_) ++scatterings_;
     }
 
-    /// The path brings radiance, of an emission that was seen in the direction. `by_shadow_ray` says that it came to
-    /// the surface of which scattered() is to tell next.
+    /// The path brings radiance, of an emission that was seen in the direction. `is_to_be_scattered` says that a shadow
+    /// ray or a photon brought it to the place of which scattered() or scattered_in_medium() is to tell next.
     void add_light(const glm::vec3& radiance, const Lights::Emission& emission, const glm::vec3& direction,
-                   bool by_shadow_ray) {
-        if (record_) add_to_parts(radiance, emission, direction, by_shadow_ray);
+                   bool is_to_be_scattered) {
+        if (record_) add_to_parts(radiance, emission, direction, is_to_be_scattered);
     }
 
     /// The path has ended.
@@ -50,7 +49,7 @@ class PathRecorder {
     void begin(const Scene& scene);
     void add_length(Phase phase, float distance);
     void add_to_parts(const glm::vec3& radiance, const Lights::Emission& emission, const glm::vec3& direction,
-                      bool by_shadow_ray);
+                      bool is_to_be_scattered);
 
     PathRecord* record_;
     const Lights& lights_;
