@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
+#include "phasetree/math/unit_vector.hpp"
 #include "sampling/hash.hpp"
 #include "shading/frame.hpp"
 #include "shading/texture/noise.hpp"
@@ -12,8 +12,8 @@
 namespace phasetree::tracer {
 
 glm::vec3 WoodTexture::at(const glm::vec3& position) const {
-    const float length = glm::length(axis);
-    const Frame trunk(length > 0.0f ? axis / length : glm::vec3{0.0f, 0.0f, 1.0f});
+    const glm::vec3 along = unit_vector(axis);
+    const Frame trunk(along != glm::vec3(0.0f) ? along : glm::vec3{0.0f, 0.0f, 1.0f});
     // Unit: one ring. z along the trunk.
     const glm::vec3 p = trunk.to_local(position - pith) / ring_spacing;
 

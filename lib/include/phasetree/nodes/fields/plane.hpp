@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/unit_vector.hpp"
 #include "phasetree/model/concepts.hpp"
 
 namespace phasetree {
@@ -20,9 +21,8 @@ struct Plane {
           Parameter{"offset", "m", "Distance of the plane from the origin along the normal.", limits::any, true});
     }
     void prepare() {
-        const float l = glm::length(normal);
-        if (!(l > 0)) throw ModelError("plane: the normal has no direction");
-        if (std::abs(l - 1) > 1e-6f) normal /= l;
+        if (normal == glm::vec3(0)) throw ModelError("plane: the normal has no direction");
+        normal = unit_vector(normal);
     }
     template <class T>
     T distance(const Vec3<T>& p) const {

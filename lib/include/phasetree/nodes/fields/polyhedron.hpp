@@ -35,7 +35,7 @@ struct Polyhedron {
         table = {static_cast<float>(normals.size())};
         for (std::size_t i = 0; i < normals.size(); ++i) {
             const double length = glm::length(glm::dvec3(normals[i]));
-            if (!(length > 1e-12)) throw ModelError("polyhedron: a normal has no length");
+            if (!(length > 0)) throw ModelError("polyhedron: a normal has no length");
             const float offset = offsets[offsets.size() == 1 ? 0 : i];
             if (!(std::abs(offset) < 1e9f)) throw ModelError("polyhedron: a plane is too far from the origin");
             // Rounded towards shorter, so that the field is 1-Lipschitz.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/unit_vector.hpp"
 #include "phasetree/model/concepts.hpp"
 
 namespace phasetree {
@@ -19,10 +20,8 @@ struct Slab {
         v(&Slab::thickness, Parameter{"thickness", "m", "Distance of the two planes.", limits::positive});
     }
     void prepare() {
-        const glm::dvec3 n(normal);
-        if (!(glm::length(n) > 0)) throw ModelError("slab: the normal has no direction");
-        // One of unit length stays as it is, so that a slab that is written and read again is the same.
-        if (std::abs(glm::length(n) - 1) > 1e-6) normal = glm::vec3(glm::normalize(n));
+        if (normal == glm::vec3(0)) throw ModelError("slab: the normal has no direction");
+        normal = unit_vector(normal);
     }
     template <class T>
     T distance(const Vec3<T>& p) const {

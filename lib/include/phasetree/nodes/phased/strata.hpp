@@ -37,7 +37,7 @@ struct Strata {
         if (of_phases.size() < 2) throw ModelError("strata: two phases at least are needed");
         if (thicknesses.size() != 1 && thicknesses.size() + 1 != of_phases.size())
             throw ModelError("strata: one thickness less than phases is needed, or one for all");
-        if (!(glm::length(direction) > 0)) throw ModelError("strata: the direction has no direction");
+        if (direction == glm::vec3(0)) throw ModelError("strata: the direction has no direction");
         base = Plane{.normal = direction, .offset = offset};
         base.prepare();
         heights.clear();

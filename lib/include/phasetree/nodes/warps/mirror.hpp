@@ -2,6 +2,7 @@
 
 #include <glm/matrix.hpp>
 
+#include "phasetree/math/unit_vector.hpp"
 #include "phasetree/nodes/warps/warped.hpp"
 
 namespace phasetree {
@@ -31,11 +32,8 @@ struct Mirror {
                                      limits::any, true});
     }
     void prepare() {
-        const glm::dvec3 n(normal);
-        const double length = glm::length(n);
-        if (!(length > 0)) throw ModelError("mirror: the normal has no direction");
-        // One of unit length stays to the last bit, so that a tree that is written and read again is the same.
-        if (std::abs(length - 1) > 1e-6) normal = glm::vec3(n / length);
+        if (normal == glm::vec3(0)) throw ModelError("mirror: the normal has no direction");
+        normal = unit_vector(normal);
     }
     Map map() const { return {normal}; }
     float value_scale() const { return 1; }
