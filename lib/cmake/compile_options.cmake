@@ -33,10 +33,16 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
     set(quiet $<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict>)
 endif()
 
+# In a unity build files of a target are compiled several at a time, and a local name would be said to hide one of another
+# file's.
+if(CMAKE_UNITY_BUILD)
+    list(APPEND quiet $<$<COMPILE_LANGUAGE:CXX>:-Wno-shadow>)
+endif()
+
 target_compile_options(phasetree_options INTERFACE
-    ${quiet}
     -ffp-contract=off
     $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wshadow>
+    ${quiet}
     $<$<BOOL:${PHASETREE_WERROR}>:-Werror>)
 
 if(PHASETREE_SANITIZE)

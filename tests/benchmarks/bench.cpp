@@ -6,6 +6,8 @@
 
 #include "command/command.hpp"
 
+namespace test_bench {
+
 using namespace phasetree::tests;
 
 namespace {
@@ -132,3 +134,5 @@ TEST_CASE("phasetree-bench: who stops it finds the old file of numbers, and noth
     CHECK(bytes_of(shell.directory / "bench.json") == "precious");
     CHECK(shell.directory.size() == 1);
 }
+
+}  // namespace test_bench

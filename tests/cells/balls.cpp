@@ -15,6 +15,8 @@
 #include "phasetree/nodes/phased/set.hpp"
 #include "support/compared_crossings.hpp"
 
+namespace test_balls {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -70,3 +72,5 @@ TEST_CASE("labels in cells of opaque balls are those of the whole") {
     CHECK(all.crossings > 50);
     CHECK(all.different == 0);
 }
+
+}  // namespace test_balls

@@ -17,6 +17,8 @@
 #include "support/compared_crossings.hpp"
 #include "support/compared_labels.hpp"
 
+namespace test_budget {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -135,3 +137,5 @@ TEST_CASE("a build that is cancelled ends, also within a budget") {
         CHECK(asked < enough + 100);
     }
 }
+
+}  // namespace test_budget

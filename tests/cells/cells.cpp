@@ -23,6 +23,8 @@
 #include "support/compared_crossings.hpp"
 #include "support/compared_labels.hpp"
 
+namespace test_cells {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -119,3 +121,5 @@ TEST_CASE("cells of a copy are the same, and few") {
     CHECK(a.statistics().routines < a.size());
     CHECK(a.statistics().median_instructions < a.whole().program().instructions.size() / 5);
 }
+
+}  // namespace test_cells

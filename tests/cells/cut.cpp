@@ -22,6 +22,8 @@
 #include "source_directory.hpp"
 #include "support/random_tree.hpp"
 
+namespace test_cut {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -154,3 +156,5 @@ TEST_CASE("each of a gem's many facets is visited a few times, and the cells lie
     CHECK(c.all > 200);
     CHECK(c.outside == 0);
 }
+
+}  // namespace test_cut

@@ -11,6 +11,8 @@
 #include "phasetree/nodes/list.hpp"
 #include "phasetree/program/program.hpp"
 
+namespace test_damaged_files {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -190,3 +192,5 @@ TEST_CASE("a primitive with data may refer to its own data in the object, or to 
     cut.constants.resize(5);
     CHECK_FALSE(unsound(cut, near, 0).empty());
 }
+
+}  // namespace test_damaged_files

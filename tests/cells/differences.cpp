@@ -23,6 +23,8 @@
 #include "support/compared_crossings.hpp"
 #include "support/random_tree.hpp"
 
+namespace test_differences {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -126,3 +128,5 @@ TEST_CASE("cells of an arm of many short links have three links") {
     CHECK(cells.median_instructions == 5);
     CHECK(cells.percentile90_instructions <= 7);
 }
+
+}  // namespace test_differences

@@ -10,6 +10,8 @@
 #include "phasetree/nodes/phased/set.hpp"
 #include "support/compared_crossings.hpp"
 
+namespace test_displaced {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -40,3 +42,5 @@ TEST_CASE("the programs of a displaced solid's cells have no far bounds") {
             cells.statistics().most_instructions, " instructions");
     CHECK(cells.statistics().median_instructions <= 5);
 }
+
+}  // namespace test_displaced

@@ -14,6 +14,8 @@
 #include "tree/node.hpp"
 #include "tree/walk.hpp"
 
+namespace test_enclosure {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -466,3 +468,5 @@ TEST_CASE("a difference is at least what is said of it, and just that where it b
     }
     CHECK(exact > 4'000);
 }
+
+}  // namespace test_enclosure

@@ -19,6 +19,8 @@
 #include "phasetree/nodes/warps/warped.hpp"
 #include "support/random_tree.hpp"
 
+namespace test_extrusions {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -99,3 +101,5 @@ TEST_CASE("a cell of an extrusion keeps few of its profile's parts") {
     CHECK(cells.statistics().median_instructions <= 6);
     CHECK(cells.whole().program().instructions.size() > 300);
 }
+
+}  // namespace test_extrusions

@@ -13,6 +13,8 @@
 #include "phasetree/nodes/fields/fractal_noise.hpp"
 #include "support/compared_crossings.hpp"
 
+namespace test_field_in_box {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -237,3 +239,5 @@ TEST_CASE("noise's values, gradients and curvatures in a box are within what is 
         CHECK(small.curvature_allowed < 6 * small.curvature_met);
     }
 }
+
+}  // namespace test_field_in_box

@@ -13,6 +13,8 @@
 #include "phasetree/nodes/fields/sphere.hpp"
 #include "phasetree/nodes/phased/set.hpp"
 
+namespace test_files {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -167,3 +169,5 @@ TEST_CASE("a file that cannot be written leaves nothing behind") {
     CHECK(fs::is_symlink(w.folder / "link"));
     CHECK(contents(w.path) == w.bytes);
 }
+
+}  // namespace test_files

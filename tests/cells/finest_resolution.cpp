@@ -14,6 +14,8 @@
 #include "support/random_tree.hpp"
 #include "trace/march.hpp"
 
+namespace test_finest_resolution {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -60,3 +62,5 @@ TEST_CASE("a search ends at any resolution") {
     }
     CHECK(most < 5000);
 }
+
+}  // namespace test_finest_resolution

@@ -5,6 +5,8 @@
 #include "phasetree/nodes/fields/sphere.hpp"
 #include "phasetree/nodes/phased/set.hpp"
 
+namespace test_foreign_files {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -72,3 +74,5 @@ TEST_CASE("what is no file of cells") {
     put(w.folder / "more", more);
     CHECK(refusal(w.folder / "more", w.object) == Reason::damaged);
 }
+
+}  // namespace test_foreign_files

@@ -10,6 +10,8 @@
 #include "source_directory.hpp"
 #include "support/compared_crossings.hpp"
 
+namespace test_gallery {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -48,3 +50,5 @@ TEST_CASE("boxes larger than the bumps of their noise are divided further") {
     MESSAGE("boxes of more than two bumps have ", 100 * large / all, " % of the cells' surface");
     CHECK(large < 0.23 * all);
 }
+
+}  // namespace test_gallery

@@ -9,6 +9,8 @@
 #include "phasetree/model/handle.hpp"
 #include "support/compared_labels.hpp"
 
+namespace test_kinds {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -33,3 +35,5 @@ TEST_CASE("a cell's program gives the whole object's labels with each kind of no
         CHECK(points > 50);
     }
 }
+
+}  // namespace test_kinds

@@ -18,6 +18,8 @@
 #include "phasetree/nodes/warps/warped.hpp"
 #include "support/compared_crossings.hpp"
 
+namespace test_local {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -78,3 +80,5 @@ TEST_CASE("rays through cells of Voronoi patterns find what marching through the
     // With all sites one program does for most.
     CHECK(routines > cells / 20);
 }
+
+}  // namespace test_local

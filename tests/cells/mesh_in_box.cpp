@@ -19,6 +19,8 @@
 #include "support/compared_crossings.hpp"
 #include "support/random_mesh.hpp"
 
+namespace test_mesh_in_box {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -114,3 +116,5 @@ TEST_CASE("rays through cells of meshes find what marching through the whole fin
     CHECK(all.crossings > all.rays / 2);
     CHECK(all.different == 0);
 }
+
+}  // namespace test_mesh_in_box

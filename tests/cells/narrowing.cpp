@@ -11,6 +11,8 @@
 #include "phasetree/nodes/phased/set.hpp"
 #include "support/random_tree.hpp"
 
+namespace test_narrowing {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -71,3 +73,5 @@ TEST_CASE("a bracket that follows from the curvature of the distance holds the c
     CHECK(outside == 0);
     CHECK(wide == 0);
 }
+
+}  // namespace test_narrowing

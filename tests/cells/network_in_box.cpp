@@ -13,6 +13,8 @@
 #include "phasetree/nodes/phased/set.hpp"
 #include "support/compared_crossings.hpp"
 
+namespace test_network_in_box {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -211,3 +213,5 @@ TEST_CASE("rays through a neural field's cells find what marching through the wh
     CHECK(all.different == 0);
     CHECK(each < 2.05);  // 13 if nothing were known of networks in boxes
 }
+
+}  // namespace test_network_in_box

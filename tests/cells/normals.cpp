@@ -10,6 +10,8 @@
 #include "phasetree/trace/tracer.hpp"
 #include "support/normal_checks.hpp"
 
+namespace test_normals {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -85,3 +87,5 @@ TEST_CASE("a leaning cone's side, grazed, has one normal in its cells, too") {
     CHECK(all.by_an_edge == 0);
     CHECK(all.right > 3500);
 }
+
+}  // namespace test_normals

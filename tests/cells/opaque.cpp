@@ -13,6 +13,8 @@
 #include "source_directory.hpp"
 #include "support/compared_crossings.hpp"
 
+namespace test_opaque {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -108,3 +110,5 @@ TEST_CASE("opaque layers of a blob have the phase at its surface") {
     CHECK(all.into_opaque > all.rays / 4);
     CHECK(all.different == 0);
 }
+
+}  // namespace test_opaque

@@ -4,6 +4,8 @@
 
 #include "phasetree/model/handle.hpp"
 
+namespace test_preparation {
+
 using namespace phasetree;
 
 using model::Preparation, model::PreparationTogether;
@@ -26,3 +28,5 @@ TEST_CASE("a node, and all nodes of a scene together, may do so much work and no
     }
     CHECK_THROWS_AS(Preparation("e").pay(1), ModelError);
 }
+
+}  // namespace test_preparation

@@ -31,6 +31,8 @@
 #include "support/compared_labels.hpp"
 #include "support/random_tree.hpp"
 
+namespace test_pruning {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -151,3 +153,5 @@ TEST_CASE("far links of a chain are pruned, though each is too near to the next 
     CHECK(cells.most_instructions <= 30);
     CHECK(cells.cells < 20'000);
 }
+
+}  // namespace test_pruning

@@ -12,6 +12,8 @@
 #include "phasetree/nodes/phased/set.hpp"
 #include "support/compared_crossings.hpp"
 
+namespace test_rays {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -75,3 +77,5 @@ TEST_CASE("the nearest crossing over all cells is the whole object's with each k
     MESSAGE(all.rays, " rays, ", all.crossings, " crossings, ", all.different, " different");
     CHECK(all.crossings > all.rays / 2);
 }
+
+}  // namespace test_rays

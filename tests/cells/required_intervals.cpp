@@ -15,6 +15,8 @@
 #include "pruning/prune.hpp"
 #include "support/random_tree.hpp"
 
+namespace test_required_intervals {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -316,3 +318,5 @@ TEST_CASE("what is left of particles in a ball at the edge of two phases has the
     CHECK(outcome.shortened > static_cast<std::size_t>(programs / 8));
     CHECK(outcome.points > 10 * static_cast<std::size_t>(programs));
 }
+
+}  // namespace test_required_intervals

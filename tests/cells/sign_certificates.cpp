@@ -32,6 +32,8 @@
 #include "support/compared_crossings.hpp"
 #include "support/random_tree.hpp"
 
+namespace test_sign_certificates {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -223,3 +225,5 @@ TEST_CASE("near edges rays take few batches, and meet what rays meet of the whol
     // Without certificates it were 3.98, with them 3.35: the same rays, the same counts on every machine.
     CHECK(batches < (long_tests() ? 3.5 : 3.6));
 }
+
+}  // namespace test_sign_certificates

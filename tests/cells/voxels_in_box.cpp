@@ -17,6 +17,8 @@
 #include "support/compared_crossings.hpp"
 #include "support/random_voxels.hpp"
 
+namespace test_voxels_in_box {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -125,3 +127,5 @@ TEST_CASE("rays through cells of volumes and labels find what marching through t
     CHECK(all.crossings > all.rays / 2);
     CHECK(all.different == 0);
 }
+
+}  // namespace test_voxels_in_box

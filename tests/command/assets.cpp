@@ -6,6 +6,8 @@
 
 #include "command.hpp"
 
+namespace test_assets {
+
 using namespace phasetree::tests;
 namespace fs = std::filesystem;
 
@@ -243,3 +245,5 @@ TEST_CASE("--assets-within: what leaves the folder is refused, whatever it is") 
         CHECK(o.err == fmt::format("{}: is no folder that files could lie in\n", folder));
     }
 }
+
+}  // namespace test_assets

@@ -4,6 +4,8 @@
 
 #include "cut_scene.hpp"
 
+namespace test_checkpoints {
+
 using namespace phasetree::tests;
 
 namespace {
@@ -179,3 +181,5 @@ TEST_CASE("a checkpoint that is of something else is refused before any work, an
     std::filesystem::remove(shell.directory / "a.part");
     CHECK(shell.run(joined(render, {"--resume", "a.part"})).code == 2);
 }
+
+}  // namespace test_checkpoints

@@ -1,6 +1,8 @@
 // --denoise as a person asks for it.
 #include "cut_scene.hpp"
 
+namespace test_denoise {
+
 using namespace phasetree::tests;
 
 namespace {
@@ -72,3 +74,5 @@ TEST_CASE("--denoise refuses what it cannot do, and says what it has left undone
     CHECK((stopped.err.find("is not denoised") != std::string::npos ||
            !std::filesystem::exists(shell.directory / "b.png")));
 }
+
+}  // namespace test_denoise

@@ -2,6 +2,8 @@
 // in tests/glsl.
 #include "command.hpp"
 
+namespace test_export {
+
 using namespace phasetree::tests;
 
 TEST_CASE("a shader is text with all functions that its comments name, and nothing else is written") {
@@ -92,3 +94,5 @@ TEST_CASE("what cannot be exported is said in a line, and no file is written") {
     refused({"no_tree.json", "-o", "shader.glsl"}, "\"tree\"");
     CHECK(bytes_of(shell.directory / "shader.glsl").empty());
 }
+
+}  // namespace test_export

@@ -4,6 +4,8 @@
 
 #include "cut_scene.hpp"
 
+namespace test_farm {
+
 using namespace phasetree::tests;
 
 namespace {
@@ -135,3 +137,5 @@ TEST_CASE("what makes no farm is refused") {
     refused({"list", "scene.json", "--shares", "2", "--", "--spp", "9", "--denoise=magic"}, "not \"magic\"");
     refused({"list", "absent.json", "--shares", "2"}, "absent.json");
 }
+
+}  // namespace test_farm

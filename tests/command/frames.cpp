@@ -5,6 +5,8 @@
 
 #include "command.hpp"
 
+namespace test_frames {
+
 using namespace phasetree::tests;
 
 namespace {
@@ -116,3 +118,5 @@ TEST_CASE("every subcommand reads the scene at a time") {
     CHECK(shell.bytes("a.glsl") != shell.bytes("b.glsl"));
     CHECK(shell.run({"eval", "scene.json", "--at", "nan"}, "0 0 0\n").code == 2);
 }
+
+}  // namespace test_frames

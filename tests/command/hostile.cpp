@@ -10,6 +10,8 @@
 #include "phasetree/io/error.hpp"
 #include "scene/scene.hpp"
 
+namespace test_hostile {
+
 using namespace phasetree::tests;
 
 namespace {
@@ -375,3 +377,5 @@ TEST_CASE("numbers at the ends of their ranges neither crash nor hang") {
         CHECK(o.processor_seconds < 2 * at_once);
     }
 }
+
+}  // namespace test_hostile

@@ -10,6 +10,8 @@
 
 #include "command.hpp"
 
+namespace test_info_parts {
+
 using namespace phasetree::tests;
 
 namespace {
@@ -128,3 +130,5 @@ TEST_CASE("--max-memory: sizes as people write them; less memory means fewer cel
                                    size));
     }
 }
+
+}  // namespace test_info_parts

@@ -4,6 +4,8 @@
 
 #include "cut_scene.hpp"
 
+namespace test_noise_and_time {
+
 using namespace phasetree::tests;
 
 namespace {
@@ -138,3 +140,5 @@ TEST_CASE("--time ends with whole samples, in time, and the bytes are those of a
         CHECK(shell.run(joined(render, {"--time", wrong})).code == 2);
     }
 }
+
+}  // namespace test_noise_and_time

@@ -7,6 +7,8 @@
 
 #include "command.hpp"
 
+namespace test_objects {
+
 using namespace phasetree::tests;
 
 namespace {
@@ -149,3 +151,5 @@ TEST_CASE("a million copies take less than 1 GB and are ready in seconds") {
     CHECK(o.processor_seconds < 30);
     CHECK(shell.run({"eval", "scene.json"}, "").err.find("choose one of them with --object") != std::string::npos);
 }
+
+}  // namespace test_objects

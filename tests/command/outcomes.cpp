@@ -7,6 +7,8 @@
 
 #include "command.hpp"
 
+namespace test_outcomes {
+
 using namespace phasetree::tests;
 namespace fs = std::filesystem;
 
@@ -204,3 +206,5 @@ TEST_CASE("an object of which nothing is left is worth a sentence") {
     CHECK(none.code == 2);
     CHECK(none.err.find("the object is empty") != std::string::npos);
 }
+
+}  // namespace test_outcomes

@@ -3,6 +3,8 @@
 
 #include "cut_scene.hpp"
 
+namespace test_plane_files {
+
 using namespace phasetree::tests;
 namespace fs = std::filesystem;
 
@@ -70,3 +72,5 @@ TEST_CASE("a name that asks for what cannot be is refused before any work") {
     }
     CHECK(shell.directory.size() == 1);
 }
+
+}  // namespace test_plane_files

@@ -11,6 +11,8 @@
 #include "phasetree/io/tree.hpp"
 #include "phasetree/model/handle.hpp"
 
+namespace test_queries {
+
 using namespace phasetree::tests;
 
 namespace {
@@ -270,3 +272,5 @@ TEST_CASE("trace: every interface along each ray, in order") {
         CHECK(std::abs(number(row[6]) - expected[i].nz) < 1e-4);
     }
 }
+
+}  // namespace test_queries

@@ -3,6 +3,8 @@
 
 #include "command.hpp"
 
+namespace test_reading {
+
 using namespace phasetree::tests;
 
 namespace {
@@ -90,3 +92,5 @@ TEST_CASE("reading that takes long shows how far it is, also where there is no t
     CHECK(std::regex_search(o.err, std::regex("\nreading the scene: [5-9][05]%, [0-9]:[0-9]+ elapsed, ETA [0-9]")));
     CHECK(shell.run({"render", "scene.json", "-o", "a.exr", "--quiet"}).err.find("reading") == std::string::npos);
 }
+
+}  // namespace test_reading

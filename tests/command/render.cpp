@@ -5,6 +5,8 @@
 
 #include "command.hpp"
 
+namespace test_render {
+
 using namespace phasetree::tests;
 
 namespace {
@@ -261,3 +263,5 @@ TEST_CASE("Ctrl-C in the first pass exits with 130 too") {
     CHECK(o.err.find("interrupted") != std::string::npos);
     CHECK(shell.directory.size() == 2);
 }
+
+}  // namespace test_render

@@ -9,6 +9,8 @@
 #include "command/command.hpp"
 #include "source_directory.hpp"
 
+namespace test_scenes {
+
 using namespace phasetree::tests;
 
 namespace {
@@ -92,3 +94,5 @@ TEST_CASE("the gallery's pictures say nothing of how they were made into small f
         for (const char* word : {"oiiotool", "Exif", "Photoshop"}) CHECK(bytes.find(word) == std::string::npos);
     }
 }
+
+}  // namespace test_scenes

@@ -4,6 +4,8 @@
 
 #include "cut_scene.hpp"
 
+namespace test_shares {
+
 using namespace phasetree::tests;
 
 namespace {
@@ -173,3 +175,5 @@ TEST_CASE("the memory of a merge does not grow with the number of the parts" * d
     // Eight parts more would be eight times a part if they were kept; what is chance is about one.
     CHECK(megabytes() < of_two + 3 * of_part);
 }
+
+}  // namespace test_shares

@@ -6,6 +6,8 @@
 
 #include "command.hpp"
 
+namespace test_streams {
+
 using namespace phasetree::tests;
 
 namespace {
@@ -213,3 +215,5 @@ TEST_CASE("no number is written as minus zero") {
         CHECK_FALSE(std::regex_search(out, minus_zero));
     }
 }
+
+}  // namespace test_streams

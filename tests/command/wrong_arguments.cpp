@@ -4,6 +4,8 @@
 
 #include "command.hpp"
 
+namespace test_wrong_arguments {
+
 using namespace phasetree::tests;
 
 TEST_CASE("wrong arguments: one error, exit code 2, nothing left behind") {
@@ -115,3 +117,5 @@ TEST_CASE("lines of numbers that are none") {
         CHECK(o.err.find(i.place) == 0);
     }
 }
+
+}  // namespace test_wrong_arguments

@@ -3,6 +3,8 @@
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/trace/tracer.hpp"
 
+namespace test_carried_phases {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -103,3 +105,5 @@ TEST_CASE("a ray that carries another phase than is at its start meets an interf
     CHECK(query.crossing.from == Phase{3});
     CHECK(query.crossing.to == Phase{1});
 }
+
+}  // namespace test_carried_phases

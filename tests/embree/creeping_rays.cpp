@@ -6,6 +6,8 @@
 #include "phasetree/cells/cells.hpp"
 #include "phasetree/model/handle.hpp"
 
+namespace test_creeping_rays {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -18,3 +20,5 @@ TEST_CASE("through Embree and cells, too, a ray that creeps along a surface miss
         totals);
     creeping::check_totals(totals);
 }
+
+}  // namespace test_creeping_rays

@@ -6,6 +6,8 @@
 #include "phasetree/trace/tracer.hpp"
 #include "support/crossing_checks.hpp"
 
+namespace test_crossings {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 using namespace phasetree::tests::traced;
@@ -53,3 +55,5 @@ TEST_CASE("through Embree and cells, every interface along a ray is found, once,
     // 0.911 of them; 0.946 by the cell's linear bound alone, if how they leave counts for nothing.
     CHECK(static_cast<double>(totals.batches_knowing) < 0.93 * static_cast<double>(totals.batches_unknowing));
 }
+
+}  // namespace test_crossings

@@ -21,6 +21,8 @@
 #include "source_directory.hpp"
 #include "support/random_tree.hpp"
 
+namespace test_exact_contact {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 using namespace phasetree::support;
@@ -324,3 +326,5 @@ TEST_CASE("a shell of drink 0.4 % of the diagonal thick is found") {
     CHECK(shell->second.rays > 5 * share_of_edges * count);
     CHECK_FALSE(is_meant("drinks", shell->first));
 }
+
+}  // namespace test_exact_contact

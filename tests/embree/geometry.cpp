@@ -6,6 +6,8 @@
 #include "phasetree/nodes/phased/set.hpp"
 #include "phasetree/trace/tracer.hpp"
 
+namespace test_geometry {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -254,3 +256,5 @@ TEST_CASE("geometries move; Embree calls go on") {
     CHECK(hits(intersect(scene, rayhit({{0, -3, 0}, {0, 1, 0}}))));
     CHECK(second.cells().size() > 0);
 }
+
+}  // namespace test_geometry

@@ -7,6 +7,8 @@
 
 #include "embree/alone.hpp"
 
+namespace test_hostile_rays {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -49,3 +51,5 @@ TEST_CASE("rays of numbers that are not finite, or nearly not, hit nothing, and 
         CHECK((none || assertion_of_embree));
     }
 }
+
+}  // namespace test_hostile_rays

@@ -4,6 +4,8 @@
 #include "source_directory.hpp"
 #include "support/rooms.hpp"
 
+namespace test_rooms {
+
 using namespace phasetree::tests;
 
 TEST_CASE("every room of the plugin is drawn, and includes only what is drawn before it") {
@@ -23,3 +25,5 @@ TEST_CASE("every room of the plugin is drawn, and includes only what is drawn be
     order.check_is_of(there);
     CHECK(order.checked() > 30);
 }
+
+}  // namespace test_rooms

@@ -11,6 +11,8 @@
 #include "phasetree/nodes/warps/translate.hpp"
 #include "support/random_tree.hpp"
 
+namespace test_several_objects {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 using embree::ObjectInstance;
@@ -286,3 +288,5 @@ TEST_CASE("phases of a ray: known by object, path and all, and of the rest what 
         CHECK_FALSE(copy.of(within(i, {8})).has_value());
     }
 }
+
+}  // namespace test_several_objects

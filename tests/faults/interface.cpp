@@ -9,6 +9,8 @@
 #include "faults/support/faults.hpp"
 #include "phasetree/phasetree_embree.h"
 
+namespace test_interface {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -165,3 +167,5 @@ TEST_CASE("a thread that traces for the first time has no memory") {
     CHECK(phasetreeReleaseTree(tree) == PHASETREE_ERROR_NONE);
     rtcReleaseDevice(device);
 }
+
+}  // namespace test_interface

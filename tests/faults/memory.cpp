@@ -4,6 +4,8 @@
 #include "faults/support/child.hpp"
 #include "faults/support/faults.hpp"
 
+namespace test_memory {
+
 using namespace phasetree::tests;
 
 namespace {
@@ -56,3 +58,5 @@ TEST_CASE("info") {
 TEST_CASE("render") {
     check_each_allocation(tiny_render);
 }
+
+}  // namespace test_memory

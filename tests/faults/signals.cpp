@@ -5,6 +5,8 @@
 #include "faults/support/child.hpp"
 #include "support/uniform.hpp"
 
+namespace test_signals {
+
 using namespace phasetree::tests;
 
 namespace {
@@ -63,3 +65,5 @@ TEST_CASE("whole files or none") {
     CHECK(with_files > 0);
     CHECK(without > 0);
 }
+
+}  // namespace test_signals

@@ -4,6 +4,8 @@
 #include "faults/support/child.hpp"
 #include "faults/support/faults.hpp"
 
+namespace test_writes {
+
 using namespace phasetree::tests;
 
 namespace {
@@ -67,3 +69,5 @@ TEST_CASE("short and interrupted writes") {
     }
     CHECK(undisturbed > 0);
 }
+
+}  // namespace test_writes

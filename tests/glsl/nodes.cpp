@@ -13,6 +13,8 @@
 #include "rounded.hpp"
 #include "support/random_tree.hpp"
 
+namespace test_nodes {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -248,3 +250,5 @@ TEST_CASE("a comparison finds a number that is wrong by a thousandth") {
     });
     CHECK(wrong.wrong_values > wrong.values / 8);
 }
+
+}  // namespace test_nodes

@@ -10,6 +10,8 @@
 #include "phasetree/trace/tracer.hpp"
 #include "support/random_tree.hpp"
 
+namespace test_rays {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -155,3 +157,5 @@ TEST_CASE("a tracer that steps too far is found out") {
     });
     CHECK(o.wrong_labels > 0);
 }
+
+}  // namespace test_rays

@@ -8,6 +8,8 @@
 
 #include "phasetree/io/document.hpp"
 
+namespace test_bad_text {
+
 using phasetree::Document;
 using phasetree::SceneError;
 
@@ -203,3 +205,5 @@ TEST_CASE("nesting ends at 1216 levels") {
         CHECK_THROWS_AS(Document::from_text(text), SceneError);
     }
 }
+
+}  // namespace test_bad_text

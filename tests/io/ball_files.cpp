@@ -7,6 +7,8 @@
 #include "phasetree/io/error.hpp"
 #include "support/written_files.hpp"
 
+namespace test_ball_files {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -85,3 +87,5 @@ TEST_CASE("files that hold no balls are refused, with the line or the row") {
           "has no vertices, which would be the balls");
     CHECK(said_of(files, "a.obj", "v 1 2 3\n") == "has no balls: its name must end with .ply or .csv");
 }
+
+}  // namespace test_ball_files

@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_document {
+
 using phasetree::Document;
 using phasetree::Kind;
 using phasetree::SceneError;
@@ -274,3 +276,5 @@ TEST_CASE("random damage is read or told, and never crashes") {
     CHECK(accepted > 500);
     CHECK(told > 5000);
 }
+
+}  // namespace test_document

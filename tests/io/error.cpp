@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+namespace test_error {
+
 using phasetree::SceneError;
 
 namespace {
@@ -100,3 +102,5 @@ TEST_CASE("long lines are shown around the caret, in at most 120 columns") {
     CHECK(widest("\xff", 1) <= 120);
     CHECK(widest("\x80", 1) <= 120);
 }
+
+}  // namespace test_error

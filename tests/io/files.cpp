@@ -13,6 +13,8 @@
 #include "phasetree/io/document.hpp"
 #include "phasetree_support/temporary_directory.hpp"
 
+namespace test_files {
+
 using phasetree::Document;
 using phasetree::SceneError;
 namespace fs = std::filesystem;
@@ -125,3 +127,5 @@ TEST_CASE("larger than the limit") {
     fs::resize_file(path, Document::max_bytes + 1);  // sparse
     CHECK(told(path) == path + ": is larger than 256 MiB");
 }
+
+}  // namespace test_files

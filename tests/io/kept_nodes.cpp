@@ -13,6 +13,8 @@
 #include "phasetree/nodes/fields/height_grid.hpp"
 #include "phasetree_support/temporary_directory.hpp"
 
+namespace test_kept_nodes {
+
 using namespace phasetree;
 namespace fs = std::filesystem;
 
@@ -144,3 +146,5 @@ TEST_CASE("what a reading that failed took is there for the next, and what none 
     (void)place.read(good);
     CHECK(place.times_read == 2);
 }
+
+}  // namespace test_kept_nodes

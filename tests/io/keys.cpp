@@ -11,6 +11,8 @@
 
 #include "phasetree/io/object_reader.hpp"
 
+namespace test_keys {
+
 using namespace phasetree;
 
 namespace {
@@ -110,3 +112,5 @@ TEST_CASE("what is wrong with keys is told with its place") {
     CHECK_THROWS_WITH_AS((void)at<float>("{\"keys\":[" + many + "]}", 0),
                          doctest::Contains("\"keys\" has 100001 keys; at most 100000 can be"), SceneError);
 }
+
+}  // namespace test_keys

@@ -8,6 +8,8 @@
 #include "phasetree/io/read_kind.hpp"
 #include "phasetree/io/reference.hpp"
 
+namespace test_kind {
+
 using namespace phasetree;
 
 namespace {
@@ -204,3 +206,5 @@ A lamp.
     CHECK(properties.find("shape")->find("default")->string() == "round");
     CHECK(!properties.find("age")->find("default"));
 }
+
+}  // namespace test_kind

@@ -13,6 +13,8 @@
 #include "phasetree/model/handle.hpp"
 #include "support/written_files.hpp"
 
+namespace test_mesh_files {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -153,3 +155,5 @@ TEST_CASE("a scene has a mesh beside it, and says where it names one that is no 
     CHECK(said.find(":2:2: mesh: ") != std::string::npos);
     CHECK(said.find("is not closed: the edge from ") != std::string::npos);
 }
+
+}  // namespace test_mesh_files

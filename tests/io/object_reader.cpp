@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+namespace test_object_reader {
+
 using phasetree::as;
 using phasetree::Document;
 using phasetree::ObjectReader;
@@ -207,3 +209,5 @@ TEST_CASE("colours: linear numbers, or sRGB in hexadecimal") {
     CHECK(reader.optional_colour("d", glm::vec3(9)) == glm::vec3(9));
     CHECK_NOTHROW(reader.finish());
 }
+
+}  // namespace test_object_reader

@@ -13,6 +13,8 @@
 #include "source_directory.hpp"
 #include "tree/node.hpp"
 
+namespace test_pictures {
+
 using namespace phasetree;
 
 namespace {
@@ -116,3 +118,5 @@ TEST_CASE("the pictures of all nodes are below two megabytes") {
     CHECK(bytes > 0);
     CHECK(bytes < 2'000'000);
 }
+
+}  // namespace test_pictures

@@ -10,6 +10,8 @@
 #include "source_directory.hpp"
 #include "tree/node.hpp"
 
+namespace test_reference {
+
 using namespace phasetree;
 
 namespace {
@@ -73,3 +75,5 @@ TEST_CASE("every node describes itself and all its parameters, in the page and i
     for_each_type(FieldNodes(), [&]<class N>() { check.template operator()<N>(fields); });
     for_each_type(PhasedNodes(), [&]<class N>() { check.template operator()<N>(objects); });
 }
+
+}  // namespace test_reference

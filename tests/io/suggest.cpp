@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+namespace test_suggest {
+
 using phasetree::closest;
 
 TEST_CASE("a misspelt word finds the one that was meant") {
@@ -54,3 +56,5 @@ TEST_CASE("any range of strings will do") {
     const std::array<std::string_view, 2> views = {"sand", "wood"};
     CHECK(closest("snad", views) == "sand");
 }
+
+}  // namespace test_suggest

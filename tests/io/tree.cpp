@@ -9,6 +9,8 @@
 #include "support/sanitizers.hpp"
 #include "tree/node.hpp"
 
+namespace test_tree {
+
 using namespace phasetree;
 using tests::under_sanitizer;
 
@@ -182,3 +184,5 @@ TEST_CASE("a document's files may have to lie in a folder") {
     CHECK_THROWS_AS((void)confined.file(confined.root()[2]), SceneError);
     CHECK_THROWS_AS((void)anywhere.with_files_within("/nowhere/at/all"), SceneError);
 }
+
+}  // namespace test_tree

@@ -7,6 +7,8 @@
 #include "phasetree/io/tree.hpp"
 #include "source_directory.hpp"
 
+namespace test_work {
+
 using namespace phasetree;
 
 namespace {
@@ -68,3 +70,5 @@ TEST_CASE("more work than a node may do is refused at its place") {
     CAPTURE(sampled);
     CHECK(sampled.find(":3:2: siren: it takes more work to prepare than a node may") != std::string::npos);
 }
+
+}  // namespace test_work

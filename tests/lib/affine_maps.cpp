@@ -12,6 +12,8 @@
 #include "phasetree/nodes/list.hpp"
 #include "support/random_tree.hpp"
 
+namespace test_affine_maps {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -97,3 +99,5 @@ TEST_CASE("maps that are composed do what they did one after the other") {
     CHECK(composed < tried);
     CHECK(thrice > 0);
 }
+
+}  // namespace test_affine_maps

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+namespace test_arc_tangent {
+
 using namespace phasetree;
 
 TEST_CASE("angles are within the stated error all around, at any length") {
@@ -24,3 +26,5 @@ TEST_CASE("angles are within the stated error all around, at any length") {
     CHECK(angle_of(0.f, -1.f) == doctest::Approx(-1.5707963267948966));
     CHECK(angle_of(-1.f, 0.f) == doctest::Approx(3.141592653589793));
 }
+
+}  // namespace test_arc_tangent

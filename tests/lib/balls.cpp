@@ -12,6 +12,8 @@
 #include "support/random_tree.hpp"
 #include "support/set_algebra.hpp"
 
+namespace test_balls {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -190,3 +192,5 @@ TEST_CASE("what balls and particles derive is counted, of a list in the scene an
     const Phased particles = Particles{.of_phases = {Phase{1}, Phase{2}, Phase{3}, Phase{4}}, .file = held(list)};
     CHECK(statistics(particles).bytes > own + list.bytes());
 }
+
+}  // namespace test_balls

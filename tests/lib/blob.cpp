@@ -6,6 +6,8 @@
 #include "phasetree/nodes/phased/set.hpp"
 #include "support/random_tree.hpp"
 
+namespace test_blob {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -79,3 +81,5 @@ TEST_CASE("a blob's mistakes are told") {
     CHECK(error(Blob{.points = {{0, 0, 0}}, .polyline = {}, .of = {}, .radii = {1, 2}, .weights = {}}) ==
           "blob: \"radii\" and \"weights\" need an entry for each skeleton, or one for all");
 }
+
+}  // namespace test_blob

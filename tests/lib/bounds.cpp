@@ -27,6 +27,8 @@
 #include "support/random_tree.hpp"
 #include "support/set_algebra.hpp"
 
+namespace test_bounds {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -195,3 +197,5 @@ TEST_CASE("a profile without end in z stays bounded in x and y when it is turned
     check(array, std::sqrt(2.f));
     CHECK(!bounds(warped(Rotate{.axis = {1, 0, 0}, .angle = 30}, square)).finite());
 }
+
+}  // namespace test_bounds

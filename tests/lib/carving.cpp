@@ -21,6 +21,8 @@
 #include "phasetree/trace/tracer.hpp"
 #include "support/random_tree.hpp"
 
+namespace test_carving {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -189,3 +191,5 @@ TEST_CASE("what has no bounds is refused, what is empty has none, and work can b
     options.directions = {glm::dvec3(0)};
     CHECK_THROWS_AS(carve(Field(Sphere{}), options), ModelError);
 }
+
+}  // namespace test_carving

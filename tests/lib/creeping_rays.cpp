@@ -7,6 +7,8 @@
 #include "phasetree/model/handle.hpp"
 #include "phasetree/trace/tracer.hpp"
 
+namespace test_creeping_rays {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -33,3 +35,5 @@ TEST_CASE("a ray that creeps along a surface misses nothing of what lies behind 
         211, long_tests() ? 400 : 60, [](const Phased& a) { return WholeTracer{InterfaceTracer(a)}; }, totals);
     creeping::check_totals(totals);
 }
+
+}  // namespace test_creeping_rays

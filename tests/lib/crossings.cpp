@@ -5,6 +5,8 @@
 #include "phasetree/trace/tracer.hpp"
 #include "support/crossing_checks.hpp"
 
+namespace test_crossings {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 using namespace phasetree::tests::traced;
@@ -39,3 +41,5 @@ TEST_CASE("every interface along a ray is found, once, where it is") {
         totals, complaints);
     check_totals(totals, complaints);
 }
+
+}  // namespace test_crossings

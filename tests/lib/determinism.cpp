@@ -11,6 +11,8 @@
 #include "phasetree/trace/tracer.hpp"
 #include "support/random_tree.hpp"
 
+namespace test_determinism {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -125,3 +127,5 @@ TEST_CASE("recording is the same every time") {
         REQUIRE(std::memcmp(p.constants.data(), q.constants.data(), p.constants.size() * sizeof(float)) == 0);
     }
 }
+
+}  // namespace test_determinism

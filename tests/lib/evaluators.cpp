@@ -12,6 +12,8 @@
 #include "support/random_tree.hpp"
 #include "support/set_algebra.hpp"
 
+namespace test_evaluators {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -220,3 +222,5 @@ TEST_CASE("gradients equal central differences away from kinks") {
     CHECK(ties < compared / 10000);
     CHECK(skipped < compared / 20);
 }
+
+}  // namespace test_evaluators

@@ -35,6 +35,8 @@
 #include "support/random_tree.hpp"
 #include "support/set_algebra.hpp"
 
+namespace test_exact_distances {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -242,3 +244,5 @@ TEST_CASE("sides and octaves are whole numbers, shapes are possible") {
     CHECK_THROWS_AS((void)Field(Gyroid{.period = 1, .thickness = 0.28f}), ModelError);
     CHECK_NOTHROW((void)Field(Gyroid{.period = 1, .thickness = 0.27f}));
 }
+
+}  // namespace test_exact_distances

@@ -11,6 +11,8 @@
 #include "phasetree/program/program.hpp"
 #include "support/random_tree.hpp"
 
+namespace test_formula {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -196,3 +198,5 @@ TEST_CASE("e to the power of x is exact to a few units in the last place") {
     CHECK(power_of_two(-116.f) == std::ldexp(1.f, -116));
     for (int k = -116; k <= 116; ++k) CHECK(power_of_two(static_cast<float>(k)) == std::ldexp(1.f, k));
 }
+
+}  // namespace test_formula

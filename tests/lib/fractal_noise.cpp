@@ -12,6 +12,8 @@
 #include "support/random_tree.hpp"
 #include "support/set_algebra/textures.hpp"
 
+namespace test_fractal_noise {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -132,3 +134,5 @@ TEST_CASE("a displaced field keeps its slope away from the surface, and its nois
     }
     CHECK(bounds(f).high.x == doctest::Approx(1.1f));
 }
+
+}  // namespace test_fractal_noise

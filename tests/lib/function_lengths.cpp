@@ -8,6 +8,8 @@
 #include "source_directory.hpp"
 #include "support/rooms.hpp"
 
+namespace test_function_lengths {
+
 using namespace phasetree::tests;
 
 namespace {
@@ -82,3 +84,5 @@ TEST_CASE("no function is longer than 100 lines") {
             if (kinds.contains(file.extension().string())) blocks += check_blocks(file);
     CHECK(blocks > 5'000);
 }
+
+}  // namespace test_function_lengths

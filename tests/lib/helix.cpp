@@ -7,6 +7,8 @@
 #include "support/random_tree.hpp"
 #include "support/set_algebra.hpp"
 
+namespace test_helix {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -48,3 +50,5 @@ TEST_CASE("the coil starts on the x axis and rises to the right as seen from out
         CHECK(distance(f, {1, 0, 0.7f}) == doctest::Approx(0.1f));
     }
 }
+
+}  // namespace test_helix

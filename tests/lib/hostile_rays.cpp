@@ -22,6 +22,8 @@
 #include "phasetree/trace/tracer.hpp"
 #include "support/random_tree.hpp"
 
+namespace test_hostile_rays {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -229,3 +231,5 @@ TEST_CASE("a ray creeps along any surface in bounded time, at any resolution, an
         }
     }
 }
+
+}  // namespace test_hostile_rays

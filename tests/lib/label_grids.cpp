@@ -9,6 +9,8 @@
 #include "phasetree/nodes/phased/labels.hpp"
 #include "support/random_voxels.hpp"
 
+namespace test_label_grids {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -239,3 +241,5 @@ TEST_CASE("a grid of one number alone is its box") {
     const Phased nothing = node_of(labelled({4, 5, 6}, 2, [](const glm::ivec3&) { return 0; }), 1, glm::vec3(0.5f));
     CHECK(label(distances(nothing, {0, 0, 0})) == vacuum);
 }
+
+}  // namespace test_label_grids

@@ -18,6 +18,8 @@
 #include "support/random_tree.hpp"
 #include "support/set_algebra.hpp"
 
+namespace test_labels {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -226,3 +228,5 @@ TEST_CASE("the comparison tells right operators from wrong ones") {
     CHECK(share_of_wrong_labels(subtract<Gone::nowhere, 1>) > 0.01);   // vacuum keeps its old shape
     CHECK(share_of_wrong_labels(subtract<Gone::within_the_phase, -1>) > 0.01);
 }
+
+}  // namespace test_labels

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+namespace test_lattice_hash {
+
 using namespace phasetree;
 
 namespace {
@@ -49,3 +51,5 @@ TEST_CASE("hashes, of all sums of two numbers and up to 2, and of a hash and up 
         CHECK(lattice::hashed_on(Fused(f)).v == static_cast<float>(nearest_to_zero(hash)));
     }
 }
+
+}  // namespace test_lattice_hash

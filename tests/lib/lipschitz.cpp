@@ -9,6 +9,8 @@
 #include "support/random_tree.hpp"
 #include "support/set_algebra.hpp"
 
+namespace test_lipschitz {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -173,3 +175,5 @@ TEST_CASE("every value of a program respects its recorded Lipschitz bound") {
         REQUIRE(steepest_instruction(program, Bounds::centred(glm::vec3(20)), rng, 300) <= 1 + 1e-5);
     }
 }
+
+}  // namespace test_lipschitz

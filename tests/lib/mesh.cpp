@@ -15,6 +15,8 @@
 #include "support/random_mesh.hpp"
 #include "support/set_algebra.hpp"
 
+namespace test_mesh {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -259,3 +261,5 @@ TEST_CASE("far away and where coordinates are infinite, the distance is positive
     for (const float far : {1e3f, 1e9f, 1e18f, 1e30f, infinity})
         for (const glm::vec3& p : {glm::vec3(far, 0, 0), {-far, far, 0}, {0, far, -far}}) CHECK(distance(field, p) > 0);
 }
+
+}  // namespace test_mesh

@@ -5,6 +5,8 @@
 
 #include "support/random_tree.hpp"
 
+namespace test_mirrors {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -45,3 +47,5 @@ TEST_CASE("the icosahedron's mirrors leave one of their 120 chambers") {
     // Of 1667 expected, five standard deviations.
     CHECK(std::abs(within - points / 120) < 205);
 }
+
+}  // namespace test_mirrors

@@ -14,6 +14,8 @@
 #include "support/random_node.hpp"
 #include "tree/node.hpp"
 
+namespace test_model_errors {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -306,3 +308,5 @@ TEST_CASE("an object that cannot be traced says so") {
     CHECK(why(Set{.phase = Phase{1}, .of = Offset{.of = ball, .amount = -2}}) ==
           "the object is empty: nothing of it is left");
 }
+
+}  // namespace test_model_errors

@@ -15,6 +15,8 @@
 #include "support/normal_checks.hpp"
 #include "support/random_mesh.hpp"
 
+namespace test_normals {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -273,3 +275,5 @@ TEST_CASE("dual numbers of equal values are those of one order") {
             CHECK(angle.gradient() == glm::vec3(-y / 8, x / 8, 0));
         }
 }
+
+}  // namespace test_normals

@@ -8,6 +8,8 @@
 #include "support/random_tree.hpp"
 #include "support/set_algebra/outlines.hpp"
 
+namespace test_outlines {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -108,3 +110,5 @@ TEST_CASE("what is no outline is refused") {
     CHECK_NOTHROW((Polygon{.points = {{0, 0}, {1, 0}, {1, 1}, {1, 1}, {0, 0}}}.prepare()));
     CHECK_NOTHROW((Bezier{.points = {{0, 0}, {1, 0}, {1, 1}}, .thickness = 0.1f}.prepare()));
 }
+
+}  // namespace test_outlines

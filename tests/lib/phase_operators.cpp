@@ -34,6 +34,8 @@
 #include "support/random_tree.hpp"
 #include "support/set_algebra.hpp"
 
+namespace test_phase_operators {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -335,3 +337,5 @@ TEST_CASE("what an operator cannot mean is refused in words") {
     CHECK(error(LayeredSequence{.of = ball, .layers = {}, .thicknesses = {}}) ==
           "layered_sequence: \"phases\" must not be empty");
 }
+
+}  // namespace test_phase_operators

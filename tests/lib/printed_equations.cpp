@@ -19,6 +19,8 @@
 #include "support/random_tree.hpp"
 #include "support/set_algebra.hpp"
 
+namespace test_printed_equations {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -231,3 +233,5 @@ TEST_CASE("5.2: the printed change is caught") {
     CHECK(right.keeps_invariants());
     CHECK(right.wrong == 0);
 }
+
+}  // namespace test_printed_equations

@@ -11,6 +11,8 @@
 #include "phasetree/program/program.hpp"
 #include "support/random_tree.hpp"
 
+namespace test_program {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -172,3 +174,5 @@ TEST_CASE("bytes are counted") {
     CHECK(p.bytes() >= p.instructions.size() * sizeof(Instruction));
     CHECK(Evaluator(p).bytes() > p.bytes());
 }
+
+}  // namespace test_program

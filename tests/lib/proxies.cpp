@@ -23,6 +23,8 @@
 #include "phasetree/tree/levels_of_detail.hpp"
 #include "support/random_tree.hpp"
 
+namespace test_proxies {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -180,3 +182,5 @@ TEST_CASE("a view chooses the levels by how large their errors look, through wha
     }
     CHECK_THROWS_AS(with_levels_of_detail(object(levels), {{0, 9, 0}, 0}), ModelError);
 }
+
+}  // namespace test_proxies

@@ -15,6 +15,8 @@
 #include "phasetree/trace/tracer.hpp"
 #include "support/random_tree.hpp"
 
+namespace test_resolution {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -102,3 +104,5 @@ TEST_CASE("far from the origin an object is traced as finely as coordinates allo
         }
     }
 }
+
+}  // namespace test_resolution

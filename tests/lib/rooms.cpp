@@ -5,6 +5,8 @@
 #include "source_directory.hpp"
 #include "support/rooms.hpp"
 
+namespace test_rooms {
+
 using namespace phasetree::tests;
 
 namespace {
@@ -67,3 +69,5 @@ TEST_CASE("every public header is one that users include, or is included by one"
         CHECK_MESSAGE(reached.contains(name), name << " is internal: it belongs in lib/src");
     }
 }
+
+}  // namespace test_rooms

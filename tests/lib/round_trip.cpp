@@ -11,6 +11,8 @@
 #include "phasetree/program/program.hpp"
 #include "support/random_tree.hpp"
 
+namespace test_round_trip {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -81,3 +83,5 @@ TEST_CASE("a shared shape is written once") {
 TEST_CASE("a phase without a name cannot be written") {
     CHECK_THROWS(write_tree({{{"vacuum", "a"}}, Set{.phase = Phase{2}, .of = Sphere{}}}));
 }
+
+}  // namespace test_round_trip

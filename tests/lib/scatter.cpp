@@ -12,6 +12,8 @@
 #include "phasetree/nodes/warps/translate.hpp"
 #include "phasetree/nodes/warps/warped.hpp"
 
+namespace test_scatter {
+
 using namespace phasetree;
 
 namespace {
@@ -72,3 +74,5 @@ TEST_CASE("a surface without end or without points is refused") {
                             WarpedField<Translate>{{Translate{{0.15f, 0.15f, 0}}, Sphere{.radius = 0.1f}, {}}}}};
     CHECK_THROWS_AS((void)detail::scattered(nothing, 10, 0, 1), ModelError);
 }
+
+}  // namespace test_scatter

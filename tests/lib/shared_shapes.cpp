@@ -9,6 +9,8 @@
 #include "support/random_node.hpp"
 #include "tree/node.hpp"
 
+namespace test_shared_shapes {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -111,3 +113,5 @@ TEST_CASE("of forty levels of any node there is an answer, or it is refused") {
         if (moves) CHECK(answers.refused_programs > 10);
     }
 }
+
+}  // namespace test_shared_shapes

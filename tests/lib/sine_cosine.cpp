@@ -7,6 +7,8 @@
 #include "phasetree/math/number.hpp"
 #include "support/random_tree.hpp"
 
+namespace test_sine_cosine {
+
 using namespace phasetree;
 using phasetree::tests::Random;
 
@@ -70,3 +72,5 @@ TEST_CASE("their derivatives are each other") {
         REQUIRE(std::abs(c.gradient().x + std::sin(static_cast<double>(x))) < 5e-6);
     }
 }
+
+}  // namespace test_sine_cosine

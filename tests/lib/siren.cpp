@@ -8,6 +8,8 @@
 #include "phasetree/nodes/fields/siren_network.hpp"
 #include "source_directory.hpp"
 
+namespace test_siren {
+
 using namespace phasetree;
 
 namespace {
@@ -94,3 +96,5 @@ TEST_CASE("the bunny is what its training said") {
 TEST_CASE("a file of weights that is wrong says where") {
     CHECK_THROWS_AS((void)read_siren("/nonexistent/weights.json"), SceneError);
 }
+
+}  // namespace test_siren

@@ -8,6 +8,8 @@
 #include "phasetree/model/handle.hpp"
 #include "phasetree/nodes/phased/checker.hpp"
 
+namespace test_space_filling {
+
 using namespace phasetree;
 
 namespace {
@@ -111,3 +113,5 @@ TEST_CASE("lists that do not fit are refused in words") {
         R"({"instances": {"of": {"set": {"phase": "a", "of": {"sphere": {"radius": 1}}}}, "positions": [[0, 0, 0], [1, 0, 0]], "turns": [1, 2, 3]}})",
         "need an entry for each position");
 }
+
+}  // namespace test_space_filling

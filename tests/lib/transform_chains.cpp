@@ -46,6 +46,8 @@
 #include "support/random_tree.hpp"
 #include "support/set_algebra.hpp"
 
+namespace test_transform_chains {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 using glm::dvec3;
@@ -381,3 +383,5 @@ TEST_CASE("shapes of turned shapes are bounded in no time, if not tightly") {
     CHECK(b.finite());
     CHECK(b.contains({0.5f, 0.5f, 0.5f}));
 }
+
+}  // namespace test_transform_chains

@@ -5,6 +5,8 @@
 
 #include "phasetree/nodes/list.hpp"
 
+namespace test_value_source {
+
 using namespace phasetree;
 
 namespace {
@@ -67,3 +69,5 @@ TEST_CASE("shapes of shapes that stand for billions end with an error") {
     for (int i = 0; i < 40; ++i) shape = Union{.of = {shape, warped(Translate{{0, 0, 1}}, shape)}};
     CHECK_THROWS_AS(value_source(Set{.phase = water, .of = shape}, {}, water), ModelError);
 }
+
+}  // namespace test_value_source

@@ -10,6 +10,8 @@
 #include "support/random_voxels.hpp"
 #include "support/set_algebra.hpp"
 
+namespace test_volume {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -136,3 +138,5 @@ TEST_CASE("what is no grid is refused") {
     CHECK_THROWS_WITH(made({{8192, 8192, 8192}, {}, glm::dvec3(1)}, 0),
                       "volume: the grid has more than 120000000 values that differ from their neighbours");
 }
+
+}  // namespace test_volume

@@ -6,6 +6,8 @@
 #include "support/random_tree.hpp"
 #include "support/set_algebra/patterns.hpp"
 
+namespace test_voronoi {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -46,3 +48,5 @@ TEST_CASE("the library's sites are those of the reference") {
                                 [&](const glm::dvec3& v) { return glm::length(v - s.at) < 1e-4; }));
     }
 }
+
+}  // namespace test_voronoi

@@ -8,6 +8,8 @@
 #include "phasetree/nodes/phased/voronoi.hpp"
 #include "support/random_tree.hpp"
 
+namespace test_voronoi_specialised {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -93,3 +95,5 @@ TEST_CASE("in a small box a Voronoi pattern is that of few sites, to the last bi
         CHECK(f.beyond > f.points / 50);
     }
 }
+
+}  // namespace test_voronoi_specialised

@@ -9,6 +9,8 @@
 
 #include "phasetree/nodes/fields/voxel_grid.hpp"
 
+namespace test_voxel_lines {
+
 using namespace phasetree;
 using voxels::Size;
 
@@ -136,3 +138,5 @@ TEST_CASE("a grid that is made of all values at once is the one that is made vox
                           doctest::Contains("is too large, or no number"));
     }
 }
+
+}  // namespace test_voxel_lines

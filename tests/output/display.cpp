@@ -17,6 +17,8 @@
 #include "output/error.hpp"
 #include "phasetree_support/temporary_directory.hpp"
 
+namespace test_display {
+
 namespace ocio = OCIO_NAMESPACE;
 using namespace phasetree::tracer;
 using namespace phasetree::support;
@@ -248,3 +250,5 @@ TEST_CASE("a foreign configuration gets linear Rec.709 in its own terms") {
     CHECK(contains(missing, path));
     CHECK(contains(missing, "missing.cube"));
 }
+
+}  // namespace test_display

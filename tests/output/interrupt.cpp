@@ -9,6 +9,8 @@
 #include <string>
 #include <utility>
 
+namespace test_interrupt {
+
 using namespace phasetree::tracer;
 
 namespace {
@@ -168,3 +170,5 @@ TEST_CASE("before and after that it is a question" * doctest::skip(!signals_work
     const EndingAtOnce at_once(codes, "");
     CHECK_THROWS_AS(EndingAtOnce(codes, ""), std::logic_error);
 }
+
+}  // namespace test_interrupt

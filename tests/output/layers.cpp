@@ -14,6 +14,8 @@
 #include "output/write.hpp"
 #include "phasetree_support/temporary_directory.hpp"
 
+namespace test_layers {
+
 using namespace phasetree::tracer;
 using namespace phasetree::support;
 using namespace phasetree::tracer::test;
@@ -128,3 +130,5 @@ TEST_CASE("what {plane} cannot be in is refused before there is an image") {
     CHECK_NOTHROW(check_writable(folder / "a.{plane}.exr"));
     CHECK(folder.size() == 0);
 }
+
+}  // namespace test_layers

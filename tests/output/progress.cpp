@@ -14,6 +14,8 @@
 #include "environment.hpp"
 #include "output/progress.hpp"
 
+namespace test_progress {
+
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::test;
 using namespace std::chrono_literals;
@@ -248,3 +250,5 @@ TEST_CASE("what is done within a second is never shown, and what takes longer is
     silent.tell(0.5);
     CHECK(screen.take() == "");
 }
+
+}  // namespace test_progress

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <set>
 
+namespace test_quantise {
+
 using namespace phasetree::tracer;
 
 TEST_CASE("thresholds lie inside (0, 1), all of them, and evenly in every neighbourhood") {
@@ -62,3 +64,5 @@ TEST_CASE("what no code can say is clamped, and no number is black") {
     }
     CHECK(quantise16(pixels) == std::vector<std::uint16_t>{0, 65535, 0, 0, 65535, 0});
 }
+
+}  // namespace test_quantise

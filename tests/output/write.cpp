@@ -22,6 +22,8 @@
 #include "phasetree_support/temporary_directory.hpp"
 #include "phasetree_support/whole_file.hpp"
 
+namespace test_write {
+
 namespace fs = std::filesystem;
 using namespace phasetree::tracer;
 using namespace phasetree::support;
@@ -447,3 +449,5 @@ TEST_CASE("writing replaces the old file, and only it") {
     CHECK(fs::is_regular_file(folder / "bare.exr"));
     CHECK(folder.size() == 3);
 }
+
+}  // namespace test_write

@@ -13,6 +13,7 @@ foreach(package OpenImageIO OpenColorIO CLI11 tinyobjloader doctest benchmark)
 endforeach()
 execute_process(WORKING_DIRECTORY "${SOURCE}" RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors
     COMMAND ${CMAKE_COMMAND} --preset plugin -G "${GENERATOR}" -B "${WORK}/build" ${without}
+        -DCMAKE_UNITY_BUILD=OFF  # for compile_commands.json to name every file
         "-DCMAKE_PREFIX_PATH=${PREFIX_PATH}" "-Dembree_DIR=${EMBREE_DIR}")
 if(NOT status EQUAL 0)
     message(FATAL_ERROR "cmake --preset plugin ended with ${status}\n${output}\n${errors}")

@@ -12,6 +12,8 @@
 #include "film/film.hpp"
 #include "light_checks.hpp"
 
+namespace test_camera {
+
 using namespace phasetree::tracer;
 using namespace phasetree::tests;
 
@@ -230,3 +232,5 @@ TEST_CASE("pixel filter: densities integrate to 1 and samples follow them") {
     CHECK_THROWS_AS(PixelFilter(PixelFilter::Shape::box, std::numeric_limits<float>::quiet_NaN()),
                     std::invalid_argument);
 }
+
+}  // namespace test_camera

@@ -9,6 +9,8 @@
 #include "camera/camera.hpp"
 #include "support/uniform.hpp"
 
+namespace test_camera_kinds {
+
 using namespace phasetree::tracer;
 using phasetree::tests::Uniform;
 
@@ -140,3 +142,5 @@ TEST_CASE("aperture: a polygon of blades is filled evenly, within its circle") {
     CHECK_THROWS_AS(Aperture({.lens_radius = 1, .blades = 2}), std::invalid_argument);
     CHECK_THROWS_AS(Aperture({.lens_radius = -1}), std::invalid_argument);
 }
+
+}  // namespace test_camera_kinds

@@ -3,6 +3,8 @@
 #include "bsdf_checks.hpp"
 #include "shading/bsdf/coating_albedo.hpp"
 
+namespace test_coating {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 using tracer::CoatedDiffuseBsdf;
@@ -125,3 +127,5 @@ TEST_CASE("coating albedo: published diffuse reflectances of a smooth interface"
     CHECK(static_cast<double>(CoatingAlbedo(1.5f, 0.01f).at(0.01f).average().x) ==
           doctest::Approx(0.0918).epsilon(0.01));
 }
+
+}  // namespace test_coating

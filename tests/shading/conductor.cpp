@@ -4,6 +4,8 @@
 #include "shading/fresnel.hpp"
 #include "shading/metals.hpp"
 
+namespace test_conductor {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 using tracer::ConductorSurface;
@@ -109,3 +111,5 @@ TEST_CASE("metals: known colours at normal incidence") {
     CHECK_FALSE(find_metal("unobtainium"));
     CHECK(tracer::metals().size() == 10);
 }
+
+}  // namespace test_conductor

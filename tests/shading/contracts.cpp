@@ -8,6 +8,8 @@
 #include "shading/bsdf.hpp"
 #include "shading/texture/texture.hpp"
 
+namespace test_contracts {
+
 using namespace phasetree::tracer;
 
 namespace {
@@ -44,3 +46,5 @@ TEST_CASE("a medium by its kind and by any kind lets the same through") {
     CHECK(transmittance(Medium(medium), way, sampler) == medium.transmittance(way, sampler));
     CHECK(transmittance(Medium(), endless, sampler) == glm::vec3(1));
 }
+
+}  // namespace test_contracts

@@ -3,6 +3,8 @@
 #include "bsdf_checks.hpp"
 #include "shading/fresnel.hpp"
 
+namespace test_dielectric_rough {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 using tracer::DielectricSurface;
@@ -142,3 +144,5 @@ TEST_CASE("rough dielectric: extreme directions give numbers") {
         }
     }
 }
+
+}  // namespace test_dielectric_rough

@@ -4,6 +4,8 @@
 
 #include "bsdf_checks.hpp"
 
+namespace test_dielectric_smooth {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 using tracer::SmoothDielectricBsdf;
@@ -101,3 +103,5 @@ TEST_CASE("smooth dielectric: equal indices let the ray pass unchanged") {
     CHECK_FALSE(tracer::Bsdf(SmoothDielectricBsdf(1.5f, 1.33f)).passes_through());
     CHECK(bsdf.is_delta());
 }
+
+}  // namespace test_dielectric_smooth

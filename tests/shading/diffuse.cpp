@@ -2,6 +2,8 @@
 
 #include "bsdf_checks.hpp"
 
+namespace test_diffuse {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -41,3 +43,5 @@ TEST_CASE("diffuse: reciprocal, and dark from below") {
     CHECK_FALSE(bsdf.is_delta());
     CHECK_FALSE(bsdf.passes_through());
 }
+
+}  // namespace test_diffuse

@@ -8,6 +8,8 @@
 
 #include "media/medium.hpp"
 
+namespace test_fresnel {
+
 using phasetree::tracer::AbsorbingMedium;
 using phasetree::tracer::fresnel_conductor;
 using phasetree::tracer::fresnel_dielectric;
@@ -100,3 +102,5 @@ TEST_CASE("conductors of any index: a reflectance between 0 and 1, and the right
                 CHECK(static_cast<double>(r) == doctest::Approx(static_cast<double>(expected)).epsilon(1e-6));
             }
 }
+
+}  // namespace test_fresnel

@@ -8,6 +8,8 @@
 #include "shading/frame.hpp"
 #include "shading/metals.hpp"
 
+namespace test_interface {
+
 using namespace phasetree::tracer;
 using phasetree::tests::direction;
 
@@ -136,3 +138,5 @@ TEST_CASE("frame: orthonormal, and there and back") {
     }
     CHECK(Frame({0.0f, 0.0f, -1.0f}).to_world({0.0f, 0.0f, 1.0f}).z == -1.0f);
 }
+
+}  // namespace test_interface

@@ -7,6 +7,8 @@
 
 #include "bsdf_checks.hpp"
 
+namespace test_inversion {
+
 using namespace phasetree::tracer;
 using phasetree::tests::Uniform;
 
@@ -50,3 +52,5 @@ TEST_CASE("inversion: what is no number, or out of range, is in some interval") 
     for (const float u : {std::numeric_limits<float>::quiet_NaN(), -1.0f, 2.0f, std::numeric_limits<float>::infinity()})
         CHECK(invert(cumulative, u).index < 2);
 }
+
+}  // namespace test_inversion

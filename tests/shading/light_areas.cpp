@@ -10,6 +10,8 @@
 #include "lights/rectangle_light.hpp"
 #include "lights/sphere_light.hpp"
 
+namespace test_light_areas {
+
 using namespace phasetree::tracer;
 using namespace phasetree::tests;
 
@@ -309,3 +311,5 @@ TEST_CASE("rectangle light: the rough solid angle is never far off, and zero whe
     CHECK(light.approximate_solid_angle({100, 0, 201}) ==
           doctest::Approx(light.solid_angle({100, 0, 201})).epsilon(1e-2));
 }
+
+}  // namespace test_light_areas

@@ -16,6 +16,8 @@
 #include "sampling/warps.hpp"
 #include "shading/frame.hpp"
 
+namespace test_light_collection {
+
 using namespace phasetree::tracer;
 using namespace phasetree::tests;
 
@@ -318,3 +320,5 @@ TEST_CASE("lights: points that are stratified in the square are so for each ligh
         }
     for (const auto& light : hits) CHECK(std::count(light.begin(), light.end(), 1) > 200);
 }
+
+}  // namespace test_light_collection

@@ -10,6 +10,8 @@
 #include "lights/daylight.hpp"
 #include "lights/sun.hpp"
 
+namespace test_light_daylight {
+
 using namespace phasetree::tracer;
 using namespace phasetree::tests;
 
@@ -168,3 +170,5 @@ TEST_CASE("daylight: finite, never negative, without steps, from night to noon")
     parameters.turbidity = std::numeric_limits<float>::quiet_NaN();
     CHECK_THROWS_AS(make_daylight(parameters), std::invalid_argument);
 }
+
+}  // namespace test_light_daylight

@@ -17,6 +17,8 @@
 #include "lights/lat_long.hpp"
 #include "lights/load_environment.hpp"
 
+namespace test_light_environments {
+
 using namespace phasetree::tracer;
 using namespace phasetree::tests;
 
@@ -319,3 +321,5 @@ TEST_CASE("environment images are read from files, and what is wrong with a file
     CHECK_FALSE(message(write("short.hdr", header + "abc")).empty());
     std::filesystem::remove_all(folder);
 }
+
+}  // namespace test_light_environments

@@ -8,6 +8,8 @@
 #include "light_checks.hpp"
 #include "lights/lights.hpp"
 
+namespace test_light_points {
+
 using namespace phasetree::tracer;
 using namespace phasetree::tests;
 
@@ -253,3 +255,5 @@ TEST_CASE("portals: directions follow the density of the whole mixture, and an e
     // From behind it is not there.
     CHECK(lights.pdf(glm::vec3(0, 0, 5), {0, 0, -1}) == doctest::Approx(1 / (4 * std::numbers::pi)));
 }
+
+}  // namespace test_light_points

@@ -11,6 +11,8 @@
 #include "shading/fresnel.hpp"
 #include "shading/metals.hpp"
 
+namespace test_rough_furnace {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 using tracer::CoatedDiffuseBsdf;
@@ -181,3 +183,5 @@ TEST_CASE("rough furnace: from outside, glass lets through about as much as a wa
         }
     }
 }
+
+}  // namespace test_rough_furnace

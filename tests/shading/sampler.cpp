@@ -11,6 +11,8 @@
 #include "sampling/sobol.hpp"
 #include "support/statistics.hpp"
 
+namespace test_sampler {
+
 using namespace phasetree::tests;
 using phasetree::tracer::nested_uniform_scramble;
 using phasetree::tracer::Sampler;
@@ -179,3 +181,5 @@ TEST_CASE("sampler: a value depends on pixel, sample, seed and dimension only") 
                               value(2, 4, 100, 7)};
     CHECK(all.size() == 5);
 }
+
+}  // namespace test_sampler

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+namespace test_shared_surfaces {
+
 using namespace phasetree::tracer;
 
 TEST_CASE("between scenes coatings that are in use stay, and all else is made anew") {
@@ -21,3 +23,5 @@ TEST_CASE("between scenes coatings that are in use stay, and all else is made an
     // What is made of the other side of another surface might differ from it in its last bits.
     CHECK(dielectric() != surface);
 }
+
+}  // namespace test_shared_surfaces

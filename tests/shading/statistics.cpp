@@ -4,6 +4,8 @@
 
 #include <array>
 
+namespace test_statistics {
+
 using namespace phasetree::tests;
 
 TEST_CASE("statistics: tabulated values") {
@@ -44,3 +46,5 @@ TEST_CASE("statistics: the test of counts") {
     const std::array<double, 2> negative{110.0, -1.0};
     CHECK(chi_squared_test(impossible_observed, negative).p_value == 0.0);
 }
+
+}  // namespace test_statistics

@@ -9,6 +9,8 @@
 #include "bsdf_checks.hpp"
 #include "shading/texture/noise.hpp"
 
+namespace test_texture {
+
 using namespace phasetree::tracer;
 using phasetree::tests::Moments;
 using phasetree::tests::Uniform;
@@ -147,3 +149,5 @@ TEST_CASE("checker: alternates, on both sides of the origin") {
     CHECK(checker.at({-1.0f, 1.0f, 1.0f}).x == 0.0f);
     CHECK(checker.at({-1.0f, -1.0f, 1.0f}).x == 1.0f);
 }
+
+}  // namespace test_texture

@@ -8,6 +8,8 @@
 #include "shading/metals.hpp"
 #include "spectrum/colour_matching.hpp"
 
+namespace test_thin_film {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 using tracer::CoatedDiffuseBsdf;
@@ -192,3 +194,5 @@ TEST_CASE("thin film: varnish with a film whose thickness varies is white at eac
         }
     }
 }
+
+}  // namespace test_thin_film

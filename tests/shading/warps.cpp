@@ -5,6 +5,8 @@
 #include "bsdf_checks.hpp"
 #include "sampling/ggx.hpp"
 
+namespace test_warps {
+
 using namespace phasetree::tests;
 using namespace phasetree::tracer;
 
@@ -126,3 +128,5 @@ TEST_CASE(
         }
     }
 }
+
+}  // namespace test_warps

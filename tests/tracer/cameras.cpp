@@ -6,6 +6,8 @@
 
 #include "paths.hpp"
 
+namespace test_cameras {
+
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::tests;
 
@@ -133,3 +135,5 @@ TEST_CASE("orthographic rays start in the phase at their own origins") {
     job.pixels = {290, 150, 291, 151};
     CHECK(render(world, scene, job).image.pixels[0].x == 1.0f);
 }
+
+}  // namespace test_cameras

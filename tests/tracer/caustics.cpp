@@ -11,6 +11,8 @@
 #include "photons.hpp"
 #include "shading/fresnel.hpp"
 
+namespace test_caustics {
+
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::tests;
 
@@ -255,3 +257,5 @@ TEST_CASE("a target's lines are as dense as it says") {
     CHECK(mean_p_value(inverse, area, 0) > 1e-4);
     CHECK(mean_p_value(inverse, 1.03 * area, 0) < 1e-4);
 }
+
+}  // namespace test_caustics

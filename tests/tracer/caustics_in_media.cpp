@@ -10,6 +10,8 @@
 #include "shading/fresnel.hpp"
 #include "world/chain.hpp"
 
+namespace test_caustics_in_media {
+
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::tests;
 
@@ -164,3 +166,5 @@ TEST_CASE("a lamp in the same medium is seen straight, beside photons through a 
            "render": {"width": 64, "height": 64, "photon_radius": 2, "photons": 0.3})");
     check_against_paths(scene, {-3, -0.5f, -0.9f}, {1, 0.1f, -0.05f}, 3 * passes, 1e-4);
 }
+
+}  // namespace test_caustics_in_media

@@ -13,6 +13,8 @@
 #include "paths.hpp"
 #include "support/uniform.hpp"
 
+namespace test_denoise {
+
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::tests;
 using phasetree::tests::Uniform;
@@ -266,3 +268,5 @@ TEST_CASE("half of a render's samples are in the half, and with the others they 
     }
     CHECK(regressed(all).has_value());
 }
+
+}  // namespace test_denoise

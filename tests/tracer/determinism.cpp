@@ -8,6 +8,8 @@
 #include "paths.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
 
+namespace test_determinism {
+
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::tests;
 
@@ -115,3 +117,5 @@ TEST_CASE("any instruction set") {
     }
     phasetree::use_simd_target(best);
 }
+
+}  // namespace test_determinism

@@ -11,6 +11,8 @@
 #include "spectrum/glasses.hpp"
 #include "world/chain.hpp"
 
+namespace test_dispersion {
+
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::tests;
 
@@ -189,3 +191,5 @@ TEST_CASE("photons of one wavelength: the ground of a pool of flint glass under 
         CHECK(mean_p_value(moments[c], 1.3 * e, 3e-3 * e) < significance);
     }
 }
+
+}  // namespace test_dispersion

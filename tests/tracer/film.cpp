@@ -10,6 +10,8 @@
 #include "film/sums/count.hpp"
 #include "film/sums/first_value.hpp"
 
+namespace test_film {
+
 using namespace phasetree::tracer;
 
 namespace {
@@ -227,3 +229,5 @@ TEST_CASE("planes beside the picture become further channels, if they are chosen
     CHECK(Three::Sums({}, subjects, 2).bytes_of_pixel() == 48);
     CHECK(Three::Sums(Three::all(), subjects, 2).bytes_of_pixel() == 48 + sizeof(FirstValue<1>) + 2 * sizeof(Count));
 }
+
+}  // namespace test_film

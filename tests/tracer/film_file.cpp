@@ -9,6 +9,8 @@
 #include "phasetree_support/temporary_directory.hpp"
 #include "support/uniform.hpp"
 
+namespace test_film_file {
+
 using namespace phasetree::tracer;
 using namespace phasetree;
 using phasetree::tests::Uniform;
@@ -208,3 +210,5 @@ TEST_CASE("the pixels of the picture are some of the film's") {
         CHECK(wrong.refusal(wrong.bytes).find("out of range") != std::string::npos);
     }
 }
+
+}  // namespace test_film_file

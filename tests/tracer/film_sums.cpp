@@ -16,6 +16,8 @@
 #include "film/sums/weighted_mean.hpp"
 #include "film/sums/weights_by_id.hpp"
 
+namespace test_film_sums {
+
 using namespace phasetree::tracer;
 
 namespace {
@@ -303,3 +305,5 @@ TEST_CASE("bytes that no sum writes are refused") {
     CHECK_THROWS_AS(read(WeightsById{}, {2, 0, 0, 0, 5, 0, 0, 0, 72, 5, 0, 0, 0, 72}), BytesError);
     CHECK(read(WeightsById{}, {2, 0, 0, 0, 4, 0, 0, 0, 72, 5, 0, 0, 0, 72}).entries().size() == 2);
 }
+
+}  // namespace test_film_sums

@@ -13,6 +13,8 @@
 
 #include "paths.hpp"
 
+namespace test_furnace {
+
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::tests;
 
@@ -175,3 +177,5 @@ TEST_CASE("furnace: rough glass gives back what it got") {
         }
     }
 }
+
+}  // namespace test_furnace

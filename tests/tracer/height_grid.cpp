@@ -9,6 +9,8 @@
 #include "phasetree_support/temporary_directory.hpp"
 #include "scene/scene.hpp"
 
+namespace test_height_grid {
+
 using namespace phasetree;
 using support::TemporaryDirectory;
 
@@ -74,3 +76,5 @@ TEST_CASE("an image that cannot be used is an error at its name") {
     CHECK(error("text.png").find("cannot use the height map") != std::string::npos);
     CHECK(error(".").find("it is not a file") != std::string::npos);
 }
+
+}  // namespace test_height_grid

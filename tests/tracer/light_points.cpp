@@ -7,6 +7,8 @@
 
 #include "paths.hpp"
 
+namespace test_light_points {
+
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::tests;
 
@@ -107,3 +109,5 @@ TEST_CASE("a portal at a window: the mean stays, and the variance falls") {
     CAPTURE(ratio);
     CHECK(ratio < 0.5);
 }
+
+}  // namespace test_light_points

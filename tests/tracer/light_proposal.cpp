@@ -11,6 +11,8 @@
 #include "shading/frame.hpp"
 #include "support/uniform.hpp"
 
+namespace test_light_proposal {
+
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::tests;
 using phasetree::tests::chi_squared_test;
@@ -321,3 +323,5 @@ TEST_CASE("under curved glass and water, and lamps as bright as the sky, white p
         CHECK(p_value("0.99") < significance);
     }
 }
+
+}  // namespace test_light_proposal

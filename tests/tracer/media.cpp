@@ -8,6 +8,8 @@
 #include "closed_form.hpp"
 #include "paths.hpp"
 
+namespace test_media {
+
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::tests;
 using phasetree::tests::cosine_within;
@@ -109,3 +111,5 @@ TEST_CASE("a diffuse floor under water: light that is refracted on its way is ne
         CHECK(mean_p_value(wrong[c], f + from_floor, rounding) < significance);
     }
 }
+
+}  // namespace test_media

@@ -7,6 +7,8 @@
 
 #include "paths.hpp"
 
+namespace test_mis {
+
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::tests;
 
@@ -116,3 +118,5 @@ TEST_CASE("lights that the camera does not see light the scene all the same; a b
     CHECK(radiance_along(world, scene, {0, -5, 0}, {1, 0, 0}, 10)[0].mean() == 0);
     CHECK(mean_p_value(radiance_along(world, scene, {0, -5, 0}, {0, 1, 0}, 20000)[0], 1, 1e-5) > 1e-4);
 }
+
+}  // namespace test_mis

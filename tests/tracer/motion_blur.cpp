@@ -8,6 +8,8 @@
 
 #include "paths.hpp"
 
+namespace test_motion_blur {
+
 using namespace phasetree;
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::tests;
@@ -156,3 +158,5 @@ TEST_CASE("photons light what is there at their time") {
         dark = std::max(dark, std::abs(static_cast<double>(blurred.pixels[k].y) - still[k]));
     CHECK(dark < 0.25 * expected / static_cast<double>(still.size()));
 }
+
+}  // namespace test_motion_blur

@@ -13,6 +13,8 @@
 #include "scene/read_transform.hpp"
 #include "straight_rays.hpp"
 
+namespace test_moving_objects {
+
 using namespace phasetree;
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::tests;
@@ -286,3 +288,5 @@ TEST_CASE("what cannot move is refused, with the place") {
     CHECK(message(R"({"scale": {"factor": 1}})", "[0, 1]", "fog") == "");
     refused(message(good, "[0, 1]", "fog"), 3, "\"density\"");
 }
+
+}  // namespace test_moving_objects

@@ -11,6 +11,8 @@
 #include "paths.hpp"
 #include "support/uniform.hpp"
 
+namespace test_noise_limit {
+
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::tests;
 using phasetree::tests::Uniform;
@@ -204,3 +206,5 @@ TEST_CASE("no bias of a hundredth of the picture, nor of its half with the caust
     CHECK(furthest(difference) < 0.005 * all.mean());
     CHECK(furthest(lit) < 0.005);
 }
+
+}  // namespace test_noise_limit

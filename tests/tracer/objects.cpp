@@ -14,6 +14,8 @@
 #include "scene/overlaps.hpp"
 #include "scene/scene.hpp"
 
+namespace test_objects {
+
 using namespace phasetree;
 using namespace phasetree::tracer;
 using support::TemporaryDirectory;
@@ -294,3 +296,5 @@ TEST_CASE("too many objects are no tree") {
                                  R"(], "instances": [{"of": "ball", "transforms": [)" + places + "]}]");
     CHECK_THROWS_AS((void)as_one_tree(scene.placed), ModelError);
 }
+
+}  // namespace test_objects

@@ -4,6 +4,8 @@
 #include "page/page.hpp"
 #include "paths.hpp"
 
+namespace test_page_looks {
+
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::tests;
 
@@ -35,3 +37,5 @@ TEST_CASE("a page shows each kind of material as what it is") {
     CHECK(gold.kind == Look::metal);
     CHECK(gold.color.x > gold.color.z);
 }
+
+}  // namespace test_page_looks

@@ -9,6 +9,8 @@
 #include "closed_form.hpp"
 #include "paths.hpp"
 
+namespace test_path_record {
+
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::tests;
 
@@ -264,3 +266,5 @@ TEST_CASE("names of groups") {
     for (const char* bad : {R"("")", R"("key.R")", R"("a b")", R"("schlüssel")", "7"})
         CHECK_THROWS_AS(lit_by(bad), phasetree::SceneError);
 }
+
+}  // namespace test_path_record

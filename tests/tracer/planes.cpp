@@ -16,6 +16,8 @@
 #include "paths.hpp"
 #include "phasetree_support/temporary_directory.hpp"
 
+namespace test_planes {
+
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::tests;
 
@@ -247,3 +249,5 @@ TEST_CASE("channels of names that are alike once they are plain") {
     CHECK(channel_names("length_", {"vacuum", "a.b", "a b", "ä"}, ".X") ==
           std::vector<std::string>{"length_vacuum.X", "length_a_b.X", "length_a_b_2.X", "length___.X"});
 }
+
+}  // namespace test_planes

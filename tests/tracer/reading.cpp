@@ -19,6 +19,8 @@
 #include "scene/named_files.hpp"
 #include "scene/read_transform.hpp"
 
+namespace test_reading {
+
 using namespace phasetree;
 using namespace phasetree::tracer;
 using support::TemporaryDirectory;
@@ -154,3 +156,5 @@ TEST_CASE("the files that a scene names are counted as often as it names them, t
     const Document strict = Document::from_file(folder / "scene.json").with_files_within(folder / "..");
     CHECK(bytes_of_named_files(strict) > 0);
 }
+
+}  // namespace test_reading

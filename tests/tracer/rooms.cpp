@@ -4,6 +4,8 @@
 #include "source_directory.hpp"
 #include "support/rooms.hpp"
 
+namespace test_rooms {
+
 using namespace phasetree::tests;
 
 TEST_CASE("every room of the path tracer is drawn, and includes only what is drawn before it") {
@@ -11,3 +13,5 @@ TEST_CASE("every room of the path tracer is drawn, and includes only what is dra
     CHECK(check_rooms(tracer / "src", tracer / "README.md", {"phasetree/", "phasetree_support/", "embree_core/"}) >
           200);
 }
+
+}  // namespace test_rooms

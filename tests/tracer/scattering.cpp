@@ -12,6 +12,8 @@
 #include "support/statistics.hpp"
 #include "support/uniform.hpp"
 
+namespace test_scattering {
+
 using namespace phasetree;
 using namespace phasetree::tracer;
 using phasetree::tests::chi_squared_test;
@@ -181,3 +183,5 @@ TEST_CASE("ways without end, and through nothing") {
     CHECK(red.weight.x == 1.0f);
     CHECK(red.weight.y == 0.0f);
 }
+
+}  // namespace test_scattering

@@ -12,6 +12,8 @@
 
 #include "paths.hpp"
 
+namespace test_scattering_furnace {
+
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::tests;
 
@@ -125,3 +127,5 @@ TEST_CASE("shadow rays alone, sampled directions alone, and both find the same l
         }
     }
 }
+
+}  // namespace test_scattering_furnace

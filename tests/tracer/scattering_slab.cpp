@@ -10,6 +10,8 @@
 #include "adding_doubling.hpp"
 #include "paths.hpp"
 
+namespace test_scattering_slab {
+
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::tests;
 using phasetree::tests::adding_doubling;
@@ -129,3 +131,5 @@ TEST_CASE("half-spaces that scatter: Chandrasekhar's H, and Giovanelli's with an
     CHECK(mean_p_value(m, 0.26 * (1 + planted), 0.0005) < 1e-4);
     if (long_form) CHECK(std::abs(m.mean() / 0.26 - 1) < 0.005);
 }
+
+}  // namespace test_scattering_slab

@@ -19,6 +19,8 @@
 #include "support/json_schema.hpp"
 #include "tracer/scene_cases.hpp"
 
+namespace test_scene_reference {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 using support::bytes_of;
@@ -345,3 +347,5 @@ TEST_CASE("an image has the size and the settings that the page promises, with o
         CHECK(!read.settings.view);
     }
 }
+
+}  // namespace test_scene_reference

@@ -9,6 +9,8 @@
 #include "straight_rays.hpp"
 #include "world/world.hpp"
 
+namespace test_several_objects {
+
 using namespace phasetree;
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::tests;
@@ -284,3 +286,5 @@ TEST_CASE("where objects touch, the one that the ray enters is the one that it m
     }
     CHECK(touching > 1000);
 }
+
+}  // namespace test_several_objects

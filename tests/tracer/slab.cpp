@@ -12,6 +12,8 @@
 #include "closed_form.hpp"
 #include "paths.hpp"
 
+namespace test_slab {
+
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::tests;
 using phasetree::tests::cosine_within;
@@ -135,3 +137,5 @@ TEST_CASE("two touching layers: no air gap between glass and glass, glass and wa
         }
     }
 }
+
+}  // namespace test_slab

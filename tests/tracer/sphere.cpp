@@ -8,6 +8,8 @@
 #include "closed_form.hpp"
 #include "paths.hpp"
 
+namespace test_sphere {
+
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::tests;
 using phasetree::tests::sphere_in_uniform_light;
@@ -42,3 +44,5 @@ TEST_CASE("sphere of absorbing glass: Fresnel and Beer-Lambert, all internal ref
         }
     }
 }
+
+}  // namespace test_sphere

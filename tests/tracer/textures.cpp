@@ -11,6 +11,8 @@
 #include "paths.hpp"
 #include "shading/texture/ramp.hpp"
 
+namespace test_textures {
+
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::tests;
 
@@ -148,3 +150,5 @@ TEST_CASE("textures from images: on a mesh by its coordinates, and an error wher
     std::filesystem::remove(path);
     std::filesystem::remove(obj);
 }
+
+}  // namespace test_textures

@@ -8,6 +8,8 @@
 
 #include "scene/scene.hpp"
 
+namespace test_edits {
+
 using namespace phasetree;
 using namespace phasetree::tracer;
 
@@ -71,3 +73,5 @@ TEST_CASE("every kind of material tells its name and what of it can be changed")
         CHECK((changed.roughness == look.roughness) == c.has_roughness);
     }
 }
+
+}  // namespace test_edits

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+namespace test_numbers {
+
 using namespace phasetree;
 using namespace phasetree::tracer::view;
 
@@ -64,3 +66,5 @@ TEST_CASE("numbers are replaced, and all else of the text stays") {
     // What the file no longer has counts for nothing.
     CHECK(with_numbers(text, {{"/a/3", 1}, {"/b", 2}, {"/b/d", 3}, {"", 4}}) == text.text());
 }
+
+}  // namespace test_numbers

@@ -14,6 +14,8 @@
 #include "phasetree/nodes/fields/plane.hpp"
 #include "phasetree/nodes/phased/set.hpp"
 
+namespace test_session {
+
 using namespace phasetree;
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::view;
@@ -314,3 +316,5 @@ TEST_CASE("a camera is not written before there is one") {
     session.write_camera();
     CHECK(written.find("[0, -3, 0]") != std::string::npos);
 }
+
+}  // namespace test_session

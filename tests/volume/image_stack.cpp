@@ -12,6 +12,8 @@
 #include "scene/read_parts.hpp"
 #include "volume/read_volume.hpp"
 
+namespace test_image_stack {
+
 using namespace phasetree;
 
 namespace {
@@ -154,3 +156,5 @@ TEST_CASE("a scene is told the place of what is wrong with its volumes") {
     contains(R"({"set": {"phase": "a", "of": {"volume": {"file": ""}}}})", "89", "\"file\" must not be empty");
     contains(R"({"set": {"phase": "a", "of": {"volume": {"grid": "g"}}}})", "80", "\"file\"");
 }
+
+}  // namespace test_image_stack

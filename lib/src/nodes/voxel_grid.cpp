@@ -15,13 +15,11 @@ using voxels::Table;
 
 namespace {
 
-constexpr int side = VoxelGrid::block_side;
-
 // The blocks of a grid of so many voxels, of which x varies fastest.
 class Blocks {
   public:
     explicit Blocks(const std::array<int, 3>& size) {
-        for (std::size_t i = 0; i < 3; ++i) along_[i] = (size[i] + side - 1) / side;
+        for (std::size_t i = 0; i < 3; ++i) along_[i] = (size[i] + VoxelGrid::block_side - 1) / VoxelGrid::block_side;
     }
     const std::array<int, 3>& along() const { return along_; }
     std::size_t count() const {
@@ -33,7 +31,7 @@ class Blocks {
         std::array<int, 3> first;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto n = static_cast<std::size_t>(along_[axis]);
-            first[axis] = static_cast<int>(block % n) * side;
+            first[axis] = static_cast<int>(block % n) * VoxelGrid::block_side;
             block /= n;
         }
         return first;
@@ -212,7 +210,7 @@ Bounds VoxelGrid::blocks_below(float level) const {
         const std::array<int, 3> first = blocks.first_voxel(block);
         for (std::size_t i = 0; i < 3; ++i) {
             low[i] = std::min(low[i], first[i]);
-            high[i] = std::max(high[i], first[i] + side - 1);
+            high[i] = std::max(high[i], first[i] + VoxelGrid::block_side - 1);
         }
     }
     if (high[0] < 0) return {};

@@ -10,8 +10,6 @@ namespace phasetree {
 
 namespace {
 
-constexpr int side = VoxelGrid::block_side;
-
 // The largest f(values) of all blocks that are kept, but at least 0. In other blocks, and next to them, nothing
 // changes.
 template <class F>
@@ -33,9 +31,10 @@ template <class F>
 double largest_at_kept_voxels(const std::vector<float>& table, F&& f) {
     return largest_at_kept_blocks(table, [&](const float* block) {
         double largest = 0;
-        for (int z = 1; z <= side; ++z)
-            for (int y = 1; y <= side; ++y)
-                for (int x = 1; x <= side; ++x) largest = std::max(largest, f(block + x + 10 * y + 100 * z));
+        for (int z = 1; z <= VoxelGrid::block_side; ++z)
+            for (int y = 1; y <= VoxelGrid::block_side; ++y)
+                for (int x = 1; x <= VoxelGrid::block_side; ++x)
+                    largest = std::max(largest, f(block + x + 10 * y + 100 * z));
         return largest;
     });
 }

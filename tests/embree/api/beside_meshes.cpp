@@ -3,6 +3,8 @@
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/trace/tracer.hpp"
 
+namespace test_beside_meshes {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -114,3 +116,5 @@ TEST_CASE("disabled, enabled, detached and attached again") {
     CHECK(hits(trace_one(second, ray)));
     CHECK(hits(trace_one(placed.scene, ray)));
 }
+
+}  // namespace test_beside_meshes

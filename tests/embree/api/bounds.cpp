@@ -2,6 +2,8 @@
 #include "embree/api/api.hpp"
 #include "support/random_tree.hpp"
 
+namespace test_bounds {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -87,3 +89,5 @@ TEST_CASE("carving refuses what it cannot do, and can be ended") {
     CHECK(phasetreeCarveTree(endless.get(), PHASETREE_ALL_PHASES, nullptr, planes, &count, nullptr) ==
           PHASETREE_ERROR_INVALID_TREE);
 }
+
+}  // namespace test_bounds

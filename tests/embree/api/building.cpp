@@ -7,6 +7,8 @@
 #include "embree/api/api.hpp"
 #include "phasetree_support/temporary_directory.hpp"
 
+namespace test_building {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 using phasetree::support::TemporaryDirectory;
@@ -186,3 +188,5 @@ TEST_CASE("empty and unbounded trees are refused with a message") {
         PHASETREE_ERROR_INVALID_TREE, "empty");
     CHECK(geometry == nullptr);
 }
+
+}  // namespace test_building

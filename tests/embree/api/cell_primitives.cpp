@@ -1,6 +1,8 @@
 // PHASETREE_GEOMETRY_FLAG_CELL_PRIMITIVES: cells as the application's primitives hit what the one primitive hits.
 #include "embree/api/api.hpp"
 
+namespace test_cell_primitives {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -195,3 +197,5 @@ TEST_CASE("what the flag excludes is refused, and says why") {
                  "phase 3");
     CHECK(geometry.phase({0, 0, 0}) != 0);
 }
+
+}  // namespace test_cell_primitives

@@ -1,6 +1,8 @@
 // Decoded hits: both ends of the bracket are in their phases, whichever cell is named.
 #include "embree/api/api.hpp"
 
+namespace test_decoding {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -47,3 +49,5 @@ TEST_CASE("a hit that names another cell is decoded all the same") {
         REQUIRE(placed.geometry.phase(arr(vec(other.pointOut))) == other.phaseEntered);
     }
 }
+
+}  // namespace test_decoding

@@ -1,6 +1,8 @@
 // Applications with a user geometry of their own that dispatches between several things, ours among them.
 #include "embree/api/api.hpp"
 
+namespace test_dispatch {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -70,3 +72,5 @@ TEST_CASE("a geometry that dispatches to two trees") {
     CHECK(calls >= 2);
     rtcReleaseGeometry(geometry);
 }
+
+}  // namespace test_dispatch

@@ -1,6 +1,8 @@
 // Edits of a geometry that is in a scene: other trees, other phases to show, refit and rebuilt, and back.
 #include "embree/api/api.hpp"
 
+namespace test_edits {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -117,3 +119,5 @@ TEST_CASE("options of cells and resolution") {
             REQUIRE(std::abs(a.ray.tfar - c.ray.tfar) < 0.02f);
     }
 }
+
+}  // namespace test_edits

@@ -7,6 +7,8 @@
 #include "phasetree/trace/tracer.hpp"
 #include "source_directory.hpp"
 
+namespace test_filters {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -315,3 +317,5 @@ TEST_CASE("rays end where they enter an opaque phase as they would if it were no
     }
     CHECK(entered > 100);
 }
+
+}  // namespace test_filters

@@ -3,6 +3,8 @@
 
 #include "embree/api/api.hpp"
 
+namespace test_hostile {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -157,3 +159,5 @@ TEST_CASE("what is not ours is left alone: foreign and stale user pointers make 
     scene.commit();
     CHECK_FALSE(hits(trace_one(scene, rayhit({{0, -3, 0}, {0, 1, 0}}))));
 }
+
+}  // namespace test_hostile

@@ -4,6 +4,8 @@
 
 #include "embree/api/api.hpp"
 
+namespace test_instances {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -163,3 +165,5 @@ TEST_CASE("instance arrays tell which of them") {
     }
 }
 #endif
+
+}  // namespace test_instances

@@ -1,6 +1,8 @@
 // Many points at once give every bit of what one at a time does, whatever their layout.
 #include "embree/api/api.hpp"
 
+namespace test_many_points {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -176,3 +178,5 @@ TEST_CASE("many points that are asked for wrongly, and none at all") {
     for (const unsigned phase : phases) REQUIRE(phase == 99);
     for (const float d : out) REQUIRE(d == untouched);
 }
+
+}  // namespace test_many_points

@@ -2,6 +2,8 @@
 #include "embree/api/api.hpp"
 #include "phasetree/io/write.hpp"
 
+namespace test_materials {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -99,3 +101,5 @@ TEST_CASE("a number and a pointer of the application's own for each phase") {
     CHECK(integer == 7);
     CHECK(pointer == mine);
 }
+
+}  // namespace test_materials

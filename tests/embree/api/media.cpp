@@ -1,6 +1,8 @@
 // Two trees and two instances, overlapping: a phase that a ray carries is one geometry's, in one instance.
 #include "embree/api/api.hpp"
 
+namespace test_media {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -109,3 +111,5 @@ TEST_CASE("a stock context: overlapping trees each see the phase at the ray's st
     CHECK(inwards.hit.geomID == small_id);
     CHECK(inwards.hit.u == 0);
 }
+
+}  // namespace test_media

@@ -3,6 +3,8 @@
 
 #include "embree/api/api.hpp"
 
+namespace test_memory {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -115,3 +117,5 @@ TEST_CASE("a build that the application cancels") {
     CHECK(phasetreeNewGeometry(PHASETREE_API_VERSION, device, tree.get(), &options, &geometry) == PHASETREE_ERROR_NONE);
     CHECK(phasetreeReleaseGeometry(geometry) == PHASETREE_ERROR_NONE);
 }
+
+}  // namespace test_memory

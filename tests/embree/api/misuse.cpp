@@ -1,6 +1,8 @@
 // Misuse is an error code with a message that says what is wrong, and never a crash.
 #include "embree/api/api.hpp"
 
+namespace test_misuse {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -286,3 +288,5 @@ TEST_CASE("any order of releasing") {
     rtcReleaseScene(scene);
     if (!is_device_first) rtcReleaseDevice(device);
 }
+
+}  // namespace test_misuse

@@ -5,6 +5,8 @@
 #include "phasetree/cells/cells.hpp"
 #include "phasetree/io/tree.hpp"
 
+namespace test_most_bytes {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -89,3 +91,5 @@ TEST_CASE("the bytes are those of the C++ library, whose cells tell that they ar
         CHECK(found.bytes == expected.bytes);
     }
 }
+
+}  // namespace test_most_bytes

@@ -5,6 +5,8 @@
 
 #include "embree/api/api.hpp"
 
+namespace test_motion {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -168,3 +170,5 @@ TEST_CASE("many time steps") {
     steps.push_back(steps.back());
     CHECK_THROWS_AS(moving.geometry.set_motion(steps), embree::Error);
 }
+
+}  // namespace test_motion

@@ -4,6 +4,8 @@
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/trace/tracer.hpp"
 
+namespace test_packets {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -156,3 +158,5 @@ TEST_CASE("Embree 3: streams are single rays") {
     }
 }
 #endif
+
+}  // namespace test_packets

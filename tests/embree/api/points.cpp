@@ -1,6 +1,8 @@
 // Phases, distances and the closest interface at points, and Embree's point queries.
 #include "embree/api/api.hpp"
 
+namespace test_points {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -223,3 +225,5 @@ TEST_CASE("point queries through instances that are no similarities") {
     CHECK(ask(outer, {0, 0, 0}, infinity, listed, phasetreePointQueryFunction).result.closest.distance ==
           doctest::Approx(0.5).epsilon(0.02));
 }
+
+}  // namespace test_points

@@ -4,6 +4,8 @@
 
 #include "embree/api/api.hpp"
 
+namespace test_resolution {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -68,3 +70,5 @@ TEST_CASE("what leaves too few digits is warned of, and what leaves none is refu
     edited.set_tree(ball(0));
     CHECK(edited.warning().empty());
 }
+
+}  // namespace test_resolution

@@ -5,6 +5,8 @@
 
 #include "embree/api/api.hpp"
 
+namespace test_threads {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -128,3 +130,5 @@ TEST_CASE("error messages are each thread's own") {
     });
     CHECK(wrong == 0);
 }
+
+}  // namespace test_threads

@@ -5,6 +5,8 @@
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/trace/tracer.hpp"
 
+namespace test_tree_points {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -105,3 +107,5 @@ TEST_CASE("places in the tree's space that are asked for wrongly") {
     CHECK(out[1] == 2);
     CHECK(out[2] == 3);
 }
+
+}  // namespace test_tree_points

@@ -6,6 +6,8 @@
 #include "phasetree/io/write.hpp"
 #include "source_directory.hpp"
 
+namespace test_trees {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -167,3 +169,5 @@ TEST_CASE("wrong texts say where") {
     CHECK(message_of([&] { embree::Tree::from_text(with_zero); }) != "no error");
     CHECK(message_of([] { embree::Tree::from_text(""); }) != "no error");
 }
+
+}  // namespace test_trees

@@ -4,6 +4,8 @@
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/trace/tracer.hpp"
 
+namespace test_walks {
+
 using namespace phasetree;
 using namespace phasetree::tests;
 
@@ -231,3 +233,5 @@ TEST_CASE("within an instance rays that carry phases go through it and out, thou
         REQUIRE(entered == through);
     }
 }
+
+}  // namespace test_walks

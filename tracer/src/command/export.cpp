@@ -22,7 +22,7 @@ namespace {
 // Numbers of shaders are rounded more often than ours, and a bracket must be longer than what that moves.
 constexpr float finest_of_diagonal = 1e-5f;
 
-struct Options {
+struct ExportOptions {
     std::string output;
     int grid = 0;
     std::optional<std::string> object;
@@ -56,7 +56,7 @@ std::vector<Look> looks_without_materials(const PhaseNames& phases) {
     return looks;
 }
 
-int export_page(const SceneFile& file, const Options& chosen) {
+int export_page(const SceneFile& file, const ExportOptions& chosen) {
     const std::filesystem::path path = chosen.output;
     check_file_writable(path);
     const Document document = read_document(file);
@@ -110,7 +110,7 @@ int export_page(const SceneFile& file, const Options& chosen) {
         fmt::format("cannot write \"{}\": the page would be larger than {} kB", chosen.output, largest_page / 1000));
 }
 
-int export_shader(const SceneFile& file, const Options& chosen) {
+int export_shader(const SceneFile& file, const ExportOptions& chosen) {
     const std::filesystem::path path = chosen.output;
     std::filesystem::path numbers_path = path;
     numbers_path.replace_extension(".f32");
@@ -153,7 +153,7 @@ void add_export(CLI::App& app, Run& run) {
         "and without a net. Drag to turn, with shift or the right button to move, scroll to zoom;\n"
         "arrows, +, - and 0 do the same; phases can be hidden, and a plane cuts the object open.");
     const auto file = add_scene_file(*command);
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ExportOptions>();
     add_object(*command, options->object);
     command->add_option("-o,--output", options->output, "The file to write")->required()->option_text("FILE");
     command

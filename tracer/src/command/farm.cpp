@@ -14,7 +14,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-struct Options {
+struct FarmOptions {
     std::string kind;
     std::shared_ptr<SceneFile> scene;
     int shares = 0, most_parts = 64;
@@ -23,7 +23,7 @@ struct Options {
 };
 
 // What follows "--", read as render itself would. Throws OutputError.
-RenderOptions render_options(const Options& options) {
+RenderOptions render_options(const FarmOptions& options) {
     CLI::App app;
     RenderOptions render;
     add_render_options(app, render);
@@ -50,7 +50,7 @@ std::string as_file(const std::string& name) {
     return name.starts_with('-') ? "./" + name : name;
 }
 
-int write_farm(const Options& options) {
+int write_farm(const FarmOptions& options) {
     if (options.kind != "slurm" && options.kind != "list")
         throw OutputError(fmt::format("a farm is \"slurm\" or \"list\", not \"{}\"", options.kind));
     if (options.scene->is_standard_input()) throw OutputError("the scene of a farm must be a file that all can read");
@@ -110,7 +110,7 @@ int write_farm(const Options& options) {
 
 void add_farm(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand("farm", "Write how many machines render a scene: for Slurm, or as a list");
-    auto o = std::make_shared<Options>();
+    auto o = std::make_shared<FarmOptions>();
     command
         ->add_option("kind", o->kind,
                      "slurm: a script for bash that submits an array and a merge; list: one command a line, the merge "

@@ -27,7 +27,7 @@ glm::vec3 unsigned_zeroes(const glm::vec3& v) {
     return {unsigned_zero(v.x), unsigned_zero(v.y), unsigned_zero(v.z)};
 }
 
-struct Options {
+struct InfoOptions {
     bool as_json = false, with_cells = false, with_carving = false;
     std::optional<std::string> object;
     int most_planes = CarveOptions().most_planes;
@@ -35,7 +35,7 @@ struct Options {
 };
 
 // Of a scene of several objects, if none is chosen.
-int info_of_objects(const SceneFile& file, const Options& chosen, const SceneModel& model) {
+int info_of_objects(const SceneFile& file, const InfoOptions& chosen, const SceneModel& model) {
     if (chosen.with_cells || chosen.with_carving)
         throw InputError(
             fmt::format("{} is for one object: choose it with --object", chosen.with_cells ? "--cells" : "--carve"));
@@ -54,7 +54,7 @@ int info_of_objects(const SceneFile& file, const Options& chosen, const SceneMod
     return 0;
 }
 
-int info(const SceneFile& file, const Options& chosen) {
+int info(const SceneFile& file, const InfoOptions& chosen) {
     const AvailableThreads threads;
     const Document document = read_document(file);
     const SceneModel model = read_scene_model(document);
@@ -134,7 +134,7 @@ int info(const SceneFile& file, const Options& chosen) {
 void add_info(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand("info", "Print a scene's nodes, phases, bytes, bounds and instructions");
     const auto file = add_scene_file(*command);
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<InfoOptions>();
     command->footer("Of a scene of several objects it lists these; with --object it tells of one.");
     add_object(*command, options->object);
     command->add_flag("--json", options->as_json, "As JSON");

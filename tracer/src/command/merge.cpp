@@ -17,7 +17,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-struct Options {
+struct MergeOptions {
     std::vector<std::string> parts, outputs;
     std::optional<float> exposure;
     std::optional<std::string> display, view;
@@ -70,7 +70,7 @@ Joined join(const Parts& parts, const std::vector<std::string>& film_files, bool
     return joined;
 }
 
-bool write_pictures(const Options& options, const Parts& parts, const std::vector<std::string>& images,
+bool write_pictures(const MergeOptions& options, const Parts& parts, const std::vector<std::string>& images,
                     const Joined& joined, const DisplayTransform& display) {
     Metadata metadata;
     metadata.scene = parts.header().scene;
@@ -87,12 +87,12 @@ bool write_pictures(const Options& options, const Parts& parts, const std::vecto
 }
 
 // Reads what is at the beginning and the end of each part.
-Parts opened(const Options& options) {
+Parts opened(const MergeOptions& options) {
     const EndingAtOnce at_once = ending_at_once("the parts were being read", false);
     return {{options.parts.begin(), options.parts.end()}, options.may_have_gaps};
 }
 
-int merge_parts(const Options& options) {
+int merge_parts(const MergeOptions& options) {
     const InterruptGuard guard;
     const AvailableThreads threads;
     std::vector<std::string> images, film_files;
@@ -126,7 +126,7 @@ int merge_parts(const Options& options) {
 
 void add_merge(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand("merge", "Join the parts of a picture that were rendered by themselves");
-    auto o = std::make_shared<Options>();
+    auto o = std::make_shared<MergeOptions>();
     command->add_option("parts", o->parts, "The parts, in any order, as render --samples writes them")->required();
     add_outputs(*command, o->outputs, "none");
     command->get_option("--output")->required();

@@ -18,7 +18,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-struct Options {
+struct ViewOptions {
     std::shared_ptr<SceneFile> scene;
     std::optional<int> samples, width;
     std::optional<std::string> display, view;
@@ -43,7 +43,7 @@ void open_browser(const std::string& url) {
     posix_spawn_file_actions_destroy(&quiet);
 }
 
-int view_scene(const Options& options) {
+int view_scene(const ViewOptions& options) {
     if (!view::can_serve())
         throw OutputError("view: this phasetree was built without cpp-httplib, which serves the page");
     if (options.scene->is_standard_input())
@@ -83,7 +83,7 @@ void add_view(CLI::App& app, Run& run) {
         "Prints the address of a page on this machine, and serves it until Ctrl-C. Whoever has the\n"
         "address may look; it is another one each time. The picture is refined while one looks,\n"
         "and the scene is read again when one of its files is saved.");
-    auto o = std::make_shared<Options>();
+    auto o = std::make_shared<ViewOptions>();
     o->scene = add_scene_file(*command);
     command->add_flag("--open", o->opens, "Open the page in the desktop's browser, by xdg-open");
     command->add_option("--port", o->port, "Port of 127.0.0.1 (default: any that is free)")

@@ -6,15 +6,15 @@ namespace phasetree::tracer {
 
 namespace {
 
-constexpr int window_radius = 3;
-constexpr float k = 1;
+constexpr int feature_radius = 3;
+constexpr float feature_k = 1;
 
 template <std::size_t First>
 void filter_group(const Grid<Estimate<feature_count>>& noisy, const PixelRange& area, std::vector<Features>& clean) {
     std::vector<float> weights(area.size()), total(area.size());
-    for (int dy = -window_radius; dy <= window_radius; ++dy)
-        for (int dx = -window_radius; dx <= window_radius; ++dx) {
-            weigh<3>(noisy, First, area, dx, dy, k, weights);
+    for (int dy = -feature_radius; dy <= feature_radius; ++dy)
+        for (int dx = -feature_radius; dx <= feature_radius; ++dx) {
+            weigh<3>(noisy, First, area, dx, dy, feature_k, weights);
             for (int y = area.y0; y < area.y1; ++y)
                 for (int x = area.x0; x < area.x1; ++x) {
                     if (!noisy.has(x + dx, y + dy)) continue;

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
+
+#include "phasetree/math/bounds.hpp"
 
 namespace phasetree::tracer {
 
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 // Nearer to grazing next to no light comes in, and densities have no bound.
 constexpr float least_cosine = 1e-4f;
@@ -48,7 +47,7 @@ std::optional<glm::vec3> boundary_along(const glm::vec3& line, const Surface& su
     constexpr int max_interfaces = 8;
     Ray ray = surface.reflected(line);
     for (int i = 0; i < max_interfaces; ++i) {
-        const Visibility met = world.geometry().visibility(ray, infinity, counters);
+        const Visibility met = world.geometry().visibility(ray, Bounds::infinity, counters);
         const Surface* interface = std::get_if<Surface>(&met);
         if (!interface) break;
         ray = interface->transmitted(line);
@@ -123,7 +122,7 @@ std::optional<LightSample> LightProposal::sample(const Lights& lights, glm::vec2
     // At the very rim of a light, bending the direction in and out again can put it just outside of the light, where
     // the density is that of the sky: far less than what was sampled. Such a sample would count far too much.
     if (!outside || !(lights.pdf(at_, outside->direction) > 0.5f * sample->pdf)) return std::nullopt;
-    const auto seen = lights.seen(at_.p, *inside, infinity, false);
+    const auto seen = lights.seen(at_.p, *inside, Bounds::infinity, false);
     if (!seen) return std::nullopt;
     return LightSample{*inside, seen->distance, seen->radiance, pdf(lights, *inside), seen->source};
 }

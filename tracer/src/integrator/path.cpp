@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "caustics/photon_map.hpp"
 #include "caustics/photon_placement.hpp"
@@ -11,13 +10,12 @@
 #include "integrator/path_recorder.hpp"
 #include "integrator/shadow_ray.hpp"
 #include "integrator/technique_weight.hpp"
+#include "phasetree/math/bounds.hpp"
 #include "world/chain.hpp"
 
 namespace phasetree::tracer {
 
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 // A path survives Russian roulette with this times the share of what it began with that it can still bring: for certain
 // from a quarter on. With 4 a picture of glasses had half of the variance times time that it had with 1, one of an
@@ -95,7 +93,7 @@ class Path {
         for (int depth = 0; depth < scene_.settings.max_depth;) {
             const Hit hit = world_.geometry().intersect(ray_, counters_);
             const Surface* surface = std::get_if<Surface>(&hit);
-            const float distance = surface ? surface->distance : infinity;
+            const float distance = surface ? surface->distance : Bounds::infinity;
             const auto light = scene_.lights.seen(ray_.origin, ray_.direction, distance, is_camera_ray_);
             const Flight flight = through_medium(light ? light->distance : distance);
             add_emission_of_medium(flight.emitted);
@@ -148,7 +146,7 @@ class Path {
     void add_emission_of_medium(const glm::vec3& emitted) {
         if (emitted == glm::vec3(0.0f)) return;
         const glm::vec3 radiance = throughput_ * emitted;
-        add_light(radiance, {infinity, radiance, Background{}}, ray_.direction, false);
+        add_light(radiance, {Bounds::infinity, radiance, Background{}}, ray_.direction, false);
     }
 
     // Adds radiance that the path found, of an emission that was seen in the direction. If the path has a single

@@ -1,18 +1,12 @@
 #include "integrator/shadow_ray.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "caustics/emission.hpp"
+#include "phasetree/math/bounds.hpp"
 #include "world/chain.hpp"
 
 namespace phasetree::tracer {
-
-namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
-}  // namespace
 
 float line_density(const Photons& photons, const Ray& ray) {
     return photons ? photons.emission->line_density(ray.origin, ray.direction, ray.phase) : 0.0f;
@@ -28,12 +22,12 @@ std::optional<Arrival> trace_shadow_ray(const ShadowRayContext& context, Ray ray
         sampled.distance;  // how far the sampled light is from the ray's origin, as long as it is straight
     for (int length = 0, segment = 0;; ++segment) {
         const bool is_straight = segment == 0 || (sampled.is_of_point_light() && length == 0);
-        const float far = is_straight ? to_sampled : infinity;
+        const float far = is_straight ? to_sampled : Bounds::infinity;
         const Visibility met = context.world.geometry().visibility(ray, far, context.counters);
         const Surface* surface = std::get_if<Surface>(&met);
         const Blocked* blocked = std::get_if<Blocked>(&met);
         const bool escaped = !surface && !blocked;
-        const float distance = surface ? surface->distance : blocked ? blocked->distance : infinity;
+        const float distance = surface ? surface->distance : blocked ? blocked->distance : Bounds::infinity;
         if (segment == 0) to_boundary = distance;
         const Medium& medium = clear_at(context.scene, ray.phase).interior;
         const auto light = !is_straight ? context.scene.lights.seen(ray.origin, ray.direction, distance, false)
