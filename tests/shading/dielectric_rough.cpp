@@ -65,6 +65,40 @@ TEST_CASE("rough dielectric: its function integrates to a white furnace") {
     }
 }
 
+TEST_CASE("rough dielectric: the reverse density is that of the same interface, met from the other direction's side") {
+    const tracer::FilmOfSurface soap{1.4f, {300.0f, 300.0f}};
+    for (const float from : {1.0f, 1.33f, 2.0f})
+        for (const float roughness : {0.02f, 0.3f, 1.0f})
+            for (const auto& film : {std::optional<tracer::FilmOfSurface>(), std::optional(soap)}) {
+                CAPTURE(from);
+                CAPTURE(roughness);
+                const DielectricSurface surface(from, 1.6f, ValueRange{roughness, roughness}, film);
+                const DielectricSurface behind = surface.reversed();
+                const tracer::Bsdf bsdf(RoughDielectricBsdf(surface, roughness)),
+                    reverse(RoughDielectricBsdf(behind, roughness));
+                Uniform uniform(17);
+                int transmitted = 0, compared = 0;
+                for (int i = 0; i < 5000; ++i) {
+                    const glm::vec3 wo = tracer::square_to_cosine_hemisphere({uniform(), uniform()});
+                    const auto sample = bsdf.sample(wo, uniform(), {uniform(), uniform()});
+                    if (!sample) continue;
+                    transmitted += sample->transmitted;
+                    ++compared;
+                    // Its normal points to the other side.
+                    const glm::vec3 turned(1, 1, sample->transmitted ? -1 : 1);
+                    const float expected = (sample->transmitted ? reverse : bsdf).pdf(sample->wi * turned, wo * turned);
+                    REQUIRE(bsdf.reverse_pdf(wo, sample->wi) == doctest::Approx(expected).epsilon(2e-3));
+                }
+                CHECK(transmitted > compared / 3);
+                CHECK(transmitted < compared);
+            }
+    // Of what is opaque only reflection has one.
+    const tracer::Bsdf diffuse(tracer::DiffuseBsdf(glm::vec3(0.5f)));
+    const glm::vec3 up(0, 0, 1), aside(0.6f, 0, 0.8f);
+    CHECK(diffuse.reverse_pdf(up, aside) == diffuse.pdf(aside, up));
+    CHECK(diffuse.reverse_pdf(up, -aside) == 0.0f);
+}
+
 TEST_CASE("rough dielectric: reciprocal, with the square of the index across the interface") {
     const float from = 1.33f;
     const float to = 1.6f;

@@ -18,10 +18,10 @@ namespace {
 // The calls are plain functions: what they know is static.
 WriteFaults faults;
 std::atomic<std::size_t> calls{0};
-std::atomic<bool> is_armed{false};
+std::atomic<bool> writes_fail{false};
 
 bool fails() {
-    if (!is_armed) return false;
+    if (!writes_fail) return false;
     const std::size_t n = ++calls;
     if (faults.failing == 0 || n < faults.failing || (n > faults.failing && !faults.for_good)) return false;
     errno = faults.error;
@@ -33,10 +33,10 @@ bool fails() {
 void set_write_faults(const WriteFaults& to) {
     faults = to;
     calls = 0;
-    is_armed = true;
+    writes_fail = true;
 }
 std::size_t stop_write_faults() {
-    is_armed = false;
+    writes_fail = false;
     return calls;
 }
 
@@ -47,7 +47,7 @@ using namespace phasetree::tests::faults;
 extern "C" {
 
 ssize_t write(int file, const void* bytes, size_t count) {
-    if (file > STDERR_FILENO && is_armed) {
+    if (file > STDERR_FILENO && writes_fail) {
         if (fails()) return -1;
         if (faults.shortest > 0) count = std::min(count, faults.shortest);
     }

@@ -8,7 +8,7 @@
 
 namespace phasetree::fuzz {
 
-inline constexpr float numbers[] = {0, 0.5f, -0.5f, 1, -1, 0.01f, 2, -3, 1e-3f, 100, 1e6f, -0.0f, 1e20f, 1e-30f};
+inline constexpr float some_numbers[] = {0, 0.5f, -0.5f, 1, -1, 0.01f, 2, -3, 1e-3f, 100, 1e6f, -0.0f, 1e20f, 1e-30f};
 inline constexpr float not_finite[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
                                        -std::numeric_limits<float>::infinity()};
 
@@ -32,7 +32,7 @@ class Choices {
     float number() {
         const unsigned b = byte();
         if (b < 120) return static_cast<float>(b) / 30 - 2;
-        return b >= 248 ? of(not_finite) : of(numbers);
+        return b >= 248 ? of(not_finite) : of(some_numbers);
     }
     // The pointer, or now and then NULL.
     template <class T>

@@ -15,7 +15,7 @@ namespace phasetree::fuzz {
 
 namespace {
 
-constexpr std::size_t most_instructions = 40;
+constexpr std::size_t most_instructions_traced = 40;
 
 bool is_finite(const glm::vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -83,7 +83,7 @@ void run_settings(Bytes input) {
         scatter(scene);
         std::size_t corners = 0;
         for (const tracer::Mesh& mesh : scene.meshes) corners += mesh.vertices.size();
-        if (corners < 1000 && record(scene.object, 20'000).instructions.size() <= most_instructions)
+        if (corners < 1000 && record(scene.object, 20'000).instructions.size() <= most_instructions_traced)
             render_little(scene);
     } catch (const SceneError&) {
     } catch (const ModelError&) {

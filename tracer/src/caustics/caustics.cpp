@@ -10,7 +10,6 @@
 #include "caustics/trace_photon.hpp"
 #include "image/luminance.hpp"
 #include "phasetree/math/float_mode.hpp"
-#include "sampling/heuristic.hpp"
 #include "sampling/shutter_time.hpp"
 #include "sampling/warps.hpp"
 #include "world/chain.hpp"
@@ -74,9 +73,8 @@ std::optional<Wavelength> Caustics::wavelength(int pass) const {
 double Caustics::worth_of(const Photon& photon, float expected, float pdf) const {
     const float ior = clear_at(scene_, photon.phase).ior;
     const float by_photons = expected * photon.line_density * ior * ior;
-    const float weight = photon.is_of_point_light()
-                             ? 1.0f
-                             : power_heuristic(by_photons, pdf, scene_.lights.pdf(photon.position, photon.direction));
+    const float weight =
+        photon.weight(by_photons, pdf, [&] { return scene_.lights.pdf(photon.position, photon.direction); });
     return static_cast<double>(luminance(photon.power) * weight);
 }
 

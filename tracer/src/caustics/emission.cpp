@@ -135,13 +135,25 @@ std::optional<EmittedPhoton> PhotonEmission::of_point_light(std::size_t number, 
     if (!(back > 0.0f)) return std::nullopt;
     const glm::vec3 direction = (aim.point - from) / back;
     const glm::vec3 intensity = std::visit([&](const auto& any) { return any.intensity(direction); }, light);
-    const float density =
-        static_cast<float>(source.share) * source.target.crossing(from, direction).density * back * back;
+    const float density = direction_density(source, direction);
     const std::optional<Ray> ray = start(aim.point, direction, back, time);
     if (!ray || !(density > 0.0f) || intensity == glm::vec3(0.0f)) return std::nullopt;
     const Lights::Emission emission{glm::length(ray->origin - from), intensity,
                                     OfPointLight{static_cast<std::uint32_t>(*source.point)}};
     return EmittedPhoton{*ray, emission, intensity / density, density, number, aim.cell};
+}
+
+float PhotonEmission::direction_density(std::size_t point_light, const glm::vec3& from_light) const {
+    const auto source = std::ranges::find(sources_, std::optional(point_light), &Source::point);
+    return source == sources_.end() ? 0.0f : direction_density(*source, from_light);
+}
+
+float PhotonEmission::direction_density(const Source& source, const glm::vec3& from_light) const {
+    const glm::vec3 at =
+        std::visit([](const auto& any) { return glm::vec3(any.position()); }, scene_.lights.points()[*source.point]);
+    const PhotonTarget::Crossing crossing = source.target.crossing(at, from_light);
+    if (!(crossing.density > 0.0f) || !(crossing.distance > 0.0f)) return 0.0f;
+    return static_cast<float>(source.share) * crossing.density * crossing.distance * crossing.distance;
 }
 
 float PhotonEmission::line_density(const glm::vec3& origin, const glm::vec3& towards_light, Phase phase) const {

@@ -46,6 +46,8 @@ class PhotonEmission {
     std::optional<EmittedPhoton> sample(Sampler& sampler, float time) const;
     /// As EmittedPhoton::line_density, for a line that leads from a point in this phase towards a light.
     float line_density(const glm::vec3& origin, const glm::vec3& towards_light, Phase phase) const;
+    /// The same of a point light, by its number among those, for a direction from it: per steradian.
+    float direction_density(std::size_t point_light, const glm::vec3& from_light) const;
 
     /// Chooses lights and cells of their targets in proportion to these numbers from now on: worth[light][cell].
     void learn(std::vector<std::vector<double>> worth);
@@ -61,6 +63,8 @@ class PhotonEmission {
     /// A point of a line that is sure to be before everything that it meets of the object.
     glm::vec3 outside_of_object(const glm::vec3& point, const glm::vec3& direction) const;
     float density_of(const Source& source, const glm::vec3& origin, const glm::vec3& towards_light) const;
+    /// cᵢ t d² of a point light.
+    float direction_density(const Source& source, const glm::vec3& from_light) const;
     /// Where a photon starts that flies to this point of a target in this direction, and comes from this far behind it;
     /// none in an opaque phase.
     std::optional<Ray> start(const glm::vec3& target, const glm::vec3& direction, float back, float time) const;

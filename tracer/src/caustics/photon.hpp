@@ -1,12 +1,15 @@
-// A photon: light that came from a lamp through at least one smooth interface of clear phases, and fell on an opaque
-// surface that is not a mirror, or into a medium that scatters. It stands for the whole chain of interfaces behind it.
+// A photon: light that came from a lamp through at least one interface of clear phases, smooth or rough, and fell on an
+// opaque surface that is not a mirror, or into a medium that scatters. It stands for the whole chain of interfaces
+// behind it.
 #pragma once
 
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "caustics/rough_chain.hpp"
 #include "lights/lights.hpp"
 #include "phasetree/model/phase.hpp"
+#include "sampling/heuristic.hpp"
 
 namespace phasetree::tracer {
 
@@ -18,15 +21,23 @@ struct Photon {
     glm::vec3 power;
     /// p(line)/m²: how densely the photon's line was sampled at the light, p(line), per area perpendicular to it and
     /// steradian, over the square of the refractive index m around the light. Of a point light, per steradian alone.
+    /// Each rough interface that scattered the photon has multiplied it by the factor that rough_chain.hpp has.
     float line_density;
     Phase phase;                ///< in which it travelled when it fell
     Lights::Emission emission;  ///< what is seen of the light from where the photon started
     glm::vec3 towards_light;    ///< the direction in which the light is seen from there
+    RoughChain rough{};         ///< how the path's techniques find the chain beyond its first rough interface
     /// It was dispersed: every component of `power` is that at the wavelength of the photon's map.
     bool of_one_wavelength = false;
 
-    /// Whether no other technique finds such light.
-    bool is_of_point_light() const { return emission.is_of_point_light(); }
+    /// The weight of what the photon brings, by the power heuristic: photons find its direction with the density
+    /// `by_photons`, and the path itself would go on in it with the density `pdf`. shadow_rays() is the density with
+    /// which shadow rays start in it; it is asked for only if they would get to the light.
+    template <class ShadowRays>
+    float weight(float by_photons, float pdf, ShadowRays&& shadow_rays) const {
+        return power_heuristic(by_photons, pdf * rough.by_directions,
+                               rough.by_shadow_rays ? pdf * *rough.by_shadow_rays : shadow_rays());
+    }
 };
 
 /// A photon in a medium: a place that stands for all of the photon's line through it (photon_placement.hpp).

@@ -23,7 +23,10 @@ class PhotonFlight {
           counters_(counters),
           wavelength_(wavelength),
           ray_(emitted.ray),
-          power_(emitted.power) {}
+          power_(emitted.power),
+          line_density_(emitted.line_density) {
+        if (emitted.emission.is_of_point_light()) rough_ = {.by_directions = 0, .by_shadow_rays = 0.0f};
+    }
 
     void trace(TracedPhotons& traced) {
         for (;;) {
@@ -31,7 +34,7 @@ class PhotonFlight {
             const Surface* surface = std::get_if<Surface>(&hit);
             const float distance = surface ? surface->distance : std::numeric_limits<float>::infinity();
             // With the power with which it came into the medium: how much is left at a point depends on the point.
-            if (links_ > 0) keep_in_medium(distance, traced);
+            if (interfaces_ > 0) keep_in_medium(distance, traced);
             if (!surface) return;
             glm::vec3 left = transmittance(medium(), {ray_.origin, ray_.direction, distance, single_}, sampler_);
             if (phase_function(medium()) && !chain_survives(left, sampler_)) return;
@@ -45,12 +48,12 @@ class PhotonFlight {
                 ray_ = surface->transmitted(ray_.direction);
                 continue;
             }
-            if (!is_link(bsdf, *surface)) {
-                if (links_ > 0 && is_lit_by_photons(*surface, bsdf) && came_from_light())
+            if (!surface->far_side) {
+                if (interfaces_ > 0 && is_lit_by_photons(*surface, bsdf) && came_from_light())
                     traced.on_surfaces.push_back(photon_at(surface->near_side.origin));
                 return;
             }
-            if (++links_ > longest_chain || !pass(*surface, bsdf)) return;
+            if (++interfaces_ > longest_chain || !pass(*surface, bsdf)) return;
         }
     }
 
@@ -58,14 +61,8 @@ class PhotonFlight {
     const Medium& medium() const { return clear_at(scene_, ray_.phase).interior; }
 
     Photon photon_at(const glm::vec3& position) const {
-        return {position,
-                -ray_.direction,
-                power_,
-                emitted_.line_density,
-                ray_.phase,
-                emitted_.emission,
-                -emitted_.ray.direction,
-                single_ != nullptr};
+        return {position,          -ray_.direction,         power_, line_density_,     ray_.phase,
+                emitted_.emission, -emitted_.ray.direction, rough_, single_ != nullptr};
     }
 
     void keep_in_medium(float distance, TracedPhotons& traced) {
@@ -90,10 +87,13 @@ class PhotonFlight {
     // Reflects or refracts the photon. False if it ends there.
     bool pass(const Surface& surface, const Bsdf& bsdf) {
         const Frame frame(surface.normal);
+        const glm::vec3 wo = frame.to_local(-ray_.direction);
+        const float lobe = sampler_.next();
         // A smooth interface has no lobe in which a direction would be chosen by the two numbers.
-        const auto next = bsdf.sample(frame.to_local(-ray_.direction), sampler_.next(), glm::vec2(0.0f));
+        const auto next = bsdf.sample(wo, lobe, bsdf.is_delta() ? glm::vec2(0.0f) : sampler_.next2());
         if (!next) return false;
         const float before = clear_at(scene_, ray_.phase).ior_for(single_);
+        if (!next->delta) compare_at(surface, bsdf, wo, *next);
         ray_ = continued(surface, frame, *next);
         // The BSDF is sampled as if the photon were a path that comes from the camera, so its weight is of radiance
         // that arrives from `after` and leaves into `before`: a refraction scales it by (before/after)². Power is not
@@ -101,6 +101,30 @@ class PhotonFlight {
         const float after = clear_at(scene_, ray_.phase).ior_for(single_), ratio = after / before;
         power_ *= for_light(next->weight, single_) * (ratio * ratio);
         return true;
+    }
+
+    // Before the photon leaves a rough interface: how densely the techniques find the chain with it.
+    void compare_at(const Surface& surface, const Bsdf& bsdf, const glm::vec3& wo, const BsdfSample& next) {
+        const Surface::Side& left_to = next.transmitted ? *surface.far_side : surface.near_side;
+        const float before = clear_at(scene_, ray_.phase).ior, after = clear_at(scene_, left_to.phase).ior;
+        // A path comes from where the photon goes.
+        const float backwards = bsdf.reverse_pdf(wo, next.wi);
+        if (is_scattered_) {
+            rough_.by_shadow_rays = *rough_.by_shadow_rays * backwards;
+        } else if (const auto* point = std::get_if<OfPointLight>(&emitted_.emission.source)) {
+            // Shadow rays find a point straight ahead alone.
+            if (interfaces_ == 1) {
+                rough_.by_shadow_rays = scene_.lights.point_light_probability(left_to.origin, point->index);
+                const float distance =
+                    emitted_.emission.distance + glm::length(surface.near_side.origin - emitted_.ray.origin);
+                line_density_ /= before * before * distance * distance;
+            }
+        } else {
+            rough_.by_shadow_rays = scene_.lights.pdf(left_to.origin, -ray_.direction);
+        }
+        is_scattered_ = true;
+        rough_.by_directions *= backwards;
+        line_density_ *= rough_factor(next.pdf, before, wo.z, after, next.wi.z);
     }
 
     const World& world_;
@@ -113,7 +137,10 @@ class PhotonFlight {
     Ray ray_;
     glm::vec3 power_;
     const Wavelength* single_ = nullptr;  // the wavelength from the first interface that disperses on
-    int links_ = 0;                       // how many interfaces have reflected or refracted it
+    int interfaces_ = 0;                  // how many interfaces have reflected or refracted it
+    bool is_scattered_ = false;           // by a rough one
+    float line_density_;
+    RoughChain rough_{};
     std::optional<bool> came_from_light_{};
 };
 

@@ -55,14 +55,21 @@ struct Chain {
     LightProposal proposal{};  // by which lights were
     glm::vec3 direction{0};    // the chain's first
     PhotonDensity by_photons{};
-    int length = 0;  // how many smooth clear interfaces it has; photons come by one at least
+    // How many rough interfaces, and smooth ones, are between the place that photons light and the chain. That density
+    // is then what rough_chain.hpp has for the photons, over that for the directions before the chain's first.
+    int before = 0;
+    int length = 0;  // how many smooth clear interfaces it has
+
+    // How many interfaces photons have passed that come by this chain. They come by one at least.
+    int interfaces() const { return before + length; }
 
     // The weight of light that is seen along the ray. Light at the end of a chain that shadow rays and photons do not
     // follow to its end is found by the path alone, whichever techniques are asked for.
     float weight(const Scene& scene, const Photons& photons, const Ray& ray) const {
         if (!pdf || length > longest_chain) return 1;
         const float per_line = by_photons.per_line_density;
-        const float line = per_line > 0.0f && length > 0 ? line_density(photons, ray) : 0.0f;
+        const bool by_photons_too = per_line > 0.0f && interfaces() > 0 && interfaces() <= longest_chain;
+        const float line = by_photons_too ? line_density(photons, ray) : 0.0f;
         return technique_weight(scene, Techniques::directions_alone, *pdf, proposal.pdf(scene.lights, direction),
                                 per_line * line);
     }
@@ -178,11 +185,14 @@ class Path {
         const Frame frame(surface.normal);
         const glm::vec3 wo = frame.to_local(-ray_.direction);
         LightProposal proposal;
+        const auto by_photons = [&](const glm::vec3& wi) {
+            return surface.far_side ? density_beyond(surface, bsdf, wo, wi) : density_by_photons(surface, bsdf, wi.z);
+        };
         if (!bsdf.is_delta()) {
             // A rough interface gets light from both sides, so none is preferred and no bending is guessed.
             proposal = surface.far_side ? LightProposal(surface.near_side.origin)
                                         : LightProposal::at(surface, world_, scene_, counters_);
-            add_direct_light(surface, bsdf, frame, wo, proposal);
+            add_direct_light(surface, bsdf, frame, wo, proposal, by_photons);
             add_caustics(surface, bsdf, frame, wo, proposal);
         }
         const float lobe = sampler_.next();
@@ -193,7 +203,11 @@ class Path {
         ray_ = continued(surface, frame, *next);
         if (surface.far_side) entered_ = next->transmitted ? surface.normal : -surface.normal;
         if (!next->delta)
-            chain_ = {next->pdf, proposal, ray_.direction, {density_by_photons(surface, bsdf, next->wi.z)}, 0};
+            chain_ = {.pdf = next->pdf,
+                      .proposal = proposal,
+                      .direction = ray_.direction,
+                      .by_photons = {by_photons(next->wi)},
+                      .before = surface.far_side ? chain_.interfaces() + 1 : 0};
         else if (is_link(bsdf, surface))
             ++chain_.length;
         else
@@ -210,25 +224,27 @@ class Path {
         const PhotonDensity by_photons{placement ? density_across(point.phase) : 0.0f, placement};
         if (const auto light = sampled_light(proposal)) {
             const float f = phase.evaluate(glm::dot(ray_.direction, light->wi));
-            add_direct_light(*light, glm::vec3(f), f, by_photons, point.leaving(light->wi));
+            add_direct_light(*light, glm::vec3(f), f, by_photons, point.leaving(light->wi), false);
         }
         if (placement) add_caustics(point, *placement, proposal);
         const glm::vec3 direction = glm::normalize(Frame(ray_.direction).to_world(phase.sample(sampler_.next2())));
         const float pdf = phase.evaluate(glm::dot(ray_.direction, direction));
         ray_ = point.leaving(direction);
-        chain_ = {pdf, proposal, direction, by_photons, 0};
+        chain_ = {.pdf = pdf, .proposal = proposal, .direction = direction, .by_photons = by_photons};
     }
 
     // Next-event estimation: what arrives from the lights by a shadow ray, and is scattered into the path.
+    template <class ByPhotons>
     void add_direct_light(const Surface& surface, const Bsdf& bsdf, const Frame& frame, const glm::vec3& wo,
-                          const LightProposal& proposal) {
+                          const LightProposal& proposal, ByPhotons&& by_photons) {
         const auto light = sampled_light(proposal);
         if (!light) return;
         const glm::vec3 wi = frame.to_local(light->wi);
         const glm::vec3 f = for_light(bsdf.evaluate(wo, wi), single_);
         if (f == glm::vec3(0.0f)) return;
-        add_direct_light(*light, f, bsdf.pdf(wo, wi), {density_by_photons(surface, bsdf, wi.z)},
-                         wi.z < 0 ? surface.transmitted(light->wi) : surface.reflected(light->wi));
+        add_direct_light(*light, f, bsdf.pdf(wo, wi), {by_photons(wi)},
+                         wi.z < 0 ? surface.transmitted(light->wi) : surface.reflected(light->wi),
+                         surface.far_side.has_value());
     }
 
     std::optional<LightSample> sampled_light(const LightProposal& proposal) {
@@ -238,22 +254,32 @@ class Path {
     // f is what of the light is scattered into the path, the cosine included, and pdf the density with which the path
     // itself would go on in that direction.
     void add_direct_light(const LightSample& light, const glm::vec3& f, float pdf, PhotonDensity by_photons,
-                          const Ray& shadow) {
+                          const Ray& shadow, bool starts_in_chain) {
         if (scene_.settings.techniques == Techniques::directions_alone) return;
-        const auto arrival = trace_shadow_ray({world_, scene_, photons_, sampler_, counters_}, shadow, light,
-                                              {.hero = hero_, .single = single_});
+        const auto arrival =
+            trace_shadow_ray({world_, scene_, photons_, sampler_, counters_}, shadow, light,
+                             {.hero = hero_, .single = single_}, starts_in_chain && by_photons.per_line_density > 0.0f);
         if (!arrival) return;
-        // Without a boundary in between there are no photons: the line density is 0. The boundary's distance is
+        // Without an interface in between there are no photons: the line density is 0. The boundary's distance is
         // infinite then, of which there is no coverage.
         if (arrival->line_density > 0.0f) by_photons.reach_boundary(arrival->to_boundary);
-        const float weight = light.is_of_point_light()
-                                 ? 1.0f
-                                 : technique_weight(scene_, Techniques::shadow_rays_alone, light.pdf, pdf,
-                                                    by_photons.per_line_density * arrival->line_density);
+        // No direction that the path takes by itself meets a point.
+        const float weight =
+            technique_weight(scene_, Techniques::shadow_rays_alone, light.pdf, light.is_of_point_light() ? 0.0f : pdf,
+                             by_photons.per_line_density * arrival->line_density);
         add_light(throughput_ * f * arrival->radiance * (weight / light.pdf), arrival->emission, arrival->direction,
                   true);
     }
 
+    // PhotonDensity::per_line_density of a direction that leads from a rough interface into the chain behind it.
+    float density_beyond(const Surface& surface, const Bsdf& bsdf, const glm::vec3& wo, const glm::vec3& wi) const {
+        if (!chain_.pdf || !(chain_.by_photons.per_line_density > 0.0f) || chain_.interfaces() >= longest_chain)
+            return 0.0f;
+        const Surface::Side& left_to = wi.z < 0 ? *surface.far_side : surface.near_side;
+        return chain_.by_photons.per_line_density / *chain_.pdf *
+               rough_factor(bsdf.reverse_pdf(wo, wi), clear_at(scene_, left_to.phase).ior, wi.z,
+                            clear_at(scene_, surface.near_side.phase).ior, wo.z);
+    }
     // PhotonDensity::per_line_density, of a direction of this cosine at a surface; 0 where photons light nothing.
     float density_by_photons(const Surface& surface, const Bsdf& bsdf, float cosine) const {
         if (!photons_ || !(cosine > least_photon_cosine) || !is_lit_by_photons(surface, bsdf)) return 0.0f;
@@ -271,9 +297,8 @@ class Path {
     // itself would go on in it with the density `pdf`. It is called only if all techniques are used.
     void add_photon(const Photon& photon, const glm::vec3& power, const glm::vec3& f, float by_photons, float pdf,
                     const LightProposal& proposal) {
-        const float weight = photon.is_of_point_light()
-                                 ? 1.0f
-                                 : power_heuristic(by_photons, pdf, proposal.pdf(scene_.lights, photon.direction));
+        const float weight =
+            photon.weight(by_photons, pdf, [&] { return proposal.pdf(scene_.lights, photon.direction); });
         glm::vec3 fluence = power / photons_.map->expected();
         if (!photon.of_one_wavelength)
             fluence = for_light(fluence, single_);

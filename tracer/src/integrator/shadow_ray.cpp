@@ -12,8 +12,25 @@ float line_density(const Photons& photons, const Ray& ray) {
     return photons ? photons.emission->line_density(ray.origin, ray.direction, ray.phase) : 0.0f;
 }
 
+namespace {
+
+// Arrival::line_density of a point light, seen straight ahead.
+float point_density(const ShadowRayContext& context, const Ray& ray, const LightSample& sampled,
+                    const OfPointLight& light) {
+    if (!context.photons) return 0.0f;
+    const float ior = clear_at(context.scene, ray.phase).ior, distance = ior * sampled.distance;
+    return context.photons.emission->direction_density(light.index, -ray.direction) / (distance * distance);
+}
+
+}  // namespace
+
 std::optional<Arrival> trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSample& sampled,
-                                        const PathWavelength& wavelength) {
+                                        const PathWavelength& wavelength, bool starts_in_chain) {
+    const auto density_at_end = [&](int length) {
+        if (length == 0 && !starts_in_chain) return 0.0f;
+        const auto* point = std::get_if<OfPointLight>(&sampled.source);
+        return point ? point_density(context, ray, sampled, *point) : line_density(context.photons, ray);
+    };
     const Wavelength* single = wavelength.single;
     const bool was_dispersed = single != nullptr;
     glm::vec3 throughput(1.0f);
@@ -39,7 +56,7 @@ std::optional<Arrival> trace_shadow_ray(const ShadowRayContext& context, Ray ray
         if (light && single && !was_dispersed) throughput *= single->response;
         if (light)
             return Arrival{throughput * for_light(light->radiance, single), *light, ray.direction,
-                           length > 0 ? line_density(context.photons, ray) : 0.0f, to_boundary};
+                           density_at_end(length), to_boundary};
         if (phase_function(medium) && !chain_survives(throughput, context.sampler)) return std::nullopt;
         if (surface->optics.get().disperses()) single = &wavelength.hero;
         const Bsdf bsdf = surface->bsdf(single);

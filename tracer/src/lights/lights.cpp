@@ -204,6 +204,13 @@ float Lights::pdf(const LightReceiver& at, const glm::vec3& direction) const {
     return sum + portals_pdf(p, direction, share_of, size()) / total;
 }
 
+float Lights::point_light_probability(const LightReceiver& at, std::size_t index) const {
+    Scratch scratch(size());
+    const float total = shares(at, scratch);
+    if (!(total > 0.0f) || total == infinity) return 0.0f;  // as sample() has it
+    return scratch.values()[infinite_.size() + area_.size() + index] / total;
+}
+
 std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u) const {
     const glm::vec3& p = at.p;
     Scratch scratch(size());

@@ -123,6 +123,9 @@ class Lights {
     /// The density of sample() there, per steradian.
     float pdf(const LightReceiver& at, const glm::vec3& direction) const;
 
+    /// With which probability sample() chooses the point light of this number in points().
+    float point_light_probability(const LightReceiver& at, std::size_t index) const;
+
     /// Towards the brightest light that has a place, of those on the side of p that the normal points to; nothing if
     /// there is none.
     std::optional<glm::vec3> towards_brightest(const glm::vec3& p, const glm::vec3& normal) const;

@@ -51,6 +51,18 @@ class Bsdf {
     float pdf(const glm::vec3& wo, const glm::vec3& wi) const {
         return std::visit([&](const auto& bsdf) { return bsdf.pdf(wo, wi); }, kind_);
     }
+    /// The density with which sample() of the same interface, met from the side of wi, would propose wo, as a path goes
+    /// that comes along this one backwards. It leaves delta lobes out, as pdf() does.
+    float reverse_pdf(const glm::vec3& wo, const glm::vec3& wi) const {
+        return std::visit(
+            [&](const auto& bsdf) {
+                if constexpr (requires { bsdf.reverse_pdf(wo, wi); })
+                    return bsdf.reverse_pdf(wo, wi);
+                else
+                    return wi.z > 0.0f ? bsdf.pdf(wi, wo) : 0.0f;
+            },
+            kind_);
+    }
     bool is_delta() const {
         return std::visit([](const auto& bsdf) { return bsdf.is_delta(); }, kind_);
     }

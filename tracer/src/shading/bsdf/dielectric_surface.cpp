@@ -85,7 +85,7 @@ DielectricSurface::Multiple DielectricSurface::multiple(float roughness) const {
     const glm::vec3 both = 2.0f - from_->mean_reflectance - to_->mean_reflectance;
     const glm::vec3 most = glm::max(glm::max(weight_from, weight_to), glm::vec3(1e-30f));
     const glm::vec3 factor = glm::min(both / glm::max(weight_from + weight_to, glm::vec3(1e-30f)), 1.0f / most);
-    return {from, to, glm::min(factor * weight_to, glm::vec3(1.0f))};
+    return {from, to, glm::min(factor * weight_to, glm::vec3(1.0f)), glm::min(factor * weight_from, glm::vec3(1.0f))};
 }
 
 }  // namespace phasetree::tracer

@@ -52,8 +52,9 @@ class DielectricSurface {
 
     /// Of the lobes after several scatterings at a place of that roughness.
     struct Multiple {
-        LossTables::At from, to;  ///< seen from the side of wo, and from the other
-        glm::vec3 transmitted;    ///< t_ab
+        LossTables::At from, to;     ///< seen from the side of wo, and from the other
+        glm::vec3 transmitted;       ///< t_ab
+        glm::vec3 transmitted_back;  ///< t_ba
     };
     Multiple multiple(float roughness) const;
 

@@ -14,7 +14,8 @@ RoughDielectricBsdf::RoughDielectricBsdf(const DielectricSurface& surface, float
       ggx_(roughness),
       eta_(surface.eta()),
       multiple_(surface.multiple(roughness)),
-      transmitted_(mean_of_channels(multiple_.transmitted)) {}
+      transmitted_(mean_of_channels(multiple_.transmitted)),
+      transmitted_back_(mean_of_channels(multiple_.transmitted_back)) {}
 
 std::optional<glm::vec3> RoughDielectricBsdf::microfacet(const glm::vec3& wo, const glm::vec3& wi) const {
     const bool transmitted = wi.z < 0.0f;
@@ -110,6 +111,22 @@ glm::vec3 RoughDielectricBsdf::evaluate(const glm::vec3& wo, const glm::vec3& wi
 float RoughDielectricBsdf::pdf(const glm::vec3& wo, const glm::vec3& wi) const {
     if (!(wo.z > 0.0f) || wi.z == 0.0f) return 0.0f;
     return scattered(wo, wi, microfacet(wo, wi)).pdf;
+}
+
+float RoughDielectricBsdf::reverse_pdf(const glm::vec3& wo, const glm::vec3& wi) const {
+    if (!(wi.z < 0.0f)) return pdf(wi, wo);
+    if (!(wo.z > 0.0f)) return 0.0f;
+    const float again = mean_of_channels(multiple_.to.at(-wi.z));
+    float sum = again * transmitted_back_ * multiple_.from.pdf(wo.z);
+    if (const std::optional<glm::vec3> m = microfacet(wo, wi)) {
+        // Fresnel's reflectance at the microfacet is the same from both sides. The density of once(), with 1/η for η.
+        const float cos_o = glm::dot(wo, *m), denominator = cos_o + eta_ * glm::dot(wi, *m);
+        const float transmittance =
+            1.0f - mean_of_channels(surface_->fresnel(cos_o, surface_->middle_thickness()).reflectance);
+        const float single = transmittance * ggx_.visible_normal_pdf(-wi, *m) * cos_o / (denominator * denominator);
+        if (std::isfinite(single)) sum += (1.0f - again) * single;
+    }
+    return sum;
 }
 
 }  // namespace phasetree::tracer

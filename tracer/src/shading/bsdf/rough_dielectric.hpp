@@ -35,6 +35,8 @@ class RoughDielectricBsdf {
     std::optional<BsdfSample> sample(const glm::vec3& wo, float u_lobe, const glm::vec2& u) const;
     glm::vec3 evaluate(const glm::vec3& wo, const glm::vec3& wi) const;
     float pdf(const glm::vec3& wo, const glm::vec3& wi) const;
+    /// As Bsdf::reverse_pdf().
+    float reverse_pdf(const glm::vec3& wo, const glm::vec3& wi) const;
     bool is_delta() const { return false; }
     bool passes_through() const { return false; }
 
@@ -56,7 +58,8 @@ class RoughDielectricBsdf {
     Ggx ggx_;
     float eta_;
     DielectricSurface::Multiple multiple_;
-    float transmitted_;  ///< probability of transmission after several scatterings
+    float transmitted_;       ///< probability of transmission after several scatterings
+    float transmitted_back_;  ///< the same of light that comes from the other side
 };
 
 }  // namespace phasetree::tracer

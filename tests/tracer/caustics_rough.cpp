@@ -1,0 +1,137 @@
+// Photons that rough interfaces scatter on their way: against paths alone.
+#include <doctest/doctest.h>
+
+#include "caustics/trace_photon.hpp"
+#include "photons.hpp"
+#include "shading/frame.hpp"
+
+namespace test_caustics_rough {
+
+using namespace phasetree::tracer;
+using phasetree::Bounds;
+using namespace phasetree::tracer::tests;
+
+namespace {
+
+const std::string grey_floor = R"("meshes": [{"floor": {"material": {"diffuse": {"color": [0.6, 0.6, 0.6]}}}}], )";
+const std::string ball = R"({"translate": {"by": [0, 0, 1.1], "of": {"sphere": {"radius": 1}}}})";
+
+std::string in_phase(const std::string& phase, const std::string& shape) {
+    return R"({"set": {"phase": ")" + phase + R"(", "of": )" + shape + "}}";
+}
+std::string clear(const std::string& name, double ior, double roughness, const std::string& more = "") {
+    return "\"" + name + R"(": {"clear": {"ior": )" + std::to_string(ior) + R"(, "roughness": )" +
+           std::to_string(roughness) + more + "}}";
+}
+// So many photons that they and the other techniques each have some of the weight.
+std::string lit_by(const std::string& light, double photons = 0.4) {
+    return R"("lights": [)" + light + R"(], "render": {"width": 64, "height": 64, "photon_radius": 2, "photons": )" +
+           std::to_string(photons) + "}";
+}
+
+const std::string sun = R"({"sun": {"direction": [0.2, 0.3, 1], "irradiance": [4, 4, 4], "diameter": 60}})";
+const std::string rectangle = R"({"rectangle": {"centre": [1, 1, 4], "target": [0, 0, 0], "width": 3, "height": 3,
+                                  "radiance": [5, 5, 5]}})";
+const std::string point = R"({"point": {"position": [0.5, 0.3, 3], "intensity": 20}})";
+
+Scene pool_of_rough_water(const std::string& light) {
+    return scene_of(
+        clear("water", 1.3, 0.1) + R"(, "ground": {"diffuse": {"color": [0.2, 0.2, 0.2]}})",
+        R"({"over": [{"set": {"phase": "ground", "of": {"translate": {"by": [0, 0, -1], "of": {"box": {"size": [3, 3, 1]}}}}}},
+                     {"set": {"phase": "water", "of": {"box": {"size": [3, 3, 2]}}}}]})",
+        lit_by(light));
+}
+
+}  // namespace
+
+TEST_CASE("behind a ball of ground glass it is as bright as by paths alone") {
+    struct Case {
+        std::string light;
+        double roughness, photons;
+        int passes;
+    };
+    const Case cases[] = {{sun, 0.3, 0.4, 3}, {sun, 0.8, 0.4, 7}, {rectangle, 0.1, 0.4, 3}, {point, 0.3, 3, 1}};
+    const double significance = sidak(1e-4, std::size(cases));
+    for (const Case& c : cases) {
+        CAPTURE(c.light);
+        CAPTURE(c.roughness);
+        const Scene scene = scene_of(clear("glass", 1.3, c.roughness), in_phase("glass", ball),
+                                     grey_floor + lit_by(c.light, c.photons));
+        check_against_paths(scene, {-2, -2, 0.1f}, {1.9f, 1.9f, -0.1f}, c.passes * passes, significance);
+    }
+}
+
+TEST_CASE("a smooth ball within a rough one, and a rough one within a smooth one: as bright as by paths alone") {
+    const std::string shell =
+        R"({"over": [)" +
+        in_phase("core", R"({"translate": {"by": [0.2, 0, 1.2], "of": {"sphere": {"radius": 0.6}}}})") + ", " +
+        in_phase("shell", ball) + "]}";
+    const double significance = sidak(1e-4, 2);
+    for (const double roughness : {0.25, 0.0}) {
+        CAPTURE(roughness);
+        const Scene scene = scene_of(clear("shell", 1.3, roughness) + ", " + clear("core", 1.6, 0.25 - roughness),
+                                     shell, grey_floor + lit_by(rectangle));
+        check_against_paths(scene, {-2, -2, 0.1f}, {1.9f, 1.9f, -0.1f}, 3 * passes, significance);
+    }
+}
+
+TEST_CASE("where the index is not 1, or a medium scatters, behind a rough interface: as bright as by paths alone") {
+    const double significance = sidak(1e-4, 2);
+    SUBCASE("the ground of rough water") {
+        const Scene scene = pool_of_rough_water(sun);
+        check_against_paths(scene, {-0.5f, -0.5f, 0.2f}, {0.5f, 0.5f, -0.7f}, 12 * passes, significance);
+    }
+    SUBCASE("a medium") {
+        const Scene scene =
+            scene_of(clear("murk", 1.3, 0.3, R"(, "scattering": [1, 1, 1], "absorption": [0.2, 0.2, 0.2])"),
+                     in_phase("murk", ball), lit_by(rectangle));
+        check_against_paths(scene, {-3, -3, 1.1f}, {1, 1, 0.05f}, 3 * passes, significance);
+    }
+}
+
+TEST_CASE("a photon knows the densities that a path has, which comes along its way backwards") {
+    for (const std::string& light : {rectangle, point}) {
+        CAPTURE(light);
+        const Scene scene = pool_of_rough_water(light);
+        const World world(scene);
+        const PhotonEmission emission(world, scene);
+        PathCounters counters;
+        int compared = 0;
+        for (std::uint32_t i = 0; i < 2000; ++i) {
+            Sampler sampler(i, 0, 0, 5);
+            const auto emitted = emission.sample(sampler, 0);
+            if (!emitted) continue;
+            TracedPhotons traced;
+            trace_photon(world, scene, *emitted, 0.1f, sampler, counters, traced);
+            for (const Photon& photon : traced.on_surfaces) {
+                // Of those that the surface of the water alone scattered, once.
+                const Hit hit =
+                    world.geometry().intersect({photon.position, photon.direction, photon.phase, {}}, counters);
+                const Surface* surface = std::get_if<Surface>(&hit);
+                REQUIRE(surface);
+                const Frame frame(surface->normal);
+                const glm::vec3 wo = frame.to_local(-photon.direction), wi = frame.to_local(photon.towards_light);
+                if (!(wi.z < 0)) continue;
+                const Ray on = surface->transmitted(photon.towards_light);
+                const auto seen = scene.lights.seen(on.origin, on.direction, Bounds::infinity, false);
+                const bool is_point = light == point;
+                if (!is_point && !(seen && std::holds_alternative<OfAreaLight>(seen->source))) continue;
+                const Bsdf bsdf = surface->bsdf();
+                const glm::vec3 to_point = glm::vec3(0.5f, 0.3f, 3) - on.origin;
+                if (is_point && glm::dot(glm::normalize(to_point), on.direction) < 0.999999f) continue;
+                const float line = is_point
+                                       ? emission.direction_density(0, -on.direction) / glm::dot(to_point, to_point)
+                                       : emission.line_density(on.origin, on.direction, on.phase);
+                const float factor = rough_factor(bsdf.reverse_pdf(wo, wi), 1, wi.z, 1.3f, wo.z);
+                CHECK(photon.line_density == doctest::Approx(line * factor).epsilon(5e-3));
+                CHECK(photon.rough.by_directions == doctest::Approx(is_point ? 0 : bsdf.pdf(wo, wi)).epsilon(5e-3));
+                CHECK(photon.rough.by_shadow_rays.value() ==
+                      doctest::Approx(is_point ? 1 : scene.lights.pdf(on.origin, on.direction)).epsilon(5e-3));
+                ++compared;
+            }
+        }
+        CHECK(compared > 300);
+    }
+}
+
+}  // namespace test_caustics_rough
