@@ -96,6 +96,9 @@ const std::vector<Bad>& bad_objects() {
         {"{\"r\": -1e300}", required<float>("r"), 1, 7, "\"r\" must be at least -3.4028235e+38, but is -1e300"},
         {"{\"r\": 1e-60}", required<float>("r", Range::positive()), 1, 7,
          "\"r\" must be positive as a 32-bit float, but is 1e-60"},
+        // Subnormal numbers are zero where rays are traced.
+        {"{\"r\": 1e-39}", required<float>("r", Range::positive()), 1, 7,
+         "\"r\" must be positive as a 32-bit float, but is 1e-39"},
         {"{\"r\": 1.5}", required<int>("r"), 1, 7, "\"r\" must be a whole number, but is 1.5"},
         {"{\"r\": 2147483648}", required<int>("r"), 1, 7, "\"r\" must be at most 2147483647, but is 2147483648"},
         {"{\"r\": -2147483649}", required<int>("r"), 1, 7, "\"r\" must be at least -2147483648, but is -2147483649"},

@@ -47,9 +47,10 @@ Checked read_number(Value value, const Range& range, Number& out) {
     if (number < lowest) return complain(fmt::format("at least {}", std::numeric_limits<Number>::lowest()));
     if (number > highest) return complain(fmt::format("at most {}", std::numeric_limits<Number>::max()));
     out = static_cast<Number>(number);
-    // A positive double can be zero as a float. A limit is as the float that it would be read as: of 0.1, a little
-    // more.
+    // A positive double can be zero as a float; and one that would be subnormal is read as zero, for that is what it
+    // is where rays are traced. A limit is as the float that it would be read as: of 0.1, a little more.
     if constexpr (!is_integer) {
+        if (std::abs(out) < std::numeric_limits<Number>::min()) out = std::copysign(Number(0), out);
         const auto as_number = [&](double limit) {
             return limit < lowest || limit > highest ? limit : static_cast<double>(static_cast<Number>(limit));
         };

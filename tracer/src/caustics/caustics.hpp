@@ -1,4 +1,4 @@
-// Caustics: light that lamps throw through curved clear interfaces, found by photons.
+// Caustics: light that lamps throw through clear interfaces, curved or rough, found by photons.
 //
 // Each pass over the picture has photons of its own. How many there are, and in what radius a surface gathers them,
 // follows from the number of the pass and from the whole picture, so that an image does not depend on how it was

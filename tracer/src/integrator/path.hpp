@@ -46,7 +46,11 @@ struct Photons {
 /// area of the surface: the étendue, index² · area across the line · solid angle, is the same all along a chain,
 /// however its interfaces are curved. Fresnel's odds are the same in both directions and cancel. Gathering is the one
 /// estimate here that is biased: it blurs within r (Georgiev et al.: Light Transport Simulation with Vertex Connection
-/// and Merging, SIGGRAPH Asia 2012, has the general case). Photons are not scattered on their way: media dim them.
+/// and Merging, SIGGRAPH Asia 2012, has the general case). Media dim photons on their way, and scatter none.
+///
+/// Rough interfaces end shadow rays and chains, for a path is scattered there. Photons pass them, scattered as well. So of a
+/// lamp seen from a surface through frosted glass, shadow rays that start at the glass, the path's directions, and photons
+/// are three techniques for an integral over one more direction for each rough interface: rough_chain.hpp.
 ///
 /// Places in a medium that scatters are lit by photons, too, if its transmittance has a closed form: it is homogeneous.
 /// There is no cos θ there. A photon stands at one random place of its line through the medium, and with a probability

@@ -37,8 +37,8 @@ struct ImageParameters : RenderSettings {
                     Limits{.low = 1, .high = 1 << 20}, true});
         v(&P::caustics, Parameter{"caustics", "",
                                   "Whether photons look for the light that lamps, the sun and the bright parts of "
-                                  "environment images throw through curved clear surfaces, onto other surfaces and "
-                                  "into media that scatter and are alike throughout. "
+                                  "environment images throw through clear surfaces, curved or rough, onto other "
+                                  "surfaces and into media that scatter and are alike throughout. "
                                   "They blur it by a pixel or two, less with more samples.",
                                   limits::any, true});
         v(&P::photons, Parameter{"photons", "", "For caustics: photons for each pixel and sample.",
