@@ -55,12 +55,13 @@ struct Chain {
     LightProposal proposal{};  // by which lights were
     glm::vec3 direction{0};    // the chain's first
     PhotonDensity by_photons{};
-    // How many rough interfaces, and smooth ones, are between the place that photons light and the chain. That density
-    // is then what rough_chain.hpp has for the photons, over that for the directions before the chain's first.
+    // Where the chain starts at a rough interface that photons pass: how many interfaces, smooth and rough, lead there
+    // from the place that they light. `by_photons` is then the density with which photons find all directions from
+    // that place on, divided by the path's own for those before the chain's first (rough_chain.hpp).
     int before = 0;
     int length = 0;  // how many smooth clear interfaces it has
 
-    // How many interfaces photons have passed that come by this chain. They come by one at least.
+    // How many interfaces photons pass that come by this chain: one at least, or there are none.
     int interfaces() const { return before + length; }
 
     // The weight of light that is seen along the ray. Light at the end of a chain that shadow rays and photons do not
@@ -70,8 +71,8 @@ struct Chain {
         const float per_line = by_photons.per_line_density;
         const bool by_photons_too = per_line > 0.0f && interfaces() > 0 && interfaces() <= longest_chain;
         const float line = by_photons_too ? line_density(photons, ray) : 0.0f;
-        return technique_weight(scene, Techniques::directions_alone, *pdf, proposal.pdf(scene.lights, direction),
-                                per_line * line);
+        return technique_weight(scene.settings.techniques, Technique::directions, *pdf,
+                                proposal.pdf(scene.lights, direction), per_line * line);
     }
 };
 
@@ -106,7 +107,7 @@ class Path {
             add_emission_of_medium(flight.emitted);
             if (light && !flight.scattered_at) {
                 add_light(throughput_ * chain_.weight(scene_, photons_, ray_) * flight.weight *
-                              for_light(light->radiance, single_),
+                              for_light(light->radiance, single()),
                           *light, ray_.direction, false);
                 break;
             }
@@ -122,8 +123,8 @@ class Path {
             chain_.by_photons.reach_boundary(distance);
             recorder_.travelled(ray_.phase, distance);
             ++depth;
-            if (surface->optics.get().disperses()) single_ = &hero_;
-            const Bsdf bsdf = surface->bsdf(single_);
+            if (surface->optics.get().disperses()) is_dispersed_ = true;
+            const Bsdf bsdf = surface->bsdf(single());
             if (bsdf.passes_through()) {  // equal indices scatter nothing, but do count for max_depth
                 ray_ = surface->transmitted(ray_.direction);
                 entered_ = surface->normal;
@@ -137,9 +138,11 @@ class Path {
 
   private:
     const Medium& medium() const { return clear_at(scene_, ray_.phase).interior; }
+    // The wavelength of a path that was dispersed; null as long as it has all.
+    const Wavelength* single() const { return is_dispersed_ ? &hero_ : nullptr; }
 
     Flight through_medium(float distance) {
-        return fly(medium(), {ray_.origin, ray_.direction, distance, single_}, throughput_, sampler_);
+        return fly(medium(), {ray_.origin, ray_.direction, distance, single()}, throughput_, sampler_);
     }
 
     // The same as scatter_and_continue() of a surface, in the medium at that distance along the ray. There is always a
@@ -160,7 +163,7 @@ class Path {
     // wavelength it is that at the wavelength, and becomes a colour here.
     void add_light(const glm::vec3& found, const Lights::Emission& emission, const glm::vec3& direction,
                    bool is_to_be_scattered) {
-        const glm::vec3 radiance = single_ ? found * single_->response : found;
+        const glm::vec3 radiance = is_dispersed_ ? found * hero_.response : found;
         radiance_ += radiance;
         recorder_.add_light(radiance, emission, direction, is_to_be_scattered);
     }
@@ -199,7 +202,7 @@ class Path {
         const auto next = bsdf.sample(wo, lobe, sampler_.next2());
         record(surface, bsdf, next);
         if (!next) return false;
-        throughput_ *= for_light(next->weight, single_);
+        throughput_ *= for_light(next->weight, single());
         ray_ = continued(surface, frame, *next);
         if (surface.far_side) entered_ = next->transmitted ? surface.normal : -surface.normal;
         if (!next->delta)
@@ -240,7 +243,7 @@ class Path {
         const auto light = sampled_light(proposal);
         if (!light) return;
         const glm::vec3 wi = frame.to_local(light->wi);
-        const glm::vec3 f = for_light(bsdf.evaluate(wo, wi), single_);
+        const glm::vec3 f = for_light(bsdf.evaluate(wo, wi), single());
         if (f == glm::vec3(0.0f)) return;
         add_direct_light(*light, f, bsdf.pdf(wo, wi), {by_photons(wi)},
                          wi.z < 0 ? surface.transmitted(light->wi) : surface.reflected(light->wi),
@@ -256,17 +259,17 @@ class Path {
     void add_direct_light(const LightSample& light, const glm::vec3& f, float pdf, PhotonDensity by_photons,
                           const Ray& shadow, bool starts_in_chain) {
         if (scene_.settings.techniques == Techniques::directions_alone) return;
-        const auto arrival =
-            trace_shadow_ray({world_, scene_, photons_, sampler_, counters_}, shadow, light,
-                             {.hero = hero_, .single = single_}, starts_in_chain && by_photons.per_line_density > 0.0f);
+        const auto arrival = trace_shadow_ray({world_, scene_, photons_, sampler_, counters_}, shadow, light,
+                                              {.hero = hero_, .single = single()},
+                                              starts_in_chain && by_photons.per_line_density > 0.0f);
         if (!arrival) return;
         // Without an interface in between there are no photons: the line density is 0. The boundary's distance is
         // infinite then, of which there is no coverage.
         if (arrival->line_density > 0.0f) by_photons.reach_boundary(arrival->to_boundary);
         // No direction that the path takes by itself meets a point.
-        const float weight =
-            technique_weight(scene_, Techniques::shadow_rays_alone, light.pdf, light.is_of_point_light() ? 0.0f : pdf,
-                             by_photons.per_line_density * arrival->line_density);
+        const float weight = technique_weight(scene_.settings.techniques, Technique::shadow_rays, light.pdf,
+                                              light.is_of_point_light() ? 0.0f : pdf,
+                                              by_photons.per_line_density * arrival->line_density);
         add_light(throughput_ * f * arrival->radiance * (weight / light.pdf), arrival->emission, arrival->direction,
                   true);
     }
@@ -301,8 +304,8 @@ class Path {
             photon.weight(by_photons, pdf, [&] { return proposal.pdf(scene_.lights, photon.direction); });
         glm::vec3 fluence = power / photons_.map->expected();
         if (!photon.of_one_wavelength)
-            fluence = for_light(fluence, single_);
-        else if (!single_)
+            fluence = for_light(fluence, single());
+        else if (!is_dispersed_)
             fluence *= hero_.response;
         add_light(throughput_ * f * fluence * weight, photon.emission, photon.towards_light, true);
     }
@@ -320,7 +323,7 @@ class Path {
                                if (!(by_photons > 0.0f)) return;
                                // Photons are counted by area of the surface, and so have the cosine already that
                                // evaluate() multiplies by.
-                               const glm::vec3 f = for_light(bsdf.evaluate(wo, wi), single_) / wi.z;
+                               const glm::vec3 f = for_light(bsdf.evaluate(wo, wi), single()) / wi.z;
                                add_photon(photon, photon.power, f, by_photons, bsdf.pdf(wo, wi), proposal);
                            });
     }
@@ -335,7 +338,7 @@ class Path {
             if (!(by_photons > 0.0f)) return;
             // What the medium leaves of the photon between the boundary and the point. A point before the boundary is
             // one at which nothing is lost yet.
-            const Wavelength* wavelength = photon.of_one_wavelength ? &hero_ : single_;
+            const Wavelength* wavelength = photon.of_one_wavelength ? &hero_ : single();
             const glm::vec3 left = transmittance(
                 medium(), {point.position, photon.direction, std::max(depth, 0.0f), wavelength}, sampler_);
             const float f = point.phase_function.get().evaluate(glm::dot(ray_.direction, photon.direction));
@@ -371,8 +374,8 @@ class Path {
     std::optional<glm::vec3>
         entered_;  // the outward normal of the clear boundary that the path met last in this medium
     bool is_camera_ray_ = true;
-    Wavelength hero_;                     // the path's wavelength from where it is dispersed
-    const Wavelength* single_ = nullptr;  // &hero_ from there on; before, the path is of all wavelengths
+    Wavelength hero_;  // the path's wavelength from where it is dispersed
+    bool is_dispersed_ = false;
     PathRecorder recorder_;
 };
 

@@ -48,9 +48,9 @@ struct Photons {
 /// estimate here that is biased: it blurs within r (Georgiev et al.: Light Transport Simulation with Vertex Connection
 /// and Merging, SIGGRAPH Asia 2012, has the general case). Media dim photons on their way, and scatter none.
 ///
-/// Rough interfaces end shadow rays and chains, for a path is scattered there. Photons pass them, scattered as well. So of a
-/// lamp seen from a surface through frosted glass, shadow rays that start at the glass, the path's directions, and photons
-/// are three techniques for an integral over one more direction for each rough interface: rough_chain.hpp.
+/// Rough interfaces end shadow rays and chains, for a path is scattered there. Photons pass them, scattered as well. So
+/// of a lamp seen from a surface through frosted glass, shadow rays that start at the glass, the path's directions, and
+/// photons are three techniques for an integral over one more direction for each rough interface: rough_chain.hpp.
 ///
 /// Places in a medium that scatters are lit by photons, too, if its transmittance has a closed form: it is homogeneous.
 /// There is no cos θ there. A photon stands at one random place of its line through the medium, and with a probability
