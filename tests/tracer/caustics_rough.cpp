@@ -1,6 +1,8 @@
 // Photons that rough interfaces scatter on their way: against paths alone.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "caustics/trace_photon.hpp"
 #include "photons.hpp"
 #include "shading/frame.hpp"
@@ -61,17 +63,55 @@ TEST_CASE("behind a ball of ground glass it is as bright as by paths alone") {
     }
 }
 
-TEST_CASE("a smooth ball within a rough one, and a rough one within a smooth one: as bright as by paths alone") {
-    const std::string shell =
-        R"({"over": [)" +
-        in_phase("core", R"({"translate": {"by": [0.2, 0, 1.2], "of": {"sphere": {"radius": 0.6}}}})") + ", " +
-        in_phase("shell", ball) + "]}";
+TEST_CASE("smooth interfaces and rough ones behind each other: as bright as by paths alone") {
     const double significance = sidak(1e-4, 2);
-    for (const double roughness : {0.25, 0.0}) {
-        CAPTURE(roughness);
-        const Scene scene = scene_of(clear("shell", 1.3, roughness) + ", " + clear("core", 1.6, 0.25 - roughness),
-                                     shell, grey_floor + lit_by(rectangle));
-        check_against_paths(scene, {-2, -2, 0.1f}, {1.9f, 1.9f, -0.1f}, 3 * passes, significance);
+    const auto check = [&](const std::string& phases, const std::string& first, const std::string& second,
+                           int passes_of_photons) {
+        const Scene scene =
+            scene_of(phases, R"({"over": [)" + first + ", " + second + "]}", grey_floor + lit_by(rectangle));
+        check_against_paths(scene, {-2, -2, 0.1f}, {1.9f, 1.9f, -0.1f}, passes_of_photons, significance);
+    };
+    // An interface is as rough as the rougher of its sides.
+    const std::string core =
+        in_phase("core", R"({"translate": {"by": [0.2, 0, 1.2], "of": {"sphere": {"radius": 0.6}}}})");
+    SUBCASE("a rough ball within a smooth one") {
+        check(clear("shell", 1.3, 0) + ", " + clear("core", 1.6, 0.25), core, in_phase("shell", ball), 3 * passes);
+    }
+    SUBCASE("a smooth ball below a rough pane") {
+        check(clear("pane", 1.2, 0.1) + ", " + clear("glass", 1.3, 0),
+              in_phase("pane", R"({"translate": {"by": [0, 0, 2.4], "of": {"box": {"size": [3, 3, 0.2]}}}})"),
+              in_phase("glass", ball), 10 * passes);
+    }
+}
+
+TEST_CASE("a rough interface bends photons of one wavelength as the d line, and scales their power as that") {
+    // The sun through a smooth shell that disperses strongly, onto a ball of paint within rough glass within it.
+    const Scene scene = scene_of(R"("shell": {"clear": {"ior": 1.7, "abbe_number": 10}}, )" + clear("core", 1.3, 0.1) +
+                                     R"(, "paint": {"diffuse": {"color": [0.5, 0.5, 0.5]}})",
+                                 R"({"over": [)" + in_phase("paint", R"({"sphere": {"radius": 0.4}})") + ", " +
+                                     in_phase("core", R"({"sphere": {"radius": 0.7}})") + ", " +
+                                     in_phase("shell", R"({"sphere": {"radius": 1}})") + "]}",
+                                 lit_by(sun));
+    const World world(scene);
+    const PhotonEmission emission(world, scene);
+    PathCounters counters;
+    for (const float u : {0.1f, 0.9f}) {
+        CAPTURE(u);
+        const Wavelength wavelength = sampled_wavelength(u);
+        std::vector<float> left;
+        for (std::uint32_t i = 0; i < 3000; ++i) {
+            Sampler sampler(i, 0, 0, 6);
+            const auto emitted = emission.sample(sampler, 0);
+            if (!emitted) continue;
+            TracedPhotons traced;
+            trace_photon(world, scene, *emitted, 0.1f, sampler, counters, traced, wavelength);
+            for (const Photon& photon : traced.on_surfaces)
+                left.push_back(photon.power.x / for_light(emitted->power, &wavelength).x);
+        }
+        REQUIRE(left.size() > 200);
+        // Fresnel's odds take nothing of those that pass, and a rough interface little.
+        std::ranges::nth_element(left, left.begin() + static_cast<std::ptrdiff_t>(left.size() / 2));
+        CHECK(left[left.size() / 2] == doctest::Approx(1).epsilon(0.02));
     }
 }
 
@@ -119,14 +159,17 @@ TEST_CASE("a photon knows the densities that a path has, which comes along its w
                 const Bsdf bsdf = surface->bsdf();
                 const glm::vec3 to_point = glm::vec3(0.5f, 0.3f, 3) - on.origin;
                 if (is_point && glm::dot(glm::normalize(to_point), on.direction) < 0.999999f) continue;
-                const float line = is_point
-                                       ? emission.direction_density(0, -on.direction) / glm::dot(to_point, to_point)
-                                       : emission.line_density(on.origin, on.direction, on.phase);
                 const float factor = rough_factor(bsdf.reverse_pdf(wo, wi), 1, wi.z, 1.3f, wo.z);
-                CHECK(photon.line_density == doctest::Approx(line * factor).epsilon(5e-3));
-                CHECK(photon.rough.by_directions == doctest::Approx(is_point ? 0 : bsdf.pdf(wo, wi)).epsilon(5e-3));
+                const float squared = glm::dot(to_point, to_point);
+                CHECK(photon.line_density ==
+                      doctest::Approx(is_point ? emission.direction_density(0, -on.direction)
+                                               : emission.line_density(on.origin, on.direction, on.phase))
+                          .epsilon(5e-3));
+                CHECK(photon.rough.by_directions ==
+                      doctest::Approx(is_point ? 0 : bsdf.pdf(wo, wi) / factor).epsilon(5e-3));
                 CHECK(photon.rough.by_shadow_rays.value() ==
-                      doctest::Approx(is_point ? 1 : scene.lights.pdf(on.origin, on.direction)).epsilon(5e-3));
+                      doctest::Approx((is_point ? squared : scene.lights.pdf(on.origin, on.direction)) / factor)
+                          .epsilon(5e-3));
                 ++compared;
             }
         }

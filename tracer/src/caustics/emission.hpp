@@ -11,7 +11,8 @@
 // around send none, and lines that no light proposes are left to the other techniques of path.hpp.
 //
 // The lines of a point light all pass through it, and have no such density. They have one of directions, cᵢ t d², and
-// with the intensity I of the light in place of a radiance a photon carries I/(cᵢ t d²). No other technique finds them.
+// with the intensity I of the light in place of a radiance a photon carries I/(cᵢ t d²). No other technique finds what
+// interfaces bent of it before anything scattered it.
 #pragma once
 
 #include <cstddef>

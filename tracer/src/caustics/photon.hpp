@@ -21,12 +21,11 @@ struct Photon {
     glm::vec3 power;
     /// p(line)/m²: how densely the photon's line was sampled at the light, p(line), per area perpendicular to it and
     /// steradian, over the square of the refractive index m around the light. Of a point light, per steradian alone.
-    /// Each rough interface that scattered the photon has multiplied it by the factor that rough_chain.hpp has.
     float line_density;
     Phase phase;                ///< in which it travelled when it fell
     Lights::Emission emission;  ///< what is seen of the light from where the photon started
     glm::vec3 towards_light;    ///< the direction in which the light is seen from there
-    RoughChain rough{};         ///< how the path's techniques find the chain beyond its first rough interface
+    PathDensities rough{};      ///< how a path finds the chain with it, if rough interfaces are in it
     /// It was dispersed: every component of `power` is that at the wavelength of the photon's map.
     bool of_one_wavelength = false;
 

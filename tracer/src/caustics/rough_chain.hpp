@@ -2,18 +2,21 @@
 //
 // A path from a place x that photons light goes through a chain to a lamp, and at one place y of it is scattered by a
 // rough interface; elsewhere interfaces are smooth. Let ω be its direction at y on the side of x, ω' that on the side
-// of the lamp, n and n' the indices there, θ and θ' the angles to the normal. Three techniques find such a path:
+// of the lamp, n and n' the indices there, θ and θ' the angles to the normal. n_x and θ_x belong to x, and n_l is the
+// index around the lamp. Three techniques find such a path:
 //   directions:   ω by the BSDF at x, ω' by that at y,         p_x(ω) p_y(ω' | ω)
 //   shadow rays:  ω by the BSDF at x, ω' by a shadow ray at y, p_x(ω) p_lights(ω' | y)
 //   photons:      a line at the lamp, ω by the BSDF at y as it is seen from the lamp.
 // The étendue n² dA cos θ dω is the same all along the way from x to y, and n'² dA cos θ' dω' along that from y to the
 // lamp, so photons find (ω, ω') with the density
-//     N π r² n² cos θ_x · (p(line)/m²) · R,   R = p_y*(ω | ω') n'² cos θ' / (n² cos θ),
+//     N π r² n_x² cos θ_x · (p(line)/n_l²) · R,   R = p_y*(ω | ω') n'² cos θ' / (n² cos θ),
 // where p_y* is the density with which the interface, met from the lamp's side, scatters to ω, and the rest is what
-// path.hpp has for chains without y. So R is a factor of the line density, and each further rough interface brings
-// another one: its density has one direction more, as those of the other techniques have. Of a point light p(line) is
-// per steradian, and the first rough interface that its photon meets without being bent, at a distance d, also divides
-// by n'² d²: area there is n'² d² times solid angle at the light over n'² cos θ'.
+// path.hpp has for chains without y. Each further rough interface adds one direction, by which every density gains
+// 1/sr, and a factor of its own.
+//
+// A point light has a density q of directions in place of p(line)/n_l². If a photon of it reaches its first rough
+// interface unbent, after the distance d, q/(n'² d²) stands for that, because dA cos θ' = d² dΩ. Otherwise no other
+// technique finds its light.
 #pragma once
 
 #include <cmath>
@@ -21,20 +24,21 @@
 
 namespace phasetree::tracer {
 
-/// With which densities a path that comes from where a photon fell finds the chain beyond the photon's own direction,
-/// per steradian for each rough interface.
-struct RoughChain {
-    /// All directions by BSDFs. 1 of a chain that is smooth, and 0 of a point light's, which no direction meets.
+/// How densely a camera path finds the rest of a photon's chain, from where it fell to the light but without the
+/// direction there, over how densely the photon found it: the product of p_y/R over its rough interfaces. So quotients
+/// stay near 1 where densities would overflow. It is 1 of a chain of smooth interfaces.
+struct PathDensities {
+    /// If BSDFs choose all directions. 0 of a point light, which no direction meets.
     float by_directions = 1;
-    /// The last direction by a shadow ray instead. None of a chain that is smooth: shadow rays start where the photon
-    /// fell, if they find the light at all.
+    /// If a shadow ray chooses the direction at the rough interface nearest the light. None of a chain of smooth
+    /// interfaces, whose shadow rays start where the photon fell; 0 of a point light's photon that was bent before.
     std::optional<float> by_shadow_rays{};
 };
 
-/// R. Scattering by the interface, met from the lamp's side, has the density `pdf`; indices and cosines are those of
-/// the lamp's side and of the other one.
-inline float rough_factor(float pdf, float lamp_ior, float lamp_cosine, float ior, float cosine) {
-    return pdf * (lamp_ior * lamp_ior * std::abs(lamp_cosine)) / (ior * ior * std::abs(cosine));
+/// R. The photon is scattered to the path's side with the density `pdf`, per steradian. The indices and cosines are
+/// those on the lamp's side and on the path's; for a reflection both indices are the same.
+inline float rough_factor(float pdf, float lamp_ior, float lamp_cosine, float path_ior, float path_cosine) {
+    return pdf * (lamp_ior * lamp_ior * std::abs(lamp_cosine)) / (path_ior * path_ior * std::abs(path_cosine));
 }
 
 }  // namespace phasetree::tracer

@@ -23,8 +23,7 @@ class PhotonFlight {
           counters_(counters),
           wavelength_(wavelength),
           ray_(emitted.ray),
-          power_(emitted.power),
-          line_density_(emitted.line_density) {
+          power_(emitted.power) {
         if (emitted.emission.is_of_point_light()) rough_ = {.by_directions = 0, .by_shadow_rays = 0.0f};
     }
 
@@ -32,7 +31,13 @@ class PhotonFlight {
         for (;;) {
             const Hit hit = world_.geometry().intersect(ray_, counters_);
             const Surface* surface = std::get_if<Surface>(&hit);
-            const float distance = surface ? surface->distance : std::numeric_limits<float>::infinity();
+            float distance = surface ? surface->distance : std::numeric_limits<float>::infinity();
+            // Lamps hide what is behind them.
+            const auto seen = scene_.lights.seen(ray_.origin, ray_.direction, distance, false);
+            if (seen && std::holds_alternative<OfAreaLight>(seen->source)) {
+                surface = nullptr;
+                distance = seen->distance;
+            }
             // With the power with which it came into the medium: how much is left at a point depends on the point.
             if (interfaces_ > 0) keep_in_medium(distance, traced);
             if (!surface) return;
@@ -61,7 +66,7 @@ class PhotonFlight {
     const Medium& medium() const { return clear_at(scene_, ray_.phase).interior; }
 
     Photon photon_at(const glm::vec3& position) const {
-        return {position,          -ray_.direction,         power_, line_density_,     ray_.phase,
+        return {position,          -ray_.direction,         power_, emitted_.line_density, ray_.phase,
                 emitted_.emission, -emitted_.ray.direction, rough_, single_ != nullptr};
     }
 
@@ -92,39 +97,42 @@ class PhotonFlight {
         // A smooth interface has no lobe in which a direction would be chosen by the two numbers.
         const auto next = bsdf.sample(wo, lobe, bsdf.is_delta() ? glm::vec2(0.0f) : sampler_.next2());
         if (!next) return false;
-        const float before = clear_at(scene_, ray_.phase).ior_for(single_);
-        if (!next->delta) compare_at(surface, bsdf, wo, *next);
+        // What does not disperse, a rough interface or one with a film, bends all light as that of the d line.
+        const Wavelength* bent_as = surface.optics.get().disperses() ? single_ : nullptr;
+        const float before = clear_at(scene_, ray_.phase).ior_for(bent_as);
+        if (!next->delta) add_rough_interface(surface, bsdf, wo, *next);
         ray_ = continued(surface, frame, *next);
         // The BSDF is sampled as if the photon were a path that comes from the camera, so its weight is of radiance
         // that arrives from `after` and leaves into `before`: a refraction scales it by (before/after)². Power is not
         // scaled.
-        const float after = clear_at(scene_, ray_.phase).ior_for(single_), ratio = after / before;
+        const float after = clear_at(scene_, ray_.phase).ior_for(bent_as), ratio = after / before;
         power_ *= for_light(next->weight, single_) * (ratio * ratio);
         return true;
     }
 
-    // Before the photon leaves a rough interface: how densely the techniques find the chain with it.
-    void compare_at(const Surface& surface, const Bsdf& bsdf, const glm::vec3& wo, const BsdfSample& next) {
-        const Surface::Side& left_to = next.transmitted ? *surface.far_side : surface.near_side;
-        const float before = clear_at(scene_, ray_.phase).ior, after = clear_at(scene_, left_to.phase).ior;
-        // A path comes from where the photon goes.
-        const float backwards = bsdf.reverse_pdf(wo, next.wi);
-        if (is_scattered_) {
+    // Multiplies how a path finds the photon's chain by what this rough interface adds. To be called before the ray
+    // changes, for the direction from which the photon comes counts.
+    void add_rough_interface(const Surface& surface, const Bsdf& bsdf, const glm::vec3& wo, const BsdfSample& next) {
+        const Surface::Side& path_side = next.transmitted ? *surface.far_side : surface.near_side;
+        const float lamp_ior = clear_at(scene_, ray_.phase).ior;
+        const float factor = rough_factor(next.pdf, lamp_ior, wo.z, clear_at(scene_, path_side.phase).ior, next.wi.z);
+        // The path arrives along next.wi and leaves along wo.
+        const float backwards = bsdf.reverse_pdf(wo, next.wi) / factor;
+        if (has_met_rough_) {
             rough_.by_shadow_rays = *rough_.by_shadow_rays * backwards;
         } else if (const auto* point = std::get_if<OfPointLight>(&emitted_.emission.source)) {
-            // Shadow rays find a point straight ahead alone.
+            // A shadow ray gets to a point on a straight line alone, so this must be the photon's first interface.
             if (interfaces_ == 1) {
-                rough_.by_shadow_rays = scene_.lights.point_light_probability(left_to.origin, point->index);
-                const float distance =
-                    emitted_.emission.distance + glm::length(surface.near_side.origin - emitted_.ray.origin);
-                line_density_ /= before * before * distance * distance;
+                const float distance = lamp_ior * (emitted_.emission.distance +
+                                                   glm::length(surface.near_side.origin - emitted_.ray.origin));
+                rough_.by_shadow_rays = scene_.lights.point_light_probability(path_side.origin, point->index) *
+                                        (distance * distance) / factor;
             }
         } else {
-            rough_.by_shadow_rays = scene_.lights.pdf(left_to.origin, -ray_.direction);
+            rough_.by_shadow_rays = scene_.lights.pdf(path_side.origin, -ray_.direction) / factor;
         }
-        is_scattered_ = true;
+        has_met_rough_ = true;
         rough_.by_directions *= backwards;
-        line_density_ *= rough_factor(next.pdf, before, wo.z, after, next.wi.z);
     }
 
     const World& world_;
@@ -138,9 +146,8 @@ class PhotonFlight {
     glm::vec3 power_;
     const Wavelength* single_ = nullptr;  // the wavelength from the first interface that disperses on
     int interfaces_ = 0;                  // how many interfaces have reflected or refracted it
-    bool is_scattered_ = false;           // by a rough one
-    float line_density_;
-    RoughChain rough_{};
+    bool has_met_rough_ = false;
+    PathDensities rough_{};
     std::optional<bool> came_from_light_{};
 };
 

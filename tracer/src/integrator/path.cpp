@@ -32,7 +32,7 @@ constexpr float least_survival = 0.05f, nearly_certain = 0.95f;
 constexpr float least_photon_cosine = 1e-3f;
 
 // The density with which photons find a direction is this factor times the line density at the light's end of the
-// chain: N π r² n² cos θ on a surface, and N π r² n² F in a medium (path.hpp).
+// chain: N π r² n² cos θ on a surface, and N π r² n² F in a medium (path.hpp), and what rough interfaces make of it.
 struct PhotonDensity {
     float per_line_density = 0;
     // Of a medium that photons light, until the distance to its boundary, and so F, is known and in the factor.
@@ -55,14 +55,14 @@ struct Chain {
     LightProposal proposal{};  // by which lights were
     glm::vec3 direction{0};    // the chain's first
     PhotonDensity by_photons{};
-    // Where the chain starts at a rough interface that photons pass: how many interfaces, smooth and rough, lead there
-    // from the place that they light. `by_photons` is then the density with which photons find all directions from
-    // that place on, divided by the path's own for those before the chain's first (rough_chain.hpp).
-    int before = 0;
+    // The number of interfaces from the place that photons light to the rough one where this chain starts, that one
+    // included; 0 if it starts elsewhere. `by_photons` is then of all directions from that place on, divided by the
+    // path's own density of those before the chain's first, because all weights here compare the last direction alone.
+    int interfaces_before = 0;
     int length = 0;  // how many smooth clear interfaces it has
 
-    // How many interfaces photons pass that come by this chain: one at least, or there are none.
-    int interfaces() const { return before + length; }
+    // How many interfaces photons pass that come by this chain. There are photons only if it is one at least.
+    int interfaces() const { return interfaces_before + length; }
 
     // The weight of light that is seen along the ray. Light at the end of a chain that shadow rays and photons do not
     // follow to its end is found by the path alone, whichever techniques are asked for.
@@ -210,7 +210,7 @@ class Path {
                       .proposal = proposal,
                       .direction = ray_.direction,
                       .by_photons = {by_photons(next->wi)},
-                      .before = surface.far_side ? chain_.interfaces() + 1 : 0};
+                      .interfaces_before = surface.far_side ? chain_.interfaces() + 1 : 0};
         else if (is_link(bsdf, surface))
             ++chain_.length;
         else
@@ -227,7 +227,7 @@ class Path {
         const PhotonDensity by_photons{placement ? density_across(point.phase) : 0.0f, placement};
         if (const auto light = sampled_light(proposal)) {
             const float f = phase.evaluate(glm::dot(ray_.direction, light->wi));
-            add_direct_light(*light, glm::vec3(f), f, by_photons, point.leaving(light->wi), false);
+            add_direct_light(*light, glm::vec3(f), f, by_photons, point.leaving(light->wi), 0);
         }
         if (placement) add_caustics(point, *placement, proposal);
         const glm::vec3 direction = glm::normalize(Frame(ray_.direction).to_world(phase.sample(sampler_.next2())));
@@ -245,9 +245,10 @@ class Path {
         const glm::vec3 wi = frame.to_local(light->wi);
         const glm::vec3 f = for_light(bsdf.evaluate(wo, wi), single());
         if (f == glm::vec3(0.0f)) return;
-        add_direct_light(*light, f, bsdf.pdf(wo, wi), {by_photons(wi)},
+        const float density = by_photons(wi);
+        add_direct_light(*light, f, bsdf.pdf(wo, wi), {density},
                          wi.z < 0 ? surface.transmitted(light->wi) : surface.reflected(light->wi),
-                         surface.far_side.has_value());
+                         surface.far_side && density > 0.0f ? chain_.interfaces() + 1 : 0);
     }
 
     std::optional<LightSample> sampled_light(const LightProposal& proposal) {
@@ -257,14 +258,13 @@ class Path {
     // f is what of the light is scattered into the path, the cosine included, and pdf the density with which the path
     // itself would go on in that direction.
     void add_direct_light(const LightSample& light, const glm::vec3& f, float pdf, PhotonDensity by_photons,
-                          const Ray& shadow, bool starts_in_chain) {
+                          const Ray& shadow, int interfaces_before) {
         if (scene_.settings.techniques == Techniques::directions_alone) return;
         const auto arrival = trace_shadow_ray({world_, scene_, photons_, sampler_, counters_}, shadow, light,
-                                              {.hero = hero_, .single = single()},
-                                              starts_in_chain && by_photons.per_line_density > 0.0f);
+                                              {.hero = hero_, .single = single()}, interfaces_before);
         if (!arrival) return;
-        // Without an interface in between there are no photons: the line density is 0. The boundary's distance is
-        // infinite then, of which there is no coverage.
+        // Photons that light a medium come by its boundary. Without one the line density is 0, and the boundary's
+        // distance is infinite, of which there is no coverage.
         if (arrival->line_density > 0.0f) by_photons.reach_boundary(arrival->to_boundary);
         // No direction that the path takes by itself meets a point.
         const float weight = technique_weight(scene_.settings.techniques, Technique::shadow_rays, light.pdf,

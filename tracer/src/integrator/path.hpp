@@ -50,7 +50,8 @@ struct Photons {
 ///
 /// Rough interfaces end shadow rays and chains, for a path is scattered there. Photons pass them, scattered as well. So
 /// of a lamp seen from a surface through frosted glass, shadow rays that start at the glass, the path's directions, and
-/// photons are three techniques for an integral over one more direction for each rough interface: rough_chain.hpp.
+/// photons are three techniques for one integral, which has one more direction for each rough interface:
+/// rough_chain.hpp.
 ///
 /// Places in a medium that scatters are lit by photons, too, if its transmittance has a closed form: it is homogeneous.
 /// There is no cos θ there. A photon stands at one random place of its line through the medium, and with a probability

@@ -25,9 +25,10 @@ float point_density(const ShadowRayContext& context, const Ray& ray, const Light
 }  // namespace
 
 std::optional<Arrival> trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSample& sampled,
-                                        const PathWavelength& wavelength, bool starts_in_chain) {
+                                        const PathWavelength& wavelength, int interfaces_before) {
     const auto density_at_end = [&](int length) {
-        if (length == 0 && !starts_in_chain) return 0.0f;
+        const int interfaces = interfaces_before + length;
+        if (interfaces == 0 || interfaces > longest_chain) return 0.0f;
         const auto* point = std::get_if<OfPointLight>(&sampled.source);
         return point ? point_density(context, ray, sampled, *point) : line_density(context.photons, ray);
     };

@@ -29,9 +29,10 @@ struct Arrival {
     glm::vec3 radiance;
     Lights::Emission emission;
     glm::vec3 direction;
-    float line_density;  ///< line_density() of the chain's last ray; 0 for a chain of no interface. Of a point light
-                         ///< EmittedPhoton::line_density over n² d² (rough_chain.hpp)
-    float to_boundary;   ///< how far the first boundary is from the start; infinity if the light is before it
+    /// line_density() of the chain's last ray; 0 if photons come by no interface, or by too many. Of a point light
+    /// EmittedPhoton::line_density over n² d², with the index n at the start and the distance d (rough_chain.hpp).
+    float line_density;
+    float to_boundary;  ///< how far the first boundary is from the start; infinity if the light is before it
 };
 
 /// One random sample of E (path.hpp) along a shadow ray: the emission at the end of a chain of smooth clear interfaces,
@@ -41,10 +42,10 @@ struct Arrival {
 /// its way the radiance includes the response to its wavelength; a path that was dispersed before multiplies by that
 /// itself, as for all light that it finds. A point light is seen by the straight ray alone, through boundaries that
 /// bend nothing: what it sends through an interface that bends light is left to photons, because no direction that is
-/// sampled here leads through the interface to a point. If the ray starts at a rough interface that photons pass on
-/// their way to what they light, a chain of no further interface has a line density, too.
+/// sampled here leads through the interface to a point. The ray may start at a rough interface that
+/// photons pass on their way to what they light: `interfaces_before` counts it and the interfaces between the two.
 std::optional<Arrival> trace_shadow_ray(const ShadowRayContext&, Ray ray, const LightSample& sampled,
-                                        const PathWavelength&, bool starts_in_chain);
+                                        const PathWavelength&, int interfaces_before);
 
 /// With which density photons start on the line on which a ray leads to a light (EmittedPhoton::line_density); 0 if
 /// there are none.

@@ -18,7 +18,8 @@
 // Area lights hide what is behind them, and nothing else: rectangles from their emitting side, spheres from everywhere.
 //
 // A point light is chosen by its fluence as the others are, but it is a delta function beside their mixture: a sample
-// of it is its own alone, with the probability of the choice in place of a density, and no other technique can find it.
+// of it is its own alone, with the probability of the choice in place of a density, and no direction that
+// a path samples otherwise leads to it.
 //
 // Through portals, the lights at infinity that are all around are sampled as well: from a point that sees portals,
 // three quarters of what those lights would be chosen by goes to the portals, in proportion to their solid angles. A
@@ -70,8 +71,8 @@ struct LightSample {
     float pdf;           ///< per steradian, of the whole mixture; of a point light, the probability that it was chosen
     LightSource source;  ///< what the radiance is of
 
-    /// Whether it is of a point light. Then `radiance` is its irradiance on a surface that faces it, and no other
-    /// technique finds it.
+    /// Whether it is of a point light. Then `radiance` is its irradiance on a surface that faces it, and no
+    /// direction that is sampled otherwise leads to it.
     bool is_of_point_light() const { return std::holds_alternative<OfPointLight>(source); }
 };
 
