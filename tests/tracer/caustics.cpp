@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 
+#include "caustics/trace_photon.hpp"
 #include "paths.hpp"
 #include "photons.hpp"
 #include "shading/fresnel.hpp"
@@ -236,6 +237,34 @@ TEST_CASE("a lamp above a wall throws no photons through what is below it") {
     };
     CHECK(found_on_the_floor("2.9") > 0);
     CHECK(found_on_the_floor("3.1") == 0);
+}
+
+TEST_CASE("a lamp hides the sun from the photons") {
+    const auto of_the_sun = [](const std::string& target_height) {
+        const Scene scene = scene_of(
+            R"("glass": {"clear": {"ior": 1.5}})",
+            R"({"set": {"phase": "glass", "of": {"translate": {"by": [0, 0, 1.1], "of": {"sphere": {"radius": 1}}}}}})",
+            R"("meshes": [{"floor": {"material": {"diffuse": {"color": [0.5, 0.5, 0.5]}}}}],
+               "lights": [{"sun": {"direction": [0, 0, 1], "irradiance": [4, 4, 4]}},
+                          {"rectangle": {"centre": [0, 0, 2.2], "target": [0, 0, )" +
+                target_height + R"(], "width": 6, "height": 6, "radiance": [5, 5, 5]}}])" + few_wide_photons);
+        const World world(scene);
+        const PhotonEmission emission(world, scene);
+        PathCounters counters;
+        int found = 0;
+        for (std::uint32_t i = 0; i < 3000; ++i) {
+            Sampler sampler(i, 0, 0, 7);
+            const auto emitted = emission.sample(sampler, 0);
+            if (!emitted || !std::holds_alternative<InfiniteLights>(emitted->emission.source)) continue;
+            TracedPhotons traced;
+            trace_photon(world, scene, *emitted, 0.1f, sampler, counters, traced);
+            found += static_cast<int>(traced.on_surfaces.size());
+        }
+        return found;
+    };
+    // It hides what is behind it on the side to which it shines.
+    CHECK(of_the_sun("0") > 100);
+    CHECK(of_the_sun("9") == 0);
 }
 
 TEST_CASE("a target's lines are as dense as it says") {
