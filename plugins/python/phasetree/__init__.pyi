@@ -2900,7 +2900,7 @@ def image(width: int | None = ..., height: int | None = ..., frames_per_second: 
     noise: Pixels stop before that where their relative error is estimated to be at most this, after 32 samples at the earliest; 0 if none is to stop. (number; at least 0 and at most 1; default 0)
     seed: Another whole number gives other noise. (whole number; zero or more; default 0)
     max_depth: The most surfaces that a path meets. One between equal indices counts, too. (whole number; at least 1 and at most 1048576; default 65536)
-    caustics: Whether photons look for the light that lamps, the sun and the bright parts of environment images throw through curved clear surfaces, onto other surfaces and into media that scatter and are alike throughout. They blur it by a pixel or two, less with more samples. (true or false; default false)
+    caustics: Whether photons look for the light that lamps, the sun and the bright parts of environment images throw through clear surfaces, curved or rough, onto other surfaces and into media that scatter and are alike throughout. They blur it by a pixel or two, less with more samples. (true or false; default false)
     photons: For caustics: photons for each pixel and sample. (number; at least 0 and at most 64; default 1)
     photon_radius: For caustics: how far around a point photons count as light on it, in the first pass. (number in pixels; at least 0.01 and at most 100; default 2)
     exposure: Brightness of pictures; one more is twice as bright. (number in EV; at least -50 and at most 50; default 0)
