@@ -19,7 +19,7 @@
 
 namespace phasetree {
 
-using carving::Balls, carving::EmptyBalls, carving::Reach, carving::reach_along;
+using carving::BallBatch, carving::EmptyBalls, carving::Reach, carving::reach_along;
 
 namespace {
 
@@ -119,7 +119,7 @@ class Carver {
             std::array<bool, batch_size> is_there{};
             for (std::size_t step = 0; step < longest_walk && left() > 0; ++step) {
                 for (std::size_t i = 0; i < batch_size; ++i) p[i] = middle + from[i] * (radius - t[i]);
-                const Balls balls = field_.at(p);
+                const BallBatch balls = field_.at(p);
                 bool goes_on = false;
                 for (std::size_t i = 0; i < batch_size; ++i) {
                     is_there[i] = is_there[i] || balls[i].radius < 0.1 * tolerance_;
@@ -166,7 +166,7 @@ class Carver {
             for (std::size_t first = 0; first < corners.size(); first += batch_size) {
                 std::array<glm::dvec3, batch_size> p;
                 for (std::size_t i = 0; i < batch_size; ++i) p[i] = corners[std::min(first + i, corners.size() - 1)];
-                const Balls balls = field_.at(p);
+                const BallBatch balls = field_.at(p);
                 for (std::size_t i = 0; i < batch_size && first + i < corners.size(); ++i)
                     if (balls[i].radius > 2 * tolerance_) far.emplace_back(balls[i].radius, corners[first + i]);
             }

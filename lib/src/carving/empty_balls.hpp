@@ -17,7 +17,7 @@ struct Ball {
     double radius = 0;
     bool is_solid = false;
 };
-using Balls = std::array<Ball, batch_size>;
+using BallBatch = std::array<Ball, batch_size>;
 
 /// Evaluates a field at eight points at a time, and counts.
 class EmptyBalls {
@@ -29,7 +29,7 @@ class EmptyBalls {
                 {farthest_, std::abs(static_cast<double>(box.low[i])), std::abs(static_cast<double>(box.high[i]))});
     }
 
-    Balls at(const std::array<glm::dvec3, batch_size>& points) {
+    BallBatch at(const std::array<glm::dvec3, batch_size>& points) {
         if (options_.cancelled && evaluations_ % 64 == 0 && options_.cancelled()) throw CarvingCancelled();
         BatchOfFloats x, y, z;
         for (std::size_t i = 0; i < batch_size; ++i) {
@@ -40,7 +40,7 @@ class EmptyBalls {
         std::array<BatchOfFloats, 2> phi;
         evaluator_.evaluate(x, y, z, phi, workspace_);
         ++evaluations_;
-        Balls balls;
+        BallBatch balls;
         for (std::size_t i = 0; i < batch_size; ++i) {
             const glm::dvec3 p(x[i], y[i], z[i]);
             const double f = phi[1][i];

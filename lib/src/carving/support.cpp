@@ -52,7 +52,7 @@ void walk(Beam& beam, const Frame& frame, EmptyBalls& field, double tolerance, d
     const double rho = beam.half_diagonal();
     for (std::size_t i = 0; i < above.size(); ++i) points[i] = frame.world(beam.u, beam.v, beam.top + above[i] * rho);
     points[above.size()] = frame.world(beam.u, beam.v, beam.top - 0.5 * tolerance);
-    const Balls balls = field.at(points);
+    const BallBatch balls = field.at(points);
     for (bool is_lower = true; is_lower;) {
         is_lower = false;
         for (const Ball& ball : balls) {
