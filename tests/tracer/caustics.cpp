@@ -7,7 +7,6 @@
 #include <numbers>
 #include <random>
 
-#include "caustics/trace_photon.hpp"
 #include "paths.hpp"
 #include "photons.hpp"
 #include "shading/fresnel.hpp"
@@ -249,17 +248,11 @@ TEST_CASE("a lamp hides the sun from the photons") {
                           {"rectangle": {"centre": [0, 0, 2.2], "target": [0, 0, )" +
                 target_height + R"(], "width": 6, "height": 6, "radiance": [5, 5, 5]}}])" + few_wide_photons);
         const World world(scene);
-        const PhotonEmission emission(world, scene);
-        PathCounters counters;
         int found = 0;
-        for (std::uint32_t i = 0; i < 3000; ++i) {
-            Sampler sampler(i, 0, 0, 7);
-            const auto emitted = emission.sample(sampler, 0);
-            if (!emitted || !std::holds_alternative<InfiniteLights>(emitted->emission.source)) continue;
-            TracedPhotons traced;
-            trace_photon(world, scene, *emitted, 0.1f, sampler, counters, traced);
-            found += static_cast<int>(traced.on_surfaces.size());
-        }
+        for_each_photon(world, scene, PhotonEmission(world, scene), 3000,
+                        [&](const EmittedPhoton& emitted, const Photon&) {
+                            found += std::holds_alternative<InfiniteLights>(emitted.emission.source);
+                        });
         return found;
     };
     // It hides what is behind it on the side to which it shines.

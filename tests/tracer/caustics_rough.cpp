@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "caustics/trace_photon.hpp"
+#include "integrator/shadow_ray.hpp"
 #include "photons.hpp"
 #include "shading/frame.hpp"
 
@@ -34,14 +34,18 @@ std::string lit_by(const std::string& light, double photons = 0.4) {
 const std::string sun = R"({"sun": {"direction": [0.2, 0.3, 1], "irradiance": [4, 4, 4], "diameter": 60}})";
 const std::string rectangle = R"({"rectangle": {"centre": [1, 1, 4], "target": [0, 0, 0], "width": 3, "height": 3,
                                   "radiance": [5, 5, 5]}})";
+const glm::vec3 point_position(0.5f, 0.3f, 3);
 const std::string point = R"({"point": {"position": [0.5, 0.3, 3], "intensity": 20}})";
 
-Scene pool_of_rough_water(const std::string& light) {
-    return scene_of(
-        clear("water", 1.3, 0.1) + R"(, "ground": {"diffuse": {"color": [0.2, 0.2, 0.2]}})",
-        R"({"over": [{"set": {"phase": "ground", "of": {"translate": {"by": [0, 0, -1], "of": {"box": {"size": [3, 3, 1]}}}}}},
-                     {"set": {"phase": "water", "of": {"box": {"size": [3, 3, 2]}}}}]})",
-        lit_by(light));
+Scene pool_of_rough_water(const std::string& light, bool in_oil = false) {
+    const std::string ground =
+        in_phase("ground", R"({"translate": {"by": [0, 0, -1], "of": {"box": {"size": [3, 3, 1]}}}})");
+    const std::string water = in_phase("water", R"({"box": {"size": [3, 3, 2]}})");
+    // Smooth oil all around, up to beyond the lamps.
+    const std::string oil = in_phase("oil", R"({"box": {"size": [12, 12, 12]}})");
+    return scene_of(clear("water", 1.3, 0.1) + R"(, "ground": {"diffuse": {"color": [0.2, 0.2, 0.2]}})" +
+                        (in_oil ? ", " + clear("oil", 1.1, 0) : ""),
+                    R"({"over": [)" + ground + ", " + water + (in_oil ? ", " + oil : "") + "]}", lit_by(light));
 }
 
 }  // namespace
@@ -94,20 +98,16 @@ TEST_CASE("a rough interface bends photons of one wavelength as the d line, and 
                                  lit_by(sun));
     const World world(scene);
     const PhotonEmission emission(world, scene);
-    PathCounters counters;
     for (const float u : {0.1f, 0.9f}) {
         CAPTURE(u);
         const Wavelength wavelength = sampled_wavelength(u);
         std::vector<float> left;
-        for (std::uint32_t i = 0; i < 3000; ++i) {
-            Sampler sampler(i, 0, 0, 6);
-            const auto emitted = emission.sample(sampler, 0);
-            if (!emitted) continue;
-            TracedPhotons traced;
-            trace_photon(world, scene, *emitted, 0.1f, sampler, counters, traced, wavelength);
-            for (const Photon& photon : traced.on_surfaces)
-                left.push_back(photon.power.x / for_light(emitted->power, &wavelength).x);
-        }
+        for_each_photon(
+            world, scene, emission, 3000,
+            [&](const EmittedPhoton& emitted, const Photon& photon) {
+                left.push_back(photon.power.x / for_light(emitted.power, &wavelength).x);
+            },
+            wavelength);
         REQUIRE(left.size() > 200);
         // Fresnel's odds take nothing of those that pass, and a rough interface little.
         std::ranges::nth_element(left, left.begin() + static_cast<std::ptrdiff_t>(left.size() / 2));
@@ -129,51 +129,60 @@ TEST_CASE("where the index is not 1, or a medium scatters, behind a rough interf
     }
 }
 
-TEST_CASE("a photon knows the densities that a path has, which comes along its way backwards") {
-    for (const std::string& light : {rectangle, point}) {
-        CAPTURE(light);
-        const Scene scene = pool_of_rough_water(light);
+TEST_CASE("a photon and a path that comes along its way backwards know the same densities") {
+    struct Case {
+        std::string light;
+        bool in_oil;
+    };
+    for (const Case& c : {Case{rectangle, false}, Case{rectangle, true}, Case{point, false}, Case{point, true}}) {
+        CAPTURE(c.light);
+        CAPTURE(c.in_oil);
+        const bool is_point = c.light == point;
+        const Scene scene = pool_of_rough_water(c.light, c.in_oil);
         const World world(scene);
         const PhotonEmission emission(world, scene);
+        const PhotonMap map({}, 1, 0.1f);
         PathCounters counters;
         int compared = 0;
-        for (std::uint32_t i = 0; i < 2000; ++i) {
-            Sampler sampler(i, 0, 0, 5);
-            const auto emitted = emission.sample(sampler, 0);
-            if (!emitted) continue;
-            TracedPhotons traced;
-            trace_photon(world, scene, *emitted, 0.1f, sampler, counters, traced);
-            for (const Photon& photon : traced.on_surfaces) {
-                // Of those that the surface of the water alone scattered, once.
-                const Hit hit =
-                    world.geometry().intersect({photon.position, photon.direction, photon.phase, {}}, counters);
-                const Surface* surface = std::get_if<Surface>(&hit);
-                REQUIRE(surface);
-                const Frame frame(surface->normal);
-                const glm::vec3 wo = frame.to_local(-photon.direction), wi = frame.to_local(photon.towards_light);
-                if (!(wi.z < 0)) continue;
-                const Ray on = surface->transmitted(photon.towards_light);
-                const auto seen = scene.lights.seen(on.origin, on.direction, Bounds::infinity, false);
-                const bool is_point = light == point;
-                if (!is_point && !(seen && std::holds_alternative<OfAreaLight>(seen->source))) continue;
-                const Bsdf bsdf = surface->bsdf();
-                const glm::vec3 to_point = glm::vec3(0.5f, 0.3f, 3) - on.origin;
-                if (is_point && glm::dot(glm::normalize(to_point), on.direction) < 0.999999f) continue;
-                const float factor = rough_factor(bsdf.reverse_pdf(wo, wi), 1, wi.z, 1.3f, wo.z);
-                const float squared = glm::dot(to_point, to_point);
-                CHECK(photon.line_density ==
-                      doctest::Approx(is_point ? emission.direction_density(0, -on.direction)
-                                               : emission.line_density(on.origin, on.direction, on.phase))
-                          .epsilon(5e-3));
-                CHECK(photon.rough.by_directions ==
-                      doctest::Approx(is_point ? 0 : bsdf.pdf(wo, wi) / factor).epsilon(5e-3));
-                CHECK(photon.rough.by_shadow_rays.value() ==
-                      doctest::Approx((is_point ? squared : scene.lights.pdf(on.origin, on.direction)) / factor)
-                          .epsilon(5e-3));
-                ++compared;
+        for_each_photon(world, scene, emission, 2000, [&](const EmittedPhoton&, const Photon& photon) {
+            // Of those that the surface of the water alone scattered, once.
+            const Hit hit = world.geometry().intersect({photon.position, photon.direction, photon.phase, {}}, counters);
+            const Surface* surface = std::get_if<Surface>(&hit);
+            REQUIRE(surface);
+            const Frame frame(surface->normal);
+            const glm::vec3 wo = frame.to_local(-photon.direction), wi = frame.to_local(photon.towards_light);
+            if (!(wi.z < 0)) return;
+            const Ray on = surface->transmitted(photon.towards_light);
+            const glm::vec3 to_point = point_position - on.origin;
+            LightSample light{on.direction, glm::length(to_point), glm::vec3(1), 1, OfPointLight{0}};
+            if (is_point) {
+                if (glm::dot(to_point / light.distance, on.direction) < 0.999999f) return;
+            } else {
+                const auto seen = scene.lights.area_light_seen(on.origin, on.direction, Bounds::infinity, false);
+                if (!seen) return;
+                light = {on.direction, seen->distance, seen->radiance, scene.lights.pdf(on.origin, on.direction),
+                         seen->source};
             }
-        }
-        CHECK(compared > 300);
+            Sampler sampler(0, 0, 0, 0);
+            const Wavelength hero;
+            const auto arrival = trace_shadow_ray({world, scene, {&emission, &map}, sampler, counters}, on, light,
+                                                  {.hero = hero, .single = nullptr}, 1);
+            REQUIRE(arrival);
+            // The line density that shadow rays know is, of a point light, over n² d² already.
+            const Bsdf bsdf = surface->bsdf();
+            const float ior = c.in_oil ? 1.1f : 1.0f;
+            const float factor = rough_factor(bsdf.reverse_pdf(wo, wi), ior, wi.z, 1.3f, wo.z);
+            const float by_photons = arrival->line_density * factor / photon.line_density;
+            CHECK(photon.rough.by_directions ==
+                  doctest::Approx(is_point ? 0 : bsdf.pdf(wo, wi) / by_photons).epsilon(5e-3));
+            CHECK(photon.rough.by_shadow_rays.value() == doctest::Approx(light.pdf / by_photons).epsilon(5e-3));
+            if (!is_point) CHECK(by_photons == doctest::Approx(factor).epsilon(5e-3));
+            // Of a point light, by its definition.
+            const float squared = ior * ior * light.distance * light.distance;
+            if (is_point) CHECK(by_photons == doctest::Approx(factor / squared).epsilon(5e-3));
+            ++compared;
+        });
+        CHECK(compared > 20);
     }
 }
 

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "caustics/caustics.hpp"
+#include "caustics/trace_photon.hpp"
 #include "paths.hpp"
 
 namespace phasetree::tracer::tests {
@@ -17,6 +18,21 @@ inline constexpr std::uint32_t paths_a_pass = 64;
 inline const bool long_form = std::getenv("PHASETREE_LONG_TESTS") != nullptr;
 inline const int passes = long_form ? 6000 : 200;
 inline const double planted = long_form ? 1.03 : 1.1;
+
+// Calls use(emitted, photon) for what falls on surfaces of so many photons.
+template <class Use>
+void for_each_photon(const World& world, const Scene& scene, const PhotonEmission& emission, std::uint32_t count,
+                     Use&& use, const std::optional<Wavelength>& wavelength = {}) {
+    PathCounters counters;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        Sampler sampler(i, 0, 0, 5);
+        const std::optional<EmittedPhoton> emitted = emission.sample(sampler, 0);
+        if (!emitted) continue;
+        TracedPhotons traced;
+        trace_photon(world, scene, *emitted, 0.1f, sampler, counters, traced, wavelength);
+        for (const Photon& photon : traced.on_surfaces) use(*emitted, photon);
+    }
+}
 
 // The radiance along a ray, by passes of which each has photons of its own.
 inline Moments with_photons(const Scene& scene, const glm::vec3& origin, const glm::vec3& direction,

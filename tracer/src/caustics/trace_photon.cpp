@@ -33,10 +33,9 @@ class PhotonFlight {
             const Surface* surface = std::get_if<Surface>(&hit);
             float distance = surface ? surface->distance : std::numeric_limits<float>::infinity();
             // Lamps hide what is behind them.
-            const auto seen = scene_.lights.seen(ray_.origin, ray_.direction, distance, false);
-            if (seen && std::holds_alternative<OfAreaLight>(seen->source)) {
+            if (const auto lamp = scene_.lights.area_light_seen(ray_.origin, ray_.direction, distance, false)) {
                 surface = nullptr;
-                distance = seen->distance;
+                distance = lamp->distance;
             }
             // With the power with which it came into the medium: how much is left at a point depends on the point.
             if (interfaces_ > 0) keep_in_medium(distance, traced);

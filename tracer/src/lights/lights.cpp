@@ -303,8 +303,8 @@ std::optional<glm::vec3> Lights::towards_brightest(const glm::vec3& p, const glm
     return brightest;
 }
 
-std::optional<Lights::Emission> Lights::seen(const glm::vec3& origin, const glm::vec3& direction, float geometry,
-                                             bool camera_ray) const {
+std::optional<Lights::Emission> Lights::area_light_seen(const glm::vec3& origin, const glm::vec3& direction,
+                                                        float geometry, bool camera_ray) const {
     std::optional<Emission> nearest;
     std::uint32_t index = 0;
     for (const AreaLight& any : area_) {
@@ -318,6 +318,12 @@ std::optional<Lights::Emission> Lights::seen(const glm::vec3& origin, const glm:
             },
             any);
     }
+    return nearest;
+}
+
+std::optional<Lights::Emission> Lights::seen(const glm::vec3& origin, const glm::vec3& direction, float geometry,
+                                             bool camera_ray) const {
+    const std::optional<Emission> nearest = area_light_seen(origin, direction, geometry, camera_ray);
     if (nearest || geometry < infinity) return nearest;
     if (camera_ray && background_) return Emission{infinity, *background_, Background{}};
     return Emission{infinity, infinite_radiance(direction), InfiniteLights{}};

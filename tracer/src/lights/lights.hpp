@@ -121,6 +121,10 @@ class Lights {
     std::optional<Emission> seen(const glm::vec3& origin, const glm::vec3& direction, float geometry,
                                  bool camera_ray) const;
 
+    /// The nearest area light that a ray meets before geometry at that distance.
+    std::optional<Emission> area_light_seen(const glm::vec3& origin, const glm::vec3& direction, float geometry,
+                                            bool camera_ray) const;
+
     /// The density of sample() there, per steradian.
     float pdf(const LightReceiver& at, const glm::vec3& direction) const;
 
