@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
 
 #include "caustics/caustics.hpp"
 #include "caustics/trace_photon.hpp"
@@ -19,13 +20,13 @@ inline const bool long_form = std::getenv("PHASETREE_LONG_TESTS") != nullptr;
 inline const int passes = long_form ? 6000 : 200;
 inline const double planted = long_form ? 1.03 : 1.1;
 
-// Calls use(emitted, photon) for what falls on surfaces of so many photons.
+// Calls use(emitted, photon) for what falls on surfaces of so many photons. Each batch has others.
 template <class Use>
 void for_each_photon(const World& world, const Scene& scene, const PhotonEmission& emission, std::uint32_t count,
-                     Use&& use, const std::optional<Wavelength>& wavelength = {}) {
+                     Use&& use, const std::optional<Wavelength>& wavelength = {}, std::uint32_t batch = 0) {
     PathCounters counters;
     for (std::uint32_t i = 0; i < count; ++i) {
-        Sampler sampler(i, 0, 0, 5);
+        Sampler sampler(i, batch, 0, 5);
         const std::optional<EmittedPhoton> emitted = emission.sample(sampler, 0);
         if (!emitted) continue;
         TracedPhotons traced;
@@ -34,9 +35,10 @@ void for_each_photon(const World& world, const Scene& scene, const PhotonEmissio
     }
 }
 
-// The radiance along a ray, by passes of which each has photons of its own.
-inline Moments with_photons(const Scene& scene, const glm::vec3& origin, const glm::vec3& direction,
-                            int count = passes) {
+// The radiance along a ray, by passes of which each has photons of its own. If they are not gathered, only what they
+// leave to the other techniques is found.
+inline Moments with_photons(const Scene& scene, const glm::vec3& origin, const glm::vec3& direction, int count = passes,
+                            bool are_gathered = true) {
     const phasetree::FlushSubnormals flush;
     const World world(scene);
     const Caustics caustics(world, scene);
@@ -44,8 +46,13 @@ inline Moments with_photons(const Scene& scene, const glm::vec3& origin, const g
     PathCounters counters;
     const Ray ray{origin, glm::normalize(direction), world.geometry().label(origin), {}};
     for (int pass = 0; pass < count; ++pass) {
-        const auto map = caustics.photons(pass, counters, [] { return false; });
+        auto map = caustics.photons(pass, counters, [] { return false; });
         REQUIRE(map.has_value());
+        if (!are_gathered) {
+            const double a_photon = std::numbers::pi * caustics.radius(pass) * caustics.radius(pass);
+            const auto emitted = static_cast<std::size_t>(std::lround(map->expected() / a_photon));
+            map.emplace(TracedPhotons{}, emitted, caustics.radius(pass), map->wavelength());
+        }
         // Paths of one pass see the same photons, so their mean is one independent number.
         double sum = 0;
         for (std::uint32_t path = 0; path < paths_a_pass; ++path) {

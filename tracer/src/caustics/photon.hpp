@@ -22,10 +22,10 @@ struct Photon {
     /// p(line)/m²: how densely the photon's line was sampled at the light, p(line), per area perpendicular to it and
     /// steradian, over the square of the refractive index m around the light. Of a point light, per steradian alone.
     float line_density;
-    Phase phase;                ///< in which it travelled when it fell
-    Lights::Emission emission;  ///< what is seen of the light from where the photon started
-    glm::vec3 towards_light;    ///< the direction in which the light is seen from there
-    PathDensities rough{};      ///< how a path finds the chain with it, if rough interfaces are in it
+    Phase phase;                   ///< in which it travelled when it fell
+    Lights::Emission emission;     ///< what is seen of the light from where the photon started
+    glm::vec3 towards_light;       ///< the direction in which the light is seen from there
+    DensityQuotients quotients{};  ///< of a chain in which rough interfaces are
     /// It was dispersed: every component of `power` is that at the wavelength of the photon's map.
     bool of_one_wavelength = false;
 
@@ -34,8 +34,8 @@ struct Photon {
     /// which shadow rays start in it; it is asked for only if they would get to the light.
     template <class ShadowRays>
     float weight(float by_photons, float pdf, ShadowRays&& shadow_rays) const {
-        return power_heuristic(by_photons, pdf * rough.by_directions,
-                               rough.by_shadow_rays ? pdf * *rough.by_shadow_rays : shadow_rays());
+        return power_heuristic(by_photons, pdf * quotients.by_directions,
+                               quotients.by_shadow_rays ? pdf * *quotients.by_shadow_rays : shadow_rays());
     }
 };
 

@@ -10,7 +10,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// One photon on its way.
+// This is one photon on its way.
 class PhotonFlight {
   public:
     PhotonFlight(const World& world, const Scene& scene, const EmittedPhoton& emitted, float radius, Sampler& sampler,
@@ -24,7 +24,8 @@ class PhotonFlight {
           wavelength_(wavelength),
           ray_(emitted.ray),
           power_(emitted.power) {
-        if (emitted.emission.is_of_point_light()) rough_ = {.by_directions = 0, .by_shadow_rays = 0.0f};
+        // No direction meets a point, and no shadow ray does through what bends.
+        if (emitted.emission.is_of_point_light()) quotients_ = {.by_directions = 0, .by_shadow_rays = 0.0f};
     }
 
     void trace(TracedPhotons& traced) {
@@ -32,13 +33,14 @@ class PhotonFlight {
             const Hit hit = world_.geometry().intersect(ray_, counters_);
             const Surface* surface = std::get_if<Surface>(&hit);
             float distance = surface ? surface->distance : std::numeric_limits<float>::infinity();
-            // Lamps hide what is behind them.
+            // Lamps with an extent hide what is behind them.
             if (const auto lamp = scene_.lights.area_light_seen(ray_.origin, ray_.direction, distance, false)) {
                 surface = nullptr;
                 distance = lamp->distance;
             }
-            // With the power with which it came into the medium: how much is left at a point depends on the point.
-            if (interfaces_ > 0) keep_in_medium(distance, traced);
+            // A photon is kept with the power with which it came into the medium. The point that gathers it knows how
+            // much of that is left there.
+            if (photons_follow(interfaces_)) keep_in_medium(distance, traced);
             if (!surface) return;
             glm::vec3 left = transmittance(medium(), {ray_.origin, ray_.direction, distance, single_}, sampler_);
             if (phase_function(medium()) && !chain_survives(left, sampler_)) return;
@@ -53,11 +55,11 @@ class PhotonFlight {
                 continue;
             }
             if (!surface->far_side) {
-                if (interfaces_ > 0 && is_lit_by_photons(*surface, bsdf) && came_from_light())
+                if (photons_follow(interfaces_) && is_lit_by_photons(*surface, bsdf) && came_from_light())
                     traced.on_surfaces.push_back(photon_at(surface->near_side.origin));
                 return;
             }
-            if (++interfaces_ > longest_chain || !pass(*surface, bsdf)) return;
+            if (!photons_follow(++interfaces_) || !scatter(*surface, bsdf)) return;
         }
     }
 
@@ -65,15 +67,15 @@ class PhotonFlight {
     const Medium& medium() const { return clear_at(scene_, ray_.phase).interior; }
 
     Photon photon_at(const glm::vec3& position) const {
-        return {position,          -ray_.direction,         power_, emitted_.line_density, ray_.phase,
-                emitted_.emission, -emitted_.ray.direction, rough_, single_ != nullptr};
+        return {position,          -ray_.direction,         power_,     emitted_.line_density, ray_.phase,
+                emitted_.emission, -emitted_.ray.direction, quotients_, single_ != nullptr};
     }
 
     void keep_in_medium(float distance, TracedPhotons& traced) {
         const std::optional<PhotonPlacement> placement = PhotonPlacement::in(medium(), half_length_);
         if (!placement) return;
         const float depth = placement->sample(sampler_.next());
-        // Places up to h behind the line's end count for points before it.
+        // A place up to h (half_length_) behind the line's end counts for points before the end.
         if (depth < distance + half_length_ && came_from_light())
             traced.in_media.push_back({photon_at(ray_.origin + depth * ray_.direction), depth});
     }
@@ -88,50 +90,48 @@ class PhotonFlight {
         return *came_from_light_;
     }
 
-    // Reflects or refracts the photon. False if it ends there.
-    bool pass(const Surface& surface, const Bsdf& bsdf) {
+    // Sends the photon on from an interface, into one of its directions. Returns false if it ends there.
+    bool scatter(const Surface& surface, const Bsdf& bsdf) {
         const Frame frame(surface.normal);
         const glm::vec3 wo = frame.to_local(-ray_.direction);
-        const float lobe = sampler_.next();
-        // A smooth interface has no lobe in which a direction would be chosen by the two numbers.
-        const auto next = bsdf.sample(wo, lobe, bsdf.is_delta() ? glm::vec2(0.0f) : sampler_.next2());
+        const float u_lobe = sampler_.next();
+        // A smooth interface has no density of directions, so it needs no second pair of numbers.
+        const auto next = bsdf.sample(wo, u_lobe, bsdf.is_delta() ? glm::vec2(0.0f) : sampler_.next2());
         if (!next) return false;
-        // What does not disperse, a rough interface or one with a film, bends all light as that of the d line.
-        const Wavelength* bent_as = surface.optics.get().disperses() ? single_ : nullptr;
-        const float before = clear_at(scene_, ray_.phase).ior_for(bent_as);
-        if (!next->delta) add_rough_interface(surface, bsdf, wo, *next);
+        if (!next->delta) multiply_quotients(surface, bsdf, ray_, wo, *next);
+        const Phase from = ray_.phase;
         ray_ = continued(surface, frame, *next);
         // The BSDF is sampled as if the photon were a path that comes from the camera, so its weight is of radiance
         // that arrives from `after` and leaves into `before`: a refraction scales it by (before/after)². Power is not
-        // scaled.
+        // scaled. What does not disperse, a rough interface or one with a film, bends all light as that of the d line.
+        const Wavelength* bent_as = surface.optics.get().disperses() ? single_ : nullptr;
+        const float before = clear_at(scene_, from).ior_for(bent_as);
         const float after = clear_at(scene_, ray_.phase).ior_for(bent_as), ratio = after / before;
         power_ *= for_light(next->weight, single_) * (ratio * ratio);
         return true;
     }
 
-    // Multiplies how a path finds the photon's chain by what this rough interface adds. To be called before the ray
-    // changes, for the direction from which the photon comes counts.
-    void add_rough_interface(const Surface& surface, const Bsdf& bsdf, const glm::vec3& wo, const BsdfSample& next) {
+    // Multiplies the quotients by what a rough interface brings, at which the photon arrives by the ray `in`.
+    void multiply_quotients(const Surface& surface, const Bsdf& bsdf, const Ray& in, const glm::vec3& wo,
+                            const BsdfSample& next) {
         const Surface::Side& path_side = next.transmitted ? *surface.far_side : surface.near_side;
-        const float lamp_ior = clear_at(scene_, ray_.phase).ior;
+        const float lamp_ior = clear_at(scene_, in.phase).ior;
         const float factor = rough_factor(next.pdf, lamp_ior, wo.z, clear_at(scene_, path_side.phase).ior, next.wi.z);
-        // The path arrives along next.wi and leaves along wo.
+        // A path that comes backwards has next.wi where the photon has wo.
         const float backwards = bsdf.reverse_pdf(wo, next.wi) / factor;
-        if (has_met_rough_) {
-            rough_.by_shadow_rays = *rough_.by_shadow_rays * backwards;
-        } else if (const auto* point = std::get_if<OfPointLight>(&emitted_.emission.source)) {
-            // A shadow ray gets to a point on a straight line alone, so this must be the photon's first interface.
-            if (interfaces_ == 1) {
-                const float distance = lamp_ior * (emitted_.emission.distance +
-                                                   glm::length(surface.near_side.origin - emitted_.ray.origin));
-                rough_.by_shadow_rays = scene_.lights.point_light_probability(path_side.origin, point->index) *
-                                        (distance * distance) / factor;
-            }
+        const auto* point = std::get_if<OfPointLight>(&emitted_.emission.source);
+        if (point && interfaces_ == 1) {
+            // A shadow ray reaches a point light on a straight line alone, so only from the photon's first interface.
+            const float distance =
+                emitted_.emission.distance + glm::length(surface.near_side.origin - emitted_.ray.origin);
+            quotients_.by_shadow_rays = scene_.lights.point_light_probability(path_side.origin, point->index) *
+                                        squared_optical_distance(lamp_ior, distance) / factor;
+        } else if (quotients_.by_shadow_rays) {
+            quotients_.by_shadow_rays = *quotients_.by_shadow_rays * backwards;
         } else {
-            rough_.by_shadow_rays = scene_.lights.pdf(path_side.origin, -ray_.direction) / factor;
+            quotients_.by_shadow_rays = scene_.lights.pdf(path_side.origin, -in.direction) / factor;
         }
-        has_met_rough_ = true;
-        rough_.by_directions *= backwards;
+        quotients_.by_directions *= backwards;
     }
 
     const World& world_;
@@ -144,9 +144,9 @@ class PhotonFlight {
     Ray ray_;
     glm::vec3 power_;
     const Wavelength* single_ = nullptr;  // the wavelength from the first interface that disperses on
-    int interfaces_ = 0;                  // how many interfaces have reflected or refracted it
-    bool has_met_rough_ = false;
-    PathDensities rough_{};
+    // How many interfaces it has met, the present one included, but for those that it passes straight.
+    int interfaces_ = 0;
+    DensityQuotients quotients_{};
     std::optional<bool> came_from_light_{};
 };
 

@@ -27,15 +27,16 @@ constexpr float survival_per_worth = 4.0f;
 constexpr int depth_without_roulette = 3;
 constexpr float least_survival = 0.05f, nearly_certain = 0.95f;
 
-// Photons that arrive at a more grazing angle than this are left to the other techniques, because what they bring is
-// divided by the cosine: one would count a thousand times.
+// Photons whose direction has a smaller cosine than this are dropped, because what they bring is divided by the cosine:
+// one would count a thousand times. The other techniques find such light instead, but for that of point lights.
 constexpr float least_photon_cosine = 1e-3f;
 
 // The density with which photons find a direction is this factor times the line density at the light's end of the
-// chain: N π r² n² cos θ on a surface, and N π r² n² F in a medium (path.hpp), and what rough interfaces make of it.
+// chain: N π r² n² cos θ on a surface and N π r² n² F in a medium (path.hpp), times R of each rough interface on the
+// way, over the densities with which the path has chosen the directions before (rough_chain.hpp).
 struct PhotonDensity {
     float per_line_density = 0;
-    // Of a medium that photons light, until the distance to its boundary, and so F, is known and in the factor.
+    // It is there in a medium that photons light, as long as the distance to the boundary, and so F, is not known yet.
     std::optional<PhotonPlacement> placement{};
 
     // Multiplies by F: the boundary at which the chain leaves the medium is at this distance. Later boundaries change
@@ -55,13 +56,12 @@ struct Chain {
     LightProposal proposal{};  // by which lights were
     glm::vec3 direction{0};    // the chain's first
     PhotonDensity by_photons{};
-    // The number of interfaces from the place that photons light to the rough one where this chain starts, that one
-    // included; 0 if it starts elsewhere. `by_photons` is then of all directions from that place on, divided by the
-    // path's own density of those before the chain's first, because all weights here compare the last direction alone.
+    // How many interfaces lead from the place that photons light to the rough one where this chain starts, that one
+    // included; 0 if it starts at what photons light. Where no photons count it means nothing.
     int interfaces_before = 0;
     int length = 0;  // how many smooth clear interfaces it has
 
-    // How many interfaces photons pass that come by this chain. There are photons only if it is one at least.
+    // How many interfaces are between what photons light and the lamp.
     int interfaces() const { return interfaces_before + length; }
 
     // The weight of light that is seen along the ray. Light at the end of a chain that shadow rays and photons do not
@@ -69,8 +69,7 @@ struct Chain {
     float weight(const Scene& scene, const Photons& photons, const Ray& ray) const {
         if (!pdf || length > longest_chain) return 1;
         const float per_line = by_photons.per_line_density;
-        const bool by_photons_too = per_line > 0.0f && interfaces() > 0 && interfaces() <= longest_chain;
-        const float line = by_photons_too ? line_density(photons, ray) : 0.0f;
+        const float line = per_line > 0.0f && photons_follow(interfaces()) ? line_density(photons, ray) : 0.0f;
         return technique_weight(scene.settings.techniques, Technique::directions, *pdf,
                                 proposal.pdf(scene.lights, direction), per_line * line);
     }
@@ -188,14 +187,14 @@ class Path {
         const Frame frame(surface.normal);
         const glm::vec3 wo = frame.to_local(-ray_.direction);
         LightProposal proposal;
-        const auto by_photons = [&](const glm::vec3& wi) {
-            return surface.far_side ? density_beyond(surface, bsdf, wo, wi) : density_by_photons(surface, bsdf, wi.z);
+        const auto photon_factor_of = [&](const glm::vec3& wi) {
+            return surface.far_side ? factor_beyond(surface, bsdf, wo, wi) : factor_at(surface, bsdf, wi.z);
         };
         if (!bsdf.is_delta()) {
             // A rough interface gets light from both sides, so none is preferred and no bending is guessed.
             proposal = surface.far_side ? LightProposal(surface.near_side.origin)
                                         : LightProposal::at(surface, world_, scene_, counters_);
-            add_direct_light(surface, bsdf, frame, wo, proposal, by_photons);
+            add_direct_light(surface, bsdf, frame, wo, proposal, photon_factor_of);
             add_caustics(surface, bsdf, frame, wo, proposal);
         }
         const float lobe = sampler_.next();
@@ -209,8 +208,8 @@ class Path {
             chain_ = {.pdf = next->pdf,
                       .proposal = proposal,
                       .direction = ray_.direction,
-                      .by_photons = {by_photons(next->wi)},
-                      .interfaces_before = surface.far_side ? chain_.interfaces() + 1 : 0};
+                      .by_photons = {photon_factor_of(next->wi)},
+                      .interfaces_before = interfaces_before(surface)};
         else if (is_link(bsdf, surface))
             ++chain_.length;
         else
@@ -224,7 +223,7 @@ class Path {
         const HenyeyGreenstein& phase = point.phase_function;
         const auto proposal = LightProposal::at(point, entered_, world_, scene_);
         const auto placement = photons_ ? PhotonPlacement::in(medium(), photons_.map->half_length()) : std::nullopt;
-        const PhotonDensity by_photons{placement ? density_across(point.phase) : 0.0f, placement};
+        const PhotonDensity by_photons{placement ? factor_across(point.phase) : 0.0f, placement};
         if (const auto light = sampled_light(proposal)) {
             const float f = phase.evaluate(glm::dot(ray_.direction, light->wi));
             add_direct_light(*light, glm::vec3(f), f, by_photons, point.leaving(light->wi), 0);
@@ -237,18 +236,18 @@ class Path {
     }
 
     // Next-event estimation: what arrives from the lights by a shadow ray, and is scattered into the path.
-    template <class ByPhotons>
+    template <class PhotonFactor>
     void add_direct_light(const Surface& surface, const Bsdf& bsdf, const Frame& frame, const glm::vec3& wo,
-                          const LightProposal& proposal, ByPhotons&& by_photons) {
+                          const LightProposal& proposal, PhotonFactor&& photon_factor_of) {
         const auto light = sampled_light(proposal);
         if (!light) return;
         const glm::vec3 wi = frame.to_local(light->wi);
         const glm::vec3 f = for_light(bsdf.evaluate(wo, wi), single());
         if (f == glm::vec3(0.0f)) return;
-        const float density = by_photons(wi);
-        add_direct_light(*light, f, bsdf.pdf(wo, wi), {density},
+        const float photon_factor = photon_factor_of(wi);
+        add_direct_light(*light, f, bsdf.pdf(wo, wi), {photon_factor},
                          wi.z < 0 ? surface.transmitted(light->wi) : surface.reflected(light->wi),
-                         surface.far_side && density > 0.0f ? chain_.interfaces() + 1 : 0);
+                         interfaces_before(surface));
     }
 
     std::optional<LightSample> sampled_light(const LightProposal& proposal) {
@@ -260,11 +259,12 @@ class Path {
     void add_direct_light(const LightSample& light, const glm::vec3& f, float pdf, PhotonDensity by_photons,
                           const Ray& shadow, int interfaces_before) {
         if (scene_.settings.techniques == Techniques::directions_alone) return;
-        const auto arrival = trace_shadow_ray({world_, scene_, photons_, sampler_, counters_}, shadow, light,
+        const Photons photons = by_photons.per_line_density > 0.0f ? photons_ : Photons{};
+        const auto arrival = trace_shadow_ray({world_, scene_, photons, sampler_, counters_}, shadow, light,
                                               {.hero = hero_, .single = single()}, interfaces_before);
         if (!arrival) return;
-        // Photons that light a medium come by its boundary. Without one the line density is 0, and the boundary's
-        // distance is infinite, of which there is no coverage.
+        // Photons that light a medium come by its boundary. A shadow ray that meets none has no line density, and the
+        // distance to the boundary is infinite, of which there is no coverage to be asked for.
         if (arrival->line_density > 0.0f) by_photons.reach_boundary(arrival->to_boundary);
         // No direction that the path takes by itself meets a point.
         const float weight = technique_weight(scene_.settings.techniques, Technique::shadow_rays, light.pdf,
@@ -274,9 +274,11 @@ class Path {
                   true);
     }
 
+    // Chain::interfaces_before of a chain that starts at the surface.
+    int interfaces_before(const Surface& surface) const { return surface.far_side ? chain_.interfaces() + 1 : 0; }
     // PhotonDensity::per_line_density of a direction that leads from a rough interface into the chain behind it.
-    float density_beyond(const Surface& surface, const Bsdf& bsdf, const glm::vec3& wo, const glm::vec3& wi) const {
-        if (!chain_.pdf || !(chain_.by_photons.per_line_density > 0.0f) || chain_.interfaces() >= longest_chain)
+    float factor_beyond(const Surface& surface, const Bsdf& bsdf, const glm::vec3& wo, const glm::vec3& wi) const {
+        if (!chain_.pdf || !(chain_.by_photons.per_line_density > 0.0f) || !photons_follow(chain_.interfaces() + 1))
             return 0.0f;
         const Surface::Side& left_to = wi.z < 0 ? *surface.far_side : surface.near_side;
         return chain_.by_photons.per_line_density / *chain_.pdf *
@@ -284,13 +286,13 @@ class Path {
                             clear_at(scene_, surface.near_side.phase).ior, wo.z);
     }
     // PhotonDensity::per_line_density, of a direction of this cosine at a surface; 0 where photons light nothing.
-    float density_by_photons(const Surface& surface, const Bsdf& bsdf, float cosine) const {
+    float factor_at(const Surface& surface, const Bsdf& bsdf, float cosine) const {
         if (!photons_ || !(cosine > least_photon_cosine) || !is_lit_by_photons(surface, bsdf)) return 0.0f;
-        return density_across(surface.near_side.phase) * cosine;
+        return factor_across(surface.near_side.phase) * cosine;
     }
     // N π r² n². Where a phase disperses, n is that of the d line: all techniques weigh by the same, so their weights
     // still sum to 1.
-    float density_across(Phase phase) const {
+    float factor_across(Phase phase) const {
         const float ior = clear_at(scene_, phase).ior;
         return photons_.map->expected() * ior * ior;
     }
@@ -314,7 +316,7 @@ class Path {
     void add_caustics(const Surface& surface, const Bsdf& bsdf, const Frame& frame, const glm::vec3& wo,
                       const LightProposal& proposal) {
         if (!photons_ || scene_.settings.techniques != Techniques::all || !is_lit_by_photons(surface, bsdf)) return;
-        const float across = density_across(surface.near_side.phase);
+        const float across = factor_across(surface.near_side.phase);
         photons_.map->near(surface.near_side.origin, surface.normal, surface.near_side.phase,
                            [&](const Photon& photon) {
                                const glm::vec3 wi = frame.to_local(photon.direction);
@@ -331,7 +333,7 @@ class Path {
     // The same in a medium.
     void add_caustics(const MediumPoint& point, const PhotonPlacement& placement, const LightProposal& proposal) {
         if (scene_.settings.techniques != Techniques::all) return;
-        const float across = density_across(point.phase);
+        const float across = factor_across(point.phase);
         photons_.map->near_in_medium(point.position, point.phase, [&](const Photon& photon, float depth) {
             const float coverage = placement.coverage(depth);
             const float by_photons = across * photon.line_density * coverage;
@@ -346,10 +348,10 @@ class Path {
         });
     }
 
-    // Russian roulette on what the path can still bring to the camera. Refraction preserves L/n², so radiance that is
-    // found here counts there as throughput · n²(here)/n²(camera). Returns whether the path goes on. Survival is
-    // several times that worth, because in long chains of clear interfaces what is rouletted often comes back as noise
-    // that costs more than the steps that are saved.
+    // Russian roulette on what the path can still bring to the camera. Refraction preserves L/n², and the throughput is
+    // that of L, so the share of the camera's light that is found here is throughput · n²(here)/n²(camera). Returns
+    // whether the path goes on. Survival is several times that share, because in long chains of clear interfaces what
+    // is rouletted often comes back as noise that costs more than the steps that are saved.
     bool roulette(int depth) {
         const float ior = clear_at(scene_, ray_.phase).ior / camera_ior_;
         const float worth = std::max({throughput_.x, throughput_.y, throughput_.z}) * ior * ior;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "caustics/emission.hpp"
+#include "caustics/rough_chain.hpp"
 #include "phasetree/math/bounds.hpp"
 #include "world/chain.hpp"
 
@@ -14,12 +15,12 @@ float line_density(const Photons& photons, const Ray& ray) {
 
 namespace {
 
-// Arrival::line_density of a point light, seen straight ahead.
+// This is Arrival::line_density of a point light, which is seen straight ahead.
 float point_density(const ShadowRayContext& context, const Ray& ray, const LightSample& sampled,
                     const OfPointLight& light) {
     if (!context.photons) return 0.0f;
-    const float ior = clear_at(context.scene, ray.phase).ior, distance = ior * sampled.distance;
-    return context.photons.emission->direction_density(light.index, -ray.direction) / (distance * distance);
+    return context.photons.emission->direction_density(light.index, -ray.direction) /
+           squared_optical_distance(clear_at(context.scene, ray.phase).ior, sampled.distance);
 }
 
 }  // namespace
@@ -27,8 +28,7 @@ float point_density(const ShadowRayContext& context, const Ray& ray, const Light
 std::optional<Arrival> trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSample& sampled,
                                         const PathWavelength& wavelength, int interfaces_before) {
     const auto density_at_end = [&](int length) {
-        const int interfaces = interfaces_before + length;
-        if (interfaces == 0 || interfaces > longest_chain) return 0.0f;
+        if (!photons_follow(interfaces_before + length)) return 0.0f;
         const auto* point = std::get_if<OfPointLight>(&sampled.source);
         return point ? point_density(context, ray, sampled, *point) : line_density(context.photons, ray);
     };

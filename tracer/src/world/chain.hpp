@@ -1,4 +1,5 @@
 // Chains of smooth interfaces between clear phases, which shadow rays and photons follow by Fresnel's odds (path.hpp).
+// Photons follow them through rough interfaces as well (caustics/rough_chain.hpp).
 #pragma once
 
 #include <algorithm>
@@ -14,6 +15,12 @@ namespace phasetree::tracer {
 /// No chain has more interfaces than this. Light at the end of a longer one is left to the directions that BSDFs
 /// sample, which then have the weight 1.
 inline constexpr int longest_chain = 128;
+
+/// Whether photons light what is at the end of so many interfaces, smooth and rough. What no interface bends is left to
+/// the other techniques.
+inline bool photons_follow(int interfaces) {
+    return interfaces > 0 && interfaces <= longest_chain;
+}
 
 /// The material of a phase in which a ray travels, which is a clear one.
 inline const Clear& clear_at(const Scene& scene, Phase phase) {
