@@ -2735,6 +2735,17 @@ class lights:
         group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
         """
     @staticmethod
+    def spheres(centres: Sequence[Sequence[float]] | np.ndarray, radius: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | Expression | None = ...) -> Light:
+        r"""Many equal balls that shine. Each is a sphere light.
+
+        centres: Their centres. (list of [x, y, z]s in m; at least -1e15 and at most 1e15)
+        radius: The radius of each. (number in m; more than 0 and at most 1e15)
+        radiance: Radiance of their surface. (colour; zero or more; default [1, 1, 1])
+        intensity: A factor of the radiance. (number; zero or more; default 1)
+        visible_to_camera: Whether the camera sees them by themselves. (true or false; default true)
+        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
+        """
+    @staticmethod
     def point(position: Sequence[float] | np.ndarray, color: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | Expression | None = ...) -> Light:
         r"""A point that shines alike in all directions. It is never seen itself, and through glass or water its light is found by photons alone: without "caustics" it stays dark behind them. A small sphere has neither fault.
 

@@ -45,10 +45,12 @@ PhotonEmission::PhotonEmission(const World& world, const Scene& scene) : world_(
         const glm::vec3 normal = distance > 0.0f ? towards / distance : glm::vec3(0.0f, 0.0f, 1.0f);
         return PhotonTarget(centre_, normal, target_of_area * radius_);
     };
+    first_area_ = sources_.size();
     const std::span<const AreaLight> area = scene.lights.area();
     for (std::size_t i = 0; i < area.size(); ++i)
         sources_.push_back(
             {{}, i, {}, 1.0, target_from(std::visit([](const auto& light) { return light.centre(); }, area[i]))});
+    first_point_ = sources_.size();
     const std::span<const AnyPointLight> points = scene.lights.points();
     for (std::size_t i = 0; i < points.size(); ++i)
         sources_.push_back(
@@ -144,8 +146,8 @@ std::optional<EmittedPhoton> PhotonEmission::of_point_light(std::size_t number, 
 }
 
 float PhotonEmission::direction_density(std::size_t point_light, const glm::vec3& from_light) const {
-    const auto source = std::ranges::find(sources_, std::optional(point_light), &Source::point);
-    return source == sources_.end() ? 0.0f : direction_density(*source, from_light);
+    const std::size_t source = first_point_ + point_light;
+    return source < sources_.size() ? direction_density(sources_[source], from_light) : 0.0f;
 }
 
 float PhotonEmission::direction_density(const Source& source, const glm::vec3& from_light) const {
@@ -158,13 +160,17 @@ float PhotonEmission::direction_density(const Source& source, const glm::vec3& f
 
 float PhotonEmission::line_density(const glm::vec3& origin, const glm::vec3& towards_light, Phase phase) const {
     float sum = 0;
-    for (const Source& source : sources_)
+    const auto add = [&](const Source& source) {
         sum += static_cast<float>(source.share) * density_of(source, origin, towards_light);
+    };
+    for (std::size_t i = 0; i < first_area_; ++i) add(sources_[i]);
+    if (first_area_ < first_point_)
+        scene_.lights.for_each_area_light_near(origin, towards_light,
+                                               [&](std::uint32_t number) { add(sources_[first_area_ + number]); });
     return sum / squared_ior(scene_, phase);
 }
 
 float PhotonEmission::density_of(const Source& source, const glm::vec3& origin, const glm::vec3& towards_light) const {
-    if (source.point) return 0.0f;
     const PhotonTarget::Crossing crossing = source.target.crossing(origin, -towards_light);
     if (!(crossing.density > 0.0f)) return 0.0f;
     if (source.cap) return crossing.density * source.cap->pdf(towards_light);

@@ -74,8 +74,9 @@ class PhotonEmission {
     const World& world_;
     const Scene& scene_;
     glm::vec3 centre_{0};
-    float radius_ = 0;  ///< of the sphere about the object
-    std::vector<Source> sources_;
+    float radius_ = 0;                              ///< of the sphere about the object
+    std::vector<Source> sources_;                   ///< caps first, then area lights in their order, then point lights
+    std::size_t first_area_ = 0, first_point_ = 0;  ///< of the sources
 };
 
 }  // namespace phasetree::tracer

@@ -18,6 +18,7 @@
 #include "lights/bounding_sphere.hpp"
 #include "lights/cap.hpp"
 #include "lights/direction_sample.hpp"
+#include "lights/emission_bounds.hpp"
 #include "lights/surface_point.hpp"
 
 namespace phasetree::tracer {
@@ -43,6 +44,7 @@ concept InfiniteLightKind = std::copyable<L> && requires(const L& light, const g
 /// * approximate_solid_angle(p): the solid angle in steradians that the light fills as seen from p, roughly, which is
 ///   all that a choice among lights needs. It is 0 exactly where nothing of the light is seen.
 /// * bounding_sphere(): a ball around it.
+/// * emission_bounds(): how much it sends at most, and where to.
 /// * sample(p, u): a direction from p towards the light; asked only where approximate_solid_angle(p) is not 0.
 /// * pdf_at(p, w, d): the density of sample(), for a direction w in which the light is met at the distance d.
 /// * intersect(p, w): the distance at which a ray from p first meets the light's emitting side, if it does.
@@ -57,6 +59,7 @@ concept AreaLightKind = std::copyable<L> &&
     { light.visible_to_camera() } -> std::same_as<bool>;
     { light.approximate_solid_angle(p) } -> std::same_as<double>;
     { light.bounding_sphere() } -> std::convertible_to<BoundingSphere>;
+    { light.emission_bounds() } -> std::same_as<EmissionBounds>;
     { light.sample(p, u) } -> std::same_as<DirectionSample>;
     { light.pdf_at(p, w, d) } -> std::same_as<float>;
     { light.intersect(p, w) } -> std::same_as<std::optional<float>>;
@@ -69,6 +72,7 @@ concept AreaLightKind = std::copyable<L> &&
 /// * position(): where it is.
 /// * intensity(w): the radiant intensity in the direction w away from the light, in the unit of radiance times m²: a
 ///   surface that faces the light at the distance d gets the irradiance intensity/d².
+/// * emission_bounds(): how much it sends at most, and where to.
 ///
 /// Such a light is a delta function of direction. It is only found by a ray that goes straight to it, or by the photons
 /// that it sends: paths that refract never meet it.
@@ -76,6 +80,7 @@ template <class L>
 concept PointLightKind = std::copyable<L> && requires(const L& light, const glm::vec3& w) {
     { light.position() } -> std::convertible_to<glm::vec3>;
     { light.intensity(w) } -> std::same_as<glm::vec3>;
+    { light.emission_bounds() } -> std::same_as<EmissionBounds>;
 };
 
 }  // namespace phasetree::tracer

@@ -25,6 +25,10 @@ class IesLight {
     /// As PointLightKind has it.
     const glm::vec3& position() const { return position_; }
     glm::vec3 intensity(const glm::vec3& away) const;
+    /// It may shine in all directions.
+    EmissionBounds emission_bounds() const {
+        return {{position_, 0.0f}, static_cast<double>(luminance(intensity_)), {}};
+    }
 
   private:
     glm::vec3 position_;

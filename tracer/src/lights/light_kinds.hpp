@@ -10,6 +10,7 @@
 #include "lights/lights.hpp"
 #include "lights/portal.hpp"
 #include "lights/sky.hpp"
+#include "lights/sphere_lights.hpp"
 #include "phasetree/model/concepts.hpp"
 
 namespace phasetree::tracer {
@@ -17,9 +18,10 @@ namespace phasetree::tracer {
 template <class... Kinds>
 using GroupedKinds = TypeList<Grouped<Kinds>..., PortalParameters>;
 
-using LightKinds = GroupedKinds<ConstantEnvironmentParameters, GradientEnvironmentParameters,
-                                ImageEnvironmentParameters, SkyParameters, SunParameters, RectangleLightParameters,
-                                SphereLightParameters, PointLightParameters, SpotLightParameters, IesLightParameters>;
+using LightKinds =
+    GroupedKinds<ConstantEnvironmentParameters, GradientEnvironmentParameters, ImageEnvironmentParameters,
+                 SkyParameters, SunParameters, RectangleLightParameters, SphereLightParameters, SphereLightsParameters,
+                 PointLightParameters, SpotLightParameters, IesLightParameters>;
 
 template <class Kind>
 auto made_light(const Kind& kind, EnvironmentImages& images) {

@@ -31,18 +31,6 @@ class Scratch {
 // A sun whose middle has set may still be seen in part.
 constexpr float least_cosine_of_sun = 0.02f;
 
-// Roughly the mean over a sphere's solid angle of the cosine to the normal, counted as 0 below the surface. It is 0
-// only where the whole sphere is below: the cosines from c − s to c + s, with s = r/d, are taken to be equally
-// frequent.
-double mean_cosine(const BoundingSphere& sphere, const glm::vec3& p, const glm::vec3& normal) {
-    const glm::vec3 offset = sphere.centre - p;
-    const auto distance = static_cast<double>(glm::length(offset)), radius = static_cast<double>(sphere.radius);
-    if (!(distance > radius)) return 1.0;
-    const double c = static_cast<double>(glm::dot(offset, normal)) / distance, s = 1.0001 * radius / distance;
-    if (c >= s) return c;
-    return c > -s ? (c + s) * (c + s) / (4 * s) : 0.0;
-}
-
 // Where a point light is from p, and the irradiance that it gives there.
 struct FromPoint {
     glm::vec3 direction;
@@ -78,11 +66,26 @@ void Lights::add(InfiniteLight light, std::string_view group) {
 void Lights::add(AreaLight light, std::string_view group) {
     area_.push_back(std::move(light));
     area_group_.push_back(group_of(group));
+    tree_.add(LightNode::Kind::area);
 }
 
 void Lights::add(AnyPointLight light, std::string_view group) {
     points_.push_back(std::move(light));
     point_group_.push_back(group_of(group));
+    tree_.add(LightNode::Kind::point);
+}
+
+void Lights::group_lamps(std::size_t most_compared) {
+    if (area_.size() + points_.size() <= most_compared) return;
+    std::vector<LightTree::Lamp> lamps;
+    const auto add_all = [&](const auto& lights, LightNode::Kind kind) {
+        for (std::uint32_t i = 0; i < lights.size(); ++i)
+            lamps.push_back(
+                {{kind, i}, std::visit([](const auto& light) { return light.emission_bounds(); }, lights[i])});
+    };
+    add_all(area_, LightNode::Kind::area);
+    add_all(points_, LightNode::Kind::point);
+    tree_ = LightTree::grouped(lamps);
 }
 
 void Lights::add_to_groups(const glm::vec3& radiance, const Emission& emission, const glm::vec3& direction,
@@ -129,25 +132,28 @@ float Lights::shares(const LightReceiver& at, std::span<float> shares) const {
             infinite_[i]);
         total += shares[index++];
     }
-    for (const AreaLight& any : area_) {
-        shares[index] = std::visit(
-            [&](const auto& light) {
-                const double solid_angle = light.approximate_solid_angle(at.p);
-                if (!(solid_angle > 0.0)) return 0.0f;
-                const double cosine = at.normal ? mean_cosine(light.bounding_sphere(), at.p, *at.normal) : 1.0;
-                return static_cast<float>(static_cast<double>(luminance(light.radiance())) * solid_angle * cosine);
-            },
-            any);
-        total += shares[index++];
-    }
-    for (const AnyPointLight& point : points_) {
-        const FromPoint seen = seen_from(at.p, point);
-        const float cosine = at.normal ? std::max(glm::dot(seen.direction, *at.normal), 0.0f) : 1.0f;
-        shares[index] = cosine > 0.0f ? luminance(seen.irradiance) * cosine : 0.0f;
+    for (const LightNode& top : tree_.tops()) {
+        shares[index] = given(top, at);
         total += shares[index++];
     }
     if (!portals_.empty()) share_with_portals(at.p, shares);
     return total;
+}
+
+float Lights::given(const LightNode& node, const LightReceiver& at) const {
+    if (node.kind == LightNode::Kind::group) return tree_.received(node.number, at);
+    if (node.kind == LightNode::Kind::area)
+        return std::visit(
+            [&](const auto& light) {
+                const double solid_angle = light.approximate_solid_angle(at.p);
+                if (!(solid_angle > 0.0)) return 0.0f;
+                const double cosine = at.normal ? mean_cosine(light.bounding_sphere(), at) : 1.0;
+                return static_cast<float>(static_cast<double>(luminance(light.radiance())) * solid_angle * cosine);
+            },
+            area_[node.number]);
+    const FromPoint seen = seen_from(at.p, points_[node.number]);
+    const float cosine = at.normal ? std::max(glm::dot(seen.direction, *at.normal), 0.0f) : 1.0f;
+    return cosine > 0.0f ? luminance(seen.irradiance) * cosine : 0.0f;
 }
 
 // Moves a part of what lights at infinity that are all around are chosen by to the portals that p sees.
@@ -191,16 +197,17 @@ float Lights::pdf(const LightReceiver& at, const glm::vec3& direction) const {
         const float share = share_of[index++] / total;
         if (share > 0.0f) sum += share * std::visit([&](const auto& light) { return light.pdf(direction); }, any);
     }
-    for (const AreaLight& any : area_) {
-        const float share = share_of[index++] / total;
-        if (!(share > 0.0f)) continue;
+    const auto given_by = [&](const LightNode& node) { return given(node, at); };
+    tree_.for_each_near(p, direction, given_by, [&](std::uint32_t number, std::size_t top, float probability) {
+        const float share = share_of[infinite_.size() + top] / total * probability;
+        if (!(share > 0.0f)) return;
         std::visit(
             [&](const auto& light) {
                 if (const auto distance = light.intersect(p, direction))
                     sum += share * light.pdf_at(p, direction, *distance);
             },
-            any);
-    }
+            area_[number]);
+    });
     return sum + portals_pdf(p, direction, share_of, size()) / total;
 }
 
@@ -208,7 +215,9 @@ float Lights::point_light_probability(const LightReceiver& at, std::size_t index
     Scratch scratch(size());
     const float total = shares(at, scratch);
     if (!(total > 0.0f) || total == infinity) return 0.0f;  // as sample() has it
-    return scratch.values()[infinite_.size() + area_.size() + index] / total;
+    const LightNode light{LightNode::Kind::point, static_cast<std::uint32_t>(index)};
+    const auto [top, probability] = tree_.way_to(light, [&](const LightNode& node) { return given(node, at); });
+    return scratch.values()[infinite_.size() + top] / total * probability;
 }
 
 std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u) const {
@@ -229,53 +238,65 @@ std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u) 
     }
     u.x = std::clamp((u.x * total - (below - share_of[chosen])) / share_of[chosen], 0.0f, 0x1.fffffep-1f);
 
-    const std::size_t first_point = infinite_.size() + area_.size(), first_portal = first_point + points_.size();
-    if (chosen >= first_point && chosen < first_portal) {
-        const FromPoint point = seen_from(p, points_[chosen - first_point]);
-        return LightSample{point.direction, point.distance, point.irradiance, share_of[chosen] / total,
-                           OfPointLight{static_cast<std::uint32_t>(chosen - first_point)}};
+    const std::size_t first_portal = infinite_.size() + tree_.tops().size();
+    std::optional<LightTree::Choice> lamp;
+    const auto given_by = [&](const LightNode& node) { return given(node, at); };
+    if (chosen >= infinite_.size() && chosen < first_portal) {
+        lamp = tree_.choose(tree_.tops()[chosen - infinite_.size()], u.x, given_by);
+        if (!lamp) return std::nullopt;
+        u.x = lamp->u;
     }
+    const float probability = lamp ? lamp->probability : 1.0f;
     std::optional<DirectionSample> sampled;
-    if (chosen < infinite_.size())
+    if (chosen < infinite_.size()) {
         sampled = std::visit([&](const auto& light) { return light.sample(u); }, infinite_[chosen]);
-    else if (chosen >= first_portal)
+    } else if (chosen >= first_portal) {
         sampled = portals_[chosen - first_portal].sample(p, u);
-    else
-        sampled = std::visit([&](const auto& light) { return light.sample(p, u); }, area_[chosen - infinite_.size()]);
+    } else if (lamp->lamp.kind == LightNode::Kind::point) {
+        const FromPoint point = seen_from(p, points_[lamp->lamp.number]);
+        return LightSample{point.direction, point.distance, point.irradiance, share_of[chosen] / total * probability,
+                           OfPointLight{lamp->lamp.number}};
+    } else {
+        sampled = std::visit([&](const auto& light) { return light.sample(p, u); }, area_[lamp->lamp.number]);
+    }
     if (!sampled) return std::nullopt;
     const glm::vec3 wi = sampled->direction;
 
     // What is seen there, and how densely all lights together propose it.
-    float density = share_of[chosen] / total * sampled->pdf;
-    std::size_t index = 0;
-    for (const InfiniteLight& any : infinite_) {
-        const std::size_t i = index++;
+    float density = share_of[chosen] / total * probability * sampled->pdf;
+    for (std::size_t i = 0; i < infinite_.size(); ++i) {
         if (i != chosen && share_of[i] > 0.0f)
-            density += share_of[i] / total * std::visit([&](const auto& light) { return light.pdf(wi); }, any);
+            density += share_of[i] / total * std::visit([&](const auto& light) { return light.pdf(wi); }, infinite_[i]);
     }
     density += portals_pdf(p, wi, share_of, chosen) / total;
-    std::optional<Emission> nearest;  // of the area lights, which are numbered after the infinite ones
-    bool is_met = chosen < infinite_.size() || chosen >= first_portal;
-    for (const AreaLight& any : area_) {
-        const std::size_t i = index++;
+    std::optional<Emission> nearest;  // of the area lights
+    bool is_met = !lamp;
+    tree_.for_each_near(p, wi, given_by, [&](std::uint32_t number, std::size_t top, float of_way) {
         std::visit(
             [&](const auto& light) {
                 const auto distance = light.intersect(p, wi);
                 if (!distance) return;
                 if (!nearest || *distance < nearest->distance)
-                    nearest = Emission{*distance, light.radiance(),
-                                       OfAreaLight{static_cast<std::uint32_t>(i - infinite_.size())}};
-                if (i == chosen)
+                    nearest = Emission{*distance, light.radiance(), OfAreaLight{number}};
+                const float share = share_of[infinite_.size() + top];
+                if (lamp && lamp->lamp.number == number)
                     is_met = true;
-                else if (share_of[i] > 0.0f)
-                    density += share_of[i] / total * light.pdf_at(p, wi, *distance);
+                else if (share * of_way > 0.0f)
+                    density += share / total * of_way * light.pdf_at(p, wi, *distance);
             },
-            any);
-    }
+            area_[number]);
+    });
     // At the very rim of a light rounding can put the direction just outside.
     if (!is_met || !(density > 0.0f)) return std::nullopt;
     if (nearest) return LightSample{wi, nearest->distance, nearest->radiance, density, nearest->source};
     return LightSample{wi, infinity, infinite_radiance(wi), density, InfiniteLights{}};
+}
+
+glm::vec3 Lights::direction_to(const LightNode& node, const glm::vec3& p) const {
+    if (node.kind == LightNode::Kind::point) return seen_from(p, points_[node.number]).direction;
+    if (node.kind == LightNode::Kind::group) return glm::normalize(tree_.sphere(node.number).centre - p);
+    const glm::vec2 middle(0.5f);
+    return std::visit([&](const auto& light) { return light.sample(p, middle).direction; }, area_[node.number]);
 }
 
 std::optional<glm::vec3> Lights::towards_brightest(const glm::vec3& p, const glm::vec3& normal) const {
@@ -283,41 +304,47 @@ std::optional<glm::vec3> Lights::towards_brightest(const glm::vec3& p, const glm
     shares(p, scratch);
     std::optional<glm::vec3> brightest;
     float most = 0.0f;
-    std::size_t index = 0;
-    const auto consider = [&](const auto& direction_of) {
-        const float share_of = scratch.values()[index++];
-        if (!(share_of > most)) return;
+    const auto consider = [&](float share, const auto& direction_of) {
+        if (!(share > most)) return false;
         const std::optional<glm::vec3> direction = direction_of();
-        if (!direction || !(glm::dot(*direction, normal) > 0.0f)) return;
-        most = share_of;
+        if (!direction || !(glm::dot(*direction, normal) > 0.0f)) return false;
+        most = share;
         brightest = direction;
+        return true;
     };
-    for (const InfiniteLight& any : infinite_)
-        consider([&] { return std::visit([](const auto& light) { return light.centre_direction(); }, any); });
-    for (const AreaLight& any : area_)
-        consider([&] {
-            const glm::vec2 middle(0.5f);
-            return std::optional(std::visit([&](const auto& light) { return light.sample(p, middle).direction; }, any));
-        });
-    for (const AnyPointLight& point : points_) consider([&] { return std::optional(seen_from(p, point).direction); });
+    for (std::size_t i = 0; i < infinite_.size(); ++i)
+        consider(scratch.values()[i],
+                 [&] { return std::visit([](const auto& light) { return light.centre_direction(); }, infinite_[i]); });
+    std::optional<LightNode> node;
+    for (std::size_t i = 0; i < tree_.tops().size(); ++i) {
+        const LightNode top = tree_.tops()[i];
+        const float share = scratch.values()[infinite_.size() + i];
+        if (consider(share, [&] { return std::optional(direction_to(top, p)); })) node = top;
+    }
+    // From a group down to the brighter member of each.
+    while (node && node->kind == LightNode::Kind::group) {
+        std::optional<LightNode> next;
+        most = 0.0f;
+        for (const LightNode& member : tree_.members(node->number))
+            if (consider(given(member, p), [&] { return std::optional(direction_to(member, p)); })) next = member;
+        node = next;
+    }
     return brightest;
 }
 
 std::optional<Lights::Emission> Lights::area_light_seen(const glm::vec3& origin, const glm::vec3& direction,
                                                         float geometry, bool camera_ray) const {
     std::optional<Emission> nearest;
-    std::uint32_t index = 0;
-    for (const AreaLight& any : area_) {
-        const OfAreaLight source{index++};
+    tree_.for_each_near(origin, direction, [&](std::uint32_t number) {
         std::visit(
             [&](const auto& light) {
                 if (camera_ray && !light.visible_to_camera()) return;
                 const auto distance = light.intersect(origin, direction);
                 if (distance && *distance < (nearest ? nearest->distance : geometry))
-                    nearest = Emission{*distance, light.radiance(), source};
+                    nearest = Emission{*distance, light.radiance(), OfAreaLight{number}};
             },
-            any);
-    }
+            area_[number]);
+    });
     return nearest;
 }
 

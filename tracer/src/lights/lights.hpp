@@ -15,6 +15,9 @@
 // diffuse_irradiance.hpp), unless there are portals. Unlike emitted power this needs no extent of the scene to compare
 // an environment with a lamp, and a lamp that is far away or turned away, or below the surface, takes no samples.
 //
+// Many lamps are in groups (light_tree.hpp). Then cᵢ of an area or point light is that of the group in which it is,
+// whose luminance at x is estimated, times the probability of the way from there to the lamp.
+//
 // Area lights hide what is behind them, and nothing else: rectangles from their emitting side, spheres from everywhere.
 //
 // A point light is chosen by its fluence as the others are, but it is a delta function beside their mixture: a sample
@@ -38,19 +41,11 @@
 
 #include "lights/diffuse_irradiance.hpp"
 #include "lights/kinds.hpp"
+#include "lights/light_receiver.hpp"
+#include "lights/light_tree.hpp"
 #include "lights/portal.hpp"
 
 namespace phasetree::tracer {
-
-/// Where light is looked for: a point, and, if it is on a surface that light does not pass, the unit normal there. No
-/// light from below that counts.
-struct LightReceiver {
-    glm::vec3 p{0};
-    std::optional<glm::vec3> normal{};
-
-    LightReceiver(const glm::vec3& point = glm::vec3(0)) : p(point) {}
-    LightReceiver(const glm::vec3& point, const glm::vec3& up) : p(point), normal(up) {}
-};
 
 /// What shines in some direction: all infinite lights together, what camera rays see instead of them, an area light,
 /// or a point light; the last two by their number in area() or points().
@@ -95,6 +90,9 @@ class Lights {
     void add(AnyPointLight light, std::string_view group = default_group);
     /// A portal is of no group: it has no light of its own.
     void add(const Portal& portal) { portals_.push_back(portal); }
+    /// To be called once all lights are there: groups lamps, if they are more than `most_compared`. Without groups all
+    /// of them are asked for each sample, and a light that is added later ungroups them.
+    void group_lamps(std::size_t most_compared = LightTree::most_compared);
     /// What camera rays see instead of the infinite lights.
     void set_background(const std::optional<glm::vec3>& radiance);
 
@@ -121,6 +119,13 @@ class Lights {
     std::optional<Emission> seen(const glm::vec3& origin, const glm::vec3& direction, float geometry,
                                  bool camera_ray) const;
 
+    /// Calls use(number) for each area light that a ray from the origin in a unit direction may meet, and for few
+    /// others. Up to LightTree::most_compared lights come in their order.
+    template <class Use>
+    void for_each_area_light_near(const glm::vec3& origin, const glm::vec3& direction, const Use& use) const {
+        tree_.for_each_near(origin, direction, use);
+    }
+
     /// The nearest area light that a ray meets before geometry at that distance.
     std::optional<Emission> area_light_seen(const glm::vec3& origin, const glm::vec3& direction, float geometry,
                                             bool camera_ray) const;
@@ -136,9 +141,14 @@ class Lights {
     std::optional<glm::vec3> towards_brightest(const glm::vec3& p, const glm::vec3& normal) const;
 
   private:
-    std::size_t size() const { return infinite_.size() + area_.size() + points_.size() + portals_.size(); }
-    /// Fills in the share of each light in the choice among them, not normalised, and returns their sum.
+    /// How many shares there are: of infinite lights, of the tops of the tree, and of portals, in this order.
+    std::size_t size() const { return infinite_.size() + tree_.tops().size() + portals_.size(); }
+    /// Fills in the shares in the choice, not normalised, and returns their sum.
     float shares(const LightReceiver& at, std::span<float> shares) const;
+    /// What a lamp or a group of lamps gives.
+    float given(const LightNode& node, const LightReceiver& at) const;
+    /// Towards the middle of a lamp or group, as seen from p.
+    glm::vec3 direction_to(const LightNode& node, const glm::vec3& p) const;
     void share_with_portals(const glm::vec3& p, std::span<float> shares) const;
     float portals_pdf(const glm::vec3& p, const glm::vec3& direction, std::span<const float> shares,
                       std::size_t except) const;
@@ -149,6 +159,7 @@ class Lights {
     std::vector<DiffuseIrradiance> irradiance_;  ///< of each of these
     std::vector<AreaLight> area_;
     std::vector<AnyPointLight> points_;
+    LightTree tree_;  ///< of the area and point lights
     std::vector<Portal> portals_;
     std::vector<std::string> groups_{std::string(default_group)};
     std::vector<std::size_t> infinite_group_, area_group_, point_group_;  ///< of each light

@@ -6,7 +6,9 @@
 
 #include <glm/glm.hpp>
 
+#include "image/luminance.hpp"
 #include "lights/check.hpp"
+#include "lights/emission_bounds.hpp"
 #include "parameters/world_limits.hpp"
 #include "phasetree/io/kind.hpp"
 
@@ -22,6 +24,9 @@ class PointLight {
     /// As PointLightKind has it.
     const glm::vec3& position() const { return position_; }
     glm::vec3 intensity(const glm::vec3& /*away*/) const { return intensity_; }
+    EmissionBounds emission_bounds() const {
+        return {{position_, 0.0f}, static_cast<double>(luminance(intensity_)), {}};
+    }
 
   private:
     glm::vec3 position_;

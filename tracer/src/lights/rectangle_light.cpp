@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "image/luminance.hpp"
 #include "lights/check.hpp"
 
 namespace phasetree::tracer {
@@ -139,6 +140,10 @@ double RectangleLight::approximate_solid_angle(const glm::vec3& p) const {
     const double squared = glm::dot(offset, offset), r = disk_radius_;
     const double cosine = (depth + r) / (std::sqrt(squared) + r);
     return area_ * cosine / (squared + 0.5 * r * r);
+}
+
+EmissionBounds RectangleLight::emission_bounds() const {
+    return {bounding_sphere(), static_cast<double>(luminance(radiance_)) * area_, EmissionCone::of_plane(axis_n_)};
 }
 
 DirectionSample RectangleLight::sample(const glm::vec3& p, const glm::vec2& u) const {

@@ -13,6 +13,7 @@
 
 #include "lights/bounding_sphere.hpp"
 #include "lights/direction_sample.hpp"
+#include "lights/emission_bounds.hpp"
 #include "lights/surface_point.hpp"
 #include "parameters/world_limits.hpp"
 #include "phasetree/io/kind.hpp"
@@ -40,6 +41,7 @@ class RectangleLight {
     BoundingSphere bounding_sphere() const {
         return {glm::vec3(centre_), static_cast<float>(std::sqrt(half_u_ * half_u_ + half_v_ * half_v_))};
     }
+    EmissionBounds emission_bounds() const;
     // A direction from p towards the light; p must see it.
     DirectionSample sample(const glm::vec3& p, const glm::vec2& u) const;
     // The density of sample() per steradian, for a direction in which the light is met at that distance.

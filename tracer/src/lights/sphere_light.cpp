@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "image/luminance.hpp"
 #include "lights/check.hpp"
 #include "sampling/warps.hpp"
 #include "shading/frame.hpp"
@@ -29,6 +30,10 @@ double SphereLight::cap_height(const glm::dvec3& to_centre) const {
 
 double SphereLight::solid_angle(const glm::vec3& p) const {
     return 2.0 * std::numbers::pi * cap_height(centre_ - glm::dvec3(p));
+}
+
+EmissionBounds SphereLight::emission_bounds() const {
+    return {bounding_sphere(), static_cast<double>(luminance(radiance_)) * std::numbers::pi * radius_ * radius_, {}};
 }
 
 DirectionSample SphereLight::sample(const glm::vec3& p, const glm::vec2& u) const {

@@ -16,6 +16,7 @@
 
 #include "lights/bounding_sphere.hpp"
 #include "lights/direction_sample.hpp"
+#include "lights/emission_bounds.hpp"
 #include "lights/surface_point.hpp"
 #include "parameters/world_limits.hpp"
 #include "phasetree/io/kind.hpp"
@@ -33,6 +34,7 @@ class SphereLight {
     double solid_angle(const glm::vec3& p) const;
     double approximate_solid_angle(const glm::vec3& p) const { return solid_angle(p); }
     BoundingSphere bounding_sphere() const { return {glm::vec3(centre_), static_cast<float>(radius_)}; }
+    EmissionBounds emission_bounds() const;
     // A direction from p towards the light.
     DirectionSample sample(const glm::vec3& p, const glm::vec2& u) const;
     // The density of sample() per steradian, for a direction in which the light is met, at that distance.

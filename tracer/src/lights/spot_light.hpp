@@ -44,6 +44,11 @@ class SpotLight {
         const double t = inner_ > outer_ ? std::min((cosine - outer_) / (inner_ - outer_), 1.0) : 1.0;
         return intensity_ * static_cast<float>(t * t * (3.0 - 2.0 * t));
     }
+    EmissionBounds emission_bounds() const {
+        return {{position_, 0.0f},
+                static_cast<double>(luminance(intensity_)),
+                EmissionCone::of_point(axis_, std::acos(std::clamp(outer_, -1.0, 1.0)))};
+    }
 
   private:
     glm::vec3 position_;

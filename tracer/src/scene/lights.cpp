@@ -17,8 +17,9 @@ void add(Lights& lights, AreaLight light, const std::string& group) {
 void add(Lights& lights, AnyPointLight light, const std::string& group) {
     lights.add(std::move(light), group);
 }
-void add(Lights& lights, std::vector<InfiniteLight> several, const std::string& group) {
-    for (InfiniteLight& light : several) lights.add(std::move(light), group);
+template <class Light>
+void add(Lights& lights, std::vector<Light> several, const std::string& group) {
+    for (Light& light : several) lights.add(std::move(light), group);
 }
 
 }  // namespace
@@ -41,6 +42,7 @@ Lights read_lights(const Document& document, Value root) {
             });
         }
     }
+    lights.group_lamps();
     if (const std::optional<Value> background = root.find("background"))
         lights.set_background(as_colour(document, *background, "\"background\""));
     return lights;

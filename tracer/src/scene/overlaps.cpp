@@ -28,9 +28,9 @@ struct CopyInBox {
 };
 
 // How deep a point of the scene is inside of an object: at least so far from all that is outside of it.
-class Depth {
+class DepthField {
   public:
-    explicit Depth(const Phased& tree) : evaluator_(record(tree)) {}
+    explicit DepthField(const Phased& tree) : evaluator_(record(tree)) {}
     // Of a point of the object's space, in its unit of length.
     double at(const glm::vec3& p) const {
         const Phases<float> phi = evaluator_.distances(p, Evaluator::thread_workspace());
@@ -166,7 +166,7 @@ class Search {
     }
 
     std::vector<Bounds> boxes_;  // of the objects
-    std::vector<Depth> depths_;
+    std::vector<DepthField> depths_;
     std::vector<CopyInBox> copies_;
     Overlaps result_;
     std::size_t pairs_ = 0, evaluations_ = 0;
