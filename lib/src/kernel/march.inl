@@ -3,8 +3,8 @@
 // We hold a place `here` that is certainly in the ray's phase, and a stack of frames of eight samples ahead of it: each
 // frame lies within a gap of the one below it. Two neighbouring samples in the ray's phase whose radii together cover
 // the gap between them prove it free of interfaces; that is one comparison for a whole frame. The first gap in doubt is
-// sampled again, at eight points inside it: evenly spread; or, where the label differs at its end, gathered around the
-// place where the distances predict the interface; or, where the ray starts on an interface, spread out geometrically
+// sampled again, at eight points inside it: evenly spaced; or, where the label differs at its end, gathered around the
+// place where the distances predict the interface; or, where the ray starts on an interface, spaced geometrically
 // from there (places.inl). A gap no longer than the resolution is the crossing if the labels at its ends differ; else
 // it is passed.
 //

@@ -34,7 +34,7 @@ HWY_INLINE Batch ending_at(const Batch& t, float high) {
 }
 
 // Eight places in equal steps, the first at `low` and the last at `high`.
-HWY_INLINE Batch spread_evenly(float low, float high) {
+HWY_INLINE Batch evenly_spaced(float low, float high) {
     return ending_at(Batch(low) + lanes() * ((high - low) * (1 / last_lane)), high);
 }
 
@@ -47,7 +47,7 @@ HWY_INLINE std::uint32_t geometric_step(float a, float b) {
 
 // Eight places for a ray that starts on an interface, at 0: 0 itself, `smallest`, and from there on in equal ratios up
 // to `high`.
-HWY_INLINE Batch spread_from_interface(float high, float smallest) {
+HWY_INLINE Batch spaced_from_interface(float high, float smallest) {
     const std::uint32_t step = geometric_step<batch_size - 2>(smallest, high);
     const Batch t = geometric(lanes() - 1.f, bits_of(smallest), step);
     return ending_at(select(less(lanes(), Batch(0.5f)), Batch(0.f), t), high);
@@ -57,7 +57,7 @@ HWY_INLINE Batch spread_from_interface(float high, float smallest) {
 // s at `low`, and is expected to grow by `slope` for each unit of length. Two neighbouring samples prove a step d
 // between them free if d ≤ s + (s + slope·d), where s is the distance at the first; steps are a tenth shorter, in case
 // the distance does not grow linearly. From step to step s grows by the same factor, so the places are a geometric sum.
-HWY_INLINE Batch spread_growing(float low, float high, float s, float slope) {
+HWY_INLINE Batch spaced_growing(float low, float high, float s, float slope) {
     const float growth = 1.8f / (1.f - 0.9f * slope);
     float factor = 1.f + slope * growth;
     // The factor to the power of the lane's number + 1, by the bits of the number.

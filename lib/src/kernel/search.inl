@@ -25,8 +25,8 @@ HWY_INLINE bool March::start(Frame& f) {
     for (;;) {
         const bool is_bound_known = ray_.curvature[routine_.outputs[0].phase == ray_.carried ? 0 : 1] < 1e30f;
         const Batch t = ray_.on_interface && !ray_.is_monotone && !is_bound_known
-                            ? spread_from_interface(ray_.length, ray_.resolution)
-                            : spread_evenly(ray_.from, ray_.length);
+                            ? spaced_from_interface(ray_.length, ray_.resolution)
+                            : evenly_spaced(ray_.from, ray_.length);
         const Classified c = sample(t);
         store(t, f.t);
         store(c.distance, f.distance);
@@ -110,7 +110,7 @@ HWY_INLINE bool March::search_gaps(Frame* frames, int depth, bool is_aligned, Ra
         if (batches_ >= most_batches) return pause(result);
         if (depth == 0) {
             if (here_.t >= length) return false;
-            if (!fill(frames[0], spread_evenly(here_.t, length), here_, 3.402823466e38f)) return false;
+            if (!fill(frames[0], evenly_spaced(here_.t, length), here_, 3.402823466e38f)) return false;
             depth = 1;
             is_aligned = true;
         }
@@ -182,11 +182,11 @@ Batch March::places_in_gap(const Frame& f, int lane, const Place& next) const {
     const float gap = next.t - here_.t;
     if (const float slope = (next.distance - here_.distance) / gap; slope > 0.02f) {
         // The ray leaves an interface that it started on, at a low angle: one frame passes many of the gaps ahead.
-        return spread_growing(here_.t, ray_.length, larger(here_.distance, 0.25f * ray_.resolution),
+        return spaced_growing(here_.t, ray_.length, larger(here_.distance, 0.25f * ray_.resolution),
                               smaller(slope, 1.f));
     }
     const float low = past(here_), high = before(next);
-    return spread_evenly(smaller(low, high), high);
+    return evenly_spaced(smaller(low, high), high);
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ class Writer {
             if (a[i] != b[i]) return a[i] < b[i];
         return false;
     }
-    // Puts one half before the other, along the axis on which the centres are spread most.
+    // Puts one half before the other, along the axis along which the centres extend the farthest.
     static void divide(std::span<glm::vec4> part) {
         Bounds box;
         for (const glm::vec4& b : part) box = unite(box, {glm::vec3(b), glm::vec3(b)});

@@ -62,7 +62,7 @@ class TableWriter {
     void prepare_vertices() {
         first_place_.assign(s_.vertices.size(), none);
         normal_.assign(s_.vertices.size(), glm::dvec3(0));
-        spread_.assign(s_.vertices.size(), 0);
+        largest_angle_.assign(s_.vertices.size(), 0);
         for (std::uint32_t t = 0; t < s_.triangles.size(); ++t)
             for (int i = 0; i < 3; ++i) {
                 const std::uint32_t v = s_.triangles[t][i];
@@ -75,8 +75,8 @@ class TableWriter {
         for (glm::dvec3& n : normal_) n = unit(n);
         for (std::uint32_t t = 0; t < s_.triangles.size(); ++t)
             for (int i = 0; i < 3; ++i) {
-                double& spread = spread_[s_.triangles[t][i]];
-                spread = std::max(spread, angle_between(normal_[s_.triangles[t][i]], s_.normals[t]));
+                double& largest = largest_angle_[s_.triangles[t][i]];
+                largest = std::max(largest, angle_between(normal_[s_.triangles[t][i]], s_.normals[t]));
             }
         std::ranges::sort(vertices_, {}, [&](std::uint32_t v) { return std::pair(first_place_[v], v); });
     }
@@ -116,7 +116,7 @@ class TableWriter {
     void append_vertex(std::uint32_t v, std::vector<float>& table) const {
         append(table, s_.at(v));
         append(table, normal_[v]);
-        table.push_back(static_cast<float>(glm::length(normal_[v]) > 0 ? spread_[v] : std::numbers::pi));
+        table.push_back(static_cast<float>(glm::length(normal_[v]) > 0 ? largest_angle_[v] : std::numbers::pi));
     }
 
     void append_nodes(std::vector<float>& table) const {
@@ -144,7 +144,7 @@ class TableWriter {
     std::vector<std::uint32_t> place_;  // of each triangle in the order of leaves
     std::vector<std::uint32_t> first_place_, vertices_, edges_;
     std::vector<glm::dvec3> normal_;
-    std::vector<double> spread_;
+    std::vector<double> largest_angle_;
 };
 
 }  // namespace
