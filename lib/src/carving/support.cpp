@@ -8,7 +8,7 @@
 //
 // If that reaches up to the top, the top falls to its lower end. So a beam is walked downward as a ray is traced by
 // spheres. Near a face that lies across d large balls from far above are the best: a ball that touches the face comes
-// as near to it as ρ²/2r all over the section. Once no ball brings the top further down, the beam is parted along its
+// as near to it as ρ²/2r all over the section. Once no ball brings the top further down, the beam is halved along its
 // longer side. The beam with the highest top is always the next; its top bounds the solid, at any time.
 #include "carving/support.hpp"
 
@@ -42,7 +42,7 @@ struct Beam {
     bool operator<(const Beam& o) const { return top < o.top; }
 };
 
-// Where the balls are tried, above the top in parts of the half diagonal.
+// Where the balls are tried, above the top as multiples of the half diagonal.
 constexpr std::array<double, batch_size - 1> above{0, 0.5, 1, 2, 6, 20, 60};
 
 // Lowers the beam's top as far as eight balls prove. The last of them is tried just below the top, where the solid may

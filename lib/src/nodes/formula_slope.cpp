@@ -81,7 +81,7 @@ double slope_in(const TermSteps& term, const BoxOfDoubles& whole, int most_boxes
             refuse(term, in, b, has_bounds);
         }
         open.pop();
-        const auto [one, other] = b.parts(axes);
+        const auto [one, other] = b.split(axes);
         look(one, top.bound);
         look(other, top.bound);
     }

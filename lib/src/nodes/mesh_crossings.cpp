@@ -161,12 +161,12 @@ void require_no_crossing(const Surface& s, const std::string& name) {
 }
 
 void require_outward(const Surface& s, const std::string& name) {
-    DisjointSets parts(s.triangles.size());
-    for (const SharedEdge& e : s.edges) parts.join(e.triangles[0], e.triangles[1]);
+    DisjointSets shells(s.triangles.size());
+    for (const SharedEdge& e : s.edges) shells.join(e.triangles[0], e.triangles[1]);
     std::vector<double> volume(s.triangles.size(), 0);
     std::vector<std::uint32_t> roots;
     for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
-        const auto root = static_cast<std::uint32_t>(parts.root(t));
+        const auto root = static_cast<std::uint32_t>(shells.root(t));
         if (root == t) roots.push_back(t);
         const glm::dvec3 origin = s.corner(root, 0);
         volume[root] += glm::dot(s.corner(t, 0) - origin, glm::cross(s.corner(t, 1) - origin, s.corner(t, 2) - origin));
@@ -186,7 +186,7 @@ void require_outward(const Surface& s, const std::string& name) {
             const double turn = 2.39996 * attempt + 0.3, z = 0.137 + 0.051 * attempt;
             const glm::dvec3 d(std::cos(turn), std::sin(turn), z);
             winding =
-                winding_number(s, tree, s.corner(root, 0), d, [&](std::uint32_t t) { return parts.root(t) == root; });
+                winding_number(s, tree, s.corner(root, 0), d, [&](std::uint32_t t) { return shells.root(t) == root; });
         }
         if (winding == expected) continue;
         throw ModelError(fmt::format("mesh: {} has a part that is {}: that of its triangle {} at {}", name,

@@ -18,9 +18,9 @@ double largest_at_kept_blocks(const std::vector<float>& table, F&& f) {
     const auto count = static_cast<std::size_t>(table.data() + table.size() - values) / VoxelGrid::kept_values;
     constexpr std::size_t at_once = 64;
     std::vector<double> largest((count + at_once - 1) / at_once, 0.0);
-    tbb::parallel_for(std::size_t{0}, largest.size(), [&](std::size_t part) {
-        for (std::size_t i = part * at_once; i < std::min((part + 1) * at_once, count); ++i)
-            largest[part] = std::max(largest[part], f(values + i * VoxelGrid::kept_values));
+    tbb::parallel_for(std::size_t{0}, largest.size(), [&](std::size_t chunk) {
+        for (std::size_t i = chunk * at_once; i < std::min((chunk + 1) * at_once, count); ++i)
+            largest[chunk] = std::max(largest[chunk], f(values + i * VoxelGrid::kept_values));
     });
     return largest.empty() ? 0.0 : *std::ranges::max_element(largest);
 }

@@ -49,8 +49,10 @@ class Neighbourhood {
   private:
     glm::ivec3 cell_of(const glm::vec3& p) const { return glm::ivec3(glm::floor(p / spacing_)); }
     static std::uint64_t key(const glm::ivec3& c) {
-        const auto part = [](int v) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(v)) & 0x1fffff; };
-        return part(c.x) | part(c.y) << 21 | part(c.z) << 42;
+        const auto low_bits = [](int v) {
+            return static_cast<std::uint64_t>(static_cast<std::uint32_t>(v)) & 0x1fffff;
+        };
+        return low_bits(c.x) | low_bits(c.y) << 21 | low_bits(c.z) << 42;
     }
 
     float spacing_;

@@ -11,16 +11,16 @@ namespace phasetree {
 
 namespace {
 
-// The finest resolution, in parts of the farthest coordinate: two to four units in the last place. There are no floats
-// to sample at a finer one.
+// The finest resolution, as a share of the farthest coordinate: two to four units in the last place. There are no
+// floats to sample at a finer one.
 constexpr float finest = 2.5e-7f;
-// The resolution that is chosen, in parts of the farthest coordinate and of the diagonal, the larger of the two. The
+// The resolution that is chosen, as a share of the farthest coordinate and of the diagonal, the larger of the two. The
 // rounding of values does not show at it.
 constexpr float rounding = 1e-6f, usual = 2e-6f;
-// The coarsest resolution, in parts of the diagonal: a coarser one would miss much of the object.
+// The coarsest resolution, as a share of the diagonal: a coarser one would miss much of the object.
 constexpr float coarsest = 0.01f;
-// A resolution coarser than this, in parts of the diagonal, is warned of. One is chosen only if the object is far from
-// the origin.
+// A resolution coarser than this, as a share of the diagonal, is warned of. One is chosen only if the object is far
+// from the origin.
 constexpr float poor = 1e-3f;
 
 }  // namespace
