@@ -26,12 +26,12 @@ struct Counted {
             const auto spacing = 1 / static_cast<double>(data[voxels::inverse_spacing + i]);
             const double centre = (box.centre[i] - static_cast<double>(data[voxels::first + i])) / spacing;
             // A place in voxels is rounded as a float.
-            const double reach = box.reach[i] / spacing + 1e-6 * (std::abs(centre) + 64);
+            const double half_extent = box.reach[i] / spacing + 1e-6 * (std::abs(centre) + 64);
             const auto size = static_cast<double>(data[voxels::size + i]);
             const double beyond = is_spline ? 0.5 : 0;
-            is_beyond[i] = centre - reach < -beyond || centre + reach > size - 1 + beyond;
-            const double low = std::clamp(centre - reach, 0.0, size - 1),
-                         high = std::clamp(centre + reach, 0.0, size - 1);
+            is_beyond[i] = centre - half_extent < -beyond || centre + half_extent > size - 1 + beyond;
+            const double low = std::clamp(centre - half_extent, 0.0, size - 1),
+                         high = std::clamp(centre + half_extent, 0.0, size - 1);
             const double from = is_spline ? std::floor(low + 0.5) - 1 : std::floor(low);
             const double to = std::floor(is_spline ? high + 0.5 : high) + 1;
             // A spline also has the copies next to the border voxels, where the differences are zero.

@@ -133,7 +133,7 @@ class CandidateSearch {
     const BuildContext& context_;
     Worker& worker_;
     float size_;     // of the node's box, which is cut once the first candidate has been found
-    Bounds region_;  // the node's box, inflated by what its cells reach beyond it
+    Bounds region_;  // the node's box, inflated by the reach of its cells
     Encloser encloser_;
 };
 

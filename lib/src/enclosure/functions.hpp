@@ -26,9 +26,9 @@ inline Enclosure smooth_min(const Enclosure& a, const Enclosure& b, float r) {
 
 /// The curvature follows from the falloff's own derivatives: φ(x) = (1 − x²)³ for x = d/R in [0, 1] has
 /// φ″ = (1 − u)(30u − 6) with u = x², from −6 to 4.8.
-inline Enclosure falloff(const Enclosure& d, float reach) {
-    Enclosure f = phasetree::falloff<Enclosure>(d, reach);
-    const double k = 1 / static_cast<double>(reach);
+inline Enclosure falloff(const Enclosure& d, float radius) {
+    Enclosure f = phasetree::falloff<Enclosure>(d, radius);
+    const double k = 1 / static_cast<double>(radius);
     const auto inside = [&](double x) { return std::clamp(x * k, 0.0, 1.0); };
     const double from = inside(d.value.low), to = inside(d.value.high);
     const auto curvature = [](double x) { return (1 - x * x) * (30 * x * x - 6); };

@@ -57,9 +57,9 @@ struct Enclosure {
     }
     /// Cuts the value's range to what the value at the centre and the gradient allow in a box of these half extents.
     void tighten(const Vector& half) {
-        const double reach =
+        const double half_width =
             gradient[0].magnitude() * half[0] + gradient[1].magnitude() * half[1] + gradient[2].magnitude() * half[2];
-        const double low = std::max(value.low, centre - reach), high = std::min(value.high, centre + reach);
+        const double low = std::max(value.low, centre - half_width), high = std::min(value.high, centre + half_width);
         value = {std::min(low, high), std::max(low, high)};  // one number, but for rounding, if they cross
     }
     Enclosure tightened(const Vector& half) const {

@@ -118,8 +118,8 @@ class March {
     // below its tangent there. So the label is that of `here` up to r − e, where e is k r(h − r), the left side's
     // distance below the chord, over its tangent's slope (a + b)/h + k(h − 2r). From r + e′ on it is another one: that
     // of `next`, if no third component vanishes on the way there. In the code r is `to_root`, h is `gap`, k and k′ are
-    // `k` and `other`, and e and e′, with rounding, must be at most `reach`; r(h − r) is `bend`, and h(h − 2r) is
-    // `turn`. `next` is a lane of the last batch of samples.
+    // `k` and `other`, and e and e′, with rounding, must be at most `half_bracket`; r(h − r) is `bend`, and h(h − 2r)
+    // is `turn`. `next` is a lane of the last batch of samples.
     bool is_located(const Place& next, int lane, RayCrossing& c) const {
         if (!can_locate_ || next.label == another_phase) return false;
         const auto value = [&](const OutputSlot& o) {
@@ -129,17 +129,17 @@ class March {
         const float a = here_.distance, b = is_one ? next.distance : value(routine_.outputs[0]);
         const float gap = next.t - here_.t, sum = a + b;
         if (!(smaller(a, b) >= rounding())) return false;
-        const float to_root = gap * (a / sum), reach = 0.49f * ray_.resolution;
+        const float to_root = gap * (a / sum), half_bracket = 0.49f * ray_.resolution;
         const float bend = to_root * (gap - to_root), turn = gap * (gap - 2 * to_root);
         const float k = half_curvature_, other = other_half_curvature_;
-        if (!((k * bend + rounding()) * gap <= reach * (sum + k * turn))) return false;
-        if (!((other * bend + rounding()) * gap <= reach * (sum - other * turn))) return false;
+        if (!((k * bend + rounding()) * gap <= half_bracket * (sum + k * turn))) return false;
+        if (!((other * bend + rounding()) * gap <= half_bracket * (sum - other * turn))) return false;
         for (std::size_t i = 1; !is_one && i < routine_.output_count; ++i) {
             const OutputSlot& third = routine_.outputs[i];
             if (third.phase != next.label && !(value(third) >= gap - to_root + rounding())) return false;
         }
-        return report(c, larger(here_.t + to_root - reach, here_.t), smaller(here_.t + to_root + reach, next.t),
-                      next.label);
+        return report(c, larger(here_.t + to_root - half_bracket, here_.t),
+                      smaller(here_.t + to_root + half_bracket, next.t), next.label);
     }
     // Leaves the search unfinished. It may go on from the last place that is certainly in the ray's phase.
     bool pause(RayCrossing& c) const {

@@ -124,12 +124,12 @@ class Writer {
 
 // A lower bound of the signed distance from a box, or from a point, to the balls below a node.
 template <class Number>
-Number least_distance(const float* node, const std::array<Number, 3>& p, const std::array<Number, 3>& reach) {
+Number least_distance(const float* node, const std::array<Number, 3>& p, const std::array<Number, 3>& half_extents) {
     Number sum = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         const Number below = static_cast<Number>(node[Tree::low + i]) - p[i];
         const Number above = p[i] - static_cast<Number>(node[Tree::high + i]);
-        const Number away = std::max(std::max(below, above) - reach[i], Number{0});
+        const Number away = std::max(std::max(below, above) - half_extents[i], Number{0});
         sum += away * away;
     }
     return std::sqrt(sum) - static_cast<Number>(node[Tree::radius]);
@@ -138,13 +138,13 @@ Number least_distance(const float* node, const std::array<Number, 3>& p, const s
 // Visits the leaves, near ones first, that are no farther from p than limit() tells, which may fall meanwhile. Ends
 // when a visit returns false.
 template <class Number, class Limit, class Visit>
-void for_each_leaf(const TreeView& view, const std::array<Number, 3>& p, const std::array<Number, 3>& reach,
+void for_each_leaf(const TreeView& view, const std::array<Number, 3>& p, const std::array<Number, 3>& half_extents,
                    const Limit& limit, const Visit& visit) {
     struct Entry {
         std::size_t node;
         Number least;
     };
-    const auto entry = [&](std::size_t node) { return Entry{node, least_distance(view.node(node), p, reach)}; };
+    const auto entry = [&](std::size_t node) { return Entry{node, least_distance(view.node(node), p, half_extents)}; };
     std::array<Entry, tallest> stack;
     std::size_t depth = 0;
     stack[depth++] = entry(0);
@@ -254,8 +254,9 @@ const float* Tree::nearest(const float* data, const Vec3<float>& point) {
 bool Tree::balls_in(const float* tree, const Wanted& wanted, std::span<const float> around,
                     std::vector<float>& floats) {
     const TreeView view(tree);
-    const auto &centre = wanted.box.centre, &reach = wanted.box.reach;
-    const double slack = 2 * (margin(view.largest, centre) + 2e-6 * std::max({reach[0], reach[1], reach[2]}));
+    const auto &centre = wanted.box.centre, &half_extents = wanted.box.reach;
+    const double slack =
+        2 * (margin(view.largest, centre) + 2e-6 * std::max({half_extents[0], half_extents[1], half_extents[2]}));
     Candidates candidates(wanted, slack);
     if (!around.empty()) {
         const float* ball = around.data() + ShortList::head;
@@ -267,7 +268,7 @@ bool Tree::balls_in(const float* tree, const Wanted& wanted, std::span<const flo
     if (!(slack < 1e12)) return false;
     bool is_too_many = false, is_any = false;
     for_each_leaf(
-        view, centre, reach,
+        view, centre, half_extents,
         // As long as there is no ball at all, one that is too far is looked for.
         [&] { return is_any ? candidates.limit() : std::numeric_limits<double>::infinity(); },
         [&](const float* leaf) {

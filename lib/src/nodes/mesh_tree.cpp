@@ -94,7 +94,7 @@ struct InBox {
 };
 
 struct BoxOfPoints {
-    std::array<double, 3> centre, reach;
+    std::array<double, 3> centre, half_extents;
     double radius, margin;
 
     double along(const float* direction, const float* origin) const {
@@ -103,9 +103,9 @@ struct BoxOfPoints {
             sum += static_cast<double>(direction[i]) * (centre[i] - static_cast<double>(origin[i]));
         return sum;
     }
-    double reach_along(const float* direction) const {
+    double half_width_along(const float* direction) const {
         double sum = 0;
-        for (std::size_t i = 0; i < 3; ++i) sum += std::abs(static_cast<double>(direction[i])) * reach[i];
+        for (std::size_t i = 0; i < 3; ++i) sum += std::abs(static_cast<double>(direction[i])) * half_extents[i];
         return sum;
     }
     double distance_to(const float* origin, const float* vector, double t) const {
@@ -129,15 +129,15 @@ struct BoxOfPoints {
                 const float* inward = piece + Face::inward + 3 * side;
                 double within = along(inward, piece + Face::corner);
                 if (side == 1) within -= static_cast<double>(piece[Face::opposite]);
-                if (within + reach_along(inward) < -margin) return {never, never};
+                if (within + half_width_along(inward) < -margin) return {never, never};
                 beside = std::max(beside, -within);
             }
-            const double lower = std::max(std::abs(height) - reach_along(piece + Face::normal), 0.0);
+            const double lower = std::max(std::abs(height) - half_width_along(piece + Face::normal), 0.0);
             return {std::max(lower, std::hypot(height, beside) - radius), beside > 0 ? never : std::abs(height)};
         } else if constexpr (std::is_same_v<Kind, Edge>) {
             const float *end = piece + Edge::end, *vector = piece + Edge::vector;
             const auto inverse = static_cast<double>(piece[Edge::inverse]);
-            const double t = along(vector, end) * inverse, change = reach_along(vector) * inverse;
+            const double t = along(vector, end) * inverse, change = half_width_along(vector) * inverse;
             const double slack = margin * std::sqrt(inverse);
             if (t + change < -slack || t - change > 1 + slack) return {never, never};
             const double distance = distance_to(end, vector, std::clamp(t, 0.0, 1.0));

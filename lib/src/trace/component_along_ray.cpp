@@ -88,9 +88,9 @@ double ComponentAlongRay::upper_bound(float from, float to, double precision) {
     const double middle = 0.5 * (double{from} + double{to}), half = 0.5 * (double{to} - double{from});
     for (int i = 0; i < 3; ++i) {
         const auto along = static_cast<double>(direction_[i]);
-        const double centre = static_cast<double>(origin_[i]) + middle * along, reach = half * std::abs(along);
+        const double centre = static_cast<double>(origin_[i]) + middle * along, half_width = half * std::abs(along);
         registers_[static_cast<std::size_t>(i)] =
-            Enclosure(centre, {centre - reach, centre + reach}, {Range{along, along}}, {along}, {});
+            Enclosure(centre, {centre - half_width, centre + half_width}, {Range{along, along}}, {along}, {});
     }
     // The first axis of the enclosures' box stands for t; the others are not used.
     const Enclosure::Vector extent{half, 0, 0};
