@@ -145,8 +145,8 @@ VoxelsInBox voxels_in_box(const float* data, const PointRange& box, bool is_spli
     FieldInBox field;
     field.values = differences.values();
     // The values of the field are rounded as its equation rounds.
-    const double rounding = 4e-7 * field.values.magnitude();
-    field.values = {field.values.low - rounding, field.values.high + rounding};
+    const double rounding_error = 4e-7 * field.values.magnitude();
+    field.values = {field.values.low - rounding_error, field.values.high + rounding_error};
     std::array<double, 3> inverse;
     for (std::size_t i = 0; i < 3; ++i) {
         inverse[i] = static_cast<double>(data[voxels::inverse_spacing + i]);

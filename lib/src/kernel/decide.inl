@@ -1,4 +1,4 @@
-// What counts as a crossing where labels are a matter of rounding (March). Included by kernel.inl.
+// What counts as a crossing where labels are a matter of rounding errors (March). Included by kernel.inl.
 
 namespace phasetree::kernel::HWY_NAMESPACE {
 namespace {
@@ -6,19 +6,19 @@ namespace {
 // Whether the change of label at `next` is a crossing; if so, reports it, and if not, moves `here` on to where that is
 // known.
 //
-// Within rounding of an interface labels mean little: between solids that abut there are slivers of other phases, and
-// along a face the label flickers. So a change counts only once it is decided: once s(p) is above rounding, or once
-// there was no place in the ray's phase for one and a half resolutions. Until then the ray stays in its phase. The
-// bracket goes from the last place in that phase to the first one in the phase that follows. So it is at most 2.75
-// resolutions long: a gap of one before the first place in another phase, the one and a half, and a quarter more to the
-// next place if rounding hides that the one and a half are full.
+// Within the rounding error of an interface labels mean little: between solids that abut there are slivers of other
+// phases, and along a face the label flickers. So a change counts only once it is decided: once s(p) is above the
+// rounding error, or once there was no place in the ray's phase for one and a half resolutions. Until then the ray
+// stays in its phase. The bracket goes from the last place in that phase to the first one in the phase that follows. So
+// it is at most 2.75 resolutions long: a gap of one before the first place in another phase, the one and a half, and a
+// quarter more to the next place if a rounding error hides that the one and a half are full.
 bool March::is_crossing(const Place& next, RayCrossing& result) {
     const float resolution = ray_.resolution;
     // Takes note of a place in another phase; returns whether the change is decided with it.
     const auto note_other = [&](const Place& p) {
         if (other_.label == no_label) left_at_ = p.t;
         if (other_.label != p.label) other_ = p;
-        return p.distance >= rounding() || p.t - left_at_ >= 1.5f * resolution;
+        return p.distance >= rounding_error() || p.t - left_at_ >= 1.5f * resolution;
     };
     const bool is_known = next.label != another_phase;
     if (is_known && note_other(next)) return report(result, certain_.t, other_.t, other_.label);
@@ -37,7 +37,7 @@ bool March::is_crossing(const Place& next, RayCrossing& result) {
         if (p.label == phase_) {
             certain_ = here_;
             other_.label = no_label;
-            if (p.distance >= rounding()) break;
+            if (p.distance >= rounding_error()) break;
         } else if (note_other(p)) {
             return report(result, certain_.t, other_.t, other_.label);
         }

@@ -77,13 +77,14 @@ class March {
         std::uint32_t open = bits(less(covered, gap * ray_.slope));
         const std::uint32_t is_long = bits(less(Batch(ray_.resolution), gap));
         if (is_curvature_known_ && (open & is_long)) {
-            const Batch margin(rounding()), zero(0.f), half_curvature(half_curvature_);
-            const Batch b = max(c.distance - margin, zero), a = shifted(b, larger(from.distance - rounding(), 0.f));
+            const Batch margin(rounding_error()), zero(0.f), half_curvature(half_curvature_);
+            const Batch b = max(c.distance - margin, zero),
+                        a = shifted(b, larger(from.distance - rounding_error(), 0.f));
             const Batch missing = gap * gap * half_curvature - a - b;
             open &= bits(less(zero, missing)) & bits(less(a * b * 4.f, missing * missing));
         }
         if (has_certificate_ && (open & is_long))
-            open &= ~certified_gaps(routine_, phase_ != routine_.outputs[0].phase, registers_, t, rounding());
+            open &= ~certified_gaps(routine_, phase_ != routine_.outputs[0].phase, registers_, t, rounding_error());
         f.doubt |= open & is_long;
         f.phantom = open & ~is_long & ~differs;
     }
@@ -106,7 +107,7 @@ class March {
     // gap²·curvature/2.
     bool is_free_by_curvature(float from, float to, float gap) const {
         if (!is_curvature_known_) return false;
-        const float a = larger(from - rounding(), 0.f), b = larger(to - rounding(), 0.f);
+        const float a = larger(from - rounding_error(), 0.f), b = larger(to - rounding_error(), 0.f);
         const float missing = gap * gap * half_curvature_ - a - b;
         return missing <= 0 || 4 * a * b >= missing * missing;
     }
@@ -118,8 +119,8 @@ class March {
     // below its tangent there. So the label is that of `here` up to r − e, where e is k r(h − r), the left side's
     // distance below the chord, over its tangent's slope (a + b)/h + k(h − 2r). From r + e′ on it is another one: that
     // of `next`, if no third component vanishes on the way there. In the code r is `to_root`, h is `gap`, k and k′ are
-    // `k` and `other`, and e and e′, with rounding, must be at most `half_bracket`; r(h − r) is `bend`, and h(h − 2r)
-    // is `turn`. `next` is a lane of the last batch of samples.
+    // `k` and `other`, and e and e′, with the rounding error, must be at most `half_bracket`; r(h − r) is `bend`, and
+    // h(h − 2r) is `turn`. `next` is a lane of the last batch of samples.
     bool is_located(const Place& next, int lane, RayCrossing& c) const {
         if (!can_locate_ || next.label == another_phase) return false;
         const auto value = [&](const OutputSlot& o) {
@@ -128,15 +129,15 @@ class March {
         const bool is_one = is_shared(routine_);
         const float a = here_.distance, b = is_one ? next.distance : value(routine_.outputs[0]);
         const float gap = next.t - here_.t, sum = a + b;
-        if (!(smaller(a, b) >= rounding())) return false;
+        if (!(smaller(a, b) >= rounding_error())) return false;
         const float to_root = gap * (a / sum), half_bracket = 0.49f * ray_.resolution;
         const float bend = to_root * (gap - to_root), turn = gap * (gap - 2 * to_root);
         const float k = half_curvature_, other = other_half_curvature_;
-        if (!((k * bend + rounding()) * gap <= half_bracket * (sum + k * turn))) return false;
-        if (!((other * bend + rounding()) * gap <= half_bracket * (sum - other * turn))) return false;
+        if (!((k * bend + rounding_error()) * gap <= half_bracket * (sum + k * turn))) return false;
+        if (!((other * bend + rounding_error()) * gap <= half_bracket * (sum - other * turn))) return false;
         for (std::size_t i = 1; !is_one && i < routine_.output_count; ++i) {
             const OutputSlot& third = routine_.outputs[i];
-            if (third.phase != next.label && !(value(third) >= gap - to_root + rounding())) return false;
+            if (third.phase != next.label && !(value(third) >= gap - to_root + rounding_error())) return false;
         }
         return report(c, larger(here_.t + to_root - half_bracket, here_.t),
                       smaller(here_.t + to_root + half_bracket, next.t), next.label);
@@ -148,8 +149,8 @@ class March {
         c.from = phase_;
         return false;
     }
-    // Distances below this, a sixteenth of the resolution, are taken for rounding.
-    float rounding() const { return ray_.resolution * (1.f / 16); }
+    // Distances below this, a sixteenth of the resolution, are taken for rounding errors.
+    float rounding_error() const { return ray_.resolution * (1.f / 16); }
 
     bool report(RayCrossing& c, float t_in, float t_out, float to) const {
         c.t_in = t_in;

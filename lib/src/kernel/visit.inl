@@ -36,7 +36,7 @@ HWY_INLINE void clip(Interval& span, float low, float high, float origin, float 
     span.high = smaller(larger(a, b), span.high);
 }
 
-// A LeavingHint whose rise is smaller is not used: its rounding would be too large a part of it.
+// A LeavingHint whose rise is smaller is not used: its rounding error would be too large a part of it.
 constexpr float least_rise = 0.02f;
 
 // The part of a ray that has to be searched in a cell, made smaller step by step. Each step returns whether anything is

@@ -163,7 +163,7 @@ void for_each_leaf(const TreeView& view, const std::array<Number, 3>& p, const s
     }
 }
 
-// More than the distance from p to a ball can be off by rounding.
+// More than the distance from p to a ball can be off by rounding errors.
 template <class Number>
 Number margin(float largest, const std::array<Number, 3>& p) {
     const Number far = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});

@@ -23,8 +23,8 @@ bool overlap(const Bounds& a, const Bounds& b) {
     return !intersect(a, b).empty();
 }
 
-// On which side of the plane through a, b and c the point d is: 1, −1, or 0 if that is a matter of rounding. The bound
-// of the error is that of Shewchuk, "Adaptive Precision Floating-Point Arithmetic" (1997), rounded up.
+// On which side of the plane through a, b and c the point d is: 1, −1, or 0 if that is a matter of rounding errors. The
+// bound of the error is that of Shewchuk, "Adaptive Precision Floating-Point Arithmetic" (1997), rounded up.
 int side(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
     const glm::dvec3 u = a - d, v = b - d, w = c - d;
     const double vw = v.x * w.y, wv = w.x * v.y, wu = w.x * u.y, uw = u.x * w.y, uv = u.x * v.y, vu = v.x * u.y;
@@ -114,11 +114,11 @@ std::optional<int> winding_number(const Surface& s, const BoxTree& tree, const g
                 size = std::max(size, glm::length(a) * glm::length(b));
             }
             const auto [least, most] = std::minmax({turn[0], turn[1], turn[2]});
-            const double rounding = 1e-12 * size;
-            if (least < -rounding && most > rounding) continue;
+            const double rounding_error = 1e-12 * size;
+            if (least < -rounding_error && most > rounding_error) continue;
             const double height = glm::dot(s.normals[t], q[0]) / glm::dot(s.normals[t], d);
             if (height < 0) continue;
-            if (least < rounding && most > -rounding) {
+            if (least < rounding_error && most > -rounding_error) {
                 is_in_doubt = true;
                 continue;
             }

@@ -50,7 +50,7 @@ Number squared_distance_to_box(const float* node, const Number* p) {
     return sum;
 }
 
-// More than distances of pieces from p can be off by rounding: the box's size counts, and how far p is from it.
+// More than distances of pieces from p can be off by rounding errors: the box's size counts, and how far p is from it.
 template <class Number>
 Number margin(const float* box, const Number* p) {
     Number sum = 0;

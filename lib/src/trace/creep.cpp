@@ -82,8 +82,8 @@ class Creep {
         return false;
     }
 
-    // Goes on behind stretches in which no other phase is deeper than rounding. Their length doubles while that is
-    // proven, and is halved where it is not.
+    // Goes on behind stretches in which no other phase is deeper than the rounding error. Their length doubles while
+    // that is proven, and is halved where it is not.
     void pass_enclosed() {
         const float resolution = visit_.resolution;
         float end = place_;
@@ -92,9 +92,9 @@ class Creep {
             const float next = std::min(end + step, crossing_.length);
             if (!(next > end)) break;
             spend(batches_to_enclose);
-            const double rounding = static_cast<double>(resolution) / 16;
-            // The bound is below rounding: no change of label counts up to `next`.
-            const bool is_free = component_.upper_bound(end, next, 0.1 * rounding) < rounding;
+            const double rounding_error = static_cast<double>(resolution) / 16;
+            // The bound is below the rounding error: no change of label counts up to `next`.
+            const bool is_free = component_.upper_bound(end, next, 0.1 * rounding_error) < rounding_error;
             if (is_free) end = next;
             step *= is_free ? 2 : 0.5f;
         }
@@ -114,7 +114,7 @@ class Creep {
             for (std::size_t i = 0; i < batch_size; ++i) {
                 const bool was_other = is_other;
                 is_other = s.label[i] != crossing_.from;
-                // A single sample of another label that is no deeper than rounding is not decided.
+                // A single sample of another label that is no deeper than the rounding error is not decided.
                 if (is_other && (was_other || !(s.distance[i] < resolution / 16))) return false;
                 if (!is_other) place_ = s.t[i];
             }

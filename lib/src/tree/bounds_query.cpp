@@ -14,7 +14,7 @@ using model::PreparationTogether;
 namespace {
 
 // A box with those sides of a tighter box that are tighter by more than a hundredth of its size. Other sides stay where
-// they are, so that rounding does not move them.
+// they are, so that rounding errors do not move them.
 Bounds tightened(const Bounds& box, const Bounds& tighter) {
     if (tighter.empty()) return {};
     Bounds result = box;
@@ -77,7 +77,7 @@ struct BoundsQuery::Memory {
 BoundsQuery::BoundsQuery() : memory_(std::make_unique<Memory>()) {}
 BoundsQuery::~BoundsQuery() = default;
 
-// The box of six supports, with a margin for rounding, which grows with the largest of them.
+// The box of six supports, with a margin for rounding errors, which grows with the largest of them.
 Bounds BoundsQuery::gathered(const Supports& supports) {
     double largest = 0;
     for (const double r : supports)
