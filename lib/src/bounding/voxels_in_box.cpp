@@ -32,12 +32,12 @@ struct Counted {
             is_beyond[i] = centre - half_extent < -beyond || centre + half_extent > size - 1 + beyond;
             const double low = std::clamp(centre - half_extent, 0.0, size - 1),
                          high = std::clamp(centre + half_extent, 0.0, size - 1);
-            const double from = is_spline ? std::floor(low + 0.5) - 1 : std::floor(low);
-            const double to = std::floor(is_spline ? high + 0.5 : high) + 1;
+            const double lowest = is_spline ? std::floor(low + 0.5) - 1 : std::floor(low);
+            const double highest = std::floor(is_spline ? high + 0.5 : high) + 1;
             // A spline also has the copies next to the border voxels, where the differences are zero.
             const double copies = is_spline ? 1 : 0;
-            first[i] = static_cast<int>(std::max(from, -copies));
-            last[i] = static_cast<int>(std::min(to, size - 1 + copies));
+            first[i] = static_cast<int>(std::max(lowest, -copies));
+            last[i] = static_cast<int>(std::min(highest, size - 1 + copies));
             // At the border the last cell of two voxels goes on.
             if (!is_spline) first[i] = std::max(std::min(first[i], static_cast<int>(size) - 2), 0);
         }

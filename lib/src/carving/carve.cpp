@@ -108,17 +108,17 @@ class Carver {
         const double radius = 0.5 * static_cast<double>(box_.diagonal());
         std::vector<glm::dvec3> normals;
         for (std::size_t first = 0; first < rays; first += batch_size) {
-            std::array<glm::dvec3, batch_size> from, p;
+            std::array<glm::dvec3, batch_size> outward, p;
             std::array<double, batch_size> t{};
             for (std::size_t i = 0; i < batch_size; ++i) {
                 // Points of a Fibonacci spiral.
                 const double k = static_cast<double>(first + i) + 0.5;
                 const double z = 1 - 2 * k / static_cast<double>(rays), a = 2.399963229728653 * k;
-                from[i] = glm::dvec3(std::sqrt(1 - z * z) * std::cos(a), std::sqrt(1 - z * z) * std::sin(a), z);
+                outward[i] = glm::dvec3(std::sqrt(1 - z * z) * std::cos(a), std::sqrt(1 - z * z) * std::sin(a), z);
             }
             std::array<bool, batch_size> is_there{};
             for (std::size_t step = 0; step < longest_walk && left() > 0; ++step) {
-                for (std::size_t i = 0; i < batch_size; ++i) p[i] = middle + from[i] * (radius - t[i]);
+                for (std::size_t i = 0; i < batch_size; ++i) p[i] = middle + outward[i] * (radius - t[i]);
                 const BallBatch balls = field_.at(p);
                 bool goes_on = false;
                 for (std::size_t i = 0; i < batch_size; ++i) {

@@ -90,7 +90,7 @@ struct Visit {
     float rise;     ///< LeavingHint::rise, in [−1, 1], or no_leaving_hint
     /// Where an unfinished search goes on: a place in the ray's phase, as a distance from where the search began; else
     /// 0.
-    float from = 0;
+    float t_begin = 0;
 
     /// A value of `rise`, which no LeavingHint has.
     static constexpr float no_leaving_hint = -2;

@@ -52,34 +52,34 @@ class March {
     }
     HWY_INLINE Classified sample_whole(const Batch& t) { return sample(t, true); }
 
-    // Samples a frame behind the place `from` and finds its gaps in doubt. Returns false, and leaves the frame as it
-    // is, if no sample lies strictly between `from` and `to`, because there is no float between them.
-    bool fill(Frame& f, const Batch& t, const Place& from, float to, bool is_whole = false) {
+    // Samples a frame behind the place `before` and finds its gaps in doubt. Returns false, and leaves the frame as it
+    // is, if no sample lies strictly between `before` and `end`, because there is no float between them.
+    bool fill(Frame& f, const Batch& t, const Place& before, float end, bool is_whole = false) {
         const Classified c = sample(t, is_whole);
-        if (!(bits(less(Batch(from.t), t)) & bits(less(t, Batch(to))))) return false;
+        if (!(bits(less(Batch(before.t), t)) & bits(less(t, Batch(end))))) return false;
         store(t, f.t);
         store(c.distance, f.distance);
         store(c.label, f.label);
-        find_doubt(f, t, c, from);
+        find_doubt(f, t, c, before);
         return true;
     }
     // Finds the gaps of a frame that are in doubt. The tests are in the order of their cost: radii that cover the gap,
     // the curvature of the distance (as is_free_by_curvature(), for all gaps at once), and the sign certificate.
-    HWY_INLINE void find_doubt(Frame& f, const Batch& t, const Classified& c, const Place& from) const {
-        f.from = {from.t, from.distance, phase_};
+    HWY_INLINE void find_doubt(Frame& f, const Batch& t, const Classified& c, const Place& before) const {
+        f.before = {before.t, before.distance, phase_};
         f.next = 0;
         const std::uint32_t other = bits(less(c.label, Batch(phase_))) | bits(less(Batch(phase_), c.label));
         const std::uint32_t differs = (other | (other << 1)) & all_lanes;  // at one of the gap's ends
         f.doubt = differs;
         f.phantom = 0;
         if (ray_.is_monotone) return;  // the label does not change between two places where it is equal
-        const Batch gap = t - shifted(t, from.t), covered = c.distance + shifted(c.distance, from.distance);
+        const Batch gap = t - shifted(t, before.t), covered = c.distance + shifted(c.distance, before.distance);
         std::uint32_t open = bits(less(covered, gap * ray_.slope));
         const std::uint32_t is_long = bits(less(Batch(ray_.resolution), gap));
         if (is_curvature_known_ && (open & is_long)) {
             const Batch margin(rounding_error()), zero(0.f), half_curvature(half_curvature_);
             const Batch b = max(c.distance - margin, zero),
-                        a = shifted(b, larger(from.distance - rounding_error(), 0.f));
+                        a = shifted(b, larger(before.distance - rounding_error(), 0.f));
             const Batch missing = gap * gap * half_curvature - a - b;
             open &= bits(less(zero, missing)) & bits(less(a * b * 4.f, missing * missing));
         }
@@ -105,9 +105,10 @@ class March {
     // Whether the distances at a gap's ends prove it free by how much s curves. Between the ends s is above its chord
     // less a parabola, which stays above zero if √a + √b ≥ gap·√(curvature/2); squared twice, that is a + b + 2√(ab) ≥
     // gap²·curvature/2.
-    bool is_free_by_curvature(float from, float to, float gap) const {
+    bool is_free_by_curvature(float distance_here, float distance_next, float gap) const {
         if (!is_curvature_known_) return false;
-        const float a = larger(from - rounding_error(), 0.f), b = larger(to - rounding_error(), 0.f);
+        const float a = larger(distance_here - rounding_error(), 0.f),
+                    b = larger(distance_next - rounding_error(), 0.f);
         const float missing = gap * gap * half_curvature_ - a - b;
         return missing <= 0 || 4 * a * b >= missing * missing;
     }

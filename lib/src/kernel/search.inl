@@ -11,7 +11,8 @@ bool March::find(RayCrossing& result) {
     int depth = 1;           // the number of frames in use
     bool is_aligned = true;  // whether `here` is the place before the next gap of the last frame
     if (here_.label != phase_) {
-        if (!find_phase_ahead()) return is_entered_late(result) || report(result, ray_.from, ray_.from, here_.label);
+        if (!find_phase_ahead())
+            return is_entered_late(result) || report(result, ray_.t_begin, ray_.t_begin, here_.label);
         is_aligned = false;
     }
     certain_ = here_;
@@ -26,7 +27,7 @@ HWY_INLINE bool March::start(Frame& f) {
         const bool is_bound_known = ray_.curvature[routine_.outputs[0].phase == ray_.carried ? 0 : 1] < 1e30f;
         const Batch t = ray_.on_interface && !ray_.is_monotone && !is_bound_known
                             ? spaced_from_interface(ray_.length, ray_.resolution)
-                            : evenly_spaced(ray_.from, ray_.length);
+                            : evenly_spaced(ray_.t_begin, ray_.length);
         const Classified c = sample(t);
         store(t, f.t);
         store(c.distance, f.distance);
@@ -55,7 +56,7 @@ HWY_INLINE bool March::start(Frame& f) {
 // Rounding may have put the start just across the interface that the ray was found on. Looks for the ray's phase in the
 // next four resolutions, and moves `here` to where it begins; returns whether it is there.
 HWY_INLINE bool March::find_phase_ahead() {
-    const Batch t = Batch(ray_.from) + (lanes() + 1.f) * (ray_.resolution * (4.f / batch_size));
+    const Batch t = Batch(ray_.t_begin) + (lanes() + 1.f) * (ray_.resolution * (4.f / batch_size));
     const Classified c = sample(t);
     const std::uint32_t other = bits(less(c.label, Batch(phase_))) | bits(less(Batch(phase_), c.label));
     const std::uint32_t regained = ~other & ~bits(less(Batch(ray_.length), t)) & all_lanes;

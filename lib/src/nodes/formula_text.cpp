@@ -84,22 +84,22 @@ class FormulaReader {
     }
     std::string_view name() {
         blanks();
-        const std::size_t from = at_;
-        while (at_ < text_.size() && (is_letter(text_[at_]) || (at_ > from && is_digit(text_[at_])))) ++at_;
-        return std::string_view(text_).substr(from, at_ - from);
+        const std::size_t begin = at_;
+        while (at_ < text_.size() && (is_letter(text_[at_]) || (at_ > begin && is_digit(text_[at_])))) ++at_;
+        return std::string_view(text_).substr(begin, at_ - begin);
     }
 
     // A name that is given to a value.
     bool assignment() {
         blanks();
-        const std::size_t from = at_;
+        const std::size_t begin = at_;
         const std::string_view word = name();
         if (word.empty() || !accept('=')) {
-            at_ = from;
+            at_ = begin;
             return false;
         }
         if (names_.contains(word) || is_function(word))
-            fail_in_formula(from, "\"" + std::string(word) + "\" means something already");
+            fail_in_formula(begin, "\"" + std::string(word) + "\" means something already");
         const Index value = sum();
         expect(';');
         names_.emplace(word, value);
@@ -176,11 +176,11 @@ class FormulaReader {
     }
     double number() {
         double value = 0;
-        const char* const from = text_.data() + at_;
-        const auto [end, error] = std::from_chars(from, text_.data() + text_.size(), value);
+        const char* const begin = text_.data() + at_;
+        const auto [end, error] = std::from_chars(begin, text_.data() + text_.size(), value);
         if (error != std::errc()) fail_in_formula(at_, "this number cannot be read");
         steps_.stand_at(at_);
-        at_ += static_cast<std::size_t>(end - from);
+        at_ += static_cast<std::size_t>(end - begin);
         return value;
     }
     Index atom() {

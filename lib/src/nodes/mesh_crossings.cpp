@@ -49,8 +49,8 @@ bool goes_through(const glm::dvec3& p, const glm::dvec3& q, const std::array<glm
 
 // Whether two triangles cross. Of two that share a vertex, the edges opposite to it are enough.
 bool cross(const Surface& s, std::uint32_t one, std::uint32_t other) {
-    const auto goes = [&](std::uint32_t from, std::uint32_t through) {
-        const glm::uvec3 &a = s.triangles[from], &b = s.triangles[through];
+    const auto goes = [&](std::uint32_t edges_of, std::uint32_t through) {
+        const glm::uvec3 &a = s.triangles[edges_of], &b = s.triangles[through];
         const auto is_shared = [&](std::uint32_t v) { return v == b.x || v == b.y || v == b.z; };
         const std::array<glm::dvec3, 3> corners{s.corner(through, 0), s.corner(through, 1), s.corner(through, 2)};
         for (int i = 0; i < 3; ++i) {

@@ -79,8 +79,8 @@ void Blur::along(std::size_t axis, std::vector<float>& values, const Size& size)
         for (std::size_t i = 0; i < n; ++i) {
             std::array<float, lanes> sum{};
             for (std::size_t k = 0; k < weights_.size(); ++k) {
-                const float* from = longer.data() + (i + k) * lanes;
-                for (std::size_t lane = 0; lane < lanes; ++lane) sum[lane] += weights_[k] * from[lane];
+                const float* shifted = longer.data() + (i + k) * lanes;
+                for (std::size_t lane = 0; lane < lanes; ++lane) sum[lane] += weights_[k] * shifted[lane];
             }
             std::ranges::copy(sum, bundle.data() + i * lanes);
         }

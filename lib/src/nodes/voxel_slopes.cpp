@@ -70,9 +70,9 @@ float larger(float a, float b) {
 
 // For all voxels of a block at once, the largest of the values before, at and behind along an axis.
 void larger_of_three(std::array<float, VoxelGrid::kept_values>& values, std::size_t stride) {
-    const std::array<float, VoxelGrid::kept_values> from = values;
-    for (std::size_t i = stride; i < from.size() - stride; ++i)
-        values[i] = larger(from[i], larger(from[i - stride], from[i + stride]));
+    const std::array<float, VoxelGrid::kept_values> original = values;
+    for (std::size_t i = stride; i < original.size() - stride; ++i)
+        values[i] = larger(original[i], larger(original[i - stride], original[i + stride]));
 }
 
 }  // namespace

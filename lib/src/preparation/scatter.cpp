@@ -36,8 +36,8 @@ class Neighbourhood {
         for (int k = -1; k <= 1; ++k)
             for (int j = -1; j <= 1; ++j)
                 for (int i = -1; i <= 1; ++i) {
-                    const auto [from, to] = cells_.equal_range(key(cell + glm::ivec3(i, j, k)));
-                    for (auto it = from; it != to; ++it)
+                    const auto [begin, end] = cells_.equal_range(key(cell + glm::ivec3(i, j, k)));
+                    for (auto it = begin; it != end; ++it)
                         if (glm::length(it->second - p) < spacing_) return false;
                 }
         return true;

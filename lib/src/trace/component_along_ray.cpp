@@ -83,9 +83,9 @@ ComponentAlongRay::ComponentAlongRay(const Visit& visit, const RayCrossing& c)
     registers_.resize(slots);
 }
 
-double ComponentAlongRay::upper_bound(float from, float to, double precision) {
+double ComponentAlongRay::upper_bound(float t_low, float t_high, double precision) {
     if (!output_) return Range::most;
-    const double middle = 0.5 * (double{from} + double{to}), half = 0.5 * (double{to} - double{from});
+    const double middle = 0.5 * (double{t_low} + double{t_high}), half = 0.5 * (double{t_high} - double{t_low});
     for (int i = 0; i < 3; ++i) {
         const auto along = static_cast<double>(direction_[i]);
         const double centre = static_cast<double>(origin_[i]) + middle * along, half_width = half * std::abs(along);

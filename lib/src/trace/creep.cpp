@@ -36,13 +36,13 @@ class Creep {
     bool finish() {
         Visit rest = visit_;
         for (float step = visit_.resolution;;) {
-            const float came_from = place_;
+            const float previous = place_;
             do {
                 pass_enclosed();
             } while (walk(step));
             // The search has taken too long, and neither the stretches nor the walks have gone on by a step.
-            if (spent_ > most_batches && !(place_ - came_from > step) && !leap(step)) return false;
-            rest.from = place_;
+            if (spent_ > most_batches && !(place_ - previous > step) && !leap(step)) return false;
+            rest.t_begin = place_;
             const bool is_hit = active_kernel().visit(rest, crossing_);
             spend(crossing_.batches);
             counters_.phantoms += crossing_.phantoms;
@@ -59,10 +59,10 @@ class Creep {
     struct Batch {
         BatchOfFloats t, label, distance;
     };
-    // Samples eight places behind `from`, `step` apart, none beyond `end`.
-    Batch sample(float from, float step, float end) {
+    // Samples eight places behind `begin`, `step` apart, none beyond `end`.
+    Batch sample(float begin, float step, float end) {
         Batch s;
-        for (std::size_t i = 0; i < batch_size; ++i) s.t[i] = std::min(from + step * static_cast<float>(i + 1), end);
+        for (std::size_t i = 0; i < batch_size; ++i) s.t[i] = std::min(begin + step * static_cast<float>(i + 1), end);
         alignas(64) float registers[few_slots * batch_size];
         active_kernel().sample_ray(*visit_.routine, crossing_.origin, &visit_.ray->direction.x, s.t.lane.data(),
                                    visit_.registers ? visit_.registers : registers, s.label.lane.data(),
@@ -70,10 +70,10 @@ class Creep {
         spend(1);
         return s;
     }
-    // Samples eight places between `from` and `end`, and goes to the last of them that has the label of the ray's
+    // Samples eight places between `begin` and `end`, and goes to the last of them that has the label of the ray's
     // phase. Returns whether there is one.
-    bool go_to(float from, float end) {
-        const Batch s = sample(from, (end - from) / batch_size, end);
+    bool go_to(float begin, float end) {
+        const Batch s = sample(begin, (end - begin) / batch_size, end);
         for (std::size_t i = batch_size; i-- > 0;)
             if (s.label[i] == crossing_.from && s.t[i] > place_) {
                 place_ = s.t[i];
@@ -107,9 +107,9 @@ class Creep {
     bool walk(float& step) {
         if (spent_ > most_batches) step *= 2;
         const float resolution = visit_.resolution, length = step_length * step;
-        float from = place_;
+        float begin = place_;
         for (std::uint64_t n = 0; n < batches_of_walk; ++n) {
-            const Batch s = sample(from, length, crossing_.length);
+            const Batch s = sample(begin, length, crossing_.length);
             bool is_other = false;
             for (std::size_t i = 0; i < batch_size; ++i) {
                 const bool was_other = is_other;
@@ -123,8 +123,8 @@ class Creep {
                 step = resolution;
                 return false;
             }
-            if (!(place_ > from) || !(place_ < crossing_.length)) return false;
-            from = place_ + std::max(distance, 0.f);
+            if (!(place_ > begin) || !(place_ < crossing_.length)) return false;
+            begin = place_ + std::max(distance, 0.f);
         }
         return true;
     }
