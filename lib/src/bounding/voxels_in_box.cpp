@@ -25,7 +25,7 @@ struct Counted {
         for (std::size_t i = 0; i < 3; ++i) {
             const auto spacing = 1 / static_cast<double>(data[voxels::inverse_spacing + i]);
             const double centre = (box.centre[i] - static_cast<double>(data[voxels::first + i])) / spacing;
-            // A place in voxels is rounded as a float.
+            // A coordinate in voxels is rounded as a float.
             const double half_extent = box.reach[i] / spacing + 1e-6 * (std::abs(centre) + 64);
             const auto size = static_cast<double>(data[voxels::size + i]);
             const double beyond = is_spline ? 0.5 : 0;

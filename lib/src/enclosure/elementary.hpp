@@ -19,7 +19,7 @@ inline Enclosure composed(const Enclosure& x, double g, double slope, const Rang
     r.set_curvature(x.curvature * slopes + squares_of_slope(x) * bends);
     return r;
 }
-/// The range of the sine: −1 or 1 where the range has the place of an extremum, else at the ends.
+/// The range of the sine: −1 or 1 where the range contains that of an extremum, else at the ends.
 inline Range range_of_sine(const Range& x) {
     const double turn = 2 * std::numbers::pi, quarter = std::numbers::pi / 2;
     if (x.high - x.low >= turn) return {-1, 1};

@@ -11,7 +11,7 @@ struct Interval {
     double low, high;
 };
 
-// As the functions of the same names in places.inl, in double.
+// As the functions of the same names in sample_positions.inl, in double.
 HWY_INLINE double larger(double x, double y) {
     return x > y ? x : y;
 }

@@ -35,7 +35,7 @@ struct BoxOfDoubles {
         return both;
     }
     /// Its middle, as text for an error.
-    std::string place() const {
+    std::string middle_text() const {
         const auto m = middle();
         const auto text = [](double v) {
             std::array<char, 32> buffer;

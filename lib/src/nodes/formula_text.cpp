@@ -109,14 +109,14 @@ class FormulaReader {
         Index left = product();
         while (true) {
             blanks();
-            const std::size_t place = at_;
+            const std::size_t offset = at_;
             if (accept('+')) {
                 const Index right = product();
-                steps_.stand_at(place);
+                steps_.stand_at(offset);
                 left = steps_.add(left, right);
             } else if (accept('-')) {
                 const Index right = product();
-                steps_.stand_at(place);
+                steps_.stand_at(offset);
                 left = steps_.subtract(left, right);
             } else {
                 return left;
@@ -127,14 +127,14 @@ class FormulaReader {
         Index left = with_sign();
         while (true) {
             blanks();
-            const std::size_t place = at_;
+            const std::size_t offset = at_;
             if (accept('*')) {
                 const Index right = with_sign();
-                steps_.stand_at(place);
+                steps_.stand_at(offset);
                 left = steps_.multiply(left, right);
             } else if (accept('/')) {
                 const Index right = with_sign();
-                steps_.stand_at(place);
+                steps_.stand_at(offset);
                 left = steps_.divide(left, right);
             } else {
                 return left;
@@ -149,16 +149,16 @@ class FormulaReader {
             else if (!accept('+'))
                 break;
         }
-        const std::size_t place = at_;
+        const std::size_t offset = at_;
         const Index value = power();
         if (!is_negative) return value;
-        steps_.stand_at(place);
+        steps_.stand_at(offset);
         return steps_.negate(value);
     }
     Index power() {
         const Index base = atom();
         blanks();
-        const std::size_t place = at_;
+        const std::size_t offset = at_;
         if (!accept('^')) return base;
         double sign = 1;
         while (true) {
@@ -171,7 +171,7 @@ class FormulaReader {
         if (at_ >= text_.size() || !(is_digit(text_[at_]) || text_[at_] == '.'))
             fail_in_formula(at_, "an exponent must be a number" + found());
         const double exponent = sign * number();
-        steps_.stand_at(place);
+        steps_.stand_at(offset);
         return steps_.power(base, exponent);
     }
     double number() {
@@ -186,7 +186,7 @@ class FormulaReader {
     Index atom() {
         const Level level(*this);
         blanks();
-        const std::size_t place = at_;
+        const std::size_t offset = at_;
         if (accept('(')) {
             const Index inner = sum();
             expect(')');
@@ -195,11 +195,11 @@ class FormulaReader {
         if (at_ < text_.size() && (is_digit(text_[at_]) || text_[at_] == '.')) return steps_.constant(number());
         const std::string_view word = name();
         if (word.empty()) fail_in_formula(at_, "a number, a name or \"(\" is expected here" + found());
-        if (accept('(')) return call(word, place);
+        if (accept('(')) return call(word, offset);
         if (const auto known = names_.find(word); known != names_.end()) return known->second;
-        fail_in_formula(place, is_function(word)
-                                   ? "\"" + std::string(word) + "\" is a function: (…) is missing behind it"
-                                   : "there is no name \"" + std::string(word) + "\"; there are " + all_names());
+        fail_in_formula(offset, is_function(word)
+                                    ? "\"" + std::string(word) + "\" is a function: (…) is missing behind it"
+                                    : "there is no name \"" + std::string(word) + "\"; there are " + all_names());
     }
     std::string all_names() const {
         std::string all;
@@ -214,25 +214,25 @@ class FormulaReader {
     }
     static bool is_function(std::string_view word) { return function_of(word) != nullptr; }
 
-    Index call(std::string_view word, std::size_t place) {
+    Index call(std::string_view word, std::size_t offset) {
         const FormulaFunction* const function = function_of(word);
         if (!function) {
             std::string all;
             for (const FormulaFunction& f : formula_functions()) all += (all.empty() ? "" : ", ") + std::string(f.name);
-            fail_in_formula(place, "there is no function \"" + std::string(word) + "\"; there are " + all);
+            fail_in_formula(offset, "there is no function \"" + std::string(word) + "\"; there are " + all);
         }
         std::vector<Index> arguments;
         do arguments.push_back(sum());
         while (accept(','));
         expect(')');
         if (arguments.size() < function->least || arguments.size() > function->most)
-            fail_in_formula(place, "\"" + std::string(word) + "\" takes " + std::to_string(function->least) +
-                                       (function->most == function->least ? ""
-                                        : function->most > 100            ? " or more"
-                                                                          : " to " + std::to_string(function->most)) +
-                                       (function->most == 1 ? " argument" : " arguments") + ", but has " +
-                                       std::to_string(arguments.size()));
-        steps_.stand_at(place);
+            fail_in_formula(offset, "\"" + std::string(word) + "\" takes " + std::to_string(function->least) +
+                                        (function->most == function->least ? ""
+                                         : function->most > 100            ? " or more"
+                                                                           : " to " + std::to_string(function->most)) +
+                                        (function->most == 1 ? " argument" : " arguments") + ", but has " +
+                                        std::to_string(arguments.size()));
+        steps_.stand_at(offset);
         return function->apply(steps_, arguments);
     }
 

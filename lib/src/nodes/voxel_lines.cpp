@@ -26,7 +26,7 @@ void for_each_bundle(std::size_t axis, std::vector<float>& values, const Size& s
                                        static_cast<std::size_t>(size[2])};
     const std::array<std::size_t, 3> stride{1, n[0], n[0] * n[1]};
     const std::size_t across = axis == 0 ? 1 : 0, outer = 3 - axis - across;
-    const std::size_t bundles = (n[across] + lanes - 1) / lanes;  // at each place along the outer axis
+    const std::size_t bundles = (n[across] + lanes - 1) / lanes;  // at each position along the outer axis
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n[outer] * bundles), [&](const auto& range) {
         Bundle bundle(n[axis] * lanes);
         for (std::size_t i = range.begin(); i < range.end(); ++i) {

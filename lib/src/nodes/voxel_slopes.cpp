@@ -25,7 +25,7 @@ double largest_at_kept_blocks(const std::vector<float>& table, F&& f) {
     return largest.empty() ? 0.0 : *std::ranges::max_element(largest);
 }
 
-// The same of f(values about a voxel); the neighbours along x, y and z are 1, 10 and 100 places before and behind.
+// The same of f(values about a voxel); the neighbours along x, y and z are 1, 10 and 100 floats before and behind.
 // Voxels behind the grid's last ones are copies of them, at which nothing is steeper than at those.
 template <class F>
 double largest_at_kept_voxels(const std::vector<float>& table, F&& f) {
@@ -78,7 +78,7 @@ void larger_of_three(std::array<float, VoxelGrid::kept_values>& values, std::siz
 }  // namespace
 
 // The derivative along x is an average of the differences along x between the 27 voxels, so it is at most the largest
-// of them. The bound on the slope takes the largest along each axis, which need not be at one place. They are found for
+// of them. The bound on the slope takes the largest along each axis, which need not be at one point. They are found for
 // all voxels of a block at once, along one axis after the other; what these loops compute for voxels at the block's
 // border wraps around it, and is not used. The sum of squares is taken in floats first, which lose less than a part in
 // 10⁵, and in doubles where it may be the largest.

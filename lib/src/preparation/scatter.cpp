@@ -24,7 +24,7 @@ double next_fraction(SplitMix64& random) {
     return static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
-// The points that were accepted, in a hashed grid, so that those near a place are found without a look at all.
+// The points that were accepted, in a hashed grid, so that those near a point are found without a look at all.
 class Neighbourhood {
   public:
     explicit Neighbourhood(float spacing) : spacing_(spacing) {}
@@ -68,7 +68,7 @@ struct Line {
 
     glm::vec3 at(float along) const { return origin + along * direction; }
 };
-// A change of the field's sign along a line, between two places.
+// A change of the field's sign along a line, between two points.
 struct Change {
     std::size_t line = 0;
     float low = 0, high = 0;
@@ -127,7 +127,7 @@ class Search {
                      angle = 2 * pi * next_fraction(random_);
         return {glm::vec3(glm::dvec3(centre_) + r * (std::cos(angle) * u + std::sin(angle) * v)), glm::vec3(d)};
     }
-    // The field at one place of each line.
+    // The field at one point of each line.
     BatchOfFloats along_lines(float Line::*t) {
         BatchOfPoints points;
         for (std::size_t i = 0; i < lines_.size(); ++i) points.set(i, lines_[i].at(lines_[i].*t));

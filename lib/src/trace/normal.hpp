@@ -18,9 +18,9 @@ using evaluation::Component;
 /// only if it agrees with the component's value: a plane with this normal and distance must cross the ray within the
 /// bracket. If the gradient at the near end does not, others are tried, in this order:
 ///  * a resolution before the bracket on the ray;
-///  * a resolution from the near end into `from`, against the normal of the place before, then against its own;
+///  * a resolution from the near end into `from`, against the normal of the point before, then against its own;
 ///  * the far end, a resolution behind it on the ray, and a resolution from it into `to`, along the last normal;
-///  * two resolutions from both ends along the coordinate axes, of which the place deepest in its phase is taken.
+///  * two resolutions from both ends along the coordinate axes, of which the point deepest in its phase is taken.
 /// If none agrees, the normal is taken that has the smallest angle to the ray.
 ///
 /// `component(p, phase)` gives a component and its gradient, and `holds(p)` tells whether it can do so at p.
