@@ -8,8 +8,8 @@
 //
 // If that comes up to the top, the top falls to its lower end. So a beam is walked downward as a ray is traced by
 // spheres. Near a face that lies across d large balls from far above are the best: a ball that touches the face comes
-// as near to it as ρ²/2r all over the section. Once no ball brings the top further down, the beam is halved along its
-// longer side. The beam with the highest top is always the next; its top bounds the solid, at any time.
+// as near to it as ρ²/2r all over the section. Once no ball brings the top further down, the beam is divided in two
+// along its longer side. The beam with the highest top is always the next; its top bounds the solid, at any time.
 #include "carving/support.hpp"
 
 #include <glm/geometric.hpp>
