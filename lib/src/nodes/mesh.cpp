@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint32_t most_in_leaf = 4;
 
 // What a product with a unit vector may be wrong by, as a share of the length of what is multiplied.
-constexpr double relative_error = 0x1p-22;
+constexpr double product_error = 0x1p-22;
 
 void append(std::vector<float>& floats, const glm::dvec3& v) {
     for (int i = 0; i < 3; ++i) floats.push_back(static_cast<float>(v[i]));
@@ -101,7 +101,7 @@ class TableWriter {
         table.push_back(static_cast<float>(glm::dot(inward[1], p[1] - p[0])));
         const double longest =
             std::max({glm::distance(p[0], p[1]), glm::distance(p[1], p[2]), glm::distance(p[2], p[0])});
-        table.push_back(static_cast<float>(relative_error * longest));
+        table.push_back(static_cast<float>(product_error * longest));
     }
     void append_edge(const SharedEdge& e, std::vector<float>& table) const {
         const glm::dvec3 a = s_.at(e.ends[0]), along = s_.at(e.ends[1]) - a;
@@ -111,7 +111,7 @@ class TableWriter {
         table.push_back(static_cast<float>(1 / glm::dot(along, along)));
         append(table, unit(m + n));
         table.push_back(static_cast<float>(angle_between(m, n) / 2));
-        table.push_back(static_cast<float>(relative_error));
+        table.push_back(static_cast<float>(product_error));
     }
     void append_vertex(std::uint32_t v, std::vector<float>& table) const {
         append(table, s_.at(v));
