@@ -25,8 +25,8 @@ namespace phasetree::enclosure {
 /// −curvature.low·h²/8; and f is semiconcave with the constant curvature.high: minima of such fields are so too,
 /// whatever their seams.
 ///
-/// It is computed in double without directed rounding. Its users must allow for the rounding errors of floats, which are
-/// larger: for twice the bound of one value's, because primitives may be known at the centre by floats, too.
+/// It is computed in double without directed rounding. Its users must allow for the rounding errors of floats, which
+/// are larger: for twice the bound of one value's, because primitives may be known at the centre by floats, too.
 struct Enclosure {
     using Vector = std::array<double, 3>;
 
