@@ -13,12 +13,12 @@ namespace {
 constexpr std::size_t most_enclosed = 12;
 
 Enclosure enclosed(const float* ball, const Vec3<Enclosure>& q, const Enclosure::Vector& half) {
-    const Vec3<Enclosure> from{q.x - ball[0], q.y - ball[1], q.z - ball[2]};
+    const Vec3<Enclosure> offset{q.x - ball[0], q.y - ball[1], q.z - ball[2]};
     const Sphere sphere{ball[3]};
     Enclosure result;
-    const std::optional<AffinePoint> affine = AffinePoint::of(from, half);
+    const std::optional<AffinePoint> affine = AffinePoint::of(offset, half);
     if (!affine || !enclose_convex(sphere, *affine, result)) {
-        result = known_to_be_convex(sphere.distance(from), from);
+        result = known_to_be_convex(sphere.distance(offset), offset);
         tighten_by_linear_bound(result, half);
     }
     result.tighten(half);

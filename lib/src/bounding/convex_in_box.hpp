@@ -76,7 +76,7 @@ bool enclose_convex(const P& solid, const AffinePoint& point, Enclosure& result)
     if (!(least_radius > 0)) return false;
     const double inverse = 1 / least_radius, curvature = point.squared_stretch * inverse;
     // A bound of the rounding error of the gradient: by that of the centre's coordinates, and its own.
-    const double rounding = point.stretch * (4e-7 * point.largest_coordinate * inverse + 1e-6);
+    const double rounding_error = point.stretch * (4e-7 * point.largest_coordinate * inverse + 1e-6);
 
     result.centre = value;
     result.value = limited(value - drop, value + drop + 0.5 * curvature * point.squared_radius);
@@ -84,7 +84,7 @@ bool enclose_convex(const P& solid, const AffinePoint& point, Enclosure& result)
         const double g = slope[static_cast<int>(i)];
         // The eigenvalues of the second derivatives are between 0 and `curvature`: they are half of that times the
         // identity, and a matrix whose norm is no more than half of it.
-        const double change = 0.5 * curvature * (point.half[i] + point.radius) + rounding;
+        const double change = 0.5 * curvature * (point.half[i] + point.radius) + rounding_error;
         result.gradient[i] = limited(g - change, g + change);
         result.centre_gradient[i] = g;
     }

@@ -191,7 +191,7 @@ std::optional<ValueRanges> Encloser::value_ranges(const WorkingProgram& program)
     if (size > longest_enclosed && (size > 4 * longest_enclosed || !has_local_primitive(program))) return std::nullopt;
     enclose_values(program);
 
-    // The margin is for the rounding of a value in a ray's evaluation and for that of the value at the centre.
+    // The margin is for the rounding error of a value in a ray's evaluation and for that of the value at the centre.
     const double margin = 2 * static_cast<double>(context_.value_error);
     const std::span<float> low = scratch_.allocate<float>(size), high = scratch_.allocate<float>(size);
     const auto set = [&](std::size_t i, const Range& v) {

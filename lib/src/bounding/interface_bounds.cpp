@@ -50,7 +50,7 @@ LinearBound Encloser::linear_bound(const NearlyLinear& linear, const Enclosure& 
     const float largest_coordinate = std::max({farthest.x, farthest.y, farthest.z});
     for (int i = 0; i < 3; ++i) bound.normal[i] = static_cast<float>(linear.normal[static_cast<std::size_t>(i)]);
     bound.offset = static_cast<float>(linear.at_centre - glm::dot(glm::dvec3(bound.normal), glm::dvec3(box_.centre())));
-    // The last summand is for the rounding of normal·p + offset.
+    // The last summand is for the rounding error of normal·p + offset.
     bound.slack =
         static_cast<float>(linear.slack) * (1 + 1e-6f) + 3 * context_.value_error + 1e-6f * largest_coordinate;
     // Directions of rays are of unit length to within 10⁻⁵.

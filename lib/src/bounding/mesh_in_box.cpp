@@ -19,16 +19,16 @@ namespace {
 // hold 0 along every coordinate, and say little more than that the field is 1-Lipschitz.
 constexpr double widest = std::numbers::pi / 3;
 
-// Calls f(normal, spread) for each piece.
+// Calls f(normal, largest angle to a face about the piece) for each piece.
 template <class F>
 void for_each_normal(const float* data, F&& f) {
     const float* piece = data + PieceList::head;
     mesh::for_each_kind([&]<class Kind>() {
         for (std::size_t left = PieceList::count(data, Kind::kind); left > 0; --left, piece += Kind::floats) {
             const float* n = piece + Kind::normal;
-            double spread = 0;
-            if constexpr (!std::is_same_v<Kind, Face>) spread = static_cast<double>(piece[Kind::spread]);
-            f(glm::dvec3(n[0], n[1], n[2]), spread);
+            double largest_angle = 0;
+            if constexpr (!std::is_same_v<Kind, Face>) largest_angle = static_cast<double>(piece[Kind::spread]);
+            f(glm::dvec3(n[0], n[1], n[2]), largest_angle);
         }
     });
 }
@@ -47,8 +47,8 @@ std::optional<FieldInBox> mesh_in_box(const float* pieces, const PointRange& at)
     if (!(length > 1e-3)) return std::nullopt;
     axis /= length;
     double angle = 0;
-    for_each_normal(pieces, [&](const glm::dvec3& n, double spread) {
-        angle = std::max(angle, std::atan2(glm::length(glm::cross(axis, n)), glm::dot(axis, n)) + spread);
+    for_each_normal(pieces, [&](const glm::dvec3& n, double largest_angle) {
+        angle = std::max(angle, std::atan2(glm::length(glm::cross(axis, n)), glm::dot(axis, n)) + largest_angle);
     });
     if (!(angle < widest)) return std::nullopt;
 

@@ -61,11 +61,11 @@ struct NearlyLinear {
 /// Narrows the value's range to what a linear bound allows in a box of these half extents.
 inline void tighten_by_linear_bound(Enclosure& f, const Enclosure::Vector& half) {
     const NearlyLinear linear(f, half);
-    double reach = linear.slack;
-    for (std::size_t i = 0; i < 3; ++i) reach += std::abs(linear.normal[i]) * half[i];
-    if (!(reach < 1e30)) return;
-    const double low = std::max(f.value.low, linear.at_centre - reach);
-    const double high = std::min(f.value.high, linear.at_centre + reach);
+    double half_width = linear.slack;
+    for (std::size_t i = 0; i < 3; ++i) half_width += std::abs(linear.normal[i]) * half[i];
+    if (!(half_width < 1e30)) return;
+    const double low = std::max(f.value.low, linear.at_centre - half_width);
+    const double high = std::min(f.value.high, linear.at_centre + half_width);
     f.value = {std::min(low, high), std::max(low, high)};  // see Enclosure::tighten()
 }
 

@@ -53,9 +53,9 @@ Range eigenvalues(const double* h) {
     if (!(p > 0)) return {mean, mean};
     const double determinant = a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz);
     const double angle = std::acos(std::clamp(determinant / (2 * p * p * p), -1.0, 1.0)) / 3;
-    const double rounding = 1e-7 * (p + std::abs(mean));  // Near ±1 acos has half of the digits.
-    return {mean + 2 * p * std::cos(angle + 2 * std::numbers::pi / 3) - rounding,
-            mean + 2 * p * std::cos(angle) + rounding};
+    const double rounding_error = 1e-7 * (p + std::abs(mean));  // Near ±1 acos has half of the digits.
+    return {mean + 2 * p * std::cos(angle + 2 * std::numbers::pi / 3) - rounding_error,
+            mean + 2 * p * std::cos(angle) + rounding_error};
 }
 
 // Replaces the polynomial of z by that of sin z, in a box of this radius.
@@ -114,8 +114,8 @@ FieldInBox network_in_box(const float* data, const std::array<double, 3>& centre
     }
 
     Jet& f = *in;
-    constexpr double rounding = 1 + 1e-9;
-    const double fourth = f.fourth() * rounding;
+    constexpr double margin = 1 + 1e-9;
+    const double fourth = f.fourth() * margin;
     FieldInBox result;
     result.value = f.value();
     for (std::size_t i = 0; i < 3; ++i) {
@@ -128,10 +128,10 @@ FieldInBox network_in_box(const float* data, const std::array<double, 3>& centre
                 change += 0.5 * std::abs(f.third()[third_index[i][second_index[j][l]]]) * half[j] * half[l];
         }
         result.gradient[i] = f.first()[i];
-        result.gradients[i] = limited(result.gradient[i] - change * rounding, result.gradient[i] + change * rounding);
+        result.gradients[i] = limited(result.gradient[i] - change * margin, result.gradient[i] + change * margin);
     }
     const Range at_centre = eigenvalues(f.second());
-    const double change = radius * (norm3(f.third()) + radius / 2 * fourth) * rounding;
+    const double change = radius * (norm3(f.third()) + radius / 2 * fourth) * margin;
     result.curvature = limited(at_centre.low - change, at_centre.high + change);
     return result;
 }

@@ -16,7 +16,7 @@ namespace phasetree::bounding {
 class PlaneCut {
   public:
     PlaneCut() = default;
-    /// `margin` bounds the error of rounding, as a distance: cut_margin().
+    /// `margin` bounds the rounding error, as a distance: cut_margin().
     PlaneCut(const NearlyLinear& f, const glm::vec3& middle, float margin)
         : middle_(LaneBox::lanes(middle)),
           at_middle_(static_cast<float>(f.at_centre)),

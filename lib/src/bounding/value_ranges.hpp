@@ -4,7 +4,7 @@
 
 namespace phasetree::bounding {
 
-/// The range of every value of an enclosed program, with a margin for the rounding of floats.
+/// The range of every value of an enclosed program, with a margin for the rounding errors of floats.
 struct ValueRanges {
     std::span<const float> lows, highs;
     std::span<const float> slope;  ///< a Lipschitz bound of each value in the box

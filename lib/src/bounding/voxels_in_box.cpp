@@ -25,19 +25,19 @@ struct Counted {
         for (std::size_t i = 0; i < 3; ++i) {
             const auto spacing = 1 / static_cast<double>(data[voxels::inverse_spacing + i]);
             const double centre = (box.centre[i] - static_cast<double>(data[voxels::first + i])) / spacing;
-            // A place in voxels is rounded as a float.
-            const double reach = box.reach[i] / spacing + 1e-6 * (std::abs(centre) + 64);
+            // A coordinate in voxels is rounded as a float.
+            const double half_extent = box.reach[i] / spacing + 1e-6 * (std::abs(centre) + 64);
             const auto size = static_cast<double>(data[voxels::size + i]);
             const double beyond = is_spline ? 0.5 : 0;
-            is_beyond[i] = centre - reach < -beyond || centre + reach > size - 1 + beyond;
-            const double low = std::clamp(centre - reach, 0.0, size - 1),
-                         high = std::clamp(centre + reach, 0.0, size - 1);
-            const double from = is_spline ? std::floor(low + 0.5) - 1 : std::floor(low);
-            const double to = std::floor(is_spline ? high + 0.5 : high) + 1;
+            is_beyond[i] = centre - half_extent < -beyond || centre + half_extent > size - 1 + beyond;
+            const double low = std::clamp(centre - half_extent, 0.0, size - 1),
+                         high = std::clamp(centre + half_extent, 0.0, size - 1);
+            const double lowest = is_spline ? std::floor(low + 0.5) - 1 : std::floor(low);
+            const double highest = std::floor(is_spline ? high + 0.5 : high) + 1;
             // A spline also has the copies next to the border voxels, where the differences are zero.
             const double copies = is_spline ? 1 : 0;
-            first[i] = static_cast<int>(std::max(from, -copies));
-            last[i] = static_cast<int>(std::min(to, size - 1 + copies));
+            first[i] = static_cast<int>(std::max(lowest, -copies));
+            last[i] = static_cast<int>(std::min(highest, size - 1 + copies));
             // At the border the last cell of two voxels goes on.
             if (!is_spline) first[i] = std::max(std::min(first[i], static_cast<int>(size) - 2), 0);
         }
@@ -145,8 +145,8 @@ VoxelsInBox voxels_in_box(const float* data, const PointRange& box, bool is_spli
     FieldInBox field;
     field.values = differences.values();
     // The values of the field are rounded as its equation rounds.
-    const double rounding = 4e-7 * field.values.magnitude();
-    field.values = {field.values.low - rounding, field.values.high + rounding};
+    const double rounding_error = 4e-7 * field.values.magnitude();
+    field.values = {field.values.low - rounding_error, field.values.high + rounding_error};
     std::array<double, 3> inverse;
     for (std::size_t i = 0; i < 3; ++i) {
         inverse[i] = static_cast<double>(data[voxels::inverse_spacing + i]);

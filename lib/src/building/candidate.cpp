@@ -26,7 +26,7 @@ constexpr float copies_in_period = 4;
 // program's outputs.
 constexpr float work_of_joining = 24;
 // Lists of parts are much of a program's work if they are at least a quarter of it, what joins them left aside.
-constexpr float least_part_of_work = 0.25f;
+constexpr float least_share_of_work = 0.25f;
 // A box less than this times as large as a part has lists that are short enough, for few parts are near it.
 constexpr float few_parts = 1.5f;
 
@@ -87,12 +87,13 @@ class CandidateSearch {
         return !interface.box.empty() && !cell.facts.box.empty();
     }
     // Whether the program is worth being enclosed again in what is left of the box. That is not done with local
-    // primitives, because the parts of the node start from the specialisations in the node's whole box.
+    // primitives, because the node's children start from the specialisations in the node's whole box.
     bool is_much_smaller(const Candidate& cell, const Bounds& before) const {
         return surface(cell.facts.box) < much_smaller * surface(before) &&
                !(context_.program.has_local_primitives && has_local_primitive(cell.program));
     }
-    // An encloser for a part of the region. It reaches as far around a box as the programs of its parts must be right.
+    // An encloser for a smaller box in the region. It extends beyond the box by the reach, in which programs must be
+    // right.
     Encloser* narrower_encloser(const Bounds& box) {
         return std::construct_at(worker_.scratch.allocate<Encloser>(1).data(), context_.program,
                                  intersect(region_, box.inflated(context_.reach)), std::span<const Specialisation>(),
@@ -111,7 +112,7 @@ class CandidateSearch {
         if (!context_.program.has_local_primitives) return;
         const bool is_searched = has_search(cell);
         const float of_parts = work_of_parts(cell.program, cell.specialisations);
-        if (!is_searched && of_parts >= least_part_of_work * (cell.work.all - work_of_joining))
+        if (!is_searched && of_parts >= least_share_of_work * (cell.work.all - work_of_joining))
             cell.work_of_parts = of_parts;
         // Lists in small boxes are short unless what is wanted is far from the parts, as a wide wall around a mesh is;
         // and then smaller boxes would be very many.
@@ -132,7 +133,7 @@ class CandidateSearch {
     const BuildContext& context_;
     Worker& worker_;
     float size_;     // of the node's box, which is cut once the first candidate has been found
-    Bounds region_;  // the node's box, inflated by what its cells reach beyond it
+    Bounds region_;  // the node's box, inflated by the reach of its cells
     Encloser encloser_;
 };
 
@@ -150,7 +151,7 @@ bool prepare(BuildNode& node, const BuildContext& context, Worker& worker) {
     node.box = intersect(node.box, whole->facts.box);
     if (node.box.empty()) return false;
     if (!context.program.has_far_bounds) return true;
-    // A cell may be cheaper without far bounds. The node keeps them, since they may be of use to its parts.
+    // A cell may be cheaper without far bounds. The node keeps them, since they may be of use to its children.
     if (const auto near = without_far_bounds(node.program, context.program, worker.arenas())) {
         const auto other = search.find(*near);
         if (!other) return false;  // It has the same signs, and is proven to have no interface in the box.

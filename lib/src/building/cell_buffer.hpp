@@ -16,7 +16,7 @@ using rewriting::WorkingProgram;
 
 /// Cells in the order in which they were found, with their programs. It is a stack: the last cells can be discarded.
 struct CellBuffer {
-    /// A cell, whose program and certificate are parts of the vectors below.
+    /// A cell, whose program and certificate are ranges of the vectors below.
     struct Cell {
         Bounds box;
         LinearBound bound;

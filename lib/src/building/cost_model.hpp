@@ -8,7 +8,7 @@
 /// long as the cell's program:
 ///     cost = surface · (visit + batches · (batch + instruction · work)),
 /// where the number of batches is larger the less is known of the field. A box that is divided costs traversal ·
-/// surface and what its parts cost.
+/// surface and what its children cost.
 ///
 /// Costs are in nanoseconds times an area, up to a common factor. They are rough, because they serve only to compare a
 /// box with the cells that it could be divided into. The constants were measured (benchmarks/experiments.md).
@@ -19,7 +19,7 @@ using rewriting::Arena, rewriting::Specialisation, rewriting::WorkingProgram;
 
 namespace cost_model {
 // These are in nanoseconds.
-/// Of one more node of Embree's hierarchy, whose children are the parts of a box.
+/// Of one more node of Embree's hierarchy, which stands for a box that is divided.
 inline constexpr float traversal = 12;
 inline constexpr float visit = 60;          ///< of entering a cell
 inline constexpr float batch = 25;          ///< of a batch of samples,

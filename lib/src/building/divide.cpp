@@ -1,5 +1,5 @@
 // The recursive subdivision. Whether a box is divided is decided from below, as in the construction of a bounding
-// volume hierarchy by the surface area heuristic: the box becomes one cell unless the cells of its parts cost less
+// volume hierarchy by the surface area heuristic: the box becomes one cell unless the cells of its children cost less
 // (cost_model.hpp). What decides whether to go further down is a bound of what that can save.
 #include "building/divide.hpp"
 
@@ -30,9 +30,9 @@ namespace {
 
 // Progress is reported down to this depth; what is below is done soon. A share is reported once: when a box at this
 // depth is done, or, above this depth, when a box becomes a cell without a trial or when no ray can meet an interface
-// in any of its parts.
+// in any of its children.
 constexpr int reported_depth = 5;
-// Down to this depth the parts of a box are divided in parallel.
+// Down to this depth the children of a box are divided in parallel.
 constexpr int parallel_depth = 3;
 
 // A box in which millions of parts are searched may be divided this often beyond CellOptions::deepest, because rays pay
@@ -75,7 +75,7 @@ CellCosts add_cell(const BuildNode& node, Worker& worker) {
     return {cell.cost, interface_area(cell.facts.box)};
 }
 
-// Whether a node becomes one cell without a trial of its parts.
+// Whether a node becomes one cell without a trial of its children.
 bool is_final(const BuildNode& node, const BuildContext& context, CellBudget& budget) {
     const Candidate& cell = node.cell;
     const float diagonal = node.box.diagonal(), least = least_cost(cell.facts.box);
@@ -97,7 +97,7 @@ bool is_final(const BuildNode& node, const BuildContext& context, CellBudget& bu
            !budget.is_worth_dividing(node.box, cell.cost - least);
 }
 
-// Finds the cells of a node: itself, or those of its parts if they cost less.
+// Finds the cells of a node: itself, or those of its children if they cost less.
 CellCosts find_cells(const BuildNode& node, const BuildContext& context, Worker& worker) {
     if (is_final(node, context, worker.pool.budget())) {
         if (node.depth <= reported_depth) context.progress.add(node.share);
@@ -108,7 +108,7 @@ CellCosts find_cells(const BuildNode& node, const BuildContext& context, Worker&
     CellCosts divided = divide(node, context, worker);
     if (node.depth == reported_depth) context.progress.add(node.share);
     divided.all += cost_model::traversal * surface(node.box);
-    // Rays also start at the interfaces. A single cell is assumed to have one interface across it; if the parts have
+    // Rays also start at the interfaces. A single cell is assumed to have one interface across it; if the children have
     // found more, more rays start in it than its cost accounts for.
     const Bounds& box = node.cell.facts.box;
     const float excess_area = std::max(0.f, divided.interface_area - interface_area(box));
@@ -122,7 +122,7 @@ CellCosts find_cells(const BuildNode& node, const BuildContext& context, Worker&
 }
 
 // Evaluates a node's program at the centres of boxes, one in each lane. The result reads lane 0, which has the values
-// for the first box; Division::prepare_part() reads the lanes of the others.
+// for the first box; Division::prepare_child() reads the lanes of the others.
 ValuesAtPoint values_at_centres(const BuildNode& node, const SubBoxes& boxes, Worker& worker) {
     SharedConstants& constants = worker.pool.constants();
     std::size_t count = 0;
@@ -131,7 +131,7 @@ ValuesAtPoint values_at_centres(const BuildNode& node, const SubBoxes& boxes, Wo
     const WorkingProgram program = specialised(node.program, node.specialisations, worker.specialised, worker.scratch,
                                                constants.first_behind(worker.number, count));
     const ReadableSteps steps = readable_steps(program, worker.scratch);
-    static_assert(batch_size >= SubBoxes::most, "each part has a lane of its own");
+    static_assert(batch_size >= SubBoxes::most, "each child has a lane of its own");
     BatchOfFloats x, y, z;
     for (std::size_t i = 0; i < batch_size; ++i) {
         const glm::vec3 c = boxes.box[std::min(i, boxes.count - 1)].centre();
@@ -146,7 +146,7 @@ ValuesAtPoint values_at_centres(const BuildNode& node, const SubBoxes& boxes, Wo
     return {registers.data(), steps.slot, 0};
 }
 
-// The division of one node: its parts, and who finds their cells.
+// The division of one node: its children, and who finds their cells.
 class Division {
   public:
     Division(const BuildNode& node, const BuildContext& context, Worker& worker)
@@ -155,25 +155,25 @@ class Division {
           worker_(worker),
           boxes_(node.box),
           values_(values_at_centres(node, boxes_, worker)),
-          parts_(worker.scratch.allocate<BuildNode>(boxes_.count)),
+          children_(worker.scratch.allocate<BuildNode>(boxes_.count)),
           has_jumps_(context.program.has_folds && may_jump(node.program)) {
         if (node.depth < parallel_depth)
             for (std::size_t i = 0; i < boxes_.count; ++i) borrowed_.push_back(worker.pool.borrow());
     }
 
     CellCosts run() {
-        for_each_part([&](std::size_t i, Worker& own) { is_left_[i] = prepare_part(i, own); });
+        for_each_child([&](std::size_t i, Worker& own) { is_left_[i] = prepare_child(i, own); });
         left_count_ = std::ranges::count(is_left_, true);
-        // If a part is left, the shares of the parts are reported instead, each where its cells are found.
+        // If a child is left, the shares of the children are reported instead, each where its cells are found.
         if (left_count_ == 0 && node_.depth < reported_depth) context_.progress.add(node_.share);
         float cost = cost_model::traversal * surface(node_.box);
         for (std::size_t i = 0; i < boxes_.count; ++i)
-            if (is_left_[i]) cost += parts_[i].cell.cost;
+            if (is_left_[i]) cost += children_[i].cell.cost;
         cost_ratio_ = node_.cost_ratio * cost / node_.cell.cost;
 
         std::array<CellCosts, SubBoxes::most> costs{};
-        for_each_part([&](std::size_t i, Worker& own) {
-            if (is_left_[i]) costs[i] = find_cells_of_part(parts_[i], own);
+        for_each_child([&](std::size_t i, Worker& own) {
+            if (is_left_[i]) costs[i] = find_cells_of_child(children_[i], own);
         });
         for (const WorkerPool::Borrowed& own : borrowed_) {
             worker_.cells.append(own->cells);
@@ -188,19 +188,19 @@ class Division {
     }
 
   private:
-    // Calls f with each part's number and the worker that finds its cells. In parallel each part has a worker of its
-    // own, so the cells are in the order of the parts, whichever thread finds them.
+    // Calls f with each child's number and the worker that finds its cells. In parallel each child has a worker of its
+    // own, so the cells are in the order of the children, whichever thread finds them.
     template <class F>
-    void for_each_part(F&& f) {
+    void for_each_child(F&& f) {
         if (!borrowed_.empty())
             tbb::parallel_for(std::size_t{0}, boxes_.count, [&](std::size_t i) { f(i, *borrowed_[i]); });
         else
             for (std::size_t i = 0; i < boxes_.count; ++i) f(i, worker_);
     }
 
-    // Makes a part ready: its program is pruned by the values in a ball around its box, and then in the box. False if
+    // Makes a child ready: its program is pruned by the values in a ball around its box, and then in the box. False if
     // no ray can meet an interface there.
-    bool prepare_part(std::size_t i, Worker& own) {
+    bool prepare_child(std::size_t i, Worker& own) {
         const ArenaScope scope(own.scratch);
         const float radius = 0.5f * boxes_.box[i].inflated(context_.reach).diagonal() * (1 + 1e-5f);
         const ValuesAtPoint centre{values_.registers, values_.slot, i};
@@ -211,35 +211,36 @@ class Division {
         std::span<const RequiredOfLocal> required;
         const auto program = prune(node_.program, ranges, context_.program, own.arenas(), required);
         if (!program) return false;
-        BuildNode& part = *std::construct_at(
-            &parts_[i], BuildNode{boxes_.box[i], *program, node_.specialisations, required, node_.depth + 1});
-        if (std::isfinite(node_.fold_period)) part.fold_period = finest_jump(part.program, context_.program.constants);
+        BuildNode& child = *std::construct_at(
+            &children_[i], BuildNode{boxes_.box[i], *program, node_.specialisations, required, node_.depth + 1});
+        if (std::isfinite(node_.fold_period))
+            child.fold_period = finest_jump(child.program, context_.program.constants);
         if (std::isfinite(node_.pattern_period))
-            part.pattern_period = finest_pattern(part.program, context_.program.constants);
-        return prepare(part, context_, own);
+            child.pattern_period = finest_pattern(child.program, context_.program.constants);
+        return prepare(child, context_, own);
     }
 
-    CellCosts find_cells_of_part(BuildNode& part, Worker& own) const {
+    CellCosts find_cells_of_child(BuildNode& child, Worker& own) const {
         const bool is_gain = cost_ratio_ < 0.8f;
-        part.share = node_.share / static_cast<double>(left_count_);
-        part.futile_divisions = is_gain || is_too_coarse(part) ? 0 : node_.futile_divisions + 1;
-        part.cost_ratio = is_gain ? 1.f : cost_ratio_;
-        return find_cells(part, context_, own);
+        child.share = node_.share / static_cast<double>(left_count_);
+        child.futile_divisions = is_gain || is_too_coarse(child) ? 0 : node_.futile_divisions + 1;
+        child.cost_ratio = is_gain ? 1.f : cost_ratio_;
+        return find_cells(child, context_, own);
     }
     // Whether a box is so large that its division need not save anything yet.
-    bool is_too_coarse(const BuildNode& part) const {
+    bool is_too_coarse(const BuildNode& child) const {
         // Endless copies repeat an object whose features are smaller than the period of the fold. So boxes are measured
         // by that period, and not by the size of the whole.
         const float large =
-            std::isfinite(part.fold_period) ? 0.25f * part.fold_period : part.policy.large * context_.size;
-        const float diagonal = part.box.diagonal();
-        const LinearBound& bound = part.cell.facts.bound;
+            std::isfinite(child.fold_period) ? 0.25f * child.fold_period : child.policy.large * context_.size;
+        const float diagonal = child.box.diagonal();
+        const LinearBound& bound = child.cell.facts.bound;
         const bool is_uneven =
-            bound.slack < Bounds::infinity && bound.spread > part.policy.uneven * glm::length(bound.normal);
+            bound.slack < Bounds::infinity && bound.spread > child.policy.uneven * glm::length(bound.normal);
         // Nothing may be known of a pattern until boxes are smaller than its features.
-        const bool is_unknown = !(bound.spread < 1) && diagonal > 0.5f * part.pattern_period;
-        return part.cell.is_searched || diagonal > large || is_unknown ||
-               (is_uneven && diagonal > part.policy.fine * context_.size);
+        const bool is_unknown = !(bound.spread < 1) && diagonal > 0.5f * child.pattern_period;
+        return child.cell.is_searched || diagonal > large || is_unknown ||
+               (is_uneven && diagonal > child.policy.fine * context_.size);
     }
 
     const BuildNode& node_;
@@ -247,15 +248,15 @@ class Division {
     Worker& worker_;
     SubBoxes boxes_;
     ValuesAtPoint values_;  // at the centre of the first box; those for the other boxes are in the other lanes
-    std::span<BuildNode> parts_;
+    std::span<BuildNode> children_;
     bool has_jumps_;
-    std::array<bool, SubBoxes::most> is_left_{};  // whether a ray can meet an interface in a part
+    std::array<bool, SubBoxes::most> is_left_{};  // whether a ray can meet an interface in a child
     std::ptrdiff_t left_count_ = 0;
     float cost_ratio_ = 1;                        // BuildNode::cost_ratio after this division
-    std::vector<WorkerPool::Borrowed> borrowed_;  // one for each part; none if the parts are not divided in parallel
+    std::vector<WorkerPool::Borrowed> borrowed_;  // one for each child; none if they are not divided in parallel
 };
 
-// Finds the cells of the parts of a node.
+// Finds the cells of the children of a node.
 CellCosts divide(const BuildNode& node, const BuildContext& context, Worker& worker) {
     if (context.options.cancelled && context.options.cancelled()) throw BuildCancelled();
     const ArenaScope programs(worker.programs), scratch(worker.scratch);

@@ -30,8 +30,8 @@ std::uint64_t limit_in(const std::filesystem::path& file) {
 std::uint64_t limit_of_group(const std::filesystem::path& root, const std::string& path, const char* file) {
     std::uint64_t least = limit_in(root / file);
     std::filesystem::path group = root;
-    for (const auto& part : std::filesystem::path(path).relative_path()) {
-        group /= part;
+    for (const auto& name : std::filesystem::path(path).relative_path()) {
+        group /= name;
         least = std::min(least, limit_in(group / file));
     }
     return least;

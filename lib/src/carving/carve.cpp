@@ -19,7 +19,7 @@
 
 namespace phasetree {
 
-using carving::BallBatch, carving::EmptyBalls, carving::Reach, carving::reach_along;
+using carving::BallBatch, carving::EmptyBalls, carving::Support, carving::support_along;
 
 namespace {
 
@@ -66,11 +66,11 @@ class Carver {
         return options_.most_evaluations - std::min(options_.most_evaluations, field_.evaluations());
     }
     // The height of a plane across d. Of what is left, no direction gets more than twice an even share of all.
-    double reach(const glm::dvec3& d) {
+    double support(const glm::dvec3& d) {
         const auto planes = static_cast<std::size_t>(
             options_.directions.empty() ? options_.most_planes : static_cast<int>(options_.directions.size()) + 6);
-        const Reach r =
-            reach_along(d, field_, box_, tolerance_, std::min(left(), 2 * options_.most_evaluations / planes));
+        const Support r =
+            support_along(d, field_, box_, tolerance_, std::min(left(), 2 * options_.most_evaluations / planes));
         is_within_tolerance_ = is_within_tolerance_ && r.is_within_tolerance;
         is_empty_ = is_empty_ || r.height == -std::numeric_limits<double>::infinity();
         return r.height;
@@ -83,7 +83,7 @@ class Carver {
             const int axis = side / 2;
             const bool is_high = side % 2 == 1;
             d[axis] = is_high ? 1 : -1;
-            const double height = reach(d);
+            const double height = support(d);
             if (is_empty_) return;
             float& to = is_high ? box_.high[axis] : box_.low[axis];
             const auto rounded = static_cast<float>(is_high ? height : -height);
@@ -100,7 +100,7 @@ class Carver {
     }
     int count() const { return 6 + static_cast<int>(planes_.size()); }
 
-    void add(const glm::dvec3& d) { planes_.push_back({d, reach(d)}); }
+    void add(const glm::dvec3& d) { planes_.push_back({d, support(d)}); }
 
     // The normals where rays from all around meet the solid.
     std::vector<glm::dvec3> normals_around() {
@@ -108,17 +108,17 @@ class Carver {
         const double radius = 0.5 * static_cast<double>(box_.diagonal());
         std::vector<glm::dvec3> normals;
         for (std::size_t first = 0; first < rays; first += batch_size) {
-            std::array<glm::dvec3, batch_size> from, p;
+            std::array<glm::dvec3, batch_size> outward, p;
             std::array<double, batch_size> t{};
             for (std::size_t i = 0; i < batch_size; ++i) {
                 // Points of a Fibonacci spiral.
                 const double k = static_cast<double>(first + i) + 0.5;
                 const double z = 1 - 2 * k / static_cast<double>(rays), a = 2.399963229728653 * k;
-                from[i] = glm::dvec3(std::sqrt(1 - z * z) * std::cos(a), std::sqrt(1 - z * z) * std::sin(a), z);
+                outward[i] = glm::dvec3(std::sqrt(1 - z * z) * std::cos(a), std::sqrt(1 - z * z) * std::sin(a), z);
             }
             std::array<bool, batch_size> is_there{};
             for (std::size_t step = 0; step < longest_walk && left() > 0; ++step) {
-                for (std::size_t i = 0; i < batch_size; ++i) p[i] = middle + from[i] * (radius - t[i]);
+                for (std::size_t i = 0; i < batch_size; ++i) p[i] = middle + outward[i] * (radius - t[i]);
                 const BallBatch balls = field_.at(p);
                 bool goes_on = false;
                 for (std::size_t i = 0; i < batch_size; ++i) {
@@ -186,7 +186,7 @@ class Carver {
         for (const glm::dvec3& way : {field_.gradient(corner), corner - glm::dvec3(box_.centre())}) {
             if (!(glm::length(way) > 1e-3 * tolerance_) || left() == 0) continue;
             const glm::dvec3 d = glm::normalize(way);
-            const double height = reach(d);
+            const double height = support(d);
             if (!(height < glm::dot(d, corner) - tolerance_)) continue;
             planes_.push_back({d, height});
             return true;

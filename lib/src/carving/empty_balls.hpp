@@ -44,7 +44,7 @@ class EmptyBalls {
         for (std::size_t i = 0; i < batch_size; ++i) {
             const glm::dvec3 p(x[i], y[i], z[i]);
             const double f = phi[1][i];
-            balls[i] = {p, f - rounding_at(p), f <= 0};
+            balls[i] = {p, f - rounding_error_at(p), f <= 0};
             if (!std::isfinite(f)) balls[i] = {p, 0, false};
         }
         return balls;
@@ -57,7 +57,7 @@ class EmptyBalls {
   private:
     /// More than the error of a value at p: as of values that are traced (src/trace/prepare.cpp), 10⁻⁶ of the farthest
     /// coordinate that it may depend on.
-    double rounding_at(const glm::dvec3& p) const {
+    double rounding_error_at(const glm::dvec3& p) const {
         return 1e-6 * std::max({farthest_, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     }
 

@@ -1,4 +1,4 @@
-// How far a solid reaches along a direction d, from empty balls.
+// The support of a solid along a direction d, the maximum of d·p over it, from empty balls.
 //
 // Space is divided into beams along d, of rectangular section, each with a *top*: above it nothing of the solid is in
 // the beam. At first the top is that of the box. A ball of radius r about a point of the beam's axis covers the whole
@@ -6,10 +6,10 @@
 //
 //     heights c − √(r² − ρ²) to c + √(r² − ρ²),  if r > ρ.
 //
-// If that reaches up to the top, the top falls to its lower end. So a beam is walked downward as a ray is traced by
+// If that comes up to the top, the top falls to its lower end. So a beam is walked downward as a ray is traced by
 // spheres. Near a face that lies across d large balls from far above are the best: a ball that touches the face comes
-// as near to it as ρ²/2r all over the section. Once no ball brings the top further down, the beam is parted along its
-// longer side. The beam with the highest top is always the next; its top bounds the solid, at any time.
+// as near to it as ρ²/2r all over the section. Once no ball brings the top further down, the beam is divided in two
+// along its longer side. The beam with the highest top is always the next; its top bounds the solid, at any time.
 #include "carving/support.hpp"
 
 #include <glm/geometric.hpp>
@@ -42,7 +42,7 @@ struct Beam {
     bool operator<(const Beam& o) const { return top < o.top; }
 };
 
-// Where the balls are tried, above the top in parts of the half diagonal.
+// Where the balls are tried, above the top as multiples of the half diagonal.
 constexpr std::array<double, batch_size - 1> above{0, 0.5, 1, 2, 6, 20, 60};
 
 // Lowers the beam's top as far as eight balls prove. The last of them is tried just below the top, where the solid may
@@ -74,8 +74,8 @@ void walk(Beam& beam, const Frame& frame, EmptyBalls& field, double tolerance, d
 
 }  // namespace
 
-Reach reach_along(const glm::dvec3& d, EmptyBalls& field, const Bounds& box, double tolerance,
-                  std::size_t most_evaluations) {
+Support support_along(const glm::dvec3& d, EmptyBalls& field, const Bounds& box, double tolerance,
+                      std::size_t most_evaluations) {
     const Frame frame(d);
     glm::dvec3 low(infinity), high(-infinity);
     for (int i = 0; i < 8; ++i) {

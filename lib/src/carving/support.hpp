@@ -4,8 +4,8 @@
 
 namespace phasetree::carving {
 
-/// How far a solid reaches along a direction.
-struct Reach {
+/// What is known of the support of a solid along a direction d: the maximum of d·p over it.
+struct Support {
     double height = 0;  ///< nothing of the solid has a larger d·p
     double seen = 0;    ///< a point of it was found at this d·p; −∞ if none was
     bool is_within_tolerance = true;
@@ -13,7 +13,7 @@ struct Reach {
 
 /// Bounds d·p over the solid within a box, for a unit vector d, by at most so many evaluations. The height is −∞ if the
 /// solid is certainly empty.
-Reach reach_along(const glm::dvec3& d, EmptyBalls& field, const Bounds& box, double tolerance,
-                  std::size_t most_evaluations);
+Support support_along(const glm::dvec3& d, EmptyBalls& field, const Bounds& box, double tolerance,
+                      std::size_t most_evaluations);
 
 }  // namespace phasetree::carving

@@ -19,7 +19,7 @@ using rewriting::Fuser;
 /// The routines of all cells. Those that differ only in where their constants are have one shape, and there are so few
 /// shapes that the processor's caches hold them.
 struct RoutineTables {
-    /// A routine without its constants: parts of the vectors below.
+    /// A routine without its constants: ranges of the vectors below.
     struct Shape {
         std::uint32_t first_step, steps, leading, first_output, outputs, slots;
     };

@@ -47,7 +47,7 @@ bool is_number(std::uint16_t half) {
 bool is_phase(float phase) {
     return phase >= 0 && phase < static_cast<float>(Phase::capacity) && phase == std::floor(phase);
 }
-// Whether a part of a vector of this size lies within it.
+// Whether a range of a vector of this size lies within it.
 bool fits(std::uint64_t first, std::uint64_t count, std::size_t size) {
     return first <= size && count <= size - first;
 }

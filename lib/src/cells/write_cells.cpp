@@ -33,25 +33,25 @@ void write_cells(const fs::path& path, const InterfaceCells& cells) {
     CellsFileHeader h = header_of(program, tables.recorded_constants, settings);
     h.is_coarser = tables.is_coarser;
     h.routines = tables.routine_count;
-    const std::array<std::span<const std::byte>, CellsFileHeader::sections> parts{bytes_of(stored),
-                                                                                  bytes_of(tables.routines.shapes),
-                                                                                  bytes_of(tables.routines.steps),
-                                                                                  bytes_of(tables.routines.outputs),
-                                                                                  bytes_of(tables.routines.data),
-                                                                                  bytes_of(tables.certificates),
-                                                                                  bytes_of(tables.first_certificate),
-                                                                                  added_constants};
+    const std::array<std::span<const std::byte>, CellsFileHeader::sections> sections{bytes_of(stored),
+                                                                                     bytes_of(tables.routines.shapes),
+                                                                                     bytes_of(tables.routines.steps),
+                                                                                     bytes_of(tables.routines.outputs),
+                                                                                     bytes_of(tables.routines.data),
+                                                                                     bytes_of(tables.certificates),
+                                                                                     bytes_of(tables.first_certificate),
+                                                                                     added_constants};
     Checksum sum;
     for (std::size_t i = 0; i < CellsFileHeader::sections; ++i) {
-        h.counts[i] = parts[i].size() / item_bytes[i];
-        sum.put(parts[i].data(), parts[i].size());
+        h.counts[i] = sections[i].size() / item_bytes[i];
+        sum.put(sections[i].data(), sections[i].size());
     }
     h.tables_checksum = sum.get();
     h.header_checksum = h.own_checksum();
     try {
         WholeFile file(path);
         file.write(std::as_bytes(std::span(&h, 1)));
-        for (const auto& part : parts) file.write(part);
+        for (const auto& section : sections) file.write(section);
         file.finish();
     } catch (const FileError& e) {
         throw CellsFileError(CellsFileError::Reason::unusable, path, e.what());

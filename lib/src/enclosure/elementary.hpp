@@ -19,7 +19,7 @@ inline Enclosure composed(const Enclosure& x, double g, double slope, const Rang
     r.set_curvature(x.curvature * slopes + squares_of_slope(x) * bends);
     return r;
 }
-/// The range of the sine: −1 or 1 where the range has the place of an extremum, else at the ends.
+/// The range of the sine: −1 or 1 where the range contains that of an extremum, else at the ends.
 inline Range range_of_sine(const Range& x) {
     const double turn = 2 * std::numbers::pi, quarter = std::numbers::pi / 2;
     if (x.high - x.low >= turn) return {-1, 1};
@@ -28,7 +28,7 @@ inline Range range_of_sine(const Range& x) {
     return {has(-quarter) ? -1 : std::min(low, high), has(quarter) ? 1 : std::max(low, high)};
 }
 /// Beyond, sine_of() and cosine_of() promise nothing.
-inline bool is_in_reach_of_sine(const Enclosure& x) {
+inline bool is_in_domain_of_sine(const Enclosure& x) {
     return x.value.magnitude() <= 1e4;
 }
 inline Enclosure unknown(double centre) {
@@ -39,14 +39,14 @@ inline Enclosure unknown(double centre) {
 
 inline Enclosure sine_of(const Enclosure& x) {
     const double s = std::sin(x.centre), c = std::cos(x.centre);
-    if (!detail::is_in_reach_of_sine(x)) return detail::unknown(s);
+    if (!detail::is_in_domain_of_sine(x)) return detail::unknown(s);
     const double quarter = std::numbers::pi / 2;
     const Range sines = detail::range_of_sine(x.value);
     return detail::composed(x, s, c, sines, detail::range_of_sine(x.value + Range{quarter, quarter}), -sines);
 }
 inline Enclosure cosine_of(const Enclosure& x) {
     const double s = std::sin(x.centre), c = std::cos(x.centre);
-    if (!detail::is_in_reach_of_sine(x)) return detail::unknown(c);
+    if (!detail::is_in_domain_of_sine(x)) return detail::unknown(c);
     const double quarter = std::numbers::pi / 2;
     const Range cosines = detail::range_of_sine(x.value + Range{quarter, quarter});
     return detail::composed(x, c, -s, cosines, -detail::range_of_sine(x.value), -cosines);

@@ -10,7 +10,7 @@
 
 namespace phasetree::enclosure {
 
-/// Proven bounds of a field in a box, except for the rounding of doubles.
+/// Proven bounds of a field in a box, except for the rounding errors of doubles.
 struct FieldInBox {
     double value = 0;                  ///< at the box's centre
     std::array<double, 3> gradient{};  ///< at the box's centre

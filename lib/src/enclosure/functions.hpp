@@ -26,24 +26,24 @@ inline Enclosure smooth_min(const Enclosure& a, const Enclosure& b, float r) {
 
 /// The curvature follows from the falloff's own derivatives: φ(x) = (1 − x²)³ for x = d/R in [0, 1] has
 /// φ″ = (1 − u)(30u − 6) with u = x², from −6 to 4.8.
-inline Enclosure falloff(const Enclosure& d, float reach) {
-    Enclosure f = phasetree::falloff<Enclosure>(d, reach);
-    const double k = 1 / static_cast<double>(reach);
+inline Enclosure falloff(const Enclosure& d, float radius) {
+    Enclosure f = phasetree::falloff<Enclosure>(d, radius);
+    const double k = 1 / static_cast<double>(radius);
     const auto inside = [&](double x) { return std::clamp(x * k, 0.0, 1.0); };
-    const double from = inside(d.value.low), to = inside(d.value.high);
+    const double low = inside(d.value.low), high = inside(d.value.high);
     const auto curvature = [](double x) { return (1 - x * x) * (30 * x * x - 6); };
     const auto slope = [](double x) { return -6 * x * (1 - x * x) * (1 - x * x); };
-    Range bends = hull({curvature(from), curvature(from)}, {curvature(to), curvature(to)});
-    Range slopes = hull({slope(from), slope(from)}, {slope(to), slope(to)});
+    Range bends = hull({curvature(low), curvature(low)}, {curvature(high), curvature(high)});
+    Range slopes = hull({slope(low), slope(low)}, {slope(high), slope(high)});
     constexpr double most_curved = 0.7745966692414834, steepest = 0.4472135954999579;  // √0.6, √0.2
-    if (from < most_curved && to > most_curved) bends.high = 4.8;
-    if (from < steepest && to > steepest) slopes.low = -static_cast<double>(steepest_falloff) * (1 + 1e-6);
+    if (low < most_curved && high > most_curved) bends.high = 4.8;
+    if (low < steepest && high > steepest) slopes.low = -static_cast<double>(steepest_falloff) * (1 + 1e-6);
     if (d.value.low < 0 || d.value.high * k > 1) bends = hull(bends, {});  // flat beyond
     const Range by_slope = detail::squares_of_slope(d) * (bends * (k * k));
     const Range straight = d.curvature * (slopes * k);
     // At a skeleton φ′ vanishes as d does: φ′(d)/d = −6(1 − x²)²/R².
     const auto share = [](double x) { return -6 * (1 - x * x) * (1 - x * x); };
-    Range shares = hull({share(from), share(from)}, {share(to), share(to)});
+    Range shares = hull({share(low), share(low)}, {share(high), share(high)});
     if (d.value.low < 0) shares = hull(shares, {});
     const Range near = d.value_curvature * (shares * (k * k));
     f.set_curvature(by_slope + Range{std::max(straight.low, near.low), std::min(straight.high, near.high)});

@@ -25,8 +25,8 @@ namespace phasetree::enclosure {
 /// −curvature.low·h²/8; and f is semiconcave with the constant curvature.high: minima of such fields are so too,
 /// whatever their seams.
 ///
-/// It is computed in double without directed rounding. Its users must allow for the rounding of floats, which is
-/// larger: for twice the bound of one value's, because primitives may be known at the centre by floats, too.
+/// It is computed in double without directed rounding. Its users must allow for the rounding errors of floats, which
+/// are larger: for twice the bound of one value's, because primitives may be known at the centre by floats, too.
 struct Enclosure {
     using Vector = std::array<double, 3>;
 
@@ -57,10 +57,10 @@ struct Enclosure {
     }
     /// Cuts the value's range to what the value at the centre and the gradient allow in a box of these half extents.
     void tighten(const Vector& half) {
-        const double reach =
+        const double half_width =
             gradient[0].magnitude() * half[0] + gradient[1].magnitude() * half[1] + gradient[2].magnitude() * half[2];
-        const double low = std::max(value.low, centre - reach), high = std::min(value.high, centre + reach);
-        value = {std::min(low, high), std::max(low, high)};  // one number, but for rounding, if they cross
+        const double low = std::max(value.low, centre - half_width), high = std::min(value.high, centre + half_width);
+        value = {std::min(low, high), std::max(low, high)};  // one number, but for rounding errors, if they cross
     }
     Enclosure tightened(const Vector& half) const {
         Enclosure e = *this;

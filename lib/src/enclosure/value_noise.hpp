@@ -15,12 +15,12 @@ namespace detail {
 struct FadeRange {
     Range first, second;
 
-    FadeRange(double from, double to) : first(hull(at(slope(from)), at(slope(to)))) {
+    FadeRange(double low, double high) : first(hull(at(slope(low)), at(slope(high)))) {
         constexpr double most_curved = 0.21132486540518713, curvature = 5.773502691896258;  // (3 − √3)/6, 10/√3
-        second = hull(at(bend(from)), at(bend(to)));
-        if (from < 0.5 && to > 0.5) first.high = 1.875;
-        if (from < most_curved && to > most_curved) second.high = curvature;
-        if (from < 1 - most_curved && to > 1 - most_curved) second.low = -curvature;
+        second = hull(at(bend(low)), at(bend(high)));
+        if (low < 0.5 && high > 0.5) first.high = 1.875;
+        if (low < most_curved && high > most_curved) second.high = curvature;
+        if (low < 1 - most_curved && high > 1 - most_curved) second.low = -curvature;
     }
     static double slope(double t) { return 30 * t * t * (1 - t) * (1 - t); }
     static double bend(double t) { return 60 * t * (1 - t) * (1 - 2 * t); }

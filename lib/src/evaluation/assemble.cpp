@@ -58,7 +58,7 @@ Assembly assemble(std::span<const Instruction> code, std::span<const ProgramOutp
     for (std::uint32_t i = 0; i < code.size(); ++i) {
         const Instruction& in = code[i];
         const int n = operands(in.op);
-        // A map writes its result one component at a time, so it is placed before its operand's slots are freed.
+        // A map writes its result one component at a time, so it takes its slots before its operand's are freed.
         slot[i] = slots.take(size_of(in.op));
         if (in.op != Op::input) {
             result.steps.push_back(

@@ -222,7 +222,7 @@ class FunctionWriter {
         }
         return text.empty() ? "0" : text;
     }
-    // The first element of an array is that of its lowest place, which is never above 0.
+    // The first element of an array is that of its lowest index, which is never above 0.
     static std::string offset_from(std::int64_t lowest) { return lowest < 0 ? fmt::format(" + {}", -lowest) : ""; }
     static std::string fitted(const Expression& e, bool to_dual) {
         return to_dual && !e.has_gradient ? fmt::format("vec4(0.0, 0.0, 0.0, {})", e.text) : e.text;

@@ -8,7 +8,7 @@
 namespace phasetree::glsl {
 
 /// A text marks where the number n of `slots` stands by \x01 n \x02, and where the table of its lookups begins by
-/// \x01 L \x02, each without the blanks. The caller puts numbers or places in a buffer there.
+/// \x01 L \x02, each without the blanks. The caller puts numbers or offsets in a buffer there.
 ///
 /// A slot holds one number, or a table of which an index chooses one.
 struct NumberSlot {

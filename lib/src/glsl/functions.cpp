@@ -106,11 +106,11 @@ std::uint32_t Functions::add(Op op, std::span<const float> constants) {
 }
 
 void Functions::finish() {
-    for (std::uint32_t f = 0; f < functions_.size(); ++f) place_numbers(f);
+    for (std::uint32_t f = 0; f < functions_.size(); ++f) assign_offsets(f);
 }
 
 // Decides which numbers of a function stand in its text, and where the others are.
-void Functions::place_numbers(std::uint32_t number) {
+void Functions::assign_offsets(std::uint32_t number) {
     Function& function = functions_[number];
     std::vector<Instance*> instances;
     for (Instance& i : instances_)
@@ -122,13 +122,13 @@ void Functions::place_numbers(std::uint32_t number) {
     };
     std::vector<std::vector<float>> blocks(instances.size());
     function.slot_texts.resize(function.text.slots.size());
-    std::vector<std::size_t> placed;
+    std::vector<std::size_t> written;
     for (std::size_t s = 0; s < function.slot_texts.size(); ++s) {
         const NumberSlot& slot = function.text.slots[s];
-        const auto equal = std::ranges::find_if(placed, [&](std::size_t p) {
+        const auto equal = std::ranges::find_if(written, [&](std::size_t p) {
             return function.text.slots[p].is_table == slot.is_table && same_everywhere(p, s);
         });
-        if (equal != placed.end()) {
+        if (equal != written.end()) {
             function.slot_texts[s] = function.slot_texts[*equal];
             continue;
         }
@@ -138,24 +138,24 @@ void Functions::place_numbers(std::uint32_t number) {
             function.slot_texts[s] = literal(instances.front()->slots[s].numbers[0]);
             continue;
         }
-        const std::size_t place = blocks[0].size();
+        const std::size_t offset = blocks[0].size();
         for (std::size_t i = 0; i < instances.size(); ++i)
             blocks[i].insert(blocks[i].end(), instances[i]->slots[s].numbers.begin(),
                              instances[i]->slots[s].numbers.end());
-        function.slot_texts[s] = slot.is_table ? std::to_string(place) : fmt::format("pt_number(at + {})", place);
-        placed.push_back(s);
+        function.slot_texts[s] = slot.is_table ? std::to_string(offset) : fmt::format("pt_number(at + {})", offset);
+        written.push_back(s);
     }
-    function.lookup_place = std::to_string(blocks[0].size());
+    function.lookup_offset = std::to_string(blocks[0].size());
     for (std::size_t i = 0; i < instances.size(); ++i) {
         blocks[i].insert(blocks[i].end(), instances[i]->data.begin(), instances[i]->data.end());
-        function.takes_place = function.takes_place || !blocks[i].empty();
-        instances[i]->at = place_block(blocks[i]);
+        function.takes_offset = function.takes_offset || !blocks[i].empty();
+        instances[i]->at = offset_of_block(blocks[i]);
         instances[i]->slots.clear();
         instances[i]->data.clear();
     }
 }
 
-std::uint32_t Functions::place_block(const std::vector<float>& block) {
+std::uint32_t Functions::offset_of_block(const std::vector<float>& block) {
     if (block.empty()) return 0;
     const auto [known, is_new] = blocks_.try_emplace(bits_of(block), static_cast<std::uint32_t>(numbers_.size()));
     if (is_new) numbers_.insert(numbers_.end(), block.begin(), block.end());
@@ -171,7 +171,7 @@ std::string Functions::filled(const Function& function, const std::string& text)
         }
         const std::size_t end = text.find('\x02', i);
         const std::string slot = text.substr(i + 1, end - i - 1);
-        result += slot == "L" ? function.lookup_place : function.slot_texts[std::stoul(slot)];
+        result += slot == "L" ? function.lookup_offset : function.slot_texts[std::stoul(slot)];
         i = end;
     }
     return result;
@@ -187,11 +187,11 @@ std::string Functions::call_at(std::uint32_t number, std::span<const std::string
                                bool with_gradients) const {
     const Function& function = functions_[number];
     const std::string body = filled(function, with_gradients ? function.text.dual_body : function.text.float_body);
-    if (!takes_point(function.op) && is_expression(body) && !function.takes_place)
+    if (!takes_point(function.op) && is_expression(body) && !function.takes_offset)
         return with_arguments(body.substr(returned.size(), body.size() - returned.size() - 2), arguments);
     std::string list;
     for (const std::string& a : arguments) list += (list.empty() ? "" : ", ") + a;
-    if (function.takes_place) list += ", " + at;
+    if (function.takes_offset) list += ", " + at;
     return fmt::format("{}{}({})", with_gradients ? "pt_d_" + function.name.substr(3) : function.name, "", list);
 }
 
@@ -227,12 +227,12 @@ std::string Functions::text(bool with_gradients) const {
     result += shared;
     for (const Function& f : functions_) {
         const std::string body = filled(f, with_gradients ? f.text.dual_body : f.text.float_body);
-        if (!takes_point(f.op) && is_expression(body) && !f.takes_place) continue;
+        if (!takes_point(f.op) && is_expression(body) && !f.takes_offset) continue;
         const int inputs = takes_point(f.op) ? 3 : operands(f.op);
         std::string parameters;
         for (int k = 0; k < inputs; ++k)
             parameters += fmt::format("{}{} {}", k > 0 ? ", " : "", number, static_cast<char>('x' + k));
-        if (f.takes_place) parameters += ", int at";
+        if (f.takes_offset) parameters += ", int at";
         result += fmt::format("{} {}({}) {{\n{}}}\n", gives_point(f.op) ? point : number,
                               with_gradients ? "pt_d_" + f.name.substr(3) : f.name, parameters, body);
     }

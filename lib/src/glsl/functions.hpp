@@ -9,13 +9,13 @@
 namespace phasetree::glsl {
 
 /// The functions that the instructions of some programs need. Instructions of one kind whose equations take the same
-/// way share a function: what differs between them are numbers, which the function finds from the place `at` on. A
+/// way share a function: what differs between them are numbers, which the function finds from the offset `at` on. A
 /// number that is the same in all of them stands in the text.
 class Functions {
   public:
     /// Returns the number of an instruction, which others that are equal share.
     std::uint32_t add(Op, std::span<const float> constants);
-    /// Gives all numbers their places; nothing may be added after that.
+    /// Gives all numbers their offsets; nothing may be added after that.
     void finish();
 
     /// What is called for an instruction. `arguments` are x, y, z or those that the operation takes.
@@ -25,7 +25,7 @@ class Functions {
     std::size_t count() const { return functions_.size(); }
     /// How many numbers a function takes, and whether it gives a point.
     Op operation(std::uint32_t function) const { return functions_[function].op; }
-    /// A call of a function whose numbers are at the place that `at` says.
+    /// A call of a function whose numbers are at the offset that `at` says.
     std::string call_at(std::uint32_t function, std::span<const std::string> arguments, const std::string& at,
                         bool with_gradients) const;
     /// The definitions of all functions.
@@ -40,9 +40,9 @@ class Functions {
         Op op{};
         std::string name;
         FunctionText text;  // its slots are those of the first instance
-        bool takes_place = false;
+        bool takes_offset = false;
         std::vector<std::string> slot_texts;
-        std::string lookup_place;
+        std::string lookup_offset;
     };
     struct Instance {
         std::uint32_t function = 0;
@@ -50,8 +50,8 @@ class Functions {
         std::vector<NumberSlot> slots;
         std::vector<float> data;
     };
-    void place_numbers(std::uint32_t function);
-    std::uint32_t place_block(const std::vector<float>& block);
+    void assign_offsets(std::uint32_t function);
+    std::uint32_t offset_of_block(const std::vector<float>& block);
     std::string filled(const Function&, const std::string& text) const;
 
     std::vector<Function> functions_;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t fewest_iterations = 3;
 // A loop that saves fewer steps than this is harder to read than what it replaces.
-constexpr std::uint32_t fewest_saved = 32, fewest_saved_by_part = 256;
+constexpr std::uint32_t fewest_saved = 32, fewest_saved_by_prefix = 256;
 // The longest iteration that is sought, in items, the most comparisons in all, and the most steps in loops that are
 // tried.
 constexpr std::size_t longest_iteration = 2048, most_comparisons = std::size_t{1} << 28,
@@ -92,11 +92,11 @@ class LoopSearch {
         auto found = loop_at(first, length, iterations);
         if (found) return found;
         const std::uint32_t period = list_[first + length].item.offset - list_[first].item.offset;
-        std::uint32_t holds = std::max(fewest_iterations, fewest_saved_by_part / period + 1) - 1, fails = iterations;
+        std::uint32_t holds = std::max(fewest_iterations, fewest_saved_by_prefix / period + 1) - 1, fails = iterations;
         while (fails > holds + 1) {
             const std::uint32_t middle = holds + (fails - holds) / 2;
-            auto part = loop_at(first, length, middle);
-            if (part) found = std::move(part);
+            auto prefix = loop_at(first, length, middle);
+            if (prefix) found = std::move(prefix);
             (found && found->item.count == middle ? holds : fails) = middle;
         }
         return found;

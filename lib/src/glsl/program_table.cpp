@@ -60,19 +60,19 @@ std::size_t ProgramTable::add(const BoxProgram& program) {
 std::vector<std::size_t> ProgramTable::append_to(std::vector<float>& numbers) const {
     if (functions_.count() > most_functions || slots_ > most_slots)
         throw ModelError("the object is too large for a shader");
-    std::vector<std::size_t> places;
+    std::vector<std::size_t> offsets;
     numbers.resize((numbers.size() + 3) / 4 * 4, 0.f);
     const auto put = [&](std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
         for (const std::size_t v : {a, b, c, d}) numbers.push_back(static_cast<float>(v));
     };
     for (const Entry& e : entries_) {
-        places.push_back(numbers.size() / 4);
+        offsets.push_back(numbers.size() / 4);
         put(e.steps.size(), e.outputs.size(), 0, 0);
         for (const Step& s : e.steps)
             put(functions_.function(s.instruction) + most_functions * s.to, s.a, s.b, functions_.at(s.instruction));
         for (const auto& o : e.outputs) numbers.insert(numbers.end(), o.begin(), o.end());
     }
-    return places;
+    return offsets;
 }
 
 std::string ProgramTable::text(bool with_gradients) const {

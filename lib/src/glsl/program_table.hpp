@@ -20,7 +20,7 @@ class ProgramTable {
 
     /// Adds what the program needs to the functions, and returns the program's number.
     std::size_t add(const BoxProgram&);
-    /// Appends all programs to some numbers, once functions have places. Returns where each begins, in fours.
+    /// Appends all programs to some numbers, once functions have offsets. Returns where each begins, in fours.
     std::vector<std::size_t> append_to(std::vector<float>& numbers) const;
 
     /// Slots that the longest program needs.

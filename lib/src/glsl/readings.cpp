@@ -9,47 +9,47 @@ namespace phasetree::glsl {
 
 namespace {
 
-// An array has at most so many times the places that are read.
+// An array has at most so many times the elements that are read.
 constexpr std::size_t largest_spare = 8;
 
 bool same(const Operand& a, const Operand& b) {
     return a.value == b.value && std::bit_cast<std::uint32_t>(a.constant) == std::bit_cast<std::uint32_t>(b.constant);
 }
 
-// The operands of one place in the nest in all of its instances, and the steps before which it reads them.
-struct Place {
+// An operand of a leaf's step in all of its instances, and the steps before which it is read in them.
+struct LeafOperand {
     std::vector<const NestItem*> loops;
-    std::vector<Operand> operands;  // by the counters of the loops, the innermost fastest
+    std::vector<Operand> values;  // by the counters of the loops, the innermost fastest
     std::vector<std::uint32_t> steps;
 
     std::vector<std::uint32_t> counts() const { return counts_of(loops); }
 };
 
 // For each counter, whether the operands depend on it.
-std::vector<std::uint32_t> counters_that_matter(const Place& place) {
+std::vector<std::uint32_t> counters_that_matter(const LeafOperand& operand) {
     std::vector<std::uint32_t> matter;
-    const std::vector<std::uint32_t> counts = place.counts();
-    std::size_t stride = place.operands.size();
+    const std::vector<std::uint32_t> counts = operand.counts();
+    std::size_t stride = operand.values.size();
     for (std::uint32_t l = 0; l < counts.size(); ++l) {
         stride /= counts[l];
         bool depends = false;
-        for (std::size_t i = 0; i < place.operands.size() && !depends; ++i)
-            depends = i / stride % counts[l] != 0 && !same(place.operands[i], place.operands[i - stride]);
+        for (std::size_t i = 0; i < operand.values.size() && !depends; ++i)
+            depends = i / stride % counts[l] != 0 && !same(operand.values[i], operand.values[i - stride]);
         if (depends) matter.push_back(l);
     }
     return matter;
 }
 
 // The operands with the other counters at 0.
-std::vector<Operand> reduced(const Place& place, const std::vector<std::uint32_t>& matter) {
+std::vector<Operand> reduced(const LeafOperand& operand, const std::vector<std::uint32_t>& matter) {
     std::vector<Operand> result;
-    Counters counters(place.counts());
+    Counters counters(operand.counts());
     std::size_t i = 0;
     do {
         bool is_first = true;
-        for (std::uint32_t l = 0; l < place.loops.size(); ++l)
+        for (std::uint32_t l = 0; l < operand.loops.size(); ++l)
             if (counters[l] != 0 && std::ranges::find(matter, l) == matter.end()) is_first = false;
-        if (is_first) result.push_back(place.operands[i]);
+        if (is_first) result.push_back(operand.values[i]);
         ++i;
     } while (counters.next());
     return result;
@@ -71,14 +71,14 @@ class ReadingSearch {
         const Leaf& leaf = nest_.leaves()[index];
         const TraceStep& first = nest_.trace().steps[leaf.first];
         for (std::size_t k = 0; k < first.operands; ++k) {
-            Place place{leaf.loops, {}, {}};
-            Counters counters(place.counts());
+            LeafOperand operand{leaf.loops, {}, {}};
+            Counters counters(operand.counts());
             do {
                 const std::uint32_t step = step_at(leaf, counters);
-                place.operands.push_back(nest_.trace().steps[step].in[k]);
-                place.steps.push_back(step);
+                operand.values.push_back(nest_.trace().steps[step].in[k]);
+                operand.steps.push_back(step);
             } while (counters.next());
-            const auto reading = read(place);
+            const auto reading = read(operand);
             if (!reading) return false;
             result_.of[index].push_back(*reading);
         }
@@ -104,9 +104,9 @@ class ReadingSearch {
     std::int64_t inputs() const { return nest_.trace().inputs; }
     bool is_outside(std::int32_t value) const { return value < trial_start_ + inputs(); }
 
-    std::optional<Reading> read(const Place& place) {
-        const std::vector<std::uint32_t> matter = counters_that_matter(place);
-        const std::vector<Operand> values = reduced(place, matter);
+    std::optional<Reading> read(const LeafOperand& operand) {
+        const std::vector<std::uint32_t> matter = counters_that_matter(operand);
+        const std::vector<Operand> values = reduced(operand, matter);
         if (std::ranges::all_of(values, &Operand::is_number)) {
             Reading reading{matter.empty() ? Reading::Kind::number : Reading::Kind::table};
             reading.counters = matter;
@@ -116,72 +116,73 @@ class ReadingSearch {
         if (matter.empty() && values[0].value < inputs())
             return Reading{Reading::Kind::input, static_cast<std::uint32_t>(values[0].value)};
         if (matter.empty() && is_outside(values[0].value)) return Reading{Reading::Kind::leaf, 0};
-        if (const auto variable = read_variable(place)) return variable;
+        if (const auto variable = read_variable(operand)) return variable;
         return read_element(values, matter);
     }
 
     // The latest value of the leaf that has computed the operand of the last instance.
-    std::optional<Reading> read_variable(const Place& place) {
-        const Operand& last = place.operands.back();
+    std::optional<Reading> read_variable(const LeafOperand& operand) {
+        const Operand& last = operand.values.back();
         if (last.is_number() || last.value < inputs() || is_outside(last.value)) return std::nullopt;
         const std::uint32_t number = nest_.leaf_of(static_cast<std::uint32_t>(last.value - inputs()));
         const Leaf& leaf = nest_.leaves()[number];
         std::vector<std::optional<std::uint32_t>> latest;
-        for (const std::uint32_t step : place.steps) latest.push_back(nest_.latest(leaf, step));
+        for (const std::uint32_t step : operand.steps) latest.push_back(nest_.latest(leaf, step));
         const auto is_latest = [&](std::size_t i) {
-            return latest[i] && place.operands[i].value == static_cast<std::int64_t>(*latest[i]) + inputs();
+            return latest[i] && operand.values[i].value == static_cast<std::int64_t>(*latest[i]) + inputs();
         };
         bool all = true;
-        for (std::size_t i = 0; i < place.operands.size() && all; ++i) all = is_latest(i);
+        for (std::size_t i = 0; i < operand.values.size() && all; ++i) all = is_latest(i);
         if (all) {
-            const bool is_near = leaf.loops.size() <= place.loops.size() &&
-                                 std::equal(leaf.loops.begin(), leaf.loops.end(), place.loops.begin());
+            const bool is_near = leaf.loops.size() <= operand.loops.size() &&
+                                 std::equal(leaf.loops.begin(), leaf.loops.end(), operand.loops.begin());
             if (!is_near) result_.escapes[number] = 1;
             return Reading{Reading::Kind::leaf, number};
         }
         std::size_t common = 0;
-        while (common < place.loops.size() && common < leaf.loops.size() && place.loops[common] == leaf.loops[common])
+        while (common < operand.loops.size() && common < leaf.loops.size() &&
+               operand.loops[common] == leaf.loops[common])
             ++common;
         for (std::size_t m = common; m-- > 0;)
-            if (const auto carried = read_carried(place, number, m, latest, is_latest)) return carried;
+            if (const auto carried = read_carried(operand, number, m, latest, is_latest)) return carried;
         return std::nullopt;
     }
 
     // The same where before the first value of the leaf, in each execution of the m-th loop, there is another.
     template <class IsLatest>
-    std::optional<Reading> read_carried(const Place& place, std::uint32_t leaf, std::size_t m,
+    std::optional<Reading> read_carried(const LeafOperand& operand, std::uint32_t leaf, std::size_t m,
                                         const std::vector<std::optional<std::uint32_t>>& latest,
                                         const IsLatest& is_latest) {
-        Place before{{place.loops.begin(), place.loops.begin() + static_cast<std::ptrdiff_t>(m)}, {}, {}};
-        Counters counters(place.counts());
+        LeafOperand before{{operand.loops.begin(), operand.loops.begin() + static_cast<std::ptrdiff_t>(m)}, {}, {}};
+        Counters counters(operand.counts());
         std::size_t i = 0;
         do {
             std::uint32_t start = 0;
             bool is_first = true;  // of the instances in this execution of the loop
-            for (std::size_t l = 0; l < place.loops.size(); ++l) {
-                if (l <= m) start += place.loops[l]->offset;
-                if (l < m) start += place.loops[l]->period * counters[l];
+            for (std::size_t l = 0; l < operand.loops.size(); ++l) {
+                if (l <= m) start += operand.loops[l]->offset;
+                if (l < m) start += operand.loops[l]->period * counters[l];
                 if (l >= m && counters[l] != 0) is_first = false;
             }
             const bool is_start = !latest[i] || *latest[i] < start;
             if (is_first) {
                 if (!is_start) return std::nullopt;
-                before.operands.push_back(place.operands[i]);
+                before.values.push_back(operand.values[i]);
                 before.steps.push_back(start);
-            } else if (is_start ? !same(place.operands[i], before.operands.back()) : !is_latest(i)) {
+            } else if (is_start ? !same(operand.values[i], before.values.back()) : !is_latest(i)) {
                 return std::nullopt;
             }
             ++i;
         } while (counters.next());
         for (std::uint32_t c = 0; c < result_.carried.size(); ++c) {
             const CarriedVariable& known = result_.carried[c];
-            if (known.leaf == leaf && known.loop == place.loops[m] &&
-                std::ranges::equal(known.starts, before.operands, same))
+            if (known.leaf == leaf && known.loop == operand.loops[m] &&
+                std::ranges::equal(known.starts, before.values, same))
                 return Reading{Reading::Kind::carried, c};
         }
         const auto start = read(before);
         if (!start) return std::nullopt;
-        result_.carried.push_back({leaf, place.loops[m], before.operands, *start});
+        result_.carried.push_back({leaf, operand.loops[m], before.values, *start});
         return Reading{Reading::Kind::carried, static_cast<std::uint32_t>(result_.carried.size() - 1)};
     }
 
@@ -202,47 +203,47 @@ class ReadingSearch {
 
     bool write_array(std::uint32_t index) {
         const std::vector<std::int32_t>& values = result_.arrays[index].values;
-        std::map<std::int32_t, std::int64_t> places;
+        std::map<std::int32_t, std::int64_t> elements;
         for (std::size_t i = 0; i < values.size(); ++i)
-            if (!places.emplace(values[i], static_cast<std::int64_t>(i)).second) return false;
+            if (!elements.emplace(values[i], static_cast<std::int64_t>(i)).second) return false;
         std::vector<char> is_done(nest_.leaves().size(), 0);
-        for (const auto& [value, place] : places) {
+        for (const auto& [value, element] : elements) {
             if (value < inputs()) {
-                result_.inputs[static_cast<std::size_t>(value)].push_back({index, place, {}});
+                result_.inputs[static_cast<std::size_t>(value)].push_back({index, element, {}});
                 continue;
             }
             const std::uint32_t number = nest_.leaf_of(static_cast<std::uint32_t>(value - inputs()));
             if (is_done[number]) continue;
             is_done[number] = 1;
-            if (!write_instances(index, number, places)) return false;
+            if (!write_instances(index, number, elements)) return false;
         }
         return true;
     }
-    // Finds where all instances of a leaf go in an array. The places of those that are read are known and must be
-    // linear in the counters; the others go to places around these.
+    // Finds where all instances of a leaf go in an array. The elements of those that are read are known and must be
+    // linear in the counters; the others go to elements around these.
     bool write_instances(std::uint32_t array, std::uint32_t number,
-                         const std::map<std::int32_t, std::int64_t>& places) {
+                         const std::map<std::int32_t, std::int64_t>& elements) {
         const Leaf& leaf = nest_.leaves()[number];
         const std::size_t depth = leaf.loops.size();
         struct Instance {
             std::vector<std::uint32_t> counters;
-            std::optional<std::int64_t> place;
+            std::optional<std::int64_t> element;
         };
         std::vector<Instance> instances;
         Counters counters(counts_of(leaf.loops));
         do {
             Instance instance;
             for (std::size_t l = 0; l < depth; ++l) instance.counters.push_back(counters[l]);
-            const auto found = places.find(static_cast<std::int32_t>(step_at(leaf, counters) + inputs()));
-            if (found != places.end()) instance.place = found->second;
+            const auto found = elements.find(static_cast<std::int32_t>(step_at(leaf, counters) + inputs()));
+            if (found != elements.end()) instance.element = found->second;
             instances.push_back(std::move(instance));
         } while (counters.next());
-        const auto first = std::ranges::find_if(instances, [](const Instance& i) { return i.place.has_value(); });
-        ElementWrite write{array, *first->place, {}};
+        const auto first = std::ranges::find_if(instances, [](const Instance& i) { return i.element.has_value(); });
+        ElementWrite write{array, *first->element, {}};
         const auto count = static_cast<std::int64_t>(result_.arrays[array].values.size());
         for (std::size_t l = 0; l < depth; ++l) {
             const auto other = std::ranges::find_if(instances, [&](const Instance& i) {
-                bool differs_here_alone = i.place && i.counters[l] != first->counters[l];
+                bool differs_here_alone = i.element && i.counters[l] != first->counters[l];
                 for (std::size_t m = 0; m < depth; ++m)
                     differs_here_alone = differs_here_alone && (m == l || i.counters[m] == first->counters[m]);
                 return differs_here_alone;
@@ -250,16 +251,16 @@ class ReadingSearch {
             const auto step = [&] {
                 return static_cast<std::int64_t>(other->counters[l]) - static_cast<std::int64_t>(first->counters[l]);
             };
-            write.factors.push_back(other == instances.end() ? count : (*other->place - *first->place) / step());
+            write.factors.push_back(other == instances.end() ? count : (*other->element - *first->element) / step());
         }
         for (std::size_t l = 0; l < depth; ++l) write.first -= write.factors[l] * first->counters[l];
         ValueArray& to = result_.arrays[array];
         for (const Instance& i : instances) {
-            std::int64_t place = write.first;
-            for (std::size_t l = 0; l < depth; ++l) place += write.factors[l] * i.counters[l];
-            if (i.place ? place != *i.place : place >= 0 && place < count) return false;
-            to.lowest = std::min(to.lowest, place);
-            to.highest = std::max(to.highest, place);
+            std::int64_t element = write.first;
+            for (std::size_t l = 0; l < depth; ++l) element += write.factors[l] * i.counters[l];
+            if (i.element ? element != *i.element : element >= 0 && element < count) return false;
+            to.lowest = std::min(to.lowest, element);
+            to.highest = std::max(to.highest, element);
         }
         result_.writes[number].push_back(std::move(write));
         return to.size() <= largest_spare * to.values.size();

@@ -31,8 +31,8 @@ struct CarriedVariable {
 };
 /// Values of several instances that are read by an index.
 struct ValueArray {
-    std::vector<std::int32_t> values;      ///< of the trace, at the places from 0 on
-    std::int64_t lowest = 0, highest = 0;  ///< places; those beyond the values hold what is never read
+    std::vector<std::int32_t> values;      ///< of the trace, at the indices from 0 on
+    std::int64_t lowest = 0, highest = 0;  ///< indices; those beyond the values hold what is never read
 
     std::size_t size() const { return static_cast<std::size_t>(highest - lowest + 1); }
 };

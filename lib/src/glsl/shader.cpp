@@ -171,14 +171,14 @@ Evaluation by_table(Program program, const Bounds& bounds, float resolution, con
     for (const glsl::BoxProgram& p : grid.programs) table.add(p);
     functions.finish();
     Evaluation result{{}, functions.numbers(), grid.content.size(), grid.programs.size()};
-    const std::vector<std::size_t> places = table.append_to(result.numbers);
-    result.text = fmt::format("const int PT_WHOLE = {};\n", places[0]);
+    const std::vector<std::size_t> offsets = table.append_to(result.numbers);
+    result.text = fmt::format("const int PT_WHOLE = {};\n", offsets[0]);
     if (options.grid > 0) {
         result.text += fmt::format("const int PT_GRID = {};\nconst ivec3 PT_BOXES = ivec3({}, {}, {});\n",
                                    result.numbers.size(), grid.boxes[0], grid.boxes[1], grid.boxes[2]);
         for (const std::int32_t c : grid.content)
             result.numbers.push_back(c < 0 ? static_cast<float>(c)
-                                           : static_cast<float>(places[static_cast<std::size_t>(c) + 1]));
+                                           : static_cast<float>(offsets[static_cast<std::size_t>(c) + 1]));
     }
     result.text += functions.text(false) + "\n" + table.text(false) + glsl::gradient_arithmetic + "\n" +
                    functions.text(true) + "\n" + table.text(true) + glsl::table_evaluation +

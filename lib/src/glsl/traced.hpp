@@ -122,9 +122,9 @@ inline Traced floor(const Traced& a) {
 }
 inline Traced lookup(const float* table, const Traced& index) {
     if (index.is_number()) return Traced(table[static_cast<int>(index.number())]);
-    const auto place = static_cast<std::uint32_t>(table - index.trace->data.data());
+    const auto offset = static_cast<std::uint32_t>(table - index.trace->data.data());
     index.trace->has_lookup = true;
-    const Operand result = write_step(index.trace, {TraceOp::lookup, SharedFunction::none, 1, place, {index.operand}});
+    const Operand result = write_step(index.trace, {TraceOp::lookup, SharedFunction::none, 1, offset, {index.operand}});
     return Traced(index.trace, result.value);
 }
 

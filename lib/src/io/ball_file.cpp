@@ -41,12 +41,12 @@ std::string_view next_field(std::string_view& line) {
 }
 
 // For each column of ball_columns its number among those of the file.
-using Places = std::array<std::optional<std::size_t>, ball_columns.size()>;
+using ColumnIndices = std::array<std::optional<std::size_t>, ball_columns.size()>;
 
 // What columns are missing, or nothing.
-std::string missing_columns(const Places& places, std::string_view of) {
+std::string missing_columns(const ColumnIndices& indices, std::string_view of) {
     for (std::size_t i = 0; i < required; ++i)
-        if (!places[i]) return fmt::format("{} no column \"{}\"; they need x, y and z", of, ball_columns[i]);
+        if (!indices[i]) return fmt::format("{} no column \"{}\"; they need x, y and z", of, ball_columns[i]);
     return {};
 }
 
@@ -74,18 +74,18 @@ BallList read_ball_ply(const std::filesystem::path& path, std::string_view conte
             ply.for_each_row(e, [](const Ply::Row&) {});
             continue;
         }
-        Places places;
-        for (std::size_t i = 0; i < places.size(); ++i) places[i] = e.find(ball_columns[i]);
-        if (const std::string missing = missing_columns(places, "its vertices have"); !missing.empty())
+        ColumnIndices indices;
+        for (std::size_t i = 0; i < indices.size(); ++i) indices[i] = e.find(ball_columns[i]);
+        if (const std::string missing = missing_columns(indices, "its vertices have"); !missing.empty())
             throw SceneError(path.string(), missing);
         if (e.rows > BallList::most_balls) throw SceneError(path.string(), std::string(too_many));
-        BallBuilder builder(places[radius].has_value(), places[phase].has_value());
+        BallBuilder builder(indices[radius].has_value(), indices[phase].has_value());
         std::array<double, ball_columns.size()> columns{};
         ply.for_each_row(e, [&](const Ply::Row& row) {
-            for (std::size_t i = 0; i < places.size(); ++i) {
-                if (!places[i]) continue;
-                if (row[*places[i]].size() != 1) ply.fail(e, fmt::format("its {} is not one number", ball_columns[i]));
-                columns[i] = row[*places[i]][0];
+            for (std::size_t i = 0; i < indices.size(); ++i) {
+                if (!indices[i]) continue;
+                if (row[*indices[i]].size() != 1) ply.fail(e, fmt::format("its {} is not one number", ball_columns[i]));
+                columns[i] = row[*indices[i]][0];
             }
             if (const std::string_view wrong = builder.add(columns); !wrong.empty()) ply.fail(e, wrong);
         });
@@ -114,36 +114,36 @@ BallList read_ball_csv(const std::filesystem::path& path, std::string_view conte
     std::optional<std::string_view> line = next_line();
     if (!line) throw SceneError(path.string(), "has no lines");
     if (line->starts_with("\xef\xbb\xbf")) line->remove_prefix(3);  // a byte order mark
-    Places places;
+    ColumnIndices indices;
     std::size_t columns = 0;
     for (; !line->empty(); ++columns) {
         const std::string_view name = next_field(*line);
         const auto known = std::ranges::find(ball_columns, name);
         if (known == ball_columns.end()) continue;
-        std::optional<std::size_t>& place = places[static_cast<std::size_t>(known - ball_columns.begin())];
-        if (place) throw fail(fmt::format("there are two columns \"{}\"", *known));
-        place = columns;
+        std::optional<std::size_t>& index = indices[static_cast<std::size_t>(known - ball_columns.begin())];
+        if (index) throw fail(fmt::format("there are two columns \"{}\"", *known));
+        index = columns;
     }
-    if (const std::string missing = missing_columns(places, "the first line names"); !missing.empty())
+    if (const std::string missing = missing_columns(indices, "the first line names"); !missing.empty())
         throw fail(missing);
 
-    BallBuilder builder(places[radius].has_value(), places[phase].has_value());
+    BallBuilder builder(indices[radius].has_value(), indices[phase].has_value());
     std::array<double, ball_columns.size()> values{};
     support::ReadingPlace place;
     while ((line = next_line())) {
         std::array<bool, ball_columns.size()> is_there{};
         for (std::size_t column = 0; !line->empty(); ++column) {
             const std::string_view field = next_field(*line);
-            for (std::size_t i = 0; i < places.size(); ++i) {
-                if (places[i] != column) continue;
+            for (std::size_t i = 0; i < indices.size(); ++i) {
+                if (indices[i] != column) continue;
                 const auto value = number_of<double>(field);
                 if (!value) throw fail(fmt::format("its {} is not a number", ball_columns[i]));
                 values[i] = *value;
                 is_there[i] = true;
             }
         }
-        for (std::size_t i = 0; i < places.size(); ++i)
-            if (places[i] && !is_there[i]) throw fail(fmt::format("its {} is missing", ball_columns[i]));
+        for (std::size_t i = 0; i < indices.size(); ++i)
+            if (indices[i] && !is_there[i]) throw fail(fmt::format("its {} is missing", ball_columns[i]));
         if (const std::string_view wrong = builder.add(values); !wrong.empty()) throw fail(wrong);
         place.reached(std::min(at, content.size()));
     }

@@ -12,12 +12,13 @@ TriangleMesh read_ply(const std::filesystem::path& path, std::string_view conten
     Ply ply(path, content);
     for (const Ply::Element& e : ply.elements()) {
         if (e.name == "vertex") {
-            const std::array place{e.find("x"), e.find("y"), e.find("z")};
-            if (!place[0] || !place[1] || !place[2]) throw SceneError(path.string(), "its vertices have no x, y and z");
+            const std::array column{e.find("x"), e.find("y"), e.find("z")};
+            if (!column[0] || !column[1] || !column[2])
+                throw SceneError(path.string(), "its vertices have no x, y and z");
             ply.for_each_row(e, [&](const Ply::Row& row) {
                 glm::vec3 p;
                 for (int i = 0; i < 3; ++i) {
-                    const std::vector<double>& value = row[*place[static_cast<std::size_t>(i)]];
+                    const std::vector<double>& value = row[*column[static_cast<std::size_t>(i)]];
                     if (value.size() != 1) ply.fail(e, "a coordinate is not one number");
                     p[i] = static_cast<float>(value[0]);
                 }

@@ -220,8 +220,8 @@ std::string scene_schema(const KindPage& file, std::span<const std::pair<std::st
     schema["$schema"] = "http://json-schema.org/draft-07/schema#";
     schema["title"] = "phasetree scene";
     const Json object = object_of(file);
-    for (const char* const part : {"type", "additionalProperties", "required", "properties"})
-        schema[part] = object.at(part);
+    for (const char* const key : {"type", "additionalProperties", "required", "properties"})
+        schema[key] = object.at(key);
     Json& all = schema["definitions"];
     for (const auto& [name, text] : definitions) all[name] = Json::parse(text);
     all["keys"] = Json::parse(schema_of_keys());

@@ -17,9 +17,9 @@ using Tag = hn::CappedTag<float, batch_size>;
 using Register = hn::Vec<Tag>;
 using RegisterMask = hn::Mask<Tag>;
 inline constexpr std::size_t width = hn::MaxLanes(Tag());
-inline constexpr std::size_t parts = batch_size / width;
+inline constexpr std::size_t registers_per_batch = batch_size / width;
 
-#define PHASETREE_EACH _Pragma("GCC unroll 2") for (std::size_t i = 0; i < parts; ++i)
+#define PHASETREE_EACH _Pragma("GCC unroll 2") for (std::size_t i = 0; i < registers_per_batch; ++i)
 
 /// The indices of a register's lanes, rotated so that lane `first` comes first.
 template <std::size_t first>
@@ -35,14 +35,14 @@ HWY_INLINE const std::int32_t* turn_indices() {
 }
 
 struct Batch {
-    Register v[parts];
+    Register v[registers_per_batch];
 
     Batch() = default;
     HWY_INLINE explicit Batch(float value) { PHASETREE_EACH v[i] = hn::Set(Tag(), value); }
 };
 
 struct BatchMask {
-    RegisterMask m[parts];
+    RegisterMask m[registers_per_batch];
 };
 
 /// Reads eight floats.
@@ -191,7 +191,7 @@ HWY_INLINE Batch shifted_back(const Batch& a, float after) {
     Register carry = hn::Set(Tag(), after);
     const auto on = hn::SetTableIndices(Tag(), turn_indices<1>());
     const RegisterMask others = hn::FirstN(Tag(), width - 1);
-    for (std::size_t i = parts; i-- > 0;) {
+    for (std::size_t i = registers_per_batch; i-- > 0;) {
         const Register turned = hn::TableLookupLanes(a.v[i], on);  // the first lane comes last
         r.v[i] = hn::IfThenElse(others, turned, carry);
         carry = turned;

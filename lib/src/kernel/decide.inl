@@ -1,4 +1,4 @@
-// What counts as a crossing where labels are a matter of rounding (March). Included by kernel.inl.
+// What counts as a crossing where labels are a matter of rounding errors (March). Included by kernel.inl.
 
 namespace phasetree::kernel::HWY_NAMESPACE {
 namespace {
@@ -6,24 +6,24 @@ namespace {
 // Whether the change of label at `next` is a crossing; if so, reports it, and if not, moves `here` on to where that is
 // known.
 //
-// Within rounding of an interface labels mean little: between solids that abut there are slivers of other phases, and
-// along a face the label flickers. So a change counts only once it is decided: once s(p) is above rounding, or once
-// there was no place in the ray's phase for one and a half resolutions. Until then the ray stays in its phase. The
-// bracket goes from the last place in that phase to the first one in the phase that follows. So it is at most 2.75
-// resolutions long: a gap of one before the first place in another phase, the one and a half, and a quarter more to the
-// next place if rounding hides that the one and a half are full.
-bool March::is_crossing(const Place& next, RayCrossing& result) {
+// Within the rounding error of an interface labels mean little: between solids that abut there are slivers of other
+// phases, and along a face the label flickers. So a change counts only once it is decided: once s(p) is above the
+// rounding error, or once there was no sample in the ray's phase for one and a half resolutions. Until then the ray
+// stays in its phase. The bracket goes from the last sample in that phase to the first one in the phase that follows.
+// So it is at most 2.75 resolutions long: a gap of one before the first sample in another phase, the one and a half,
+// and a quarter more to the next sample if a rounding error hides that the one and a half are full.
+bool March::is_crossing(const Sample& next, RayCrossing& result) {
     const float resolution = ray_.resolution;
-    // Takes note of a place in another phase; returns whether the change is decided with it.
-    const auto note_other = [&](const Place& p) {
+    // Takes note of a sample in another phase; returns whether the change is decided with it.
+    const auto note_other = [&](const Sample& p) {
         if (other_.label == no_label) left_at_ = p.t;
         if (other_.label != p.label) other_ = p;
-        return p.distance >= rounding() || p.t - left_at_ >= 1.5f * resolution;
+        return p.distance >= rounding_error() || p.t - left_at_ >= 1.5f * resolution;
     };
     const bool is_known = next.label != another_phase;
     if (is_known && note_other(next)) return report(result, certain_.t, other_.t, other_.label);
     alignas(64) float beyond[batch_size], label[batch_size], distance[batch_size];
-    // Eight places a quarter of a resolution apart: behind `next`, or from `next` on if it is only known not to be in
+    // Eight samples a quarter of a resolution apart: behind `next`, or from `next` on if it is only known not to be in
     // the ray's phase, because no more than the first component was evaluated there.
     const Batch t =
         min(Batch(next.t) + (lanes() + (is_known ? 1.f : 0.f)) * (resolution * (2.f / batch_size)), Batch(ray_.length));
@@ -32,12 +32,12 @@ bool March::is_crossing(const Place& next, RayCrossing& result) {
     store(c.label, label);
     store(c.distance, distance);
     for (std::size_t i = 0; i < batch_size; ++i) {
-        const Place p{beyond[i], distance[i], label[i]};
+        const Sample p{beyond[i], distance[i], label[i]};
         here_ = {p.t, p.distance, phase_};
         if (p.label == phase_) {
             certain_ = here_;
             other_.label = no_label;
-            if (p.distance >= rounding()) break;
+            if (p.distance >= rounding_error()) break;
         } else if (note_other(p)) {
             return report(result, certain_.t, other_.t, other_.label);
         }
@@ -46,7 +46,7 @@ bool March::is_crossing(const Place& next, RayCrossing& result) {
 }
 
 // Whether a ray whose start is not in the phase that it carries was in it a few resolutions before; if so, reports the
-// crossing there. Along a face where labels flicker the cell before may still have seen the ray in its phase. No place
+// crossing there. Along a face where labels flicker the cell before may still have seen the ray in its phase. No point
 // farther back is asked, because a cell's program holds only in the cell and a little around it.
 bool March::is_entered_late(RayCrossing& result) {
     const float resolution = ray_.resolution;
@@ -56,9 +56,9 @@ bool March::is_entered_late(RayCrossing& result) {
         store(sample_whole(where).label, label);
     };
     constexpr float size = static_cast<float>(batch_size);
-    // `in` is the last place that was found in the ray's phase, and `out` the first one behind it that was not. First
-    // we go backward from the start until there is a place for `in`; then what lies between the two is divided.
-    Place in{0, 0, no_label}, out{0, 0, here_.label};
+    // `in` is the last sample that was found in the ray's phase, and `out` the first one behind it that was not. First
+    // we go backward from the start until there is a sample for `in`; then what lies between the two is divided.
+    Sample in{0, 0, no_label}, out{0, 0, here_.label};
     const float way_back = smaller(ray_.before, 4 * resolution);
     if (!(way_back > 0)) return false;
     look((lanes() + 1.f) * (-way_back / size));

@@ -12,8 +12,8 @@ namespace phasetree::kernel {
 /// The largest number of steps of a sign certificate.
 inline constexpr std::size_t most_certificate_steps = 32;
 
-/// An instruction that is ready to run. Slots count batches among the registers; a point takes three. The places of the
-/// constants are kept apart (Routine::data), so that routines which differ only in constants share their steps.
+/// An instruction that is ready to run. Slots count batches among the registers; a point takes three. The offsets of
+/// the constants are kept apart (Routine::data), so that routines which differ only in constants share their steps.
 struct Step {
     std::uint32_t op;  ///< an Op
     std::uint32_t to;  ///< the slot of the result
@@ -23,7 +23,7 @@ struct Step {
     bool operator==(const Step&) const = default;
 };
 
-/// The place of a component after the steps have run: it is sign (1 or −1) times the slot's value.
+/// Where a component is after the steps have run: it is sign (1 or −1) times the slot's value.
 struct OutputSlot {
     std::uint32_t slot;
     float phase;
@@ -88,9 +88,9 @@ struct Visit {
     float resolution;
     float carried;  ///< the phase that the ray is in; negative: the label at its start
     float rise;     ///< LeavingHint::rise, in [−1, 1], or no_leaving_hint
-    /// Where an unfinished search goes on: a place in the ray's phase, as a distance from where the search began; else
+    /// Where an unfinished search goes on: a point in the ray's phase, as a distance from where the search began; else
     /// 0.
-    float from = 0;
+    float t_begin = 0;
 
     /// A value of `rise`, which no LeavingHint has.
     static constexpr float no_leaving_hint = -2;
@@ -98,9 +98,9 @@ struct Visit {
 
 /// The first change of label of a visit, as a Crossing. If there is none, only the counters are set.
 struct RayCrossing {
-    double start;                     ///< the distance along the ray of the place where the search began
-    float origin[3];                  ///< that place
-    float t_in, t_out;                ///< distances from that place
+    double start;                     ///< the distance along the ray of the point where the search began
+    float origin[3];                  ///< that point
+    float t_in, t_out;                ///< distances from that point
     float from, to;                   ///< phases
     std::uint32_t batches, phantoms;  ///< see TraceCounters
     /// The search was left unfinished: there is no change up to t_in, which is in the phase `from`. See

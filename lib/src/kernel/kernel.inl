@@ -141,7 +141,7 @@ HWY_INLINE void run(const Routine& routine, std::size_t count, float* registers)
 }
 
 // Puts the points of a batch into slots 0 … 2.
-HWY_INLINE void place(const Batch& x, const Batch& y, const Batch& z, float* registers) {
+HWY_INLINE void set_points(const Batch& x, const Batch& y, const Batch& z, float* registers) {
     store(x, registers);
     store(y, registers + batch_size);
     store(z, registers + 2 * batch_size);
@@ -195,14 +195,14 @@ HWY_INLINE Classified classify(const Routine& routine, bool is_by_own, float* re
 }
 
 // Puts the points o + t·d of a ray into slots 0 … 2.
-HWY_INLINE void place_along(const float* o, const float* d, const Batch& t, float* registers) {
-    place(Batch(o[0]) + t * d[0], Batch(o[1]) + t * d[1], Batch(o[2]) + t * d[2], registers);
+HWY_INLINE void set_points_along(const float* o, const float* d, const Batch& t, float* registers) {
+    set_points(Batch(o[0]) + t * d[0], Batch(o[1]) + t * d[1], Batch(o[2]) + t * d[2], registers);
 }
 
 // The functions of a Kernel follow; see kernel.hpp.
 
 void evaluate(const Routine& routine, const float* x, const float* y, const float* z, float* registers, float* out) {
-    place(load(x), load(y), load(z), registers);
+    set_points(load(x), load(y), load(z), registers);
     run(routine, routine.count, registers);
     for (std::size_t i = 0; i < routine.output_count; ++i)
         store(load(at(registers, routine.outputs[i].slot)) * routine.outputs[i].sign, out + i * batch_size);
@@ -210,7 +210,7 @@ void evaluate(const Routine& routine, const float* x, const float* y, const floa
 
 void sample(const Routine& routine, const float* x, const float* y, const float* z, float* registers, float* label,
             float* distance) {
-    place(load(x), load(y), load(z), registers);
+    set_points(load(x), load(y), load(z), registers);
     run(routine, routine.count, registers);
     const Classified c = classify(routine, routine.is_by_own, registers);
     store(c.label, label);
@@ -219,7 +219,7 @@ void sample(const Routine& routine, const float* x, const float* y, const float*
 
 void sample_ray(const Routine& routine, const float* o, const float* d, const float* t, float* registers, float* label,
                 float* distance) {
-    place_along(o, d, load(t), registers);
+    set_points_along(o, d, load(t), registers);
     run(routine, routine.count, registers);
     const Classified c = classify(routine, routine.is_by_own, registers);
     store(c.label, label);
@@ -232,7 +232,7 @@ void sample_ray(const Routine& routine, const float* o, const float* d, const fl
 
 #include "kernel/sign_certificate.inl"
 
-#include "kernel/places.inl"
+#include "kernel/sample_positions.inl"
 
 #include "kernel/frame.inl"
 

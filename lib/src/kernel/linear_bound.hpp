@@ -11,7 +11,7 @@ namespace phasetree::kernel {
 /// the bound is used only for rays in the phase of that component.
 ///     |f(p) − (normal·p + offset)| ≤ slack     for all p in the cell
 ///     |∂f/∂d − normal·d| ≤ spread              for all directions d of unit length
-/// The bounds include rounding. If the slack is infinite nothing is known but that f is 1-Lipschitz.
+/// The bounds include rounding errors. If the slack is infinite nothing is known but that f is 1-Lipschitz.
 struct LinearBound {
     glm::vec3 normal{0};
     float offset = 0;

@@ -1,12 +1,12 @@
 // Multiphase sphere tracing with a batch of points *along the one ray*. Included by kernel.inl.
 //
-// We hold a place `here` that is certainly in the ray's phase, and a stack of frames of eight samples ahead of it: each
-// frame lies within a gap of the one below it. Two neighbouring samples in the ray's phase whose radii together cover
-// the gap between them prove it free of interfaces; that is one comparison for a whole frame. The first gap in doubt is
-// sampled again, at eight points inside it: evenly spread; or, where the label differs at its end, gathered around the
-// place where the distances predict the interface; or, where the ray starts on an interface, spread out geometrically
-// from there (places.inl). A gap no longer than the resolution is the crossing if the labels at its ends differ; else
-// it is passed.
+// We hold a sample `here` that is certainly in the ray's phase, and a stack of frames of eight samples ahead of it:
+// each frame lies within a gap of the one below it. Two neighbouring samples in the ray's phase whose radii together
+// cover the gap between them prove it free of interfaces; that is one comparison for a whole frame. The first gap in
+// doubt is sampled again, at eight points inside it: evenly spaced; or, where the label differs at its end, gathered
+// around the position where the distances predict the interface; or, where the ray starts on an interface, spaced
+// geometrically from there (sample_positions.inl). A gap no longer than the resolution is the crossing if the labels at
+// its ends differ; else it is passed.
 //
 // A hit is a change of label, never a small distance: phantom zeros, where components vanish without a change, cost
 // samples but are never hits.
@@ -46,44 +46,45 @@ class March {
     HWY_INLINE Classified sample(const Batch& t, bool is_whole = false) {
         const bool by_first = is_first_enough_ && !is_whole && routine_.leading < routine_.count;
         ++batches_;
-        place_along(ray_.origin, ray_.direction, t, registers_);
+        set_points_along(ray_.origin, ray_.direction, t, registers_);
         run(routine_, by_first ? routine_.leading : routine_.count, registers_);
         return by_first ? classify_first(routine_, registers_) : classify(routine_, is_by_own_, registers_);
     }
     HWY_INLINE Classified sample_whole(const Batch& t) { return sample(t, true); }
 
-    // Samples a frame behind the place `from` and finds its gaps in doubt. Returns false, and leaves the frame as it
-    // is, if no sample lies strictly between `from` and `to`, because there is no float between them.
-    bool fill(Frame& f, const Batch& t, const Place& from, float to, bool is_whole = false) {
+    // Samples a frame behind the sample `before` and finds its gaps in doubt. Returns false, and leaves the frame as it
+    // is, if no sample lies strictly between `before` and `end`, because there is no float between them.
+    bool fill(Frame& f, const Batch& t, const Sample& before, float end, bool is_whole = false) {
         const Classified c = sample(t, is_whole);
-        if (!(bits(less(Batch(from.t), t)) & bits(less(t, Batch(to))))) return false;
+        if (!(bits(less(Batch(before.t), t)) & bits(less(t, Batch(end))))) return false;
         store(t, f.t);
         store(c.distance, f.distance);
         store(c.label, f.label);
-        find_doubt(f, t, c, from);
+        find_doubt(f, t, c, before);
         return true;
     }
     // Finds the gaps of a frame that are in doubt. The tests are in the order of their cost: radii that cover the gap,
     // the curvature of the distance (as is_free_by_curvature(), for all gaps at once), and the sign certificate.
-    HWY_INLINE void find_doubt(Frame& f, const Batch& t, const Classified& c, const Place& from) const {
-        f.from = {from.t, from.distance, phase_};
+    HWY_INLINE void find_doubt(Frame& f, const Batch& t, const Classified& c, const Sample& before) const {
+        f.before = {before.t, before.distance, phase_};
         f.next = 0;
         const std::uint32_t other = bits(less(c.label, Batch(phase_))) | bits(less(Batch(phase_), c.label));
         const std::uint32_t differs = (other | (other << 1)) & all_lanes;  // at one of the gap's ends
         f.doubt = differs;
         f.phantom = 0;
-        if (ray_.is_monotone) return;  // the label does not change between two places where it is equal
-        const Batch gap = t - shifted(t, from.t), covered = c.distance + shifted(c.distance, from.distance);
+        if (ray_.is_monotone) return;  // the label does not change between two samples where it is equal
+        const Batch gap = t - shifted(t, before.t), covered = c.distance + shifted(c.distance, before.distance);
         std::uint32_t open = bits(less(covered, gap * ray_.slope));
         const std::uint32_t is_long = bits(less(Batch(ray_.resolution), gap));
         if (is_curvature_known_ && (open & is_long)) {
-            const Batch margin(rounding()), zero(0.f), half_curvature(half_curvature_);
-            const Batch b = max(c.distance - margin, zero), a = shifted(b, larger(from.distance - rounding(), 0.f));
+            const Batch margin(rounding_error()), zero(0.f), half_curvature(half_curvature_);
+            const Batch b = max(c.distance - margin, zero),
+                        a = shifted(b, larger(before.distance - rounding_error(), 0.f));
             const Batch missing = gap * gap * half_curvature - a - b;
             open &= bits(less(zero, missing)) & bits(less(a * b * 4.f, missing * missing));
         }
         if (has_certificate_ && (open & is_long))
-            open &= ~certified_gaps(routine_, phase_ != routine_.outputs[0].phase, registers_, t, rounding());
+            open &= ~certified_gaps(routine_, phase_ != routine_.outputs[0].phase, registers_, t, rounding_error());
         f.doubt |= open & is_long;
         f.phantom = open & ~is_long & ~differs;
     }
@@ -95,18 +96,19 @@ class March {
     bool narrow(Frame* frames, int& depth, bool& is_aligned, RayCrossing&);
     bool search_gaps(Frame* frames, int depth, bool is_aligned, RayCrossing&);
     void pass_gaps(Frame&, int lane);
-    Batch places_around_root(const Frame&, int lane, const Place& next) const;
-    Batch places_in_gap(const Frame&, int lane, const Place& next) const;
+    Batch positions_around_root(const Frame&, int lane, const Sample& next) const;
+    Batch positions_in_gap(const Frame&, int lane, const Sample& next) const;
     // In decide.inl.
-    bool is_crossing(const Place& next, RayCrossing&);
+    bool is_crossing(const Sample& next, RayCrossing&);
     bool is_entered_late(RayCrossing&);
 
     // Whether the distances at a gap's ends prove it free by how much s curves. Between the ends s is above its chord
     // less a parabola, which stays above zero if √a + √b ≥ gap·√(curvature/2); squared twice, that is a + b + 2√(ab) ≥
     // gap²·curvature/2.
-    bool is_free_by_curvature(float from, float to, float gap) const {
+    bool is_free_by_curvature(float distance_here, float distance_next, float gap) const {
         if (!is_curvature_known_) return false;
-        const float a = larger(from - rounding(), 0.f), b = larger(to - rounding(), 0.f);
+        const float a = larger(distance_here - rounding_error(), 0.f),
+                    b = larger(distance_next - rounding_error(), 0.f);
         const float missing = gap * gap * half_curvature_ - a - b;
         return missing <= 0 || 4 * a * b >= missing * missing;
     }
@@ -118,9 +120,9 @@ class March {
     // below its tangent there. So the label is that of `here` up to r − e, where e is k r(h − r), the left side's
     // distance below the chord, over its tangent's slope (a + b)/h + k(h − 2r). From r + e′ on it is another one: that
     // of `next`, if no third component vanishes on the way there. In the code r is `to_root`, h is `gap`, k and k′ are
-    // `k` and `other`, and e and e′, with rounding, must be at most `reach`; r(h − r) is `bend`, and h(h − 2r) is
-    // `turn`. `next` is a lane of the last batch of samples.
-    bool is_located(const Place& next, int lane, RayCrossing& c) const {
+    // `k` and `other`, and e and e′, with the rounding error, must be at most `half_bracket`; r(h − r) is `bend`, and
+    // h(h − 2r) is `turn`. `next` is a lane of the last batch of samples.
+    bool is_located(const Sample& next, int lane, RayCrossing& c) const {
         if (!can_locate_ || next.label == another_phase) return false;
         const auto value = [&](const OutputSlot& o) {
             return o.sign * registers_[std::size_t{o.slot} * batch_size + static_cast<std::size_t>(lane)];
@@ -128,28 +130,28 @@ class March {
         const bool is_one = is_shared(routine_);
         const float a = here_.distance, b = is_one ? next.distance : value(routine_.outputs[0]);
         const float gap = next.t - here_.t, sum = a + b;
-        if (!(smaller(a, b) >= rounding())) return false;
-        const float to_root = gap * (a / sum), reach = 0.49f * ray_.resolution;
+        if (!(smaller(a, b) >= rounding_error())) return false;
+        const float to_root = gap * (a / sum), half_bracket = 0.49f * ray_.resolution;
         const float bend = to_root * (gap - to_root), turn = gap * (gap - 2 * to_root);
         const float k = half_curvature_, other = other_half_curvature_;
-        if (!((k * bend + rounding()) * gap <= reach * (sum + k * turn))) return false;
-        if (!((other * bend + rounding()) * gap <= reach * (sum - other * turn))) return false;
+        if (!((k * bend + rounding_error()) * gap <= half_bracket * (sum + k * turn))) return false;
+        if (!((other * bend + rounding_error()) * gap <= half_bracket * (sum - other * turn))) return false;
         for (std::size_t i = 1; !is_one && i < routine_.output_count; ++i) {
             const OutputSlot& third = routine_.outputs[i];
-            if (third.phase != next.label && !(value(third) >= gap - to_root + rounding())) return false;
+            if (third.phase != next.label && !(value(third) >= gap - to_root + rounding_error())) return false;
         }
-        return report(c, larger(here_.t + to_root - reach, here_.t), smaller(here_.t + to_root + reach, next.t),
-                      next.label);
+        return report(c, larger(here_.t + to_root - half_bracket, here_.t),
+                      smaller(here_.t + to_root + half_bracket, next.t), next.label);
     }
-    // Leaves the search unfinished. It may go on from the last place that is certainly in the ray's phase.
+    // Leaves the search unfinished. It may go on from the last sample that is certainly in the ray's phase.
     bool pause(RayCrossing& c) const {
         c.is_unfinished = true;
         c.t_in = certain_.t;
         c.from = phase_;
         return false;
     }
-    // Distances below this, a sixteenth of the resolution, are taken for rounding.
-    float rounding() const { return ray_.resolution * (1.f / 16); }
+    // Distances below this, a sixteenth of the resolution, are taken for rounding errors.
+    float rounding_error() const { return ray_.resolution * (1.f / 16); }
 
     bool report(RayCrossing& c, float t_in, float t_out, float to) const {
         c.t_in = t_in;
@@ -158,10 +160,10 @@ class March {
         c.to = to;
         return true;
     }
-    // A place proves that the label does not change between before(p) and past(p).
-    float past(const Place& p) const { return p.t + larger(p.distance, 0.f) / ray_.slope; }
-    float before(const Place& p) const { return p.t - larger(p.distance, 0.f) / ray_.slope; }
-    void pass(const Place& p) {
+    // A sample proves that the label does not change between before(p) and past(p).
+    float past(const Sample& p) const { return p.t + larger(p.distance, 0.f) / ray_.slope; }
+    float before(const Sample& p) const { return p.t - larger(p.distance, 0.f) / ray_.slope; }
+    void pass(const Sample& p) {
         here_ = certain_ = p;
         other_.label = no_label;
     }
@@ -178,10 +180,10 @@ class March {
     bool is_curvature_known_ = false;
     bool can_locate_ = false;       // one value tells where the label changes, and its curvature is known on both sides
     bool has_certificate_ = false;  // where the curvature is unknown, a sign certificate may prove gaps free
-    Place here_{};                  // the ray is in its phase up to here
-    Place certain_{};               // the last place whose own label is the ray's phase; mostly the same as here_
-    Place other_{};                 // the first place behind certain_ that has the label which was met last
-    float left_at_ = 0;             // the first place behind certain_ that has any other label
+    Sample here_{};                 // the ray is in its phase up to here
+    Sample certain_{};              // the last sample whose own label is the ray's phase; mostly the same as here_
+    Sample other_{};                // the first sample behind certain_ that has the label which was met last
+    float left_at_ = 0;             // the first sample behind certain_ that has any other label
 };
 
 }  // namespace

@@ -9,9 +9,10 @@ bool March::find(RayCrossing& result) {
     Frame frames[deepest];
     if (!start(frames[0])) return false;
     int depth = 1;           // the number of frames in use
-    bool is_aligned = true;  // whether `here` is the place before the next gap of the last frame
+    bool is_aligned = true;  // whether `here` is the sample before the next gap of the last frame
     if (here_.label != phase_) {
-        if (!find_phase_ahead()) return is_entered_late(result) || report(result, ray_.from, ray_.from, here_.label);
+        if (!find_phase_ahead())
+            return is_entered_late(result) || report(result, ray_.t_begin, ray_.t_begin, here_.label);
         is_aligned = false;
     }
     certain_ = here_;
@@ -25,13 +26,13 @@ HWY_INLINE bool March::start(Frame& f) {
     for (;;) {
         const bool is_bound_known = ray_.curvature[routine_.outputs[0].phase == ray_.carried ? 0 : 1] < 1e30f;
         const Batch t = ray_.on_interface && !ray_.is_monotone && !is_bound_known
-                            ? spread_from_interface(ray_.length, ray_.resolution)
-                            : spread_evenly(ray_.from, ray_.length);
+                            ? spaced_from_interface(ray_.length, ray_.resolution)
+                            : evenly_spaced(ray_.t_begin, ray_.length);
         const Classified c = sample(t);
         store(t, f.t);
         store(c.distance, f.distance);
         store(c.label, f.label);
-        here_ = f.place(0);
+        here_ = f.sample(0);
         phase_ = ray_.carried >= 0 ? ray_.carried : here_.label;
         if (is_first_enough_ && here_.label != phase_) {
             is_first_enough_ = false;  // the start is in another phase, and it must be known in which
@@ -55,7 +56,7 @@ HWY_INLINE bool March::start(Frame& f) {
 // Rounding may have put the start just across the interface that the ray was found on. Looks for the ray's phase in the
 // next four resolutions, and moves `here` to where it begins; returns whether it is there.
 HWY_INLINE bool March::find_phase_ahead() {
-    const Batch t = Batch(ray_.from) + (lanes() + 1.f) * (ray_.resolution * (4.f / batch_size));
+    const Batch t = Batch(ray_.t_begin) + (lanes() + 1.f) * (ray_.resolution * (4.f / batch_size));
     const Classified c = sample(t);
     const std::uint32_t other = bits(less(c.label, Batch(phase_))) | bits(less(Batch(phase_), c.label));
     const std::uint32_t regained = ~other & ~bits(less(Batch(ray_.length), t)) & all_lanes;
@@ -72,7 +73,7 @@ HWY_INLINE bool March::find_phase_ahead() {
 HWY_INLINE void March::pass_gaps(Frame& f, int lane) {
     const std::uint32_t passed = f.phantom & ((1u << lane) - (1u << f.next));
     phantoms_ += static_cast<std::uint32_t>(__builtin_popcount(passed));
-    pass(f.place(lane - 1));
+    pass(f.sample(lane - 1));
     f.next = lane;
 }
 
@@ -85,12 +86,12 @@ HWY_INLINE bool March::narrow(Frame* frames, int& depth, bool& is_aligned, RayCr
         const std::uint32_t ahead = f.doubt >> f.next;
         if (!ahead) break;
         const int lane = f.next + __builtin_ctz(ahead);
-        const Place next = f.place(lane);
+        const Sample next = f.sample(lane);
         if (next.label == phase_ || !(next.t > here_.t)) break;
         if (lane > f.next) pass_gaps(f, lane);
         if (next.t - here_.t > ray_.resolution) {
             if (is_located(next, lane, result)) return true;
-            if (!fill(frames[depth], places_around_root(f, lane, next), here_, next.t, true)) break;
+            if (!fill(frames[depth], positions_around_root(f, lane, next), here_, next.t, true)) break;
             ++depth;
             continue;
         }
@@ -110,7 +111,7 @@ HWY_INLINE bool March::search_gaps(Frame* frames, int depth, bool is_aligned, Ra
         if (batches_ >= most_batches) return pause(result);
         if (depth == 0) {
             if (here_.t >= length) return false;
-            if (!fill(frames[0], spread_evenly(here_.t, length), here_, 3.402823466e38f)) return false;
+            if (!fill(frames[0], evenly_spaced(here_.t, length), here_, 3.402823466e38f)) return false;
             depth = 1;
             is_aligned = true;
         }
@@ -131,7 +132,7 @@ HWY_INLINE bool March::search_gaps(Frame* frames, int depth, bool is_aligned, Ra
             continue;
         }
 
-        const Place next = f.place(f.next);
+        const Sample next = f.sample(f.next);
         const bool same = next.label == phase_;
         const float gap = next.t - here_.t;
         const float low = past(here_), high = before(next);
@@ -142,7 +143,7 @@ HWY_INLINE bool March::search_gaps(Frame* frames, int depth, bool is_aligned, Ra
             // If all frames are in use, the search begins anew with this gap in the first frame, and the samples ahead
             // of the gap are given up. The search cannot pass a gap that is in doubt.
             const int deeper = depth < deepest ? depth : 0;
-            const Batch t = places_in_gap(f, is_aligned ? f.next : -1, next);
+            const Batch t = positions_in_gap(f, is_aligned ? f.next : -1, next);
             if (fill(frames[deeper], t, here_, next.t, !same)) {
                 depth = deeper + 1;
                 is_aligned = true;
@@ -164,10 +165,10 @@ HWY_INLINE bool March::search_gaps(Frame* frames, int depth, bool is_aligned, Ra
 }
 
 // Where to sample in the gap from `here` to `next`, at whose end the label is another one. `lane` is as in
-// places_in_gap().
-HWY_INLINE Batch March::places_around_root(const Frame& f, int lane, const Place& next) const {
+// positions_in_gap().
+HWY_INLINE Batch March::positions_around_root(const Frame& f, int lane, const Sample& next) const {
     const bool has_before = lane >= 1, has_after = lane >= 0 && lane + 1 < static_cast<int>(batch_size);
-    const Place before = has_before ? f.place(lane - 2) : here_, after = has_after ? f.place(lane + 1) : next;
+    const Sample before = has_before ? f.sample(lane - 2) : here_, after = has_after ? f.sample(lane + 1) : next;
     const float root = predicted_root(here_, next, before, after);
     // A certificate proves only gaps between two samples of a frame. So with one the first sample is at `here`, and gap
     // 0, about which it says nothing, is empty.
@@ -175,18 +176,18 @@ HWY_INLINE Batch March::places_around_root(const Frame& f, int lane, const Place
                          has_certificate_);
 }
 
-// Where to sample in the gap from `here` to `next`. If `here` is the place before `next` in a frame, `lane` is the lane
-// of `next`; else it is −1.
-Batch March::places_in_gap(const Frame& f, int lane, const Place& next) const {
-    if (next.label != phase_) return places_around_root(f, lane, next);
+// Where to sample in the gap from `here` to `next`. If `here` is the sample before `next` in a frame, `lane` is the
+// lane of `next`; else it is −1.
+Batch March::positions_in_gap(const Frame& f, int lane, const Sample& next) const {
+    if (next.label != phase_) return positions_around_root(f, lane, next);
     const float gap = next.t - here_.t;
     if (const float slope = (next.distance - here_.distance) / gap; slope > 0.02f) {
         // The ray leaves an interface that it started on, at a low angle: one frame passes many of the gaps ahead.
-        return spread_growing(here_.t, ray_.length, larger(here_.distance, 0.25f * ray_.resolution),
+        return spaced_growing(here_.t, ray_.length, larger(here_.distance, 0.25f * ray_.resolution),
                               smaller(slope, 1.f));
     }
     const float low = past(here_), high = before(next);
-    return spread_evenly(smaller(low, high), high);
+    return evenly_spaced(smaller(low, high), high);
 }
 
 }  // namespace

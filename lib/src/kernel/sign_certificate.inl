@@ -34,12 +34,12 @@ HWY_INLINE float float_of_upper_bits(std::uint16_t upper) {
 struct Gaps {
     Batch length, inverse;       // the length and 1/length
     Batch with_last, with_next;  // its length plus that of the gap before it, or behind it
-    float rounding;              // the error of a field's value
+    float rounding_error;        // the error of a field's value
 };
 
-HWY_INLINE Gaps gaps_between(const Batch& t, float rounding) {
+HWY_INLINE Gaps gaps_between(const Batch& t, float rounding_error) {
     const Batch length = max(t - shifted(t, 0), Batch(1e-30f));
-    return {length, Batch(1.f) / length, length + shifted(length, 0), length + shifted_back(length, 0), rounding};
+    return {length, Batch(1.f) / length, length + shifted(length, 0), length + shifted_back(length, 0), rounding_error};
 }
 
 // Bit i tells whether the leaf, or minus the leaf if `is_negated`, is proven to be positive in the gap that ends at
@@ -52,14 +52,14 @@ HWY_INLINE std::uint32_t certified_by_leaf(const PackedCertificateStep& s, bool 
     const Batch zero(0.f), one(1.f), unknown(1e30f);
     const Batch g =
         (load(registers + std::size_t{s.slot} * batch_size) - s.threshold) * (is_negated ? -factor : factor);
-    const Batch b = g - gaps.rounding, a = shifted(b, 0);
+    const Batch b = g - gaps.rounding_error, a = shifted(b, 0);
     std::uint32_t free = 0;
     if (up < 1e30f) {
         const Batch missing = gaps.length * gaps.length * (0.5f * up) - a - b;
         free = ~bits(less(zero, missing)) | ~bits(less(a * b * 4.f, missing * missing));
     }
     if (down < 1e30f) {
-        const Batch slope = (g - shifted(g, 0)) * gaps.inverse, error = gaps.inverse * (2 * gaps.rounding);
+        const Batch slope = (g - shifted(g, 0)) * gaps.inverse, error = gaps.inverse * (2 * gaps.rounding_error);
         const Batch falls = select(less(lanes(), Batch(0.5f)), unknown, error - slope), rises = error + slope;
         const Batch bend(0.5f * down);
         const Batch p = max(min(shifted(falls, 0) + gaps.with_last * bend, one), zero);
@@ -74,8 +74,8 @@ HWY_INLINE std::uint32_t certified_by_leaf(const PackedCertificateStep& s, bool 
 // Bit i tells whether the first component is proven to keep its sign in the gap that ends at lane i: to be negative, as
 // in the phase of the first output, or, if `is_negated`, to be positive, as in the other phases.
 std::uint32_t certified_gaps(const Routine& routine, bool is_negated, const float* registers, const Batch& t,
-                             float rounding) {
-    const Gaps gaps = gaps_between(t, rounding);
+                             float rounding_error) {
+    const Gaps gaps = gaps_between(t, rounding_error);
     std::uint32_t stack[most_certificate_steps];
     std::uint32_t* top = stack;
     for (const PackedCertificateStep *s = routine.certificate, *end = s + routine.certificate_steps; s != end; ++s) {

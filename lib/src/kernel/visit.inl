@@ -11,7 +11,7 @@ struct Interval {
     double low, high;
 };
 
-// As the functions of the same names in places.inl, in double.
+// As the functions of the same names in sample_positions.inl, in double.
 HWY_INLINE double larger(double x, double y) {
     return x > y ? x : y;
 }
@@ -25,18 +25,18 @@ HWY_INLINE float magnitude(float x) {
 // Cuts a span of a ray to what lies between two planes across an axis; the span becomes empty if nothing does. It is
 // computed in double, so that an origin far from the object costs no accuracy.
 HWY_INLINE void clip(Interval& span, float low, float high, float origin, float direction, double inverse) {
-    const double from = static_cast<double>(low) - static_cast<double>(origin);
-    const double to = static_cast<double>(high) - static_cast<double>(origin);
+    const double to_low = static_cast<double>(low) - static_cast<double>(origin);
+    const double to_high = static_cast<double>(high) - static_cast<double>(origin);
     if (HWY_UNLIKELY(direction == 0)) {
-        if (from > 0 || to < 0) span.high = -endless;
+        if (to_low > 0 || to_high < 0) span.high = -endless;
         return;
     }
-    const double a = from * inverse, b = to * inverse;
+    const double a = to_low * inverse, b = to_high * inverse;
     span.low = larger(smaller(a, b), span.low);
     span.high = smaller(larger(a, b), span.high);
 }
 
-// A LeavingHint whose rise is smaller is not used: its rounding would be too large a part of it.
+// A LeavingHint whose rise is smaller is not used: its rounding error would be too large a part of it.
 constexpr float least_rise = 0.02f;
 
 // The part of a ray that has to be searched in a cell, made smaller step by step. Each step returns whether anything is
@@ -130,14 +130,14 @@ class Approach {
         return {.origin = {x_, y_, z_},
                 .direction = {ray_.direction.x, ray_.direction.y, ray_.direction.z},
                 .length = static_cast<float>(span_.high - span_.low),
-                .from = visit_.from,
+                .t_begin = visit_.t_begin,
                 .before = static_cast<float>(span_.low) - visit_.t_min,
                 .resolution = visit_.resolution,
                 .slope = slope_,
                 .curvature = {visit_.curvature[0], visit_.curvature[1]},
                 .carried = carried_,
                 .is_monotone = is_monotone_,
-                .on_interface = on_interface_ && visit_.from == 0};
+                .on_interface = on_interface_ && visit_.t_begin == 0};
     }
     // The distance along the ray at which that piece starts.
     HWY_INLINE double start() const { return span_.low; }

@@ -9,8 +9,8 @@ namespace phasetree {
 
 namespace {
 
-// Distances below this share of the size are rounding.
-constexpr double rounding = 1e-11;
+// Distances below this share of the size are taken for rounding errors.
+constexpr double relative_error = 1e-11;
 
 glm::dvec3 across(const glm::dvec3& n) {
     const glm::dvec3 axis = std::abs(n.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
@@ -75,7 +75,7 @@ ConvexPolyhedron::ConvexPolyhedron(const Bounds& box, std::span<const HalfSpace>
 }
 
 void ConvexPolyhedron::clip(const HalfSpace& half, std::size_t plane) {
-    const double apart = rounding * size_;
+    const double apart = relative_error * size_;
     std::vector<glm::dvec3> cut;
     bool is_whole = true;
     for (const Face& face : faces_)
@@ -115,7 +115,7 @@ double ConvexPolyhedron::area() const {
 
 ConvexPolyhedron::Mesh ConvexPolyhedron::mesh() const {
     Mesh mesh;
-    const double apart = 1e3 * rounding * size_;
+    const double apart = 1e3 * relative_error * size_;
     for (const Face& face : faces_) {
         std::vector<std::uint32_t>& indices = mesh.faces.emplace_back();
         for (const glm::dvec3& p : face.corners) {

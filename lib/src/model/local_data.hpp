@@ -31,7 +31,7 @@ concept RequiredDataPrimitive = LocalDataPrimitive<N> &&
              std::vector<float>& floats) {
     { N::specialise(data, range, farthest, of, floats) } -> std::same_as<bool>;
 };
-/// One whose data are many parts of about one kind, about spacing() apart from each other.
+/// One whose data are many parts, which are balls or pieces of a mesh, about spacing() apart from each other.
 template <class N>
 concept PrimitiveOfParts = LocalDataPrimitive<N> && requires(const float* data) {
     { N::spacing(data) } -> std::same_as<float>;

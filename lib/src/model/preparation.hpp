@@ -5,7 +5,7 @@
 
 namespace phasetree::model {
 
-/// The budget of work that a node may spend to derive what it needs from its parameters, such as places on a surface or
+/// The budget of work that a node may spend to derive what it needs from its parameters, such as points on a surface or
 /// the bound of a slope. Work is counted in steps: an instruction that is run for a batch of points is one, and so is
 /// about as much of other work. 4·10⁸ steps take about a second.
 class Preparation {

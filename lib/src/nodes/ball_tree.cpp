@@ -37,13 +37,13 @@ std::size_t nodes_over(std::size_t count) {
     }
 }
 
-// A tree's parts, found again in its floats.
-struct Parts {
+// Where a tree's floats hold its balls and its nodes.
+struct TreeView {
     const float* balls;
     float largest;
     const float* nodes;
 
-    explicit Parts(const float* data)
+    explicit TreeView(const float* data)
         : balls(data + ShortList::head), largest(data[ShortList::floats(data)]), nodes(data + nodes_at(data)) {}
     static std::size_t nodes_at(const float* data) { return ShortList::floats(data) + 2; }
     const float* node(std::size_t i) const { return nodes + i * Tree::node_floats; }
@@ -54,26 +54,26 @@ std::size_t index_at(const float* node, std::size_t member) {
     return static_cast<std::size_t>(node[member]);
 }
 
-// Writes the nodes over a part of the balls, which it sorts for that.
+// Writes the nodes over a range of the balls, which it sorts for that.
 class Writer {
   public:
     Writer(std::vector<glm::vec4>& balls, float* nodes) : balls_(balls), nodes_(nodes) {}
 
     void write(std::size_t node, std::size_t first, std::size_t count) {
         float* const to = nodes_ + node * Tree::node_floats;
-        const auto part = std::span(balls_).subspan(first, count);
+        const auto range = std::span(balls_).subspan(first, count);
         if (count <= most_in_leaf) {
-            std::ranges::sort(part, comes_before);  // for a tree that is the same whatever order the balls had
+            std::ranges::sort(range, comes_before);  // for a tree that is the same whatever order the balls had
             Bounds box;
             float radius = 0;
-            for (const glm::vec4& b : part) {
+            for (const glm::vec4& b : range) {
                 box = unite(box, {glm::vec3(b), glm::vec3(b)});
                 radius = std::max(radius, b.w);
             }
             set(to, box, radius, count, first);
             return;
         }
-        divide(part);
+        divide(range);
         const std::size_t first_child = node + 1, second_child = first_child + nodes_over(half(count));
         const auto write_first = [&] { write(first_child, first, half(count)); };
         const auto write_second = [&] { write(second_child, first + half(count), count - half(count)); };
@@ -96,13 +96,13 @@ class Writer {
             if (a[i] != b[i]) return a[i] < b[i];
         return false;
     }
-    // Puts one half before the other, along the axis on which the centres are spread most.
-    static void divide(std::span<glm::vec4> part) {
+    // Puts one half before the other, along the axis along which the centres extend the farthest.
+    static void divide(std::span<glm::vec4> range) {
         Bounds box;
-        for (const glm::vec4& b : part) box = unite(box, {glm::vec3(b), glm::vec3(b)});
+        for (const glm::vec4& b : range) box = unite(box, {glm::vec3(b), glm::vec3(b)});
         const glm::vec3 e = box.extent();
         const int axis = e.x >= e.y && e.x >= e.z ? 0 : e.y >= e.z ? 1 : 2;
-        std::ranges::nth_element(part, part.begin() + static_cast<std::ptrdiff_t>(half(part.size())),
+        std::ranges::nth_element(range, range.begin() + static_cast<std::ptrdiff_t>(half(range.size())),
                                  [axis](const glm::vec4& a, const glm::vec4& b) {
                                      return a[axis] != b[axis] ? a[axis] < b[axis] : comes_before(a, b);
                                  });
@@ -124,12 +124,12 @@ class Writer {
 
 // A lower bound of the signed distance from a box, or from a point, to the balls below a node.
 template <class Number>
-Number least_distance(const float* node, const std::array<Number, 3>& p, const std::array<Number, 3>& reach) {
+Number least_distance(const float* node, const std::array<Number, 3>& p, const std::array<Number, 3>& half_extents) {
     Number sum = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         const Number below = static_cast<Number>(node[Tree::low + i]) - p[i];
         const Number above = p[i] - static_cast<Number>(node[Tree::high + i]);
-        const Number away = std::max(std::max(below, above) - reach[i], Number{0});
+        const Number away = std::max(std::max(below, above) - half_extents[i], Number{0});
         sum += away * away;
     }
     return std::sqrt(sum) - static_cast<Number>(node[Tree::radius]);
@@ -138,20 +138,20 @@ Number least_distance(const float* node, const std::array<Number, 3>& p, const s
 // Visits the leaves, near ones first, that are no farther from p than limit() tells, which may fall meanwhile. Ends
 // when a visit returns false.
 template <class Number, class Limit, class Visit>
-void for_each_leaf(const Parts& parts, const std::array<Number, 3>& p, const std::array<Number, 3>& reach,
+void for_each_leaf(const TreeView& view, const std::array<Number, 3>& p, const std::array<Number, 3>& half_extents,
                    const Limit& limit, const Visit& visit) {
     struct Entry {
         std::size_t node;
         Number least;
     };
-    const auto entry = [&](std::size_t node) { return Entry{node, least_distance(parts.node(node), p, reach)}; };
+    const auto entry = [&](std::size_t node) { return Entry{node, least_distance(view.node(node), p, half_extents)}; };
     std::array<Entry, tallest> stack;
     std::size_t depth = 0;
     stack[depth++] = entry(0);
     while (depth > 0) {
         const Entry top = stack[--depth];
         if (!(top.least <= limit())) continue;
-        const float* node = parts.node(top.node);
+        const float* node = view.node(top.node);
         if (node[Tree::count] != 0) {
             if (!visit(node)) return;
             continue;
@@ -163,7 +163,7 @@ void for_each_leaf(const Parts& parts, const std::array<Number, 3>& p, const std
     }
 }
 
-// More than the distance from p to a ball can be off by rounding.
+// More than the distance from p to a ball can be off by rounding errors.
 template <class Number>
 Number margin(float largest, const std::array<Number, 3>& p) {
     const Number far = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
@@ -231,15 +231,15 @@ class Candidates {
 }  // namespace
 
 const float* Tree::nearest(const float* data, const Vec3<float>& point) {
-    const Parts parts(data);
+    const TreeView view(data);
     const std::array p{point.x, point.y, point.z};
-    const float slack = margin(parts.largest, p);
+    const float slack = margin(view.largest, p);
     const float* found = nullptr;
     float least = std::numeric_limits<float>::infinity();
     for_each_leaf(
-        parts, p, {}, [&] { return least + slack; },
+        view, p, {}, [&] { return least + slack; },
         [&](const float* leaf) {
-            const float* ball = parts.ball(index_at(leaf, link));
+            const float* ball = view.ball(index_at(leaf, link));
             for (std::size_t left = index_at(leaf, count); left > 0; --left, ball += ball_floats) {
                 const float distance = distance_to(ball, point);
                 if (!(distance < least || (distance == least && (!found || ball < found)))) continue;
@@ -248,14 +248,15 @@ const float* Tree::nearest(const float* data, const Vec3<float>& point) {
             }
             return true;
         });
-    return found ? found : parts.balls;  // Where coordinates are infinite, all balls are as far.
+    return found ? found : view.balls;  // Where coordinates are infinite, all balls are as far.
 }
 
 bool Tree::balls_in(const float* tree, const Wanted& wanted, std::span<const float> around,
                     std::vector<float>& floats) {
-    const Parts parts(tree);
-    const auto &centre = wanted.box.centre, &reach = wanted.box.reach;
-    const double slack = 2 * (margin(parts.largest, centre) + 2e-6 * std::max({reach[0], reach[1], reach[2]}));
+    const TreeView view(tree);
+    const auto &centre = wanted.box.centre, &half_extents = wanted.box.reach;
+    const double slack =
+        2 * (margin(view.largest, centre) + 2e-6 * std::max({half_extents[0], half_extents[1], half_extents[2]}));
     Candidates candidates(wanted, slack);
     if (!around.empty()) {
         const float* ball = around.data() + ShortList::head;
@@ -267,12 +268,12 @@ bool Tree::balls_in(const float* tree, const Wanted& wanted, std::span<const flo
     if (!(slack < 1e12)) return false;
     bool is_too_many = false, is_any = false;
     for_each_leaf(
-        parts, centre, reach,
+        view, centre, half_extents,
         // As long as there is no ball at all, one that is too far is looked for.
         [&] { return is_any ? candidates.limit() : std::numeric_limits<double>::infinity(); },
         [&](const float* leaf) {
             is_any = true;
-            const float* ball = parts.ball(index_at(leaf, link));
+            const float* ball = view.ball(index_at(leaf, link));
             for (std::size_t left = index_at(leaf, count); left > 0; --left, ball += ball_floats)
                 candidates.consider(ball);
             // The near leaves come first, so what is left of many after some leaves is likely to stay.
@@ -290,7 +291,7 @@ bool Tree::balls_in(const float* tree, const Wanted& wanted, std::span<const flo
 }
 
 float Tree::spacing(const float* data) {
-    const float* root = Parts(data).node(0);
+    const float* root = TreeView(data).node(0);
     double volume = 1;
     for (std::size_t i = 0; i < 3; ++i)
         volume *= static_cast<double>(root[high + i]) - static_cast<double>(root[low + i]) +
@@ -299,7 +300,7 @@ float Tree::spacing(const float* data) {
 }
 
 double Tree::support(const float* data, const glm::dvec3& d, float more) {
-    const Parts parts(data);
+    const TreeView view(data);
     const double length = glm::length(d);
     // The most that a node's box allows, by which the search is ordered and ends.
     const auto bound = [&](const float* node) {
@@ -315,16 +316,16 @@ double Tree::support(const float* data, const glm::dvec3& d, float more) {
     stack[depth++] = 0;
     while (depth > 0) {
         const std::size_t at = stack[--depth];
-        const float* node = parts.node(at);
+        const float* node = view.node(at);
         if (!(bound(node) > most)) continue;
         if (node[count] == 0) {
             std::size_t near = at + 1, far = index_at(node, link);
-            if (bound(parts.node(far)) > bound(parts.node(near))) std::swap(near, far);
+            if (bound(view.node(far)) > bound(view.node(near))) std::swap(near, far);
             stack[depth++] = far;
             stack[depth++] = near;
             continue;
         }
-        const float* ball = parts.ball(index_at(node, link));
+        const float* ball = view.ball(index_at(node, link));
         for (std::size_t left = index_at(node, count); left > 0; --left, ball += ball_floats)
             most = std::max(most, glm::dot(d, glm::dvec3(ball[0], ball[1], ball[2])) +
                                       length * static_cast<double>(ball[3] + more));
@@ -336,7 +337,7 @@ std::vector<float> make_tree(std::vector<glm::vec4> balls) {
     const std::size_t nodes = nodes_over(balls.size());
     std::vector<float> table(ShortList::head + balls.size() * ball_floats + 2 + nodes * Tree::node_floats);
     table[0] = static_cast<float>(balls.size());
-    float* const nodes_to = table.data() + Parts::nodes_at(table.data());
+    float* const nodes_to = table.data() + TreeView::nodes_at(table.data());
     Writer(balls, nodes_to).write(0, 0, balls.size());
     float largest = 0;
     float* to = table.data() + ShortList::head;

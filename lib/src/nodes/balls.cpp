@@ -55,23 +55,23 @@ std::vector<glm::vec4> detail::given_balls(std::string_view node, const std::vec
                                            const std::vector<float>& radii, const FromFile<BallList>& file) {
     if (centres.empty() == !file.content)
         throw ModelError(fmt::format("{}: it needs either \"centres\" or a \"file\"", node));
-    const std::vector<glm::vec3>& places = file.content ? file.content->centres : centres;
+    const std::vector<glm::vec3>& points = file.content ? file.content->centres : centres;
     const bool has_own = file.content && !file.content->radii.empty();
     if (has_own && !radii.empty())
         throw ModelError(fmt::format("{}: \"radii\" must be absent, because the file has radii of its own", node));
     const std::vector<float>& sizes = has_own ? file.content->radii : radii;
-    if (places.empty()) throw ModelError(fmt::format("{}: there are no balls", node));
-    if (places.size() > BallList::most_balls)
+    if (points.empty()) throw ModelError(fmt::format("{}: there are no balls", node));
+    if (points.size() > BallList::most_balls)
         throw ModelError(fmt::format("{}: there are more than {} balls", node, BallList::most_balls));
-    if (sizes.size() != 1 && sizes.size() != places.size())
+    if (sizes.size() != 1 && sizes.size() != points.size())
         throw ModelError(sizes.empty()
                              ? fmt::format("{}: \"radii\" is missing{}", node,
                                            file.content ? ", and the file has none of its own" : "")
                              : fmt::format("{}: \"radii\" needs an entry for each ball, or one for all", node));
-    std::vector<glm::vec4> balls(places.size());
+    std::vector<glm::vec4> balls(points.size());
     for (std::size_t i = 0; i < balls.size(); ++i) {
         const float r = sizes[sizes.size() == 1 ? 0 : i];
-        balls[i] = glm::vec4(places[i], r);
+        balls[i] = glm::vec4(points[i], r);
         if (!(r > 0))
             throw ModelError(fmt::format("{}: the radius of {} is not positive", node, name_of_ball(i, file.path)));
         bool is_usable = r >= smallest && r <= farthest;

@@ -16,17 +16,17 @@ void BoxTree::divide(std::span<const Bounds> items, std::uint32_t first, std::ui
     nodes.push_back({{}, 0, first, count});
     behind_.push_back(0);
     Bounds box, centres;
-    const std::span<std::uint32_t> part = std::span(order).subspan(first, count);
-    for (const std::uint32_t i : part) {
+    const std::span<std::uint32_t> range = std::span(order).subspan(first, count);
+    for (const std::uint32_t i : range) {
         box = unite(box, items[i]);
         centres = unite(centres, {items[i].centre(), items[i].centre()});
     }
     nodes[self].box = box;
     if (count > most) {
-        const glm::vec3 spread = centres.extent();
-        const int axis = spread.x >= spread.y && spread.x >= spread.z ? 0 : spread.y >= spread.z ? 1 : 2;
+        const glm::vec3 extent = centres.extent();
+        const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
         const std::uint32_t half = count / 2;
-        std::nth_element(part.begin(), part.begin() + half, part.end(), [&](std::uint32_t a, std::uint32_t b) {
+        std::nth_element(range.begin(), range.begin() + half, range.end(), [&](std::uint32_t a, std::uint32_t b) {
             const float ca = items[a].centre()[axis], cb = items[b].centre()[axis];
             return ca != cb ? ca < cb : a < b;
         });

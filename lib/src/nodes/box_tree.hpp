@@ -18,8 +18,8 @@ struct BoxTree {
     std::vector<Node> nodes;
     std::vector<std::uint32_t> order;  ///< the items' numbers, leaf after leaf
 
-    /// Divides at the median of the boxes' centres along the axis on which these are spread most, until there are no
-    /// more than `most` items in each leaf. There must be an item.
+    /// Divides at the median of the boxes' centres along the axis along which these extend the farthest, until there
+    /// are no more than `most` items in each leaf. There must be an item.
     BoxTree(std::span<const Bounds> items, std::uint32_t most);
 
     /// Calls visit(first, count) for each leaf whose box meets; meets(box) tells that.

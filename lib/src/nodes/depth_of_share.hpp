@@ -9,7 +9,7 @@ namespace phasetree {
 
 /// Φ⁻¹, the inverse of the normal distribution, by Newton's method on the complementary error function; u from 0.001 to
 /// 0.999. From 0 no step goes beyond the root, because Φ is concave on one side of 0 and convex on the other; within
-/// the range 11 steps reach the rounding of doubles.
+/// the range 11 steps reach the rounding errors of doubles.
 inline double inverse_normal(double u) {
     double x = 0;
     for (int i = 0; i < 12; ++i) {

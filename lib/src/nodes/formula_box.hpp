@@ -25,7 +25,7 @@ struct BoxOfDoubles {
                 enclosure::Enclosure::coordinate(2, m[2], half(2))};
     }
     /// The two halves of the box, which is divided across its longest side among the axes that count.
-    std::pair<BoxOfDoubles, BoxOfDoubles> parts(const std::array<bool, 3>& counts = {true, true, true}) const {
+    std::pair<BoxOfDoubles, BoxOfDoubles> split(const std::array<bool, 3>& counts = {true, true, true}) const {
         std::size_t longest = 3;
         for (std::size_t i = 0; i < 3; ++i)
             if (counts[i] && (longest == 3 || half(i) > half(longest))) longest = i;
@@ -35,7 +35,7 @@ struct BoxOfDoubles {
         return both;
     }
     /// Its middle, as text for an error.
-    std::string place() const {
+    std::string middle_text() const {
         const auto m = middle();
         const auto text = [](double v) {
             std::array<char, 32> buffer;

@@ -21,7 +21,7 @@ constexpr double no_bound = 1e50;      // a bound above this stands for none: Ra
     for (std::size_t i = 0; i < term.steps.size(); ++i) {
         if (in.slope(i) < no_bound) continue;
         const FormulaStep& s = term.steps[i];
-        const std::string near = " near " + box.place();
+        const std::string near = " near " + box.middle_text();
         switch (s.op) {
             case Op::square_root:
                 fail_in_formula(
@@ -81,7 +81,7 @@ double slope_in(const TermSteps& term, const BoxOfDoubles& whole, int most_boxes
             refuse(term, in, b, has_bounds);
         }
         open.pop();
-        const auto [one, other] = b.parts(axes);
+        const auto [one, other] = b.split(axes);
         look(one, top.bound);
         look(other, top.bound);
     }

@@ -75,7 +75,7 @@ BoxOfDoubles around_solid(const FormulaTerms& formula, const BoxOfDoubles& whole
         // Floats may be negative where the formula is not.
         if (values.low > 1e-5 * std::min(1 + values.magnitude(), 1e4)) continue;
         if (top.depth < divisions) {
-            const auto [one, other] = top.box.parts();
+            const auto [one, other] = top.box.split();
             open.push_back({one, top.depth + 1});
             open.push_back({other, top.depth + 1});
             continue;

@@ -179,17 +179,17 @@ std::vector<FormulaStep> needed_steps(const std::vector<FormulaStep>& all, Formu
         const std::array<FormulaIndex, 3> of{all[i].a, all[i].b, all[i].c};
         for (int k = 0; k < operands(all[i].op); ++k) is_needed[of[static_cast<std::size_t>(k)]] = 1;
     }
-    std::vector<FormulaIndex> place(root + 1, 0);
+    std::vector<FormulaIndex> new_index(root + 1, 0);
     std::vector<FormulaStep> needed;
     for (FormulaIndex i = 0; i <= root; ++i) {
         if (!is_needed[i]) continue;
-        place[i] = static_cast<FormulaIndex>(needed.size());
+        new_index[i] = static_cast<FormulaIndex>(needed.size());
         FormulaStep s = all[i];
         // Operands that an operation does not take are set to 0.
         const int n = operands(s.op);
-        s.a = n > 0 ? place[s.a] : 0;
-        s.b = n > 1 ? place[s.b] : 0;
-        s.c = n > 2 ? place[s.c] : 0;
+        s.a = n > 0 ? new_index[s.a] : 0;
+        s.b = n > 1 ? new_index[s.b] : 0;
+        s.c = n > 2 ? new_index[s.c] : 0;
         needed.push_back(s);
     }
     return needed;

@@ -84,22 +84,22 @@ class FormulaReader {
     }
     std::string_view name() {
         blanks();
-        const std::size_t from = at_;
-        while (at_ < text_.size() && (is_letter(text_[at_]) || (at_ > from && is_digit(text_[at_])))) ++at_;
-        return std::string_view(text_).substr(from, at_ - from);
+        const std::size_t begin = at_;
+        while (at_ < text_.size() && (is_letter(text_[at_]) || (at_ > begin && is_digit(text_[at_])))) ++at_;
+        return std::string_view(text_).substr(begin, at_ - begin);
     }
 
     // A name that is given to a value.
     bool assignment() {
         blanks();
-        const std::size_t from = at_;
+        const std::size_t begin = at_;
         const std::string_view word = name();
         if (word.empty() || !accept('=')) {
-            at_ = from;
+            at_ = begin;
             return false;
         }
         if (names_.contains(word) || is_function(word))
-            fail_in_formula(from, "\"" + std::string(word) + "\" means something already");
+            fail_in_formula(begin, "\"" + std::string(word) + "\" means something already");
         const Index value = sum();
         expect(';');
         names_.emplace(word, value);
@@ -109,14 +109,14 @@ class FormulaReader {
         Index left = product();
         while (true) {
             blanks();
-            const std::size_t place = at_;
+            const std::size_t offset = at_;
             if (accept('+')) {
                 const Index right = product();
-                steps_.stand_at(place);
+                steps_.stand_at(offset);
                 left = steps_.add(left, right);
             } else if (accept('-')) {
                 const Index right = product();
-                steps_.stand_at(place);
+                steps_.stand_at(offset);
                 left = steps_.subtract(left, right);
             } else {
                 return left;
@@ -127,14 +127,14 @@ class FormulaReader {
         Index left = with_sign();
         while (true) {
             blanks();
-            const std::size_t place = at_;
+            const std::size_t offset = at_;
             if (accept('*')) {
                 const Index right = with_sign();
-                steps_.stand_at(place);
+                steps_.stand_at(offset);
                 left = steps_.multiply(left, right);
             } else if (accept('/')) {
                 const Index right = with_sign();
-                steps_.stand_at(place);
+                steps_.stand_at(offset);
                 left = steps_.divide(left, right);
             } else {
                 return left;
@@ -149,16 +149,16 @@ class FormulaReader {
             else if (!accept('+'))
                 break;
         }
-        const std::size_t place = at_;
+        const std::size_t offset = at_;
         const Index value = power();
         if (!is_negative) return value;
-        steps_.stand_at(place);
+        steps_.stand_at(offset);
         return steps_.negate(value);
     }
     Index power() {
         const Index base = atom();
         blanks();
-        const std::size_t place = at_;
+        const std::size_t offset = at_;
         if (!accept('^')) return base;
         double sign = 1;
         while (true) {
@@ -171,22 +171,22 @@ class FormulaReader {
         if (at_ >= text_.size() || !(is_digit(text_[at_]) || text_[at_] == '.'))
             fail_in_formula(at_, "an exponent must be a number" + found());
         const double exponent = sign * number();
-        steps_.stand_at(place);
+        steps_.stand_at(offset);
         return steps_.power(base, exponent);
     }
     double number() {
         double value = 0;
-        const char* const from = text_.data() + at_;
-        const auto [end, error] = std::from_chars(from, text_.data() + text_.size(), value);
+        const char* const begin = text_.data() + at_;
+        const auto [end, error] = std::from_chars(begin, text_.data() + text_.size(), value);
         if (error != std::errc()) fail_in_formula(at_, "this number cannot be read");
         steps_.stand_at(at_);
-        at_ += static_cast<std::size_t>(end - from);
+        at_ += static_cast<std::size_t>(end - begin);
         return value;
     }
     Index atom() {
         const Level level(*this);
         blanks();
-        const std::size_t place = at_;
+        const std::size_t offset = at_;
         if (accept('(')) {
             const Index inner = sum();
             expect(')');
@@ -195,11 +195,11 @@ class FormulaReader {
         if (at_ < text_.size() && (is_digit(text_[at_]) || text_[at_] == '.')) return steps_.constant(number());
         const std::string_view word = name();
         if (word.empty()) fail_in_formula(at_, "a number, a name or \"(\" is expected here" + found());
-        if (accept('(')) return call(word, place);
+        if (accept('(')) return call(word, offset);
         if (const auto known = names_.find(word); known != names_.end()) return known->second;
-        fail_in_formula(place, is_function(word)
-                                   ? "\"" + std::string(word) + "\" is a function: (…) is missing behind it"
-                                   : "there is no name \"" + std::string(word) + "\"; there are " + all_names());
+        fail_in_formula(offset, is_function(word)
+                                    ? "\"" + std::string(word) + "\" is a function: (…) is missing behind it"
+                                    : "there is no name \"" + std::string(word) + "\"; there are " + all_names());
     }
     std::string all_names() const {
         std::string all;
@@ -214,25 +214,25 @@ class FormulaReader {
     }
     static bool is_function(std::string_view word) { return function_of(word) != nullptr; }
 
-    Index call(std::string_view word, std::size_t place) {
+    Index call(std::string_view word, std::size_t offset) {
         const FormulaFunction* const function = function_of(word);
         if (!function) {
             std::string all;
             for (const FormulaFunction& f : formula_functions()) all += (all.empty() ? "" : ", ") + std::string(f.name);
-            fail_in_formula(place, "there is no function \"" + std::string(word) + "\"; there are " + all);
+            fail_in_formula(offset, "there is no function \"" + std::string(word) + "\"; there are " + all);
         }
         std::vector<Index> arguments;
         do arguments.push_back(sum());
         while (accept(','));
         expect(')');
         if (arguments.size() < function->least || arguments.size() > function->most)
-            fail_in_formula(place, "\"" + std::string(word) + "\" takes " + std::to_string(function->least) +
-                                       (function->most == function->least ? ""
-                                        : function->most > 100            ? " or more"
-                                                                          : " to " + std::to_string(function->most)) +
-                                       (function->most == 1 ? " argument" : " arguments") + ", but has " +
-                                       std::to_string(arguments.size()));
-        steps_.stand_at(place);
+            fail_in_formula(offset, "\"" + std::string(word) + "\" takes " + std::to_string(function->least) +
+                                        (function->most == function->least ? ""
+                                         : function->most > 100            ? " or more"
+                                                                           : " to " + std::to_string(function->most)) +
+                                        (function->most == 1 ? " argument" : " arguments") + ", but has " +
+                                        std::to_string(arguments.size()));
+        steps_.stand_at(offset);
         return function->apply(steps_, arguments);
     }
 

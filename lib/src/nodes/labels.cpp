@@ -110,8 +110,8 @@ void Labels::prepare() {
             const double most =
                 DepthOfShare::most(smoothing) * std::min({lattice.spacing.x, lattice.spacing.y, lattice.spacing.z});
             const auto lowest = static_cast<float>(most / depth.divided_by * (1 - 1e-5));
-            const Bounds part = depth.blocks_below(lowest);
-            if (!part.empty()) solid = unite(solid, part);
+            const Bounds blocks = depth.blocks_below(lowest);
+            if (!blocks.empty()) solid = unite(solid, blocks);
         }
     }
 }

@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint32_t most_in_leaf = 4;
 
 // What a product with a unit vector may be wrong by, as a share of the length of what is multiplied.
-constexpr double rounding = 0x1p-22;
+constexpr double product_error = 0x1p-22;
 
 void append(std::vector<float>& floats, const glm::dvec3& v) {
     for (int i = 0; i < 3; ++i) floats.push_back(static_cast<float>(v[i]));
@@ -36,8 +36,8 @@ double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
 // The table of a mesh, from its surface.
 class TableWriter {
   public:
-    explicit TableWriter(const Surface& s) : s_(s), tree_(mesh::boxes_of(s), most_in_leaf), place_(s.triangles.size()) {
-        for (std::uint32_t i = 0; i < tree_.order.size(); ++i) place_[tree_.order[i]] = i;
+    explicit TableWriter(const Surface& s) : s_(s), tree_(mesh::boxes_of(s), most_in_leaf), index_(s.triangles.size()) {
+        for (std::uint32_t i = 0; i < tree_.order.size(); ++i) index_[tree_.order[i]] = i;
     }
 
     std::vector<float> operator()() {
@@ -60,14 +60,14 @@ class TableWriter {
   private:
     // An edge or a vertex is in the leaf of the first of its triangles.
     void prepare_vertices() {
-        first_place_.assign(s_.vertices.size(), none);
+        first_index_.assign(s_.vertices.size(), none);
         normal_.assign(s_.vertices.size(), glm::dvec3(0));
-        spread_.assign(s_.vertices.size(), 0);
+        largest_angle_.assign(s_.vertices.size(), 0);
         for (std::uint32_t t = 0; t < s_.triangles.size(); ++t)
             for (int i = 0; i < 3; ++i) {
                 const std::uint32_t v = s_.triangles[t][i];
-                if (first_place_[v] == none) vertices_.push_back(v);
-                first_place_[v] = std::min(first_place_[v], place_[t]);
+                if (first_index_[v] == none) vertices_.push_back(v);
+                first_index_[v] = std::min(first_index_[v], index_[t]);
                 const glm::dvec3 p = s_.at(v);
                 normal_[v] +=
                     angle_between(s_.corner(t, (i + 1) % 3) - p, s_.corner(t, (i + 2) % 3) - p) * s_.normals[t];
@@ -75,18 +75,18 @@ class TableWriter {
         for (glm::dvec3& n : normal_) n = unit(n);
         for (std::uint32_t t = 0; t < s_.triangles.size(); ++t)
             for (int i = 0; i < 3; ++i) {
-                double& spread = spread_[s_.triangles[t][i]];
-                spread = std::max(spread, angle_between(normal_[s_.triangles[t][i]], s_.normals[t]));
+                double& largest = largest_angle_[s_.triangles[t][i]];
+                largest = std::max(largest, angle_between(normal_[s_.triangles[t][i]], s_.normals[t]));
             }
-        std::ranges::sort(vertices_, {}, [&](std::uint32_t v) { return std::pair(first_place_[v], v); });
+        std::ranges::sort(vertices_, {}, [&](std::uint32_t v) { return std::pair(first_index_[v], v); });
     }
     void prepare_edges() {
         edges_.resize(s_.edges.size());
         for (std::uint32_t e = 0; e < edges_.size(); ++e) edges_[e] = e;
-        std::ranges::sort(edges_, {}, [&](std::uint32_t e) { return std::pair(first_place(s_.edges[e]), e); });
+        std::ranges::sort(edges_, {}, [&](std::uint32_t e) { return std::pair(first_index(s_.edges[e]), e); });
     }
-    std::uint32_t first_place(const SharedEdge& e) const {
-        return std::min(place_[e.triangles[0]], place_[e.triangles[1]]);
+    std::uint32_t first_index(const SharedEdge& e) const {
+        return std::min(index_[e.triangles[0]], index_[e.triangles[1]]);
     }
 
     void append_face(std::uint32_t t, std::vector<float>& table) const {
@@ -101,7 +101,7 @@ class TableWriter {
         table.push_back(static_cast<float>(glm::dot(inward[1], p[1] - p[0])));
         const double longest =
             std::max({glm::distance(p[0], p[1]), glm::distance(p[1], p[2]), glm::distance(p[2], p[0])});
-        table.push_back(static_cast<float>(rounding * longest));
+        table.push_back(static_cast<float>(product_error * longest));
     }
     void append_edge(const SharedEdge& e, std::vector<float>& table) const {
         const glm::dvec3 a = s_.at(e.ends[0]), along = s_.at(e.ends[1]) - a;
@@ -111,12 +111,12 @@ class TableWriter {
         table.push_back(static_cast<float>(1 / glm::dot(along, along)));
         append(table, unit(m + n));
         table.push_back(static_cast<float>(angle_between(m, n) / 2));
-        table.push_back(static_cast<float>(rounding));
+        table.push_back(static_cast<float>(product_error));
     }
     void append_vertex(std::uint32_t v, std::vector<float>& table) const {
         append(table, s_.at(v));
         append(table, normal_[v]);
-        table.push_back(static_cast<float>(glm::length(normal_[v]) > 0 ? spread_[v] : std::numbers::pi));
+        table.push_back(static_cast<float>(glm::length(normal_[v]) > 0 ? largest_angle_[v] : std::numbers::pi));
     }
 
     void append_nodes(std::vector<float>& table) const {
@@ -129,8 +129,8 @@ class TableWriter {
             const bool is_leaf = n.second_child == 0;
             const std::uint32_t end = n.first + n.count;
             const std::size_t first_edge = edge, first_vertex = vertex;
-            while (is_leaf && edge < edges_.size() && first_place(s_.edges[edges_[edge]]) < end) ++edge;
-            while (is_leaf && vertex < vertices_.size() && first_place_[vertices_[vertex]] < end) ++vertex;
+            while (is_leaf && edge < edges_.size() && first_index(s_.edges[edges_[edge]]) < end) ++edge;
+            while (is_leaf && vertex < vertices_.size() && first_index_[vertices_[vertex]] < end) ++vertex;
             for (const std::size_t count : {std::size_t{n.first}, std::size_t{is_leaf ? n.count : 0}, first_edge,
                                             edge - first_edge, first_vertex, vertex - first_vertex})
                 table.push_back(static_cast<float>(count));
@@ -141,10 +141,10 @@ class TableWriter {
 
     const Surface& s_;
     BoxTree tree_;
-    std::vector<std::uint32_t> place_;  // of each triangle in the order of leaves
-    std::vector<std::uint32_t> first_place_, vertices_, edges_;
+    std::vector<std::uint32_t> index_;  // of each triangle in the order of leaves
+    std::vector<std::uint32_t> first_index_, vertices_, edges_;
     std::vector<glm::dvec3> normal_;
-    std::vector<double> spread_;
+    std::vector<double> largest_angle_;
 };
 
 }  // namespace

@@ -23,8 +23,8 @@ bool overlap(const Bounds& a, const Bounds& b) {
     return !intersect(a, b).empty();
 }
 
-// On which side of the plane through a, b and c the point d is: 1, −1, or 0 if that is a matter of rounding. The bound
-// of the error is that of Shewchuk, "Adaptive Precision Floating-Point Arithmetic" (1997), rounded up.
+// On which side of the plane through a, b and c the point d is: 1, −1, or 0 if that is a matter of rounding errors. The
+// bound of the error is that of Shewchuk, "Adaptive Precision Floating-Point Arithmetic" (1997), rounded up.
 int side(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
     const glm::dvec3 u = a - d, v = b - d, w = c - d;
     const double vw = v.x * w.y, wv = w.x * v.y, wu = w.x * u.y, uw = u.x * w.y, uv = u.x * v.y, vu = v.x * u.y;
@@ -49,8 +49,8 @@ bool goes_through(const glm::dvec3& p, const glm::dvec3& q, const std::array<glm
 
 // Whether two triangles cross. Of two that share a vertex, the edges opposite to it are enough.
 bool cross(const Surface& s, std::uint32_t one, std::uint32_t other) {
-    const auto goes = [&](std::uint32_t from, std::uint32_t through) {
-        const glm::uvec3 &a = s.triangles[from], &b = s.triangles[through];
+    const auto goes = [&](std::uint32_t edges_of, std::uint32_t through) {
+        const glm::uvec3 &a = s.triangles[edges_of], &b = s.triangles[through];
         const auto is_shared = [&](std::uint32_t v) { return v == b.x || v == b.y || v == b.z; };
         const std::array<glm::dvec3, 3> corners{s.corner(through, 0), s.corner(through, 1), s.corner(through, 2)};
         for (int i = 0; i < 3; ++i) {
@@ -114,11 +114,11 @@ std::optional<int> winding_number(const Surface& s, const BoxTree& tree, const g
                 size = std::max(size, glm::length(a) * glm::length(b));
             }
             const auto [least, most] = std::minmax({turn[0], turn[1], turn[2]});
-            const double rounding = 1e-12 * size;
-            if (least < -rounding && most > rounding) continue;
+            const double rounding_error = 1e-12 * size;
+            if (least < -rounding_error && most > rounding_error) continue;
             const double height = glm::dot(s.normals[t], q[0]) / glm::dot(s.normals[t], d);
             if (height < 0) continue;
-            if (least < rounding && most > -rounding) {
+            if (least < rounding_error && most > -rounding_error) {
                 is_in_doubt = true;
                 continue;
             }
@@ -161,12 +161,12 @@ void require_no_crossing(const Surface& s, const std::string& name) {
 }
 
 void require_outward(const Surface& s, const std::string& name) {
-    DisjointSets parts(s.triangles.size());
-    for (const SharedEdge& e : s.edges) parts.join(e.triangles[0], e.triangles[1]);
+    DisjointSets shells(s.triangles.size());
+    for (const SharedEdge& e : s.edges) shells.join(e.triangles[0], e.triangles[1]);
     std::vector<double> volume(s.triangles.size(), 0);
     std::vector<std::uint32_t> roots;
     for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
-        const auto root = static_cast<std::uint32_t>(parts.root(t));
+        const auto root = static_cast<std::uint32_t>(shells.root(t));
         if (root == t) roots.push_back(t);
         const glm::dvec3 origin = s.corner(root, 0);
         volume[root] += glm::dot(s.corner(t, 0) - origin, glm::cross(s.corner(t, 1) - origin, s.corner(t, 2) - origin));
@@ -186,7 +186,7 @@ void require_outward(const Surface& s, const std::string& name) {
             const double turn = 2.39996 * attempt + 0.3, z = 0.137 + 0.051 * attempt;
             const glm::dvec3 d(std::cos(turn), std::sin(turn), z);
             winding =
-                winding_number(s, tree, s.corner(root, 0), d, [&](std::uint32_t t) { return parts.root(t) == root; });
+                winding_number(s, tree, s.corner(root, 0), d, [&](std::uint32_t t) { return shells.root(t) == root; });
         }
         if (winding == expected) continue;
         throw ModelError(fmt::format("mesh: {} has a part that is {}: that of its triangle {} at {}", name,

@@ -29,36 +29,36 @@ class Complaint {
     const std::string& name_;
 };
 
-// The places at which vertices are, in rising order, and for each vertex the number of its place.
-struct Places {
-    std::vector<glm::vec3> places;
+// The points at which vertices are, in rising order, and for each vertex the index of its point.
+struct DistinctPoints {
+    std::vector<glm::vec3> points;
     std::vector<std::uint32_t> of;
 };
-Places places_of(std::span<const glm::vec3> vertices) {
+DistinctPoints distinct_points(std::span<const glm::vec3> vertices) {
     std::vector<std::uint32_t> order(vertices.size());
     std::iota(order.begin(), order.end(), 0u);
     const auto key = [&](std::uint32_t i) { return std::tuple(vertices[i].x, vertices[i].y, vertices[i].z); };
     std::ranges::sort(order, {}, key);
-    Places result{{}, std::vector<std::uint32_t>(vertices.size())};
+    DistinctPoints result{{}, std::vector<std::uint32_t>(vertices.size())};
     for (std::size_t i = 0; i < order.size(); ++i) {
-        // A sum with 0 is never −0, which would be the same place with other bits.
-        if (i == 0 || key(order[i]) != key(order[i - 1])) result.places.push_back(vertices[order[i]] + 0.f);
-        result.of[order[i]] = static_cast<std::uint32_t>(result.places.size() - 1);
+        // A sum with 0 is never −0, which would be the same point with other bits.
+        if (i == 0 || key(order[i]) != key(order[i - 1])) result.points.push_back(vertices[order[i]] + 0.f);
+        result.of[order[i]] = static_cast<std::uint32_t>(result.points.size() - 1);
     }
     return result;
 }
 
-// The triangles of places, in rising order and each from its least corner on.
-void add_triangles(Surface& s, const TriangleMesh& mesh, const Places& places, const Complaint& complain) {
+// The triangles of these points, in rising order and each from its least corner on.
+void add_triangles(Surface& s, const TriangleMesh& mesh, const DistinctPoints& distinct, const Complaint& complain) {
     std::vector<std::pair<std::array<std::uint32_t, 3>, std::uint32_t>> numbered;
     numbered.reserve(mesh.triangles.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         std::array<std::uint32_t, 3> corners;
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t vertex = mesh.triangles[t][static_cast<int>(i)];
-            if (vertex >= places.of.size())
+            if (vertex >= distinct.of.size())
                 complain(fmt::format("has a triangle ({}) with a vertex that does not exist", t + 1));
-            corners[i] = places.of[vertex];
+            corners[i] = distinct.of[vertex];
         }
         if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
         std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
@@ -97,18 +97,18 @@ void join(Surface& s, const Complaint& complain) {
     for (std::size_t i = 0, next = 0; i < uses.size(); i = next) {
         while (next < uses.size() && uses[next].low == uses[i].low && uses[next].high == uses[i].high) ++next;
         const EdgeUse& u = uses[i];
-        const auto place = [&] {
+        const auto edge_text = [&] {
             return fmt::format("the edge from {} to {}", written(s.at(u.low)), written(s.at(u.high)));
         };
         if (next - i == 1) {
             if (!open) open = &u;
             ++open_edges;
         } else if (next - i > 2) {
-            complain(fmt::format("touches itself: {} has {} triangles, among them {} and {}", place(), next - i,
+            complain(fmt::format("touches itself: {} has {} triangles, among them {} and {}", edge_text(), next - i,
                                  s.numbers[u.triangle], s.numbers[uses[i + 2].triangle]));
         } else if (u.is_rising == uses[i + 1].is_rising) {
             complain(fmt::format("has triangles that are turned opposite ways: {} and {} at {}", s.numbers[u.triangle],
-                                 s.numbers[uses[i + 1].triangle], place()));
+                                 s.numbers[uses[i + 1].triangle], edge_text()));
         } else {
             s.edges.push_back({{u.low, u.high}, {u.triangle, uses[i + 1].triangle}});
         }
@@ -183,10 +183,10 @@ Surface surface_of(const TriangleMesh& mesh, const std::string& name) {
             if (!(std::abs(mesh.vertices[i][k]) <= farthest_coordinate))
                 complain(
                     fmt::format("has a vertex ({}) that is farther than 1e9 m from the origin, or no number", i + 1));
-    Places places = places_of(mesh.vertices);
+    DistinctPoints distinct = distinct_points(mesh.vertices);
     Surface s;
-    add_triangles(s, mesh, places, complain);
-    s.vertices = std::move(places.places);
+    add_triangles(s, mesh, distinct, complain);
+    s.vertices = std::move(distinct.points);
     if (s.triangles.empty()) complain("has no triangles");
     join(s, complain);
     require_single_rings(s, complain);

@@ -17,7 +17,7 @@ struct SharedEdge {
     std::array<std::uint32_t, 2> ends, triangles;
 };
 
-/// The surface of a solid: corners at the same place are one, triangles with two equal corners are gone, each edge has
+/// The surface of a solid: corners at the same point are one, triangles with two equal corners are gone, each edge has
 /// two triangles with the same side outward, and all triangles about a vertex are neighbours in one ring. Vertices and
 /// triangles are in rising order, so that the surface, and with it each distance, is the same to the last bit in
 /// whatever order a file has them.
@@ -45,7 +45,7 @@ void require_outward(const Surface&, const std::string& name);
 /// The boxes around the triangles.
 std::vector<Bounds> boxes_of(const Surface&);
 
-/// A place for people.
+/// A point as text for people.
 std::string written(const glm::dvec3&);
 
 }  // namespace phasetree::mesh

@@ -11,12 +11,12 @@ namespace {
 
 constexpr std::size_t tallest = 64;  // The tree is balanced, so that it is never so tall.
 
-// A tree's parts, found again in its floats.
-struct Parts {
+// Where a tree's floats hold its pieces and its nodes.
+struct TreeView {
     std::array<const float*, piece_kinds> pieces;
     const float* nodes;
 
-    explicit Parts(const float* data) {
+    explicit TreeView(const float* data) {
         const float* at = data + PieceList::head;
         for_each_kind([&]<class Kind>() {
             pieces[static_cast<std::size_t>(Kind::kind)] = at;
@@ -29,10 +29,9 @@ struct Parts {
 
 // Calls f with each piece of a leaf; pieces of a kind stand one behind the other.
 template <class Kind, class F>
-void for_each_piece(const Parts& parts, const float* leaf, F&& f) {
+void for_each_piece(const TreeView& view, const float* leaf, F&& f) {
     constexpr auto kind = static_cast<std::size_t>(Kind::kind);
-    const float* piece =
-        parts.pieces[kind] + static_cast<std::size_t>(leaf[PieceTree::first + 2 * kind]) * Kind::floats;
+    const float* piece = view.pieces[kind] + static_cast<std::size_t>(leaf[PieceTree::first + 2 * kind]) * Kind::floats;
     for (auto left = static_cast<std::size_t>(leaf[PieceTree::first + 2 * kind + 1]); left > 0; --left) {
         f(piece);
         piece += Kind::floats;
@@ -51,7 +50,7 @@ Number squared_distance_to_box(const float* node, const Number* p) {
     return sum;
 }
 
-// More than distances of pieces from p can be off by rounding: the box's size counts, and how far p is from it.
+// More than distances of pieces from p can be off by rounding errors: the box's size counts, and how far p is from it.
 template <class Number>
 Number margin(const float* box, const Number* p) {
     Number sum = 0;
@@ -62,26 +61,26 @@ Number margin(const float* box, const Number* p) {
 
 // Visits the leaves, near ones first, whose boxes are no farther from p than limit() tells; it may fall meanwhile.
 template <class Number, class Limit, class Visit>
-void for_each_leaf(const Parts& parts, const Number* p, const Limit& limit, const Visit& visit) {
+void for_each_leaf(const TreeView& view, const Number* p, const Limit& limit, const Visit& visit) {
     struct Entry {
         std::size_t node;
         Number squared;
     };
     std::array<Entry, tallest> stack;
     std::size_t depth = 0;
-    stack[depth++] = {0, squared_distance_to_box(parts.node(0), p)};
+    stack[depth++] = {0, squared_distance_to_box(view.node(0), p)};
     while (depth > 0) {
         const Entry entry = stack[--depth];
         const Number most = limit();
         if (!(entry.squared <= most * most)) continue;
-        const float* node = parts.node(entry.node);
+        const float* node = view.node(entry.node);
         const auto second = static_cast<std::size_t>(node[PieceTree::second_child]);
         if (second == 0) {
             if (!visit(node)) return;
             continue;
         }
-        Entry near{entry.node + 1, squared_distance_to_box(parts.node(entry.node + 1), p)};
-        Entry far{second, squared_distance_to_box(parts.node(second), p)};
+        Entry near{entry.node + 1, squared_distance_to_box(view.node(entry.node + 1), p)};
+        Entry far{second, squared_distance_to_box(view.node(second), p)};
         if (far.squared < near.squared) std::swap(near, far);
         stack[depth++] = far;
         stack[depth++] = near;
@@ -95,7 +94,7 @@ struct InBox {
 };
 
 struct BoxOfPoints {
-    std::array<double, 3> centre, reach;
+    std::array<double, 3> centre, half_extents;
     double radius, margin;
 
     double along(const float* direction, const float* origin) const {
@@ -104,9 +103,9 @@ struct BoxOfPoints {
             sum += static_cast<double>(direction[i]) * (centre[i] - static_cast<double>(origin[i]));
         return sum;
     }
-    double reach_along(const float* direction) const {
+    double half_width_along(const float* direction) const {
         double sum = 0;
-        for (std::size_t i = 0; i < 3; ++i) sum += std::abs(static_cast<double>(direction[i])) * reach[i];
+        for (std::size_t i = 0; i < 3; ++i) sum += std::abs(static_cast<double>(direction[i])) * half_extents[i];
         return sum;
     }
     double distance_to(const float* origin, const float* vector, double t) const {
@@ -130,15 +129,15 @@ struct BoxOfPoints {
                 const float* inward = piece + Face::inward + 3 * side;
                 double within = along(inward, piece + Face::corner);
                 if (side == 1) within -= static_cast<double>(piece[Face::opposite]);
-                if (within + reach_along(inward) < -margin) return {never, never};
+                if (within + half_width_along(inward) < -margin) return {never, never};
                 beside = std::max(beside, -within);
             }
-            const double lower = std::max(std::abs(height) - reach_along(piece + Face::normal), 0.0);
+            const double lower = std::max(std::abs(height) - half_width_along(piece + Face::normal), 0.0);
             return {std::max(lower, std::hypot(height, beside) - radius), beside > 0 ? never : std::abs(height)};
         } else if constexpr (std::is_same_v<Kind, Edge>) {
             const float *end = piece + Edge::end, *vector = piece + Edge::vector;
             const auto inverse = static_cast<double>(piece[Edge::inverse]);
-            const double t = along(vector, end) * inverse, change = reach_along(vector) * inverse;
+            const double t = along(vector, end) * inverse, change = half_width_along(vector) * inverse;
             const double slack = margin * std::sqrt(inverse);
             if (t + change < -slack || t - change > 1 + slack) return {never, never};
             const double distance = distance_to(end, vector, std::clamp(t, 0.0, 1.0));
@@ -153,17 +152,17 @@ struct BoxOfPoints {
 }  // namespace
 
 FoundPiece PieceTree::nearest(const float* data, const Vec3<float>& point) {
-    const Parts parts(data);
+    const TreeView view(data);
     const float p[] = {point.x, point.y, point.z};
     const float slack = margin(data + piece_kinds, p);
     FoundPiece found;
     float least = nowhere, limit = farthest;
     for_each_leaf(
-        parts, p, [&] { return limit; },
+        view, p, [&] { return limit; },
         [&](const float* leaf) {
             const float before = least;
             for_each_kind([&]<class Kind>() {
-                for_each_piece<Kind>(parts, leaf, [&](const float* piece) {
+                for_each_piece<Kind>(view, leaf, [&](const float* piece) {
                     const float squared = Kind::tell(piece, point).squared;
                     // All pieces are in one array, kind after kind, so the first of two is that of the lower address.
                     if (!(squared < least || (squared == least && found.piece && piece < found.piece))) return;
@@ -202,13 +201,13 @@ bool PieceTree::pieces_in(const float* tree, const PointRange& range, std::span<
         std::erase_if(candidates, [&](const Candidate& c) { return c.least > farthest_in_box(); });
     };
     if (around.empty()) {
-        const Parts parts(tree);
+        const TreeView view(tree);
         bool is_too_many = false;
         for_each_leaf(
-            parts, box.centre.data(), [&] { return farthest_in_box() + box.radius; },
+            view, box.centre.data(), [&] { return farthest_in_box() + box.radius; },
             [&](const float* leaf) {
                 for_each_kind([&]<class Kind>() {
-                    for_each_piece<Kind>(parts, leaf,
+                    for_each_piece<Kind>(view, leaf,
                                          [&](const float* piece) { consider.template operator()<Kind>(piece); });
                 });
                 // The near leaves come first, so what is left of many after some leaves is likely to stay.

@@ -46,7 +46,7 @@ const char* SirenNetwork::mistake() const {
     if (!(radius >= 1e-6f && radius <= 1e6f)) return "the radius must be between 1e-6 and 1e6 m";
     if (layers.empty()) return "the network has no layers";
     int width = 3;
-    double reach = static_cast<double>(radius);  // bounds each input of the layer
+    double largest_input = static_cast<double>(radius);  // bounds each input of the layer
     for (std::size_t n = 0; n < layers.size(); ++n) {
         const Layer& layer = layers[n];
         if (layer.inputs != width)
@@ -60,12 +60,12 @@ const char* SirenNetwork::mistake() const {
             double sum = std::abs(static_cast<double>(layer.bias[o]));
             for (std::size_t i = 0; i < static_cast<std::size_t>(layer.inputs); ++i)
                 sum += std::abs(static_cast<double>(layer.weights[o * static_cast<std::size_t>(layer.inputs) + i])) *
-                       reach;
+                       largest_input;
             // sine() is exact for arguments up to 10⁴.
             if (!(sum < 9000)) return "a layer's weights are too large";
         }
         width = layer.outputs;
-        reach = 1;
+        largest_input = 1;
     }
     return width == 1 ? nullptr : "the last layer must give one number, the distance";
 }

@@ -15,7 +15,7 @@ double margin(const std::array<double, 3>& p) {
 }
 // Larger boxes would have long lists. Farther from the origin the pattern is not what it is elsewhere: it ends at
 // 65536.
-constexpr double longest_reach = 1, farthest = 60000;
+constexpr double largest_radius = 1, farthest = 60000;
 constexpr std::size_t most_sites = 100;
 
 // A box measured in cubes of the lattice.
@@ -30,7 +30,7 @@ double radius(const PointRange& r) {
     return std::hypot(r.reach[0], r.reach[1], r.reach[2]);
 }
 bool is_small(const PointRange& r) {
-    return radius(r) < longest_reach &&
+    return radius(r) < largest_radius &&
            std::abs(r.centre[0]) + std::abs(r.centre[1]) + std::abs(r.centre[2]) < farthest;
 }
 
@@ -57,7 +57,7 @@ bool append(std::span<const VoronoiSites::Site> sites, std::array<float, Special
 void VoronoiSites::find(const Search& search, std::span<const float> list, std::vector<Site>& found) const {
     using lattice::hashed, lattice::hashed_on, lattice::wrapped;
     const std::array<double, 3>& centre = search.centre;
-    const double corner = static_cast<double>(from_corner(0.f)), reach = static_cast<double>(jitter) + corner;
+    const double corner = static_cast<double>(from_corner(0.f)), highest = static_cast<double>(jitter) + corner;
     double farthest = search.most;
     found.clear();
     const auto add = [&](Site s) {
@@ -82,7 +82,7 @@ void VoronoiSites::find(const Search& search, std::span<const float> list, std::
         // A lower bound of the squared distance along an axis to the sites of a layer of cubes.
         const auto away = [&](std::size_t axis, int step) {
             const double low = static_cast<double>(own[axis]) + step + corner - centre[axis];
-            const double high = static_cast<double>(own[axis]) + step + reach - centre[axis];
+            const double high = static_cast<double>(own[axis]) + step + highest - centre[axis];
             const double least = std::max({low, -high, 0.0});
             return least * least;
         };

@@ -26,7 +26,7 @@ void for_each_bundle(std::size_t axis, std::vector<float>& values, const Size& s
                                        static_cast<std::size_t>(size[2])};
     const std::array<std::size_t, 3> stride{1, n[0], n[0] * n[1]};
     const std::size_t across = axis == 0 ? 1 : 0, outer = 3 - axis - across;
-    const std::size_t bundles = (n[across] + lanes - 1) / lanes;  // at each place along the outer axis
+    const std::size_t bundles = (n[across] + lanes - 1) / lanes;  // at each position along the outer axis
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n[outer] * bundles), [&](const auto& range) {
         Bundle bundle(n[axis] * lanes);
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
@@ -57,9 +57,9 @@ std::size_t count_of(const Size& n) {
 }
 
 Blur::Blur(float sigma) {
-    const int reach = static_cast<int>(std::ceil(3.5f * sigma));
+    const int radius = static_cast<int>(std::ceil(3.5f * sigma));
     double sum = 0;
-    for (int i = -reach; i <= reach; ++i) {
+    for (int i = -radius; i <= radius; ++i) {
         const double x = sigma > 0 ? i / static_cast<double>(sigma) : 0;
         weights_.push_back(static_cast<float>(std::exp(-0.5 * x * x)));
         sum += static_cast<double>(weights_.back());
@@ -70,17 +70,17 @@ Blur::Blur(float sigma) {
 void Blur::along(std::size_t axis, std::vector<float>& values, const Size& size) const {
     if (weights_.size() == 1) return;
     for_each_bundle(axis, values, size, [&](Bundle& bundle) {
-        const std::size_t n = bundle.size() / lanes, reach = weights_.size() / 2;
-        Bundle longer((n + 2 * reach) * lanes);
-        for (std::size_t k = 0; k < n + 2 * reach; ++k) {
-            const std::size_t inside = std::clamp(k, reach, reach + n - 1) - reach;
+        const std::size_t n = bundle.size() / lanes, radius = weights_.size() / 2;
+        Bundle longer((n + 2 * radius) * lanes);
+        for (std::size_t k = 0; k < n + 2 * radius; ++k) {
+            const std::size_t inside = std::clamp(k, radius, radius + n - 1) - radius;
             std::copy_n(bundle.data() + inside * lanes, lanes, longer.data() + k * lanes);
         }
         for (std::size_t i = 0; i < n; ++i) {
             std::array<float, lanes> sum{};
             for (std::size_t k = 0; k < weights_.size(); ++k) {
-                const float* from = longer.data() + (i + k) * lanes;
-                for (std::size_t lane = 0; lane < lanes; ++lane) sum[lane] += weights_[k] * from[lane];
+                const float* shifted = longer.data() + (i + k) * lanes;
+                for (std::size_t lane = 0; lane < lanes; ++lane) sum[lane] += weights_[k] * shifted[lane];
             }
             std::ranges::copy(sum, bundle.data() + i * lanes);
         }

@@ -18,14 +18,14 @@ double largest_at_kept_blocks(const std::vector<float>& table, F&& f) {
     const auto count = static_cast<std::size_t>(table.data() + table.size() - values) / VoxelGrid::kept_values;
     constexpr std::size_t at_once = 64;
     std::vector<double> largest((count + at_once - 1) / at_once, 0.0);
-    tbb::parallel_for(std::size_t{0}, largest.size(), [&](std::size_t part) {
-        for (std::size_t i = part * at_once; i < std::min((part + 1) * at_once, count); ++i)
-            largest[part] = std::max(largest[part], f(values + i * VoxelGrid::kept_values));
+    tbb::parallel_for(std::size_t{0}, largest.size(), [&](std::size_t chunk) {
+        for (std::size_t i = chunk * at_once; i < std::min((chunk + 1) * at_once, count); ++i)
+            largest[chunk] = std::max(largest[chunk], f(values + i * VoxelGrid::kept_values));
     });
     return largest.empty() ? 0.0 : *std::ranges::max_element(largest);
 }
 
-// The same of f(values about a voxel); the neighbours along x, y and z are 1, 10 and 100 places before and behind.
+// The same of f(values about a voxel); the neighbours along x, y and z are 1, 10 and 100 floats before and behind.
 // Voxels behind the grid's last ones are copies of them, at which nothing is steeper than at those.
 template <class F>
 double largest_at_kept_voxels(const std::vector<float>& table, F&& f) {
@@ -70,15 +70,15 @@ float larger(float a, float b) {
 
 // For all voxels of a block at once, the largest of the values before, at and behind along an axis.
 void larger_of_three(std::array<float, VoxelGrid::kept_values>& values, std::size_t stride) {
-    const std::array<float, VoxelGrid::kept_values> from = values;
-    for (std::size_t i = stride; i < from.size() - stride; ++i)
-        values[i] = larger(from[i], larger(from[i - stride], from[i + stride]));
+    const std::array<float, VoxelGrid::kept_values> original = values;
+    for (std::size_t i = stride; i < original.size() - stride; ++i)
+        values[i] = larger(original[i], larger(original[i - stride], original[i + stride]));
 }
 
 }  // namespace
 
 // The derivative along x is an average of the differences along x between the 27 voxels, so it is at most the largest
-// of them. The bound on the slope takes the largest along each axis, which need not be at one place. They are found for
+// of them. The bound on the slope takes the largest along each axis, which need not be at one point. They are found for
 // all voxels of a block at once, along one axis after the other; what these loops compute for voxels at the block's
 // border wraps around it, and is not used. The sum of squares is taken in floats first, which lose less than a part in
 // 10⁵, and in doubles where it may be the largest.

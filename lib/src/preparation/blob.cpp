@@ -21,11 +21,12 @@ namespace {
 double steepness(const Blob& blob, const std::vector<double>& distances, double radius) {
     double sum = 0;
     for (std::size_t i = 0; i < distances.size(); ++i) {
-        const double reach = static_cast<double>(blob.reach(i)), top = std::sqrt(0.2);
-        const double low = std::max(distances[i] - radius, 0.0) / reach, high = (distances[i] + radius) / reach;
+        const double falloff_radius = static_cast<double>(blob.reach(i)), top = std::sqrt(0.2);
+        const double low = std::max(distances[i] - radius, 0.0) / falloff_radius,
+                     high = (distances[i] + radius) / falloff_radius;
         if (low >= 1) continue;
         const double x = std::clamp(top, low, std::min(high, 1.0));
-        sum += static_cast<double>(blob.weight(i)) / reach * 6 * x * (1 - x * x) * (1 - x * x);
+        sum += static_cast<double>(blob.weight(i)) / falloff_radius * 6 * x * (1 - x * x) * (1 - x * x);
     }
     return sum;
 }
@@ -101,7 +102,7 @@ double blob_slope(const Blob& blob) {
         bool operator<(const Cube& o) const { return bound < o.bound; }
     };
     std::priority_queue<Cube> cubes;
-    double reached = 0;  // the largest value of the sum at a cube's centre
+    double largest = 0;  // the largest value of the sum at a cube's centre
     Preparation preparation(Blob::info.name);
     Skeletons skeletons(blob, preparation);
     const auto add = [&](std::span<const glm::vec3> centres, float half) {
@@ -111,7 +112,7 @@ double blob_slope(const Blob& blob) {
         skeletons.find(points, centres.size());
         for (std::size_t lane = 0; lane < centres.size(); ++lane) {
             const std::vector<double>& d = skeletons.at(lane);
-            reached = std::max(reached, steepness(blob, d, 0));
+            largest = std::max(largest, steepness(blob, d, 0));
             cubes.push(
                 {steepness(blob, d, static_cast<double>(half) * std::sqrt(3.0) * (1 + 1e-6)), centres[lane], half});
         }
@@ -122,7 +123,7 @@ double blob_slope(const Blob& blob) {
     const std::uint64_t affordable = batch_size * (preparation.left() / 8 / skeletons.steps());
     const std::size_t most =
         std::min<std::uint64_t>(std::clamp<std::size_t>(2'000'000 / blob.count(), 2'000, 50'000), affordable);
-    for (std::size_t n = 0; n < most && cubes.top().bound > 1.02 * reached; n += 8) {
+    for (std::size_t n = 0; n < most && cubes.top().bound > 1.02 * largest; n += 8) {
         const Cube cube = cubes.top();
         cubes.pop();
         const float half = 0.5f * cube.half;

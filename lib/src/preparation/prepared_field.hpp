@@ -19,7 +19,7 @@ struct BatchOfPoints {
 };
 
 /// A field that a node evaluates to derive what it needs. It is evaluated by its program, in which a shared shape
-/// counts once for each place; a walk through the tree could take exponentially long. Its work is paid for from a
+/// counts once for each use; a walk through the tree could take exponentially long. Its work is paid for from a
 /// Preparation.
 class PreparedField {
   public:

@@ -24,7 +24,7 @@ double next_fraction(SplitMix64& random) {
     return static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
-// The points that were accepted, in a hashed grid, so that those near a place are found without a look at all.
+// The points that were accepted, in a hashed grid, so that those near a point are found without a look at all.
 class Neighbourhood {
   public:
     explicit Neighbourhood(float spacing) : spacing_(spacing) {}
@@ -36,8 +36,8 @@ class Neighbourhood {
         for (int k = -1; k <= 1; ++k)
             for (int j = -1; j <= 1; ++j)
                 for (int i = -1; i <= 1; ++i) {
-                    const auto [from, to] = cells_.equal_range(key(cell + glm::ivec3(i, j, k)));
-                    for (auto it = from; it != to; ++it)
+                    const auto [begin, end] = cells_.equal_range(key(cell + glm::ivec3(i, j, k)));
+                    for (auto it = begin; it != end; ++it)
                         if (glm::length(it->second - p) < spacing_) return false;
                 }
         return true;
@@ -49,8 +49,10 @@ class Neighbourhood {
   private:
     glm::ivec3 cell_of(const glm::vec3& p) const { return glm::ivec3(glm::floor(p / spacing_)); }
     static std::uint64_t key(const glm::ivec3& c) {
-        const auto part = [](int v) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(v)) & 0x1fffff; };
-        return part(c.x) | part(c.y) << 21 | part(c.z) << 42;
+        const auto low_bits = [](int v) {
+            return static_cast<std::uint64_t>(static_cast<std::uint32_t>(v)) & 0x1fffff;
+        };
+        return low_bits(c.x) | low_bits(c.y) << 21 | low_bits(c.z) << 42;
     }
 
     float spacing_;
@@ -66,7 +68,7 @@ struct Line {
 
     glm::vec3 at(float along) const { return origin + along * direction; }
 };
-// A change of the field's sign along a line, between two places.
+// A change of the field's sign along a line, between two points.
 struct Change {
     std::size_t line = 0;
     float low = 0, high = 0;
@@ -125,7 +127,7 @@ class Search {
                      angle = 2 * pi * next_fraction(random_);
         return {glm::vec3(glm::dvec3(centre_) + r * (std::cos(angle) * u + std::sin(angle) * v)), glm::vec3(d)};
     }
-    // The field at one place of each line.
+    // The field at one point of each line.
     BatchOfFloats along_lines(float Line::*t) {
         BatchOfPoints points;
         for (std::size_t i = 0; i < lines_.size(); ++i) points.set(i, lines_[i].at(lines_[i].*t));

@@ -25,10 +25,10 @@ Program without_dead_code(Program program) {
         moved[i] = static_cast<std::uint32_t>(kept.instructions.size());
         Instruction in = program.instructions[i];
         const std::size_t end = i + 1 < live.size() ? program.instructions[i + 1].data : program.constants.size();
-        const auto from = program.constants.begin() + in.data,
-                   to = program.constants.begin() + static_cast<std::ptrdiff_t>(end);
+        const auto first = program.constants.begin() + in.data,
+                   last = program.constants.begin() + static_cast<std::ptrdiff_t>(end);
         in.data = static_cast<std::uint32_t>(kept.constants.size());
-        if (i > 0) kept.constants.insert(kept.constants.end(), from, to);
+        if (i > 0) kept.constants.insert(kept.constants.end(), first, last);
         in.a = moved[in.a];
         in.b = moved[in.b];
         kept.instructions.push_back(in);

@@ -90,8 +90,8 @@ inline Recorded nearer(Recorded a, Recorded b) {
 inline Recorded guarded(Recorded bound, Recorded f, float far) {
     return emit(Op::guarded, bound, f, far, bound.lipschitz());
 }
-inline Recorded falloff(Recorded d, float reach) {
-    return emit(Op::falloff, d, reach, d.lipschitz() * (steepest_falloff / reach));
+inline Recorded falloff(Recorded d, float radius) {
+    return emit(Op::falloff, d, radius, d.lipschitz() * (steepest_falloff / radius));
 }
 /// The result is no steeper than the steeper operand, because a and b vary along orthogonal directions.
 inline Recorded corner(Recorded a, Recorded b) {

@@ -47,8 +47,8 @@ inline bool has_local_primitive(const WorkingProgram& program) {
 
 /// The program with specialised primitives in the place of local ones. Their data are appended to `floats`. Such an
 /// instruction (OpTraits::is_specialised) no longer refers to the whole program's constants: its index is `first` plus
-/// the place in `floats`. To evaluate the program at once `first` is where a copy of `floats` stands behind those
-/// constants (SharedConstants); in a cell that is kept it is 0, until routines give these data a place
+/// the offset in `floats`. To evaluate the program at once `first` is where a copy of `floats` stands behind those
+/// constants (SharedConstants); in a cell that is kept it is 0, until routines give these data an offset
 /// (RoutineBuilder).
 WorkingProgram specialised(const WorkingProgram&, std::span<const Specialisation>, std::vector<float>& floats,
                            Arena& scratch, std::uint32_t first = 0);

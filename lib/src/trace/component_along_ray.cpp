@@ -83,14 +83,14 @@ ComponentAlongRay::ComponentAlongRay(const Visit& visit, const RayCrossing& c)
     registers_.resize(slots);
 }
 
-double ComponentAlongRay::upper_bound(float from, float to, double precision) {
+double ComponentAlongRay::upper_bound(float t_low, float t_high, double precision) {
     if (!output_) return Range::most;
-    const double middle = 0.5 * (double{from} + double{to}), half = 0.5 * (double{to} - double{from});
+    const double middle = 0.5 * (double{t_low} + double{t_high}), half = 0.5 * (double{t_high} - double{t_low});
     for (int i = 0; i < 3; ++i) {
         const auto along = static_cast<double>(direction_[i]);
-        const double centre = static_cast<double>(origin_[i]) + middle * along, reach = half * std::abs(along);
+        const double centre = static_cast<double>(origin_[i]) + middle * along, half_width = half * std::abs(along);
         registers_[static_cast<std::size_t>(i)] =
-            Enclosure(centre, {centre - reach, centre + reach}, {Range{along, along}}, {along}, {});
+            Enclosure(centre, {centre - half_width, centre + half_width}, {Range{along, along}}, {along}, {});
     }
     // The first axis of the enclosures' box stands for t; the others are not used.
     const Enclosure::Vector extent{half, 0, 0};

@@ -17,7 +17,7 @@ class ComponentAlongRay {
 
     /// An upper bound of the component between two distances along the ray; Range::most if none is known. A bound that
     /// is less than `precision` too high is as good as the best one.
-    double upper_bound(float from, float to, double precision);
+    double upper_bound(float t_low, float t_high, double precision);
 
   private:
     const kernel::Routine& routine_;

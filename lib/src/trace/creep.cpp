@@ -23,31 +23,31 @@ constexpr std::uint64_t batches_to_enclose = 32;
 constexpr std::uint64_t batches_of_walk = 256, most_batches = 524'288;
 // A ray that is farther than this from an interface, in resolutions, does not creep.
 constexpr float away = 16;
-// The length of a step of a walk, in resolutions. It is below 1, because places are rounded.
+// The length of a step of a walk, in resolutions. It is below 1, because positions are rounded.
 constexpr float step_length = 0.95f;
 
 // The rest of an unfinished search.
 class Creep {
   public:
     Creep(const Visit& visit, RayCrossing& c, TraceCounters& counters)
-        : visit_(visit), crossing_(c), counters_(counters), component_(visit, c), place_(c.t_in) {}
+        : visit_(visit), crossing_(c), counters_(counters), component_(visit, c), t_(c.t_in) {}
 
     // Alternates enclosed stretches, walks and searches by the kernel until one of these finishes.
     bool finish() {
         Visit rest = visit_;
         for (float step = visit_.resolution;;) {
-            const float came_from = place_;
+            const float previous = t_;
             do {
                 pass_enclosed();
             } while (walk(step));
             // The search has taken too long, and neither the stretches nor the walks have gone on by a step.
-            if (spent_ > most_batches && !(place_ - came_from > step) && !leap(step)) return false;
-            rest.from = place_;
+            if (spent_ > most_batches && !(t_ - previous > step) && !leap(step)) return false;
+            rest.t_begin = t_;
             const bool is_hit = active_kernel().visit(rest, crossing_);
             spend(crossing_.batches);
             counters_.phantoms += crossing_.phantoms;
             if (is_hit || !crossing_.is_unfinished) return is_hit;
-            place_ = crossing_.t_in;
+            t_ = crossing_.t_in;
         }
     }
 
@@ -59,10 +59,10 @@ class Creep {
     struct Batch {
         BatchOfFloats t, label, distance;
     };
-    // Samples eight places behind `from`, `step` apart, none beyond `end`.
-    Batch sample(float from, float step, float end) {
+    // Samples eight points behind `begin`, `step` apart, none beyond `end`.
+    Batch sample(float begin, float step, float end) {
         Batch s;
-        for (std::size_t i = 0; i < batch_size; ++i) s.t[i] = std::min(from + step * static_cast<float>(i + 1), end);
+        for (std::size_t i = 0; i < batch_size; ++i) s.t[i] = std::min(begin + step * static_cast<float>(i + 1), end);
         alignas(64) float registers[few_slots * batch_size];
         active_kernel().sample_ray(*visit_.routine, crossing_.origin, &visit_.ray->direction.x, s.t.lane.data(),
                                    visit_.registers ? visit_.registers : registers, s.label.lane.data(),
@@ -70,36 +70,36 @@ class Creep {
         spend(1);
         return s;
     }
-    // Samples eight places between `from` and `end`, and goes to the last of them that has the label of the ray's
+    // Samples eight points between `begin` and `end`, and goes to the last of them that has the label of the ray's
     // phase. Returns whether there is one.
-    bool go_to(float from, float end) {
-        const Batch s = sample(from, (end - from) / batch_size, end);
+    bool go_to(float begin, float end) {
+        const Batch s = sample(begin, (end - begin) / batch_size, end);
         for (std::size_t i = batch_size; i-- > 0;)
-            if (s.label[i] == crossing_.from && s.t[i] > place_) {
-                place_ = s.t[i];
+            if (s.label[i] == crossing_.from && s.t[i] > t_) {
+                t_ = s.t[i];
                 return true;
             }
         return false;
     }
 
-    // Goes on behind stretches in which no other phase is deeper than rounding. Their length doubles while that is
-    // proven, and is halved where it is not.
+    // Goes on behind stretches in which no other phase is deeper than the rounding error. Their length doubles while
+    // that is proven, and is halved where it is not.
     void pass_enclosed() {
         const float resolution = visit_.resolution;
-        float end = place_;
+        float end = t_;
         for (float step = first_stretch * resolution;
              end < crossing_.length && step >= shortest_stretch * resolution;) {
             const float next = std::min(end + step, crossing_.length);
             if (!(next > end)) break;
             spend(batches_to_enclose);
-            const double rounding = static_cast<double>(resolution) / 16;
-            // The bound is below rounding: no change of label counts up to `next`.
-            const bool is_free = component_.upper_bound(end, next, 0.1 * rounding) < rounding;
+            const double rounding_error = static_cast<double>(resolution) / 16;
+            // The bound is below the rounding error: no change of label counts up to `next`.
+            const bool is_free = component_.upper_bound(end, next, 0.1 * rounding_error) < rounding_error;
             if (is_free) end = next;
             step *= is_free ? 2 : 0.5f;
         }
-        // The search goes on from a place in the ray's phase: near the end of what is proven, or else anywhere in it.
-        if (end > place_ && !go_to(std::max(place_, end - 8 * resolution), end)) go_to(place_, end);
+        // The search goes on from a point in the ray's phase: near the end of what is proven, or else anywhere in it.
+        if (end > t_ && !go_to(std::max(t_, end - 8 * resolution), end)) go_to(t_, end);
     }
     // Walks in steps while the label stays the same and the interface is near. The step is made twice as long first if
     // the search has taken too long, and is a resolution again once the ray is away from the interface. Returns whether
@@ -107,34 +107,34 @@ class Creep {
     bool walk(float& step) {
         if (spent_ > most_batches) step *= 2;
         const float resolution = visit_.resolution, length = step_length * step;
-        float from = place_;
+        float begin = t_;
         for (std::uint64_t n = 0; n < batches_of_walk; ++n) {
-            const Batch s = sample(from, length, crossing_.length);
+            const Batch s = sample(begin, length, crossing_.length);
             bool is_other = false;
             for (std::size_t i = 0; i < batch_size; ++i) {
                 const bool was_other = is_other;
                 is_other = s.label[i] != crossing_.from;
-                // A single sample of another label that is no deeper than rounding is not decided.
+                // A single sample of another label that is no deeper than the rounding error is not decided.
                 if (is_other && (was_other || !(s.distance[i] < resolution / 16))) return false;
-                if (!is_other) place_ = s.t[i];
+                if (!is_other) t_ = s.t[i];
             }
             const float distance = is_other ? 0 : s.distance[batch_size - 1];
             if (!(distance < away * resolution)) {
                 step = resolution;
                 return false;
             }
-            if (!(place_ > from) || !(place_ < crossing_.length)) return false;
-            from = place_ + std::max(distance, 0.f);
+            if (!(t_ > begin) || !(t_ < crossing_.length)) return false;
+            begin = t_ + std::max(distance, 0.f);
         }
         return true;
     }
-    // Goes on from a place from which neither a walk nor a search went on, by longer and longer steps. Returns false at
+    // Goes on from a point from which neither a walk nor a search went on, by longer and longer steps. Returns false at
     // the ray's end.
     bool leap(float& step) {
         do {
-            if (go_to(place_, std::min(place_ + batch_size * step, crossing_.length))) return true;
+            if (go_to(t_, std::min(t_ + batch_size * step, crossing_.length))) return true;
             step *= 2;
-        } while (place_ + step < crossing_.length);
+        } while (t_ + step < crossing_.length);
         return false;
     }
 
@@ -142,7 +142,7 @@ class Creep {
     RayCrossing& crossing_;
     TraceCounters& counters_;
     ComponentAlongRay component_;
-    float place_;              // a place in the ray's phase; there is no crossing up to it
+    float t_;                  // a point in the ray's phase; there is no crossing up to it
     std::uint64_t spent_ = 0;  // in batches
 };
 

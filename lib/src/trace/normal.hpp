@@ -12,15 +12,15 @@ using evaluation::Component;
 
 /// The normal of a crossing, from the gradients of the components on its two sides.
 ///
-/// At the bracket's ends components are mostly half a resolution from zero, but sometimes zero to rounding, where the
-/// gradient is meaningless: that of √(x² + z²) is along an axis if the coordinates are an ulp each, and zero if they
-/// are zero; and near an edge it may belong to a face that the ray does not cross. So a gradient is accepted only if it
-/// agrees with the component's value: a plane with this normal and distance must cross the ray within the bracket. If
-/// the gradient at the near end does not, others are tried, in this order:
+/// At the bracket's ends components are mostly half a resolution from zero, but sometimes zero up to rounding errors,
+/// where the gradient is meaningless: that of √(x² + z²) is along an axis if the coordinates are an ulp each, and zero
+/// if they are zero; and near an edge it may belong to a face that the ray does not cross. So a gradient is accepted
+/// only if it agrees with the component's value: a plane with this normal and distance must cross the ray within the
+/// bracket. If the gradient at the near end does not, others are tried, in this order:
 ///  * a resolution before the bracket on the ray;
-///  * a resolution from the near end into `from`, against the normal of the place before, then against its own;
+///  * a resolution from the near end into `from`, against the normal of the point before, then against its own;
 ///  * the far end, a resolution behind it on the ray, and a resolution from it into `to`, along the last normal;
-///  * two resolutions from both ends along the coordinate axes, of which the place deepest in its phase is taken.
+///  * two resolutions from both ends along the coordinate axes, of which the point deepest in its phase is taken.
 /// If none agrees, the normal is taken that has the smallest angle to the ray.
 ///
 /// `component(p, phase)` gives a component and its gradient, and `holds(p)` tells whether it can do so at p.
@@ -50,7 +50,7 @@ class NormalOf {
     /// that of `to` about the far end, which falls.
     enum Side { near_side, far_side };
     /// The smallest cosine of a normal to the ray that is accepted. It is below zero, because a ray that creeps along
-    /// an interface, where its label is a matter of rounding, may cross it slightly against its normal.
+    /// an interface, where its label is a matter of rounding errors, may cross it slightly against its normal.
     static constexpr float least_cosine = -0.1f;
 
     struct Sample {
@@ -62,7 +62,8 @@ class NormalOf {
     };
 
     /// The component of a side at an offset from that end of the bracket. It is sound if its value is farther from zero
-    /// than rounding, and if the plane of this value and gradient crosses the ray within the bracket, but for rounding.
+    /// than the rounding error, and if the plane of this value and gradient crosses the ray within the bracket, but for
+    /// rounding errors.
     Sample sample(Side side, const glm::vec3& away) const {
         const bool is_near = side == near_side;
         const Component c = component_((is_near ? c_.p_in : c_.p_out) + away, is_near ? c_.from : c_.to);
@@ -74,12 +75,12 @@ class NormalOf {
         s.depth = -c.value / s.steepness;
         // At an end of the bracket the gradient is wrong more often, so the test is stricter.
         const bool is_end = away == glm::vec3(0);
-        const float rounding = (is_end ? 1.f / 16 : 1.f / 8) * resolution_, across = glm::dot(s.normal, away);
+        const float rounding_error = (is_end ? 1.f / 16 : 1.f / 8) * resolution_, across = glm::dot(s.normal, away);
         // By the plane: how deep this end of the bracket is, and how deep it would be if the plane crossed the ray at
         // the other end.
         const float depth_at_end = s.depth + (is_near ? across : -across), bracket_depth = width_ * s.cosine;
-        s.is_sound = s.depth >= rounding && depth_at_end >= std::min(bracket_depth, 0.f) - rounding &&
-                     depth_at_end <= std::max(bracket_depth, 0.f) + rounding;
+        s.is_sound = s.depth >= rounding_error && depth_at_end >= std::min(bracket_depth, 0.f) - rounding_error &&
+                     depth_at_end <= std::max(bracket_depth, 0.f) + rounding_error;
         return s;
     }
 
@@ -122,8 +123,8 @@ class NormalOf {
         return deepest.is_sound ? deepest.normal : best.normal;
     }
 
-    /// Normals must point along the ray. One that does not because of rounding is turned as little as needed; one that
-    /// clearly points back belongs to the other face of something thin, and is reversed.
+    /// Normals must point along the ray. One that does not because of rounding errors is turned as little as needed;
+    /// one that clearly points back belongs to the other face of something thin, and is reversed.
     glm::vec3 along_the_ray(const glm::vec3& n) const {
         const float cosine = glm::dot(n, direction_);
         if (cosine > 0) return n;

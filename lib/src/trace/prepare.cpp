@@ -11,16 +11,16 @@ namespace phasetree {
 
 namespace {
 
-// The finest resolution, in parts of the farthest coordinate: two to four units in the last place. There are no floats
-// to sample at a finer one.
+// The finest resolution, as a share of the farthest coordinate: two to four units in the last place. There are no
+// floats to sample at a finer one.
 constexpr float finest = 2.5e-7f;
-// The resolution that is chosen, in parts of the farthest coordinate and of the diagonal, the larger of the two. The
-// rounding of values does not show at it.
-constexpr float rounding = 1e-6f, usual = 2e-6f;
-// The coarsest resolution, in parts of the diagonal: a coarser one would miss much of the object.
+// The resolution that is chosen, as a share of the farthest coordinate and of the diagonal, the larger of the two. The
+// rounding error of values does not show at it.
+constexpr float of_farthest = 1e-6f, of_diagonal = 2e-6f;
+// The coarsest resolution, as a share of the diagonal: a coarser one would miss much of the object.
 constexpr float coarsest = 0.01f;
-// A resolution coarser than this, in parts of the diagonal, is warned of. One is chosen only if the object is far from
-// the origin.
+// A resolution coarser than this, as a share of the diagonal, is warned of. One is chosen only if the object is far
+// from the origin.
 constexpr float poor = 1e-3f;
 
 }  // namespace
@@ -42,7 +42,7 @@ TraceableObject prepare_to_trace(const Phased& object, float wanted) {
             fmt::format("the object is {:.3g} large and lies up to {:.3g} from the origin, where 32-bit "
                         "coordinates are up to {:.2g} apart: move it to the origin",
                         size, farthest, 0.5f * least));
-    const float chosen = wanted > 0 ? wanted : std::max(usual * size, rounding * farthest);
+    const float chosen = wanted > 0 ? wanted : std::max(of_diagonal * size, of_farthest * farthest);
     TraceableObject result;
     result.resolution = std::clamp(chosen, least, most);
     result.bounds = b.inflated(8 * result.resolution);

@@ -14,7 +14,7 @@ using model::PreparationTogether;
 namespace {
 
 // A box with those sides of a tighter box that are tighter by more than a hundredth of its size. Other sides stay where
-// they are, so that rounding does not move them.
+// they are, so that rounding errors do not move them.
 Bounds tightened(const Bounds& box, const Bounds& tighter) {
     if (tighter.empty()) return {};
     Bounds result = box;
@@ -77,30 +77,30 @@ struct BoundsQuery::Memory {
 BoundsQuery::BoundsQuery() : memory_(std::make_unique<Memory>()) {}
 BoundsQuery::~BoundsQuery() = default;
 
-// The box of six supports, with a margin for rounding, which grows with the largest of them.
-Bounds BoundsQuery::gathered(const Reaches& reach) {
+// The box of six supports, with a margin for rounding errors, which grows with the largest of them.
+Bounds BoundsQuery::gathered(const Supports& supports) {
     double largest = 0;
-    for (const double r : reach)
+    for (const double r : supports)
         if (std::isfinite(r)) largest = std::max(largest, std::abs(r));
     const double margin = 1e-6 * largest;
     Bounds b;
     for (int i = 0; i < 3; ++i) {
-        b.low[i] = static_cast<float>(-(reach[static_cast<std::size_t>(i)] + margin));
-        b.high[i] = static_cast<float>(reach[static_cast<std::size_t>(i) + 3] + margin);
+        b.low[i] = static_cast<float>(-(supports[static_cast<std::size_t>(i)] + margin));
+        b.high[i] = static_cast<float>(supports[static_cast<std::size_t>(i) + 3] + margin);
     }
     return b;
 }
 
 // The box of a child's six supports, with what a map of space adds to each.
-Bounds BoundsQuery::moved(const Bounds& box, const Reaches& more) {
+Bounds BoundsQuery::moved(const Bounds& box, const Supports& more) {
     if (box.low.x == Bounds::infinity) return {};
-    Reaches reach;
+    Supports supports;
     for (int i = 0; i < 3; ++i) {
         const auto low = static_cast<std::size_t>(i), high = low + 3;
-        reach[low] = more[low] - static_cast<double>(box.low[i]);
-        reach[high] = more[high] + static_cast<double>(box.high[i]);
+        supports[low] = more[low] - static_cast<double>(box.low[i]);
+        supports[high] = more[high] + static_cast<double>(box.high[i]);
     }
-    return gathered(reach);
+    return gathered(supports);
 }
 
 // The supports of a box along the six directions.
@@ -108,14 +108,14 @@ Bounds BoundsQuery::placed(const Bounds& box) const {
     if (is_by_boxes()) return box;
     if (box.empty()) return {};
     // A side at infinity counts only for directions that are not parallel to it.
-    Reaches reach{};
-    for (std::size_t k = 0; k < reach.size(); ++k) {
+    Supports supports{};
+    for (std::size_t k = 0; k < supports.size(); ++k) {
         for (int i = 0; i < 3; ++i) {
             const double d = directions_[k][i];
-            if (d != 0) reach[k] += d * static_cast<double>(d > 0 ? box.high[i] : box.low[i]);
+            if (d != 0) supports[k] += d * static_cast<double>(d > 0 ? box.high[i] : box.low[i]);
         }
     }
-    return gathered(reach);
+    return gathered(supports);
 }
 
 template <class Handle>

@@ -11,10 +11,10 @@ namespace phasetree {
 /// space. There are three: Walk (walk.hpp), which computes with numbers of any type, the recorder (program/record.cpp),
 /// which writes instructions, and SourceWalk (value_source.cpp), which notes whose value is taken.
 ///
-/// * Scalar and Point: a value, and a place.
-/// * field(f, p), phases(a, p): the value of a field and the components of an object at a place.
+/// * Scalar and Point: a value, and a point in space.
+/// * field(f, p), phases(a, p): the value of a field and the components of an object at a point.
 /// * primitive(s, p): the value of a solid or pattern that is one instruction; of any Primitive or DataPrimitive.
-/// * map(m, p, lipschitz): where a PointMap takes a place, and by how much it lengthens distances at most.
+/// * map(m, p, lipschitz): where a PointMap takes a point, and by how much it lengthens distances at most.
 /// * one_lipschitz(v, p): the value v; the node vouches that it is 1-Lipschitz in p, where the domain would derive a
 ///   larger bound.
 ///

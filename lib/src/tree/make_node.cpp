@@ -84,15 +84,15 @@ PhaseSet phases_of(const Node& node) {
 }
 
 template <class Node>
-std::shared_ptr<const FieldNode> make_field(void* from) {
-    Node& node = *static_cast<Node*>(from);
+std::shared_ptr<const FieldNode> make_field(void* source) {
+    Node& node = *static_cast<Node*>(source);
     const std::size_t depth = checked_depth(node);
     return std::make_shared<const FieldNode>(FieldNode{std::move(node), depth});
 }
 
 template <class Node>
-std::shared_ptr<const PhasedNode> make_phased(void* from) {
-    Node& node = *static_cast<Node*>(from);
+std::shared_ptr<const PhasedNode> make_phased(void* source) {
+    Node& node = *static_cast<Node*>(source);
     const std::size_t depth = checked_depth(node);
     const PhaseSet phases = phases_of(node);
     return std::make_shared<const PhasedNode>(PhasedNode{std::move(node), depth, phases});

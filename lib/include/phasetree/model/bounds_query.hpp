@@ -56,16 +56,16 @@ class BoundsQuery {
     template <class Support>
     Bounds placed(const Bounds& box, const Support& support) const {
         if (is_by_boxes() || box.empty()) return placed(box);
-        Reaches reach;
-        for (std::size_t i = 0; i < reach.size(); ++i) reach[i] = support(directions_[i]);
-        return intersect(placed(box), gathered(reach));
+        Supports supports;
+        for (std::size_t i = 0; i < supports.size(); ++i) supports[i] = support(directions_[i]);
+        return intersect(placed(box), gathered(supports));
     }
     /// The answer of a node that maps space: its support along d is that of its child, which ask() asks, along
     /// towards(d), plus beyond(d).
     template <class Towards, class Beyond, class Ask>
     Bounds through(const Towards& towards, const Beyond& beyond, const Ask& ask) {
         const Directions outer = directions_;
-        Reaches more;
+        Supports more;
         for (std::size_t i = 0; i < outer.size(); ++i) {
             directions_[i] = towards(outer[i]);
             more[i] = beyond(outer[i]);
@@ -95,7 +95,7 @@ class BoundsQuery {
 
   private:
     enum class Way { both, by_boxes, by_directions };
-    using Reaches = std::array<double, 6>;
+    using Supports = std::array<double, 6>;
     struct Memory;
 
     static constexpr Directions along_axes{{{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
@@ -103,8 +103,8 @@ class BoundsQuery {
     /// used in many places is asked along other directions in each, which would be long.
     static constexpr std::size_t most_asked = 20'000;
 
-    static Bounds gathered(const Reaches&);
-    static Bounds moved(const Bounds&, const Reaches& more);
+    static Bounds gathered(const Supports&);
+    static Bounds moved(const Bounds&, const Supports& more);
     template <class Handle>
     Bounds answer(const Handle&, float level);
     template <class Handle>

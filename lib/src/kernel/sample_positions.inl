@@ -1,10 +1,10 @@
-// The places along a ray that are sampled, eight at a time. Included by kernel.inl.
+// The positions along a ray that are sampled, eight at a time. Included by kernel.inl.
 
 namespace phasetree::kernel::HWY_NAMESPACE {
 namespace {
 
 // A sample: its distance along the ray, s(p) there, and the phase there.
-struct Place {
+struct Sample {
     float t, distance, label;
 };
 
@@ -28,13 +28,13 @@ HWY_INLINE float float_of(std::uint32_t u) {
 constexpr float last_lane = batch_size - 1;
 constexpr std::uint32_t all_lanes = (1u << batch_size) - 1;  // a mask with the bits of all lanes
 
-// The places t, cut off at `high`, with the last one moved to `high`.
+// The positions t, cut off at `high`, with the last one moved to `high`.
 HWY_INLINE Batch ending_at(const Batch& t, float high) {
     return select(less(lanes(), Batch(last_lane)), min(t, Batch(high)), Batch(high));
 }
 
-// Eight places in equal steps, the first at `low` and the last at `high`.
-HWY_INLINE Batch spread_evenly(float low, float high) {
+// Eight positions in equal steps, the first at `low` and the last at `high`.
+HWY_INLINE Batch evenly_spaced(float low, float high) {
     return ending_at(Batch(low) + lanes() * ((high - low) * (1 / last_lane)), high);
 }
 
@@ -45,19 +45,20 @@ HWY_INLINE std::uint32_t geometric_step(float a, float b) {
     return (bits_of(larger(a, b)) - bits_of(a)) / steps;
 }
 
-// Eight places for a ray that starts on an interface, at 0: 0 itself, `smallest`, and from there on in equal ratios up
-// to `high`.
-HWY_INLINE Batch spread_from_interface(float high, float smallest) {
+// Eight positions for a ray that starts on an interface, at 0: 0 itself, `smallest`, and from there on in equal ratios
+// up to `high`.
+HWY_INLINE Batch spaced_from_interface(float high, float smallest) {
     const std::uint32_t step = geometric_step<batch_size - 2>(smallest, high);
     const Batch t = geometric(lanes() - 1.f, bits_of(smallest), step);
     return ending_at(select(less(lanes(), Batch(0.5f)), Batch(0.f), t), high);
 }
 
-// Eight places behind `low`, none beyond `high`, for a ray that leaves an interface. Its distance from the interface is
-// s at `low`, and is expected to grow by `slope` for each unit of length. Two neighbouring samples prove a step d
+// Eight positions behind `low`, none beyond `high`, for a ray that leaves an interface. Its distance from the interface
+// is s at `low`, and is expected to grow by `slope` for each unit of length. Two neighbouring samples prove a step d
 // between them free if d ≤ s + (s + slope·d), where s is the distance at the first; steps are a tenth shorter, in case
-// the distance does not grow linearly. From step to step s grows by the same factor, so the places are a geometric sum.
-HWY_INLINE Batch spread_growing(float low, float high, float s, float slope) {
+// the distance does not grow linearly. From step to step s grows by the same factor, so the positions are a geometric
+// sum.
+HWY_INLINE Batch spaced_growing(float low, float high, float s, float slope) {
     const float growth = 1.8f / (1.f - 0.9f * slope);
     float factor = 1.f + slope * growth;
     // The factor to the power of the lane's number + 1, by the bits of the number.
@@ -70,9 +71,9 @@ HWY_INLINE Batch spread_growing(float low, float high, float s, float slope) {
     return min(Batch(low) + (power - 1.f) * (s / slope), Batch(high));
 }
 
-// Four places on each side of `root` in the gap from `low` to `high`. Their distances from `root` grow in equal ratios,
-// from `smallest` to 0.6 of the way to the gap's end. With `has_low` the first place is `low` itself, and three others
-// are on its side.
+// Four positions on each side of `root` in the gap from `low` to `high`. Their distances from `root` grow in equal
+// ratios, from `smallest` to 0.6 of the way to the gap's end. With `has_low` the first position is `low` itself, and
+// three others are on its side.
 HWY_INLINE Batch gather_around(float root, float low, float high, float smallest, bool has_low) {
     constexpr float half = batch_size / 2;
     const std::uint32_t a = bits_of(smallest);
@@ -88,9 +89,9 @@ HWY_INLINE Batch gather_around(float root, float low, float high, float smallest
 }
 
 // Predicts where the label changes between `here` and `next`, by linear interpolation of the distances there. Two more
-// places, `before` the gap and `after` it, give a correction for curvature, each if its label is that of the gap's end
+// samples, `before` the gap and `after` it, give a correction for curvature, each if its label is that of the gap's end
 // next to it.
-HWY_INLINE float predicted_root(const Place& here, const Place& next, const Place& before, const Place& after) {
+HWY_INLINE float predicted_root(const Sample& here, const Sample& next, const Sample& before, const Sample& after) {
     const float gap = next.t - here.t, sum = here.distance + next.distance;
     if (!(sum > 0)) return here.t + 0.5f * gap;
     // The divisions are independent of each other, so that none waits for another.
