@@ -36,6 +36,7 @@ const std::vector<Command>& commands() {
         {"simd", "instruction sets and threads", simd},
         {"host", "what a host pays for decoding, cells from files, points", host},
         {"light", "error per second of pictures, of each technique alone and against another build", light},
+        {"lamps", "one of many lamps chosen by a tree, and by asking each", lamps},
         {"carve", "carved bounds against boxes (Figure 23)", carve},
         {"march", "steps along one ray from phase to phase (Figure 21)", march},
         {"proxies", "what proxies save by walking the tree, and through cells", proxies},

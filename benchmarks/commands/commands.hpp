@@ -18,6 +18,7 @@ Report quality(const Settings&);
 Report simd(const Settings&);
 Report host(const Settings&);
 Report light(const Settings&);
+Report lamps(const Settings&);
 Report carve(const Settings&);
 Report proxies(const Settings&);
 Report balls(const Settings&);

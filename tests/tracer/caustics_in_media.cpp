@@ -157,6 +157,31 @@ TEST_CASE("within a ball that scatters it is as bright as by paths alone") {
     }
 }
 
+TEST_CASE("within a ball whose density varies it is as bright as by paths alone") {
+    const std::string sun = R"({"sun": {"direction": [0.2, 0.3, 1], "irradiance": [4, 4, 4], "diameter": 60}})";
+    const std::string rectangle = R"({"rectangle": {"centre": [1, 1, 4], "target": [0, 0, 0], "width": 5, "height": 5,
+                                      "radiance": [5, 5, 5]}})";
+    // Dense in the middle, thin at the rim; or in waves, from nothing on.
+    const std::string core = R"("density": {"sphere": {"radius": 0.9}}, "density_depth": 0.7)";
+    const std::string waves = R"("density": {"gyroid": {"period": 1.1, "thickness": 0.25}}, "density_depth": 0.1)";
+    struct Case {
+        std::string light, density, coefficients, photons;
+    };
+    const Case cases[] = {
+        {sun, core, R"("absorption": [0.3, 0.1, 0.2], "scattering": [1.5, 6, 0.4], "anisotropy": 0.3)", "0.3"},
+        {rectangle, waves, R"("absorption": [0.2, 0.2, 0.2], "scattering": [4, 4, 4])", "1"}};
+    const double significance = sidak(1e-4, std::size(cases));
+    for (const Case& c : cases) {
+        CAPTURE(c.density);
+        const Scene scene = scene_of(R"("jelly": {"clear": {"ior": 1.45, )" + c.coefficients + ", " + c.density + "}}",
+                                     R"({"set": {"phase": "jelly", "of": {"sphere": {"radius": 1}}}})",
+                                     R"("lights": [)" + c.light +
+                                         R"(], "render": {"width": 64, "height": 64, "photon_radius": 2, "photons": )" +
+                                         c.photons + "}");
+        check_against_paths(scene, {0.3f, -3, 0.4f}, {0, 1, 0}, 2 * passes, significance);
+    }
+}
+
 TEST_CASE("a lamp in the same medium is seen straight, beside photons through a ball of glass") {
     const Scene scene = scene_of(
         R"("glass": {"clear": {"ior": 1.5}}, "fog": {"clear": {"ior": 1, "absorption": [0.1, 0.1, 0.1], "scattering": [0.3, 0.3, 0.3]}})",

@@ -12,10 +12,13 @@
 // need no places, because nothing of what arrives in them is scattered. A single wavelength is a mixture of channels,
 // and where one of them is far clearer and does not scatter, a few places do count often.
 //
+// Where the density of the medium varies, nobody knows beforehand how deep light gets. Places are then sampled as in
+// three homogeneous media, in place of channels: one as dense as the medium can be, σ̄, one of σ̄/4 and one of σ̄/16. T is
+// estimated by the medium, on the way back from the point.
+//
 // Across the line photons are gathered in a disc, as those on a surface are; along it nothing is blurred. Where the
 // boundary is oblique to a line, the disc around a point of the medium may be met by the line before it comes in; the
-// depth is then negative, which is the reason for max(t, 0) above, and T is 1. Only media whose transmittance has a
-// closed form are lit so, which are the homogeneous ones.
+// depth is then negative, which is the reason for max(t, 0) above, and T is 1.
 //
 // This is a short beam of Jarosz, Nowrouzezahrai, Sadeghi & Jensen, A Comprehensive Theory of Volumetric Radiance
 // Estimation Using Photon Points and Beams, TOG 30(1), 2011, gathered at a point.
@@ -36,9 +39,13 @@ class PhotonPlacement {
   public:
     /// With the h of the photons' pass (PhotonMap::half_length). Nothing for a medium that photons do not light.
     static std::optional<PhotonPlacement> in(const Medium& medium, float half_length) {
-        const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium);
-        if (!homogeneous || !homogeneous->coefficients().scatters()) return std::nullopt;
-        return PhotonPlacement(homogeneous->coefficients(), half_length);
+        PhotonPlacement placement(half_length);
+        if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium))
+            placement.sample_channels_of(homogeneous->coefficients());
+        else if (const auto* varying = std::get_if<VaryingMedium>(&medium))
+            placement.sample_densities_of(varying->coefficients());
+        if (placement.channels_ == 0) return std::nullopt;
+        return placement;
     }
 
     /// A depth, with u in [0, 1).
@@ -59,17 +66,26 @@ class PhotonPlacement {
     }
 
   private:
-    PhotonPlacement(const ScatteringCoefficients& coefficients, float half_length) : half_length_(half_length) {
+    explicit PhotonPlacement(float half_length) : half_length_(half_length) {}
+
+    void sample_channels_of(const ScatteringCoefficients& coefficients) {
         const glm::vec3 extinction = coefficients.extinction();
         for (int c = 0; c < 3; ++c)
             if (coefficients.scattering[c] > 0.0f) extinction_[channels_++] = extinction[c];
         // Channels that are all alike are one, which is computed once.
         if (std::ranges::all_of(std::span(extinction_).first(channels_), [&](float e) { return e == extinction_[0]; }))
-            channels_ = 1;
+            channels_ = std::min(channels_, std::size_t{1});
+    }
+    void sample_densities_of(const ScatteringCoefficients& coefficients) {
+        if (!coefficients.scatters()) return;
+        const glm::vec3 extinction = coefficients.extinction();
+        const float densest = std::max({extinction.x, extinction.y, extinction.z});
+        extinction_ = {densest, densest / 4, densest / 16};
+        channels_ = extinction_.size();
     }
 
     float half_length_;
-    std::array<float, 3> extinction_{};  ///< of the channels that scatter
+    std::array<float, 3> extinction_{};  ///< of the channels that scatter, or of several densities
     std::size_t channels_ = 0;
 };
 

@@ -14,9 +14,6 @@ constexpr std::size_t slices = 12;
 // From this depth on groups are halved, so that a way down is never long however lamps are placed.
 constexpr int deepest_split = 40;
 
-// The tops of a tree.
-constexpr std::size_t tops_of_groups = 16;
-
 struct Box {
     glm::dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
 
@@ -168,7 +165,7 @@ LightTree LightTree::grouped(std::span<const Lamp> lamps) {
         const EmissionBounds& bounds = tree.groups_[node.number].bounds;
         return bounds.intensity * static_cast<double>(bounds.sphere.radius) * static_cast<double>(bounds.sphere.radius);
     };
-    while (tree.tops_.size() < tops_of_groups) {
+    while (tree.tops_.size() < most_compared) {
         const auto widest = std::ranges::max_element(tree.tops_, {}, extent_of);
         if (widest->kind != LightNode::Kind::group) break;
         const std::array<LightNode, 2> members = tree.groups_[widest->number].members;

@@ -39,7 +39,7 @@ class LightTree {
         LightNode node;
         EmissionBounds bounds;
     };
-    /// So many lamps are all compared with each other.
+    /// So many lamps, or groups, are all compared with each other.
     static constexpr std::size_t most_compared = 32;
 
     /// Adds the next lamp of its kind. All lamps are compared one by one from then on.

@@ -75,8 +75,8 @@ void Lights::add(AnyPointLight light, std::string_view group) {
     tree_.add(LightNode::Kind::point);
 }
 
-void Lights::group_lamps(std::size_t most_compared) {
-    if (area_.size() + points_.size() <= most_compared) return;
+void Lights::group_lamps() {
+    if (area_.size() + points_.size() <= LightTree::most_compared) return;
     std::vector<LightTree::Lamp> lamps;
     const auto add_all = [&](const auto& lights, LightNode::Kind kind) {
         for (std::uint32_t i = 0; i < lights.size(); ++i)

@@ -90,9 +90,9 @@ class Lights {
     void add(AnyPointLight light, std::string_view group = default_group);
     /// A portal is of no group: it has no light of its own.
     void add(const Portal& portal) { portals_.push_back(portal); }
-    /// To be called once all lights are there: groups lamps, if they are more than `most_compared`. Without groups all
-    /// of them are asked for each sample, and a light that is added later ungroups them.
-    void group_lamps(std::size_t most_compared = LightTree::most_compared);
+    /// To be called once all lights are there: groups lamps, if they are more than LightTree::most_compared. Without
+    /// groups all of them are asked for each sample, and a light that is added later ungroups them.
+    void group_lamps();
     /// What camera rays see instead of the infinite lights.
     void set_background(const std::optional<glm::vec3>& radiance);
 

@@ -1,0 +1,111 @@
+// Many lamps: what it costs to choose one of them by the light tree, and how good the choice is, against asking each.
+//
+// Small balls that shine hang in a hall, in clusters. At points of its floor the irradiance is estimated by one sample
+// of the lights each, nothing being in the way. Of the estimates the relative variance is taken at each point, and its
+// mean over the points; the product of variance and time is what an error costs.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "commands/commands.hpp"
+#include "image/luminance.hpp"
+#include "lights/lights.hpp"
+#include "rays/random.hpp"
+
+namespace phasetree::bench {
+
+namespace {
+
+tracer::Lights hall(int count) {
+    tracer::Lights lights;
+    Random random(11);
+    glm::vec3 cluster(0);
+    for (int i = 0; i < count; ++i) {
+        if (i % 25 == 0) cluster = random.in_cube() * glm::vec3(20, 20, 3) + glm::vec3(-10, -10, 1);
+        const glm::vec3 centre = cluster + (random.in_cube() - 0.5f) * glm::vec3(2, 2, 1);
+        lights.add(tracer::SphereLight(centre, 0.02f, glm::vec3(std::exp(3 * random.next()))));
+    }
+    return lights;
+}
+
+// Samples in turn at so many points of the floor.
+class Floor {
+  public:
+    Floor(int points, int samples, std::uint32_t seed) : points_(points), samples_(samples), seed_(seed) {}
+
+    struct Found {
+        double mean = 0, relative_variance = 0;
+        std::size_t lit = 0;
+    };
+    Found sample(const tracer::Lights& lights) const {
+        Random random(seed_);
+        Found found;
+        for (int i = 0; i < points_; ++i) {
+            const tracer::LightReceiver at((random.in_cube() - 0.5f) * glm::vec3(24, 24, 0), {0, 0, 1});
+            double sum = 0, squares = 0;
+            for (int k = 0; k < samples_; ++k) {
+                const float u = random.next();
+                const auto s = lights.sample(at, {u, random.next()});
+                const double value =
+                    s ? static_cast<double>(tracer::luminance(s->radiance) * std::max(s->wi.z, 0.0f) / s->pdf) : 0.0;
+                sum += value;
+                squares += value * value;
+                found.lit += value > 0;
+            }
+            const double mean = sum / samples_;
+            found.mean += mean / points_;
+            found.relative_variance += (squares / samples_ / (mean * mean) - 1) / points_;
+        }
+        return found;
+    }
+
+    int count() const { return points_ * samples_; }
+
+  private:
+    int points_, samples_;
+    std::uint32_t seed_;
+};
+
+}  // namespace
+
+Report lamps(const Settings& settings) {
+    Report report("lamps", "one of many lamps, chosen by a tree of groups or by asking each");
+    const Floor floor(settings.quick ? 40 : 200, settings.quick ? 100 : 400, settings.seed);
+    report.say(
+        "small balls in clusters over a floor; at points of it the irradiance is estimated by one sample of the "
+        "lights, "
+        "nothing in the way; variance: of a sample, relative to the square of the mean; 1 thread");
+    Table table({{"lamps", "lamps", "{:.0f}"},
+                 {"each_seconds", "each asked, µs", "{:.2f}", 1e6},
+                 {"tree_seconds", "by the tree, µs", "{:.2f}", 1e6},
+                 {"speedup", "faster", "{:.2f} ×"},
+                 {"each_variance", "variance, each asked", "{:.3f}"},
+                 {"tree_variance", "by the tree", "{:.3f}"},
+                 {"gain", "less variance × time", "{:.2f} ×"}});
+    for (const int count : settings.quick ? std::vector{32, 1000} : std::vector{32, 100, 1000, 10000}) {
+        const tracer::Lights each = hall(count);
+        tracer::Lights grouped = each;
+        grouped.group_lamps();
+        const Floor::Found a = floor.sample(each), b = floor.sample(grouped);
+        const Turns turns = in_turn({{"each",
+                                      [&] {
+                                          return Checksum{floor.sample(each).lit, 0, 0};
+                                      }},
+                                     {"tree",
+                                      [&] {
+                                          return Checksum{floor.sample(grouped).lit, 0, 0};
+                                      }}},
+                                    settings.timing_of_one_thread());
+        const double samples = floor.count();
+        const double speedup = turns.ratio(0, 1).median;
+        table.row({double(count), turns.seconds(0).median / samples, turns.seconds(1).median / samples, speedup,
+                   a.relative_variance, b.relative_variance, speedup * a.relative_variance / b.relative_variance});
+        report.check(fmt::format("{} lamps: as bright", count), std::abs(b.mean / a.mean - 1) < 0.02,
+                     fmt::format("{:.4f}", b.mean / a.mean));
+    }
+    report.table("lamps", table);
+    return report;
+}
+
+}  // namespace phasetree::bench
