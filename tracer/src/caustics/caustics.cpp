@@ -104,6 +104,8 @@ void Caustics::learn() {
             double worth = 0;
             for (const Photon& photon : traced.on_surfaces)
                 worth += worth_of(photon, expected * 0.5f, cosine_hemisphere_pdf(0.5f));
+            for (const Photon& photon : traced.on_interfaces)
+                worth += worth_of(photon, expected * 0.5f, cosine_hemisphere_pdf(0.5f));
             for (const MediumPhoton& medium : traced.in_media)
                 worth += worth_of(medium.photon, expected, HenyeyGreenstein().evaluate(0.0f));
             found[i] = {emitted->light, emitted->cell, worth};
@@ -149,6 +151,7 @@ std::optional<PhotonMap> Caustics::photons(int pass, PathCounters& counters,
     const auto append = [](auto& all, const auto& part) { all.insert(all.end(), part.begin(), part.end()); };
     for (std::size_t task = 0; task < tasks; ++task) {
         append(photons.on_surfaces, parts[task].on_surfaces);
+        append(photons.on_interfaces, parts[task].on_interfaces);
         append(photons.in_media, parts[task].in_media);
         counters += costs[task];
     }

@@ -1,6 +1,6 @@
 // A photon: light that came from a lamp through at least one interface of clear phases, smooth or rough, and fell on an
-// opaque surface that is not a mirror, or into a medium that scatters. It stands for the whole chain of interfaces
-// behind it.
+// opaque surface that is not a mirror, on a rough interface, or into a medium that scatters. It stands for the whole
+// chain of interfaces behind it.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -45,9 +45,11 @@ struct MediumPhoton {
     float depth;    ///< how far the place is behind the boundary, along the line; down to −h before it
 };
 
-/// What becomes of photons: one falls on a surface, and leaves a place in each scattering medium on its way there.
+/// What becomes of photons: one falls on an opaque surface, and is kept at each rough interface, and at one place in
+/// each scattering medium, on its way there.
 struct TracedPhotons {
     std::vector<Photon> on_surfaces{};
+    std::vector<Photon> on_interfaces{};
     std::vector<MediumPhoton> in_media{};
 };
 

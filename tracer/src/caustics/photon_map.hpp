@@ -36,9 +36,12 @@ class PhotonMap {
     /// than the disc are counted, and the estimate is too dark within the radius.
     template <class Use>
     void near(const glm::vec3& point, const glm::vec3& normal, Phase phase, Use&& use) const {
-        on_surfaces_.near(point, [&](const Photon& photon, const glm::vec3& offset) {
-            if (photon.phase == phase && std::abs(glm::dot(offset, normal)) <= 0.25f * radius_) use(photon);
-        });
+        near_of(on_surfaces_, point, normal, phase, use);
+    }
+    /// The same of photons that met a rough interface from the side of this phase.
+    template <class Use>
+    void near_at_interface(const glm::vec3& point, const glm::vec3& normal, Phase phase, Use&& use) const {
+        near_of(on_interfaces_, point, normal, phase, use);
     }
     /// Calls use(photon, depth) for each photon of the phase whose line passes within the radius of a point of a
     /// medium, and whose place on the line is near enough to count there (photon_placement.hpp). The depth is that of
@@ -65,10 +68,20 @@ class PhotonMap {
         const glm::vec3& operator()(const MediumPhoton& photon) const { return photon.photon.position; }
     };
 
+    using SurfacePhotons = PhotonGrid<Photon, OfSurface>;
+
+    template <class Use>
+    void near_of(const SurfacePhotons& photons, const glm::vec3& point, const glm::vec3& normal, Phase phase,
+                 Use&& use) const {
+        photons.near(point, [&](const Photon& photon, const glm::vec3& offset) {
+            if (photon.phase == phase && std::abs(glm::dot(offset, normal)) <= 0.25f * radius_) use(photon);
+        });
+    }
+
     std::optional<Wavelength> wavelength_;
     float radius_;
     float expected_;
-    PhotonGrid<Photon, OfSurface> on_surfaces_;
+    SurfacePhotons on_surfaces_, on_interfaces_;
     PhotonGrid<MediumPhoton, OfMedium> in_media_;
 };
 

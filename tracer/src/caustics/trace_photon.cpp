@@ -59,6 +59,8 @@ class PhotonFlight {
                     traced.on_surfaces.push_back(photon_at(surface->near_side.origin));
                 return;
             }
+            if (photons_follow(interfaces_) && !bsdf.is_delta() && came_from_light())
+                traced.on_interfaces.push_back(photon_at(surface->near_side.origin));
             if (!photons_follow(++interfaces_) || !scatter(*surface, bsdf)) return;
         }
     }

@@ -63,6 +63,11 @@ struct Chain {
 
     // How many interfaces are between what photons light and the lamp.
     int interfaces() const { return interfaces_before + length; }
+    // Whether photons that fell where this chain starts know of what a rough interface at its end leads to. Then they
+    // light that place, and otherwise they light the rough interface.
+    bool leads_photons_on() const {
+        return pdf && by_photons.per_line_density > 0.0f && photons_follow(interfaces() + 1);
+    }
 
     // The weight of light that is seen along the ray. Light at the end of a chain that shadow rays and photons do not
     // follow to its end is found by the path alone, whichever techniques are asked for.
@@ -188,7 +193,8 @@ class Path {
         const glm::vec3 wo = frame.to_local(-ray_.direction);
         LightProposal proposal;
         const auto photon_factor_of = [&](const glm::vec3& wi) {
-            return surface.far_side ? factor_beyond(surface, bsdf, wo, wi) : factor_at(surface, bsdf, wi.z);
+            return surface.far_side && chain_.leads_photons_on() ? factor_beyond(surface, bsdf, wo, wi)
+                                                                 : factor_at(surface, bsdf, wi);
         };
         if (!bsdf.is_delta()) {
             // A rough interface gets light from both sides, so none is preferred and no bending is guessed.
@@ -275,20 +281,21 @@ class Path {
     }
 
     // Chain::interfaces_before of a chain that starts at the surface.
-    int interfaces_before(const Surface& surface) const { return surface.far_side ? chain_.interfaces() + 1 : 0; }
+    int interfaces_before(const Surface& surface) const {
+        return surface.far_side && chain_.leads_photons_on() ? chain_.interfaces() + 1 : 0;
+    }
     // PhotonDensity::per_line_density of a direction that leads from a rough interface into the chain behind it.
     float factor_beyond(const Surface& surface, const Bsdf& bsdf, const glm::vec3& wo, const glm::vec3& wi) const {
-        if (!chain_.pdf || !(chain_.by_photons.per_line_density > 0.0f) || !photons_follow(chain_.interfaces() + 1))
-            return 0.0f;
         const Surface::Side& left_to = wi.z < 0 ? *surface.far_side : surface.near_side;
         return chain_.by_photons.per_line_density / *chain_.pdf *
                rough_factor(bsdf.reverse_pdf(wo, wi), clear_at(scene_, left_to.phase).ior, wi.z,
                             clear_at(scene_, surface.near_side.phase).ior, wo.z);
     }
-    // PhotonDensity::per_line_density, of a direction of this cosine at a surface; 0 where photons light nothing.
-    float factor_at(const Surface& surface, const Bsdf& bsdf, float cosine) const {
-        if (!photons_ || !(cosine > least_photon_cosine) || !is_lit_by_photons(surface, bsdf)) return 0.0f;
-        return factor_across(surface.near_side.phase) * cosine;
+    // PhotonDensity::per_line_density, of a direction at a surface; 0 where photons light nothing.
+    float factor_at(const Surface& surface, const Bsdf& bsdf, const glm::vec3& wi) const {
+        const float cosine = surface.far_side ? std::abs(wi.z) : wi.z;
+        if (!photons_ || !(cosine > least_photon_cosine) || bsdf.is_delta()) return 0.0f;
+        return factor_across(wi.z < 0.0f ? surface.far_side->phase : surface.near_side.phase) * cosine;
     }
     // N π r² n². Where a phase disperses, n is that of the d line: all techniques weigh by the same, so their weights
     // still sum to 1.
@@ -315,19 +322,30 @@ class Path {
     // What photons bring that fell near the surface's point.
     void add_caustics(const Surface& surface, const Bsdf& bsdf, const Frame& frame, const glm::vec3& wo,
                       const LightProposal& proposal) {
-        if (!photons_ || scene_.settings.techniques != Techniques::all || !is_lit_by_photons(surface, bsdf)) return;
-        const float across = factor_across(surface.near_side.phase);
-        photons_.map->near(surface.near_side.origin, surface.normal, surface.near_side.phase,
-                           [&](const Photon& photon) {
-                               const glm::vec3 wi = frame.to_local(photon.direction);
-                               if (!(wi.z > least_photon_cosine)) return;
-                               const float by_photons = across * wi.z * photon.line_density;
-                               if (!(by_photons > 0.0f)) return;
-                               // Photons are counted by area of the surface, and so have the cosine already that
-                               // evaluate() multiplies by.
-                               const glm::vec3 f = for_light(bsdf.evaluate(wo, wi), single()) / wi.z;
-                               add_photon(photon, photon.power, f, by_photons, bsdf.pdf(wo, wi), proposal);
-                           });
+        if (!photons_ || scene_.settings.techniques != Techniques::all || bsdf.is_delta()) return;
+        // Of the side of a phase, where the cosines of directions have this sign.
+        const auto use_of_side = [&](Phase phase, float sign) {
+            return [&, sign, across = factor_across(phase)](const Photon& photon) {
+                const glm::vec3 wi = frame.to_local(photon.direction);
+                const float cosine = sign * wi.z;
+                if (!(cosine > least_photon_cosine)) return;
+                const float by_photons = across * cosine * photon.line_density;
+                if (!(by_photons > 0.0f)) return;
+                // Photons are counted by area of the surface, and so have the cosine already that evaluate()
+                // multiplies by.
+                const glm::vec3 f = for_light(bsdf.evaluate(wo, wi), single()) / cosine;
+                add_photon(photon, photon.power, f, by_photons, bsdf.pdf(wo, wi), proposal);
+            };
+        };
+        const glm::vec3& point = surface.near_side.origin;
+        const Phase near = surface.near_side.phase;
+        if (!surface.far_side) {
+            photons_.map->near(point, surface.normal, near, use_of_side(near, 1.0f));
+        } else if (!chain_.leads_photons_on()) {
+            const Phase far = surface.far_side->phase;
+            photons_.map->near_at_interface(point, surface.normal, near, use_of_side(near, 1.0f));
+            photons_.map->near_at_interface(point, surface.normal, far, use_of_side(far, -1.0f));
+        }
     }
 
     // The same in a medium.

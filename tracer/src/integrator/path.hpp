@@ -51,12 +51,12 @@ struct Photons {
 /// Rough interfaces end shadow rays and chains, for a path is scattered there. Photons pass them, scattered as well. So
 /// of a lamp seen from a surface through frosted glass, shadow rays that start at the glass, the path's directions, and
 /// photons are three techniques for one integral, which has one more direction for each rough interface:
-/// rough_chain.hpp.
+/// rough_chain.hpp. A rough interface that a path meets before it was at a place from which photons lead on through it,
+/// as frosted glass that the camera sees, is such a place itself: photons that met it, from either side, light it.
 ///
-/// Places in a medium that scatters are lit by photons, too, if its transmittance has a closed form: it is homogeneous.
-/// There is no cos θ there. A photon stands at one random place of its line through the medium, and with a probability
-/// F(t), which photon_placement.hpp has, that place is near enough to count for the point of the line that is t behind
-/// the boundary. So the density is
+/// Places in a medium that scatters are lit by photons, too. There is no cos θ there. A photon stands at one random
+/// place of its line through the medium, and with a probability F(t), which photon_placement.hpp has, that place is
+/// near enough to count for the point of the line that is t behind the boundary. So the density is
 ///     N π r² (p(line)/m²) n² F(t).
 ///
 /// Dispersion. Where a path, a shadow ray or a photon meets an interface that disperses, one wavelength is chosen for
