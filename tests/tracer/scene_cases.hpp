@@ -255,6 +255,7 @@ inline std::vector<Case> cases() {
     light("sun", R"("direction": [1, 1, 1])");
     light("rectangle", R"("centre": [0, 0, 3], "target": [0, 0, 0], "width": 9, "height": 4)");
     light("sphere", R"("centre": [0, 0, 3], "radius": 2)");
+    light("spheres", R"("centres": [[0, 0, 3], [3, 0, 3]], "radius": 0.5)");
     light("point", R"("position": [0, 0, 3])");
     light("spot", R"("position": [0, 0, 3], "target": [1, 0, 1])");
     light("ies", R"("file": "lamp.ies", "position": [0, 0, 3], "target": [1, 0.5, 0])");
