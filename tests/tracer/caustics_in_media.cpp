@@ -178,7 +178,7 @@ TEST_CASE("within a ball whose density varies it is as bright as by paths alone"
                                      R"("lights": [)" + c.light +
                                          R"(], "render": {"width": 64, "height": 64, "photon_radius": 2, "photons": )" +
                                          c.photons + "}");
-        check_against_paths(scene, {0.3f, -3, 0.4f}, {0, 1, 0}, 2 * passes, significance);
+        check_against_paths(scene, {0.3f, -3, 0.4f}, {0, 1, 0}, 4 * passes, significance);
     }
 }
 

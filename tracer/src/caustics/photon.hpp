@@ -46,7 +46,7 @@ struct MediumPhoton {
 };
 
 /// What becomes of photons: one falls on an opaque surface, and is kept at each rough interface, and at one place in
-/// each scattering medium, on its way there.
+/// each scattering medium, that it meets on its way there, after its first interface.
 struct TracedPhotons {
     std::vector<Photon> on_surfaces{};
     std::vector<Photon> on_interfaces{};

@@ -79,13 +79,16 @@ class PhotonPlacement {
     void sample_densities_of(const ScatteringCoefficients& coefficients) {
         if (!coefficients.scatters()) return;
         const glm::vec3 extinction = coefficients.extinction();
-        const float densest = std::max({extinction.x, extinction.y, extinction.z});
-        extinction_ = {densest, densest / 4, densest / 16};
+        float densest = std::max({extinction.x, extinction.y, extinction.z});
+        for (float& extinction_of_one : extinction_) {
+            extinction_of_one = densest;
+            densest /= 4;
+        }
         channels_ = extinction_.size();
     }
 
     float half_length_;
-    std::array<float, 3> extinction_{};  ///< of the channels that scatter, or of several densities
+    std::array<float, 6> extinction_{};  ///< of the channels that scatter, or of several densities
     std::size_t channels_ = 0;
 };
 

@@ -2,7 +2,7 @@
 //
 // Elsewhere a chain ends at a rough interface, because a path is scattered there. Photons go on, so here a chain leads
 // from a place x that photons light through all interfaces, smooth and rough, to a lamp. x is on an opaque surface or
-// in a medium, or it is the first rough interface that a path meets. Let one of them be rough, at a
+// in a medium, or on a rough interface to which no chain leads from such a place. Let one of them be rough, at a
 // place y. ω is the direction at y on the side of x, and ω' that on the side of the lamp; n and n' are the indices
 // there, θ and θ' the angles to the normal. ω_x, n_x and θ_x belong to x, and n_l is the index around the lamp. Three
 // techniques find the chain, with these densities of (ω_x, ω') in 1/sr²:

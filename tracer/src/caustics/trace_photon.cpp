@@ -55,7 +55,7 @@ class PhotonFlight {
                 continue;
             }
             if (!surface->far_side) {
-                if (photons_follow(interfaces_) && is_lit_by_photons(*surface, bsdf) && came_from_light())
+                if (photons_follow(interfaces_) && !bsdf.is_delta() && came_from_light())
                     traced.on_surfaces.push_back(photon_at(surface->near_side.origin));
                 return;
             }
@@ -153,10 +153,6 @@ class PhotonFlight {
 };
 
 }  // namespace
-
-bool is_lit_by_photons(const Surface& surface, const Bsdf& bsdf) {
-    return !surface.far_side && !bsdf.is_delta();
-}
 
 void trace_photon(const World& world, const Scene& scene, const EmittedPhoton& emitted, float radius, Sampler& sampler,
                   PathCounters& counters, TracedPhotons& traced, const std::optional<Wavelength>& wavelength) {

@@ -18,7 +18,4 @@ namespace phasetree::tracer {
 void trace_photon(const World& world, const Scene& scene, const EmittedPhoton& emitted, float radius, Sampler& sampler,
                   PathCounters& counters, TracedPhotons& traced, const std::optional<Wavelength>& wavelength = {});
 
-/// Whether photons that fall on a surface light it: it scatters, and is no boundary of two clear media.
-bool is_lit_by_photons(const Surface& surface, const Bsdf& bsdf);
-
 }  // namespace phasetree::tracer

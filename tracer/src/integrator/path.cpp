@@ -63,8 +63,8 @@ struct Chain {
 
     // How many interfaces are between what photons light and the lamp.
     int interfaces() const { return interfaces_before + length; }
-    // Whether photons that fell where this chain starts know of what a rough interface at its end leads to. Then they
-    // light that place, and otherwise they light the rough interface.
+    // Whether photons that light an earlier place of the path may come through a rough interface at the chain's end. If
+    // they may not, photons light the rough interface itself.
     bool leads_photons_on() const {
         return pdf && by_photons.per_line_density > 0.0f && photons_follow(interfaces() + 1);
     }

@@ -51,8 +51,8 @@ struct Photons {
 /// Rough interfaces end shadow rays and chains, for a path is scattered there. Photons pass them, scattered as well. So
 /// of a lamp seen from a surface through frosted glass, shadow rays that start at the glass, the path's directions, and
 /// photons are three techniques for one integral, which has one more direction for each rough interface:
-/// rough_chain.hpp. A rough interface that a path meets before it was at a place from which photons lead on through it,
-/// as frosted glass that the camera sees, is such a place itself: photons that met it, from either side, light it.
+/// rough_chain.hpp. Where no earlier place of the path is lit by photons that came through a rough interface, as of
+/// frosted glass that the camera sees, the interface itself is lit by photons that met it, from either side.
 ///
 /// Places in a medium that scatters are lit by photons, too. There is no cos θ there. A photon stands at one random
 /// place of its line through the medium, and with a probability F(t), which photon_placement.hpp has, that place is

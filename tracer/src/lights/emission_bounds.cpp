@@ -14,6 +14,9 @@ constexpr double half_turn = std::numbers::pi;
 // Bounds that lie at an edge to rounding count as within.
 constexpr double slack = 1e-6;
 
+// Of a group that the horizon cuts any lamp may be the one above it, so its cosine is not taken to be smaller.
+constexpr double least_cosine = 1.0 / 16;
+
 struct Angle {
     double cosine, sine;
 };
@@ -46,11 +49,16 @@ EmissionCone merged(const EmissionCone& a, const EmissionCone& b) {
     const double wide_angle = angle_of(wide.cos_normals_), narrow_angle = angle_of(narrow.cos_normals_);
     EmissionCone both = wide;
     both.cos_edge_ = cos_edge;
-    if (between + narrow_angle <= wide_angle) return both;
+    if (between + narrow_angle <= wide_angle + slack) return both;
     // From the far edge of the one to the far edge of the other.
     const double angle = (wide_angle + between + narrow_angle) / 2;
     const glm::dvec3 aside = narrow.axis_ - glm::dot(wide.axis_, narrow.axis_) * wide.axis_;
     const double length = glm::length(aside), turn = angle - wide_angle;
+    if (!(length > slack) && glm::dot(wide.axis_, narrow.axis_) > 0) {  // one axis, to rounding
+        both.cos_normals_ = std::cos(std::min(between + narrow_angle, half_turn));
+        both.sin_normals_ = sine_of(both.cos_normals_);
+        return both;
+    }
     // Axes that are opposite to each other leave open how to turn.
     if (angle >= half_turn || !(length > slack)) {
         both.cos_normals_ = -1.0;
@@ -89,12 +97,14 @@ double EmissionBounds::received(const LightReceiver& at) const {
     if (!(squared > squared_radius * (1 + slack))) {
         const double cosine =
             at.normal && radius > 0.0 ? -glm::dot(way, glm::dvec3(*at.normal)) / (radius * (1 + slack)) : 1.0;
-        return intensity * (1 + cosine) * (1 + cosine) / 4 * 3 / (squared_radius + squared);
+        return intensity * std::max((1 + cosine) * (1 + cosine) / 4, least_cosine) * 3 / (squared_radius + squared);
     }
     const double distance = std::sqrt(squared), sine = radius / distance;
     const double sent = cone.greatest_cosine(way / distance, std::sqrt(1 - sine * sine), sine);
     if (!(sent > 0.0)) return 0.0;
-    return intensity * sent * (at.normal ? mean_cosine(sphere, at) : 1.0) * 3 / (3 * squared - squared_radius);
+    double cosine = at.normal ? mean_cosine(sphere, at) : 1.0;
+    if (cosine > 0.0 && at.normal && cosine < sine) cosine = std::max(cosine, least_cosine);
+    return intensity * sent * cosine * 3 / (3 * squared - squared_radius);
 }
 
 // The cosines from c − s to c + s, with s = r/d, are taken to be equally frequent.

@@ -20,7 +20,7 @@ class EmissionCone {
     EmissionCone(const glm::dvec3& axis, double normals, double edge);
     /// A plane surface that sends light to one side.
     static EmissionCone of_plane(const glm::dvec3& normal);
-    /// A point that sends light into a cone of this half-angle.
+    /// A point that sends light into a cone of this half-angle, as if each direction within were a normal, θe = 0.
     static EmissionCone of_point(const glm::dvec3& axis, double half_angle) { return {axis, half_angle, 0.0}; }
 
     /// Holds both.
@@ -31,7 +31,7 @@ class EmissionCone {
     /// sent there.
     double greatest_cosine(const glm::dvec3& towards, double cosine, double sine) const;
 
-    /// How wide it is: Mω of the source, from π of a plane to 4π of all directions.
+    /// How wide it is: Mω of the source, π of a plane and 4π of all directions.
     double measure() const;
 
   private:
@@ -45,12 +45,13 @@ struct EmissionBounds {
     EmissionCone cone{};
 
     /// Roughly the luminance that a receiver gets of the lamps if nothing is in the way: with its normal the
-    /// irradiance, without it the fluence. It is 0 only where it gets nothing.
+    /// irradiance, without it the fluence. It is 0 only where it gets nothing. Of a lamp that is much nearer than the
+    /// others it knows nothing, so it may be far too low.
     double received(const LightReceiver& at) const;
 };
 
 /// Roughly the mean over a sphere's solid angle of the cosine to the normal, counted as 0 below the surface. It is 0
-/// only where the whole sphere is below; seen from inside it is 1.
+/// only where the whole sphere is below; seen from inside it is 1. The receiver has a normal.
 double mean_cosine(const BoundingSphere& sphere, const LightReceiver& at);
 
 }  // namespace phasetree::tracer

@@ -8,7 +8,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Lamps are sorted into so many slices along an axis, and parted between two of them.
+// Lamps are sorted into so many slices along an axis, and divided between two of them.
 constexpr std::size_t slices = 12;
 
 // From this depth on groups are halved, so that a way down is never long however lamps are placed.
@@ -21,9 +21,10 @@ struct Box {
         low = glm::min(low, other.low);
         high = glm::max(high, other.high);
     }
+    // The surface, and a little of the squared diagonal, so that rows of points have some, too.
     double area() const {
         const glm::dvec3 size = high - low;
-        return 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
+        return 2 * (size.x * size.y + size.y * size.z + size.z * size.x) + 0.01 * glm::dot(size, size);
     }
 };
 

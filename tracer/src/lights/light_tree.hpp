@@ -7,7 +7,7 @@
 // gives is estimated (EmissionBounds::received); the caller tells what a lamp gives. The probability with which a lamp
 // is chosen is the product of those along the way.
 //
-// Lamps are parted where the sum of intensity · area · measure of directions of the two groups is least, as in the
+// Lamps are divided where the sum of intensity · area · measure of directions of the two groups is least, as in the
 // source of emission_bounds.hpp.
 #pragma once
 
@@ -91,12 +91,17 @@ class LightTree {
     };
     class Builder;
 
-    /// The probability of the first member of a group; none if neither gives anything.
+    /// The probability of the first member of a group; none if neither gives anything. What groups give is an estimate,
+    /// so beside them no member that gives something is less likely than this.
+    static constexpr float least_probability = 1.0f / 256;
     template <class Given>
     std::optional<float> first_probability(std::uint32_t group, const Given& given) const {
-        const float first = given(members(group)[0]), total = first + given(members(group)[1]);
+        const float first = given(members(group)[0]), second = given(members(group)[1]), total = first + second;
         if (!(total > 0.0f) || total > std::numeric_limits<float>::max()) return std::nullopt;
-        return first / total;
+        const bool is_estimate =
+            members(group)[0].kind == LightNode::Kind::group || members(group)[1].kind == LightNode::Kind::group;
+        if (!is_estimate || first == 0.0f || second == 0.0f) return first / total;
+        return std::clamp(first / total, least_probability, 1.0f - least_probability);
     }
     bool may_meet(const glm::vec3& origin, const glm::vec3& direction, std::uint32_t group) const;
 

@@ -254,6 +254,7 @@ std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u) 
         sampled = portals_[chosen - first_portal].sample(p, u);
     } else if (lamp->lamp.kind == LightNode::Kind::point) {
         const FromPoint point = seen_from(p, points_[lamp->lamp.number]);
+        if (!(share_of[chosen] / total * probability > 0.0f)) return std::nullopt;
         return LightSample{point.direction, point.distance, point.irradiance, share_of[chosen] / total * probability,
                            OfPointLight{lamp->lamp.number}};
     } else {
@@ -327,6 +328,7 @@ std::optional<glm::vec3> Lights::towards_brightest(const glm::vec3& p, const glm
         most = 0.0f;
         for (const LightNode& member : tree_.members(node->number))
             if (consider(given(member, p), [&] { return std::optional(direction_to(member, p)); })) next = member;
+        if (!next) return std::nullopt;
         node = next;
     }
     return brightest;

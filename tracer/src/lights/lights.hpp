@@ -15,7 +15,8 @@
 // diffuse_irradiance.hpp), unless there are portals. Unlike emitted power this needs no extent of the scene to compare
 // an environment with a lamp, and a lamp that is far away or turned away, or below the surface, takes no samples.
 //
-// Many lamps are in groups (light_tree.hpp). Then cᵢ of an area or point light is that of the group in which it is,
+// Many lamps are in groups (light_tree.hpp), and Σ cᵢ may be less than 1: a group that promises light may have none,
+// and then there is no sample. Then cᵢ of an area or point light is that of the group in which it is,
 // whose luminance at x is estimated, times the probability of the way from there to the lamp.
 //
 // Area lights hide what is behind them, and nothing else: rectangles from their emitting side, spheres from everywhere.
@@ -137,7 +138,7 @@ class Lights {
     float point_light_probability(const LightReceiver& at, std::size_t index) const;
 
     /// Towards the brightest light that has a place, of those on the side of p that the normal points to; nothing if
-    /// there is none.
+    /// there is none. Of lamps in groups it is roughly the brightest one of the brightest group.
     std::optional<glm::vec3> towards_brightest(const glm::vec3& p, const glm::vec3& normal) const;
 
   private:
