@@ -1,8 +1,10 @@
-// Lamps in groups: none that shines is lost, the choice has the probability that it says, and rays meet the same lamps.
+// Lamps in clusters: none that shines is lost, the choice has the probability that it says, and rays meet the same
+// lamps.
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <vector>
 
@@ -25,17 +27,19 @@ glm::vec3 three(Uniform& random) {
     return {two, random()};
 }
 
-// Some lamps of each kind that is not infinite, of many sizes and strengths, in clusters.
+// Some lamps of each kind that is not infinite, of many sizes and strengths, in bunches.
 Lights lamps_of_all_kinds(int count, std::uint32_t seed) {
     Lights lights;
     Uniform random(seed);
-    glm::vec3 cluster(0);
+    const auto profile = std::make_shared<const IesProfile>(
+        "IESNA:LM-63-2002\n[TEST] none\nTILT=NONE\n1 1000 1 3 1 1 2 0 0 0\n1 1 60\n0 45 90\n0\n100 60 10\n");
+    glm::vec3 bunch(0);
     for (int i = 0; i < count; ++i) {
-        if (i % 17 == 0) cluster = 20.0f * (three(random) - 0.5f);
-        const glm::vec3 at = cluster + three(random) - 0.5f;
+        if (i % 17 == 0) bunch = 20.0f * (three(random) - 0.5f);
+        const glm::vec3 at = bunch + three(random) - 0.5f;
         const glm::vec3 target = at + square_to_uniform_sphere(random.two());
         const glm::vec3 light = std::exp(4.0f * random()) * (three(random) + 0.1f);
-        switch (static_cast<int>(random() * 4)) {
+        switch (static_cast<int>(random() * 5)) {
             case 0:
                 lights.add(SphereLight(at, 0.01f + 0.2f * random(), light));
                 break;
@@ -44,6 +48,9 @@ Lights lamps_of_all_kinds(int count, std::uint32_t seed) {
                 break;
             case 2:
                 lights.add(AnyPointLight(PointLight(at, light)));
+                break;
+            case 3:
+                lights.add(AnyPointLight(IesLight(at, target, 20.0f, profile, light)));
                 break;
             default:
                 lights.add(AnyPointLight(SpotLight(at, target, 1.0f + 200.0f * random(), 0.5f, light)));
@@ -60,10 +67,11 @@ LightReceiver receiver(Uniform& random) {
 
 }  // namespace
 
-TEST_CASE("grouped lamps: samples and rays agree on radiance, distance and density") {
+TEST_CASE("clustered lamps: samples and rays agree on radiance, distance and density") {
     Lights lights = lamps_of_all_kinds(300, 1);
     lights.add(ConstantEnvironment(glm::vec3(0.1f)));
-    lights.group_lamps();
+    lights.add(Portal(RectangleLight::facing({0, 0, 9}, {0, 0, 0}, 9, 5, glm::vec3(0), false)));
+    lights.cluster_lamps();
     Uniform random(2);
     int area = 0, points = 0, infinite = 0;
     for (int i = 0; i < 30000; ++i) {
@@ -86,12 +94,12 @@ TEST_CASE("grouped lamps: samples and rays agree on radiance, distance and densi
     CHECK(infinite > 1000);
 }
 
-TEST_CASE("grouped lamps: each that shines on a receiver is chosen with a probability above 0") {
+TEST_CASE("clustered lamps: each that shines on a receiver is chosen with a probability above 0") {
     Uniform random(3);
     for (std::uint32_t seed = 1; seed <= 20; ++seed) {
         Lights lights = lamps_of_all_kinds(60, seed);
         const Lights one_by_one = lights;
-        lights.group_lamps();
+        lights.cluster_lamps();
         int shining = 0;
         for (int i = 0; i < 2000; ++i) {
             // Also close to the lamps, and where they are just in sight.
@@ -115,7 +123,7 @@ TEST_CASE("grouped lamps: each that shines on a receiver is chosen with a probab
     }
 }
 
-TEST_CASE("grouped lamps: weak ones close by are chosen beside strong ones, above a floor and below it") {
+TEST_CASE("clustered lamps: weak ones close by are chosen beside strong ones, above a floor and below it") {
     Lights lights;
     Uniform random(21);
     for (int i = 0; i < 400; ++i) {
@@ -124,7 +132,7 @@ TEST_CASE("grouped lamps: weak ones close by are chosen beside strong ones, abov
                                             glm::vec3(i % 20 == 0 ? 1e4f : 1.0f))));
     }
     const Lights one_by_one = lights;
-    lights.group_lamps();
+    lights.cluster_lamps();
     for (std::size_t k = 0; k < 400; k += 2) {
         const glm::vec3 lamp = std::visit([](const auto& light) { return light.position(); }, lights.points()[k]);
         const LightReceiver at(glm::vec3(lamp.x + 0.001f, lamp.y, 0), {0, 0, 1});
@@ -146,15 +154,15 @@ TEST_CASE("cones of one axis stay as wide as they are, and opposite ones are all
     }
 }
 
-TEST_CASE("grouped lamps are chosen as often as their probabilities say") {
+TEST_CASE("clustered lamps are chosen as often as their probabilities say") {
     Lights lights;
     Uniform random(4);
     for (int i = 0; i < 100; ++i)
         lights.add(AnyPointLight(SpotLight(4.0f * (three(random) - 0.5f), 4.0f * (three(random) - 0.5f), 300, 1,
                                            std::exp(3.0f * random()) * glm::vec3(1.0f))));
-    lights.group_lamps();
+    lights.cluster_lamps();
     const LightReceiver at({0.5f, 0.2f, 0.1f}, {0, 0, 1});
-    // The last one is that there is no sample: a group may promise light of which its lamps give none.
+    // The last one is that there is no sample: a cluster may promise light of which its lamps give none.
     std::vector<double> expected(101), observed(101), defective(101);
     const auto count = static_cast<int>(samples_to_detect(1e-4, 100.0));
     double sum = 0;
@@ -179,7 +187,7 @@ TEST_CASE("grouped lamps are chosen as often as their probabilities say") {
     CHECK(chi_squared_test(defective, expected).p_value < significance);
 }
 
-TEST_CASE("grouped lamps give the irradiance that all of them give together") {
+TEST_CASE("clustered lamps give the irradiance that all of them give together") {
     Uniform random(5);
     Lights lights;
     const LightReceiver at({0.3f, -0.2f, 0.0f}, {0, 0, 1});
@@ -194,17 +202,17 @@ TEST_CASE("grouped lamps give the irradiance that all of them give together") {
         const double distance = glm::length(way), sine = static_cast<double>(radius) / distance;
         expected += way.z > 0 ? std::numbers::pi * static_cast<double>(radiance) * sine * sine * way.z / distance : 0.0;
     }
-    lights.group_lamps();
+    lights.cluster_lamps();
     check(estimator_test(expected, 400000, [&](Uniform& numbers) {
         const auto s = lights.sample(at, numbers.two());
         return s ? static_cast<double>(luminance(s->radiance) * std::max(s->wi.z, 0.0f) / s->pdf) : 0.0;
     }));
 }
 
-TEST_CASE("grouped lamps: rays see the same as if each is asked") {
+TEST_CASE("clustered lamps: rays see the same as if each is asked") {
     const Lights one_by_one = lamps_of_all_kinds(500, 6);
     Lights lights = one_by_one;
-    lights.group_lamps();
+    lights.cluster_lamps();
     Uniform random(7);
     int met = 0;
     for (int i = 0; i < 200000; ++i) {
@@ -222,15 +230,15 @@ TEST_CASE("grouped lamps: rays see the same as if each is asked") {
     CHECK(met > 500);
 }
 
-TEST_CASE("grouped lamps: one that is added later counts, and up to so many are asked one by one") {
+TEST_CASE("clustered lamps: one that is added later counts, and up to so many are asked one by one") {
     Lights lights = lamps_of_all_kinds(100, 10), expected = lights;
-    lights.group_lamps();
+    lights.cluster_lamps();
     for (Lights* each : {&lights, &expected}) {
         each->add(SphereLight({0, 0, 40}, 0.5f, glm::vec3(1e6f)));
         each->add(AnyPointLight(PointLight({0, 0, 30}, glm::vec3(1e6f))));
     }
     Lights few = lamps_of_all_kinds(30, 11), same = few;
-    same.group_lamps();
+    same.cluster_lamps();
     Uniform random(12);
     for (int i = 0; i < 1000; ++i) {
         const LightReceiver at = receiver(random);
@@ -245,13 +253,13 @@ TEST_CASE("grouped lamps: one that is added later counts, and up to so many are 
     }
 }
 
-TEST_CASE("grouped lamps: of one place, of places far apart, and of no light") {
+TEST_CASE("clustered lamps: of one place, of places far apart, and of no light") {
     Lights lights;
     for (int i = 0; i < 50; ++i) lights.add(AnyPointLight(PointLight({1, 2, 3}, glm::vec3(1.0f))));
     for (int i = 0; i < 50; ++i)
         lights.add(SphereLight({std::pow(10.0f, static_cast<float>(i % 30) - 15.0f), 0, 0}, 1e-17f, glm::vec3(1e30f)));
     for (int i = 0; i < 10; ++i) lights.add(SphereLight({-1, 0, 0}, 0.1f, glm::vec3(0.0f)));
-    lights.group_lamps();
+    lights.cluster_lamps();
     Uniform random(8);
     int samples = 0;
     for (int i = 0; i < 1000; ++i) {
@@ -266,18 +274,18 @@ TEST_CASE("grouped lamps: of one place, of places far apart, and of no light") {
 
     Lights dark;
     for (int i = 0; i < 50; ++i) dark.add(SphereLight({static_cast<float>(i), 0, 0}, 0.1f, glm::vec3(0.0f)));
-    dark.group_lamps();
+    dark.cluster_lamps();
     CHECK_FALSE(dark.sample(glm::vec3(0, 1, 0), {0.5f, 0.5f}));
     CHECK(dark.pdf(glm::vec3(0, 1, 0), {0, -1, 0}) == 0.0f);
 }
 
-TEST_CASE("grouped lamps: the brightest of a crowd") {
+TEST_CASE("clustered lamps: the brightest of a crowd") {
     Lights lights;
     Uniform random(9);
     for (int i = 0; i < 200; ++i)
         lights.add(AnyPointLight(PointLight(10.0f * three(random) + glm::vec3(5, 0, 0), glm::vec3(0.1f))));
     lights.add(AnyPointLight(PointLight({0, 1, 1}, glm::vec3(100.0f))));
-    lights.group_lamps();
+    lights.cluster_lamps();
     const glm::vec3 towards = lights.towards_brightest(glm::vec3(0), {0, 0, 1}).value();
     CHECK(glm::distance(towards, glm::normalize(glm::vec3(0, 1, 1))) < 1e-6f);
 }

@@ -2,6 +2,7 @@
 #include "caustics/caustics.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
@@ -9,7 +10,9 @@
 
 #include "paths.hpp"
 #include "photons.hpp"
+#include "sampling/warps.hpp"
 #include "shading/fresnel.hpp"
+#include "support/uniform.hpp"
 
 namespace test_caustics {
 
@@ -140,6 +143,35 @@ TEST_CASE("behind a ball of coloured glass, or of what scatters, it is as bright
     }
 }
 
+TEST_CASE("lines are as dense from lamps in clusters as from the same lamps one by one") {
+    std::string centres;
+    for (int i = 0; i < 60; ++i)
+        centres +=
+            fmt::format("{}[{}, {}, {}]", i > 0 ? ", " : "", 0.9 * (i % 8) - 3, 0.8 * (i / 8) - 3, 3 + 0.3 * (i % 3));
+    const Scene clustered = scene_of(
+        R"("glass": {"clear": {"ior": 1.5}})", R"({"set": {"phase": "glass", "of": {"sphere": {"radius": 1}}}})",
+        R"("lights": [{"point": {"position": [0, 0, 4]}}, {"spheres": {"radius": 0.3, "centres": [)" + centres +
+            R"(]}}, {"sun": {"direction": [0.1, 0.2, 1], "diameter": 40}}])");
+    REQUIRE(clustered.lights.area().size() == 60);
+    Scene one_by_one = clustered;
+    one_by_one.lights = {};
+    for (const auto& light : clustered.lights.infinite()) one_by_one.lights.add(light);
+    for (const auto& light : clustered.lights.area()) one_by_one.lights.add(light);
+    for (const auto& light : clustered.lights.points()) one_by_one.lights.add(light);
+    const World world(clustered);
+    const PhotonEmission a(world, clustered), b(world, one_by_one);
+    phasetree::tests::Uniform random(5);
+    int met = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const glm::vec3 origin(random() - 0.5f, random() - 0.5f, 1.1f);
+        const glm::vec3 towards = square_to_uniform_sphere(random.two());
+        const float density = b.line_density(origin, towards, phasetree::vacuum);
+        REQUIRE(a.line_density(origin, towards, phasetree::vacuum) == doctest::Approx(density).epsilon(1e-5));
+        met += density > 0;
+    }
+    CHECK(met > 2000);
+}
+
 TEST_CASE("a lamp in water, behind a ball of glass: as bright as by paths alone") {
     // The chain starts and ends where the index is not 1.
     const Scene scene = scene_of(
@@ -193,7 +225,7 @@ TEST_CASE("the map finds what lies within the radius, each photon once") {
     for (int i = 0; i < 200; ++i) {
         const glm::vec3 point(place(random), place(random), 0.0f);
         int found = 0, expected = 0;
-        map.near(point, normal, phasetree::Phase{1}, [&](const Photon&) { ++found; });
+        map.near(point, normal, [&](const Photon& photon) { found += photon.phase == phasetree::Phase{1}; });
         for (const Photon& photon : photons) {
             const glm::vec3 offset = photon.position - point;
             expected += photon.phase.index == 1 && glm::length(offset) <= radius && std::abs(offset.z) <= radius / 4;
@@ -231,7 +263,7 @@ TEST_CASE("a lamp above a wall throws no photons through what is below it") {
         REQUIRE(map.has_value());
         int found = 0;
         for (const float x : {-0.2f, -0.1f, 0.0f, 0.1f, 0.2f})
-            map->near({x, 0, 0}, {0, 0, 1}, phasetree::vacuum, [&](const Photon&) { ++found; });
+            map->near({x, 0, 0}, {0, 0, 1}, [&](const Photon&) { ++found; });
         return found;
     };
     CHECK(found_on_the_floor("2.9") > 0);

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 
 #include "caustics/photon_placement.hpp"
@@ -19,6 +20,22 @@ namespace {
 
 constexpr float half_length = 0.1f;
 
+// How often places count for points at these depths, against the coverage.
+void check_coverage(const PhotonPlacement& placement, std::initializer_list<float> at_depths) {
+    Sampler sampler(1, 2, 3, 4);
+    constexpr int count = 500000;
+    std::vector<float> depths(count);
+    for (float& depth : depths) depth = placement.sample(sampler.next());
+    for (const float depth : at_depths) {
+        CAPTURE(depth);
+        Moments counted;
+        for (const float at : depths) counted.add(std::abs(at - depth) <= half_length ? 1.0 : 0.0);
+        const auto expected = static_cast<double>(placement.coverage(depth));
+        CHECK(mean_p_value(counted, expected, 0) > 1e-4);
+        if (expected > 0.01) CHECK(mean_p_value(counted, planted * expected, 0) < 1e-4);
+    }
+}
+
 PhotonPlacement placement_in(const glm::vec3& absorption, const glm::vec3& scattering) {
     const HomogeneousMedium medium({.absorption = absorption, .scattering = scattering});
     return PhotonPlacement::in(medium, half_length).value();
@@ -28,19 +45,12 @@ PhotonPlacement placement_in(const glm::vec3& absorption, const glm::vec3& scatt
 
 TEST_CASE("a place on a line counts for a point as often as the coverage says") {
     // The third channel does not scatter, and its extinction does not matter.
-    const PhotonPlacement placement = placement_in({0.5f, 0.1f, 9}, {2, 0.4f, 0});
-    Sampler sampler(1, 2, 3, 4);
-    constexpr int count = 200000;
-    std::vector<float> depths(count);
-    for (float& depth : depths) depth = placement.sample(sampler.next());
-    for (const float depth : {-0.05f, 0.0f, 0.07f, 0.3f, 1.5f, 4.0f}) {
-        CAPTURE(depth);
-        Moments counted;
-        for (const float at : depths) counted.add(std::abs(at - depth) <= half_length ? 1.0 : 0.0);
-        const auto expected = static_cast<double>(placement.coverage(depth));
-        CHECK(mean_p_value(counted, expected, 0) > 1e-4);
-        if (expected > 0.01) CHECK(mean_p_value(counted, planted * expected, 0) < 1e-4);
-    }
+    check_coverage(placement_in({0.5f, 0.1f, 9}, {2, 0.4f, 0}), {-0.05f, 0.0f, 0.07f, 0.3f, 1.5f, 4.0f});
+    const Scene varying = scene_of(
+        R"("fog": {"clear": {"ior": 1.2, "scattering": [3, 1, 2], "density": {"sphere": {"radius": 1}}, "density_depth": 0.5}})",
+        R"({"set": {"phase": "fog", "of": {"sphere": {"radius": 1}}}})");
+    check_coverage(PhotonPlacement::in(std::get<Clear>(varying.materials[1]).interior, half_length).value(),
+                   {-0.05f, 0.0f, 0.07f, 0.3f, 1.5f, 4.0f});
     // Also where hardly anything is left, nothing is infinite.
     for (const float depth : {-0.1f, 0.0f, 0.1f, 1e6f}) {
         const float coverage = placement_in({0, 0, 0}, {1e-30f, 1e30f, 1}).coverage(depth);
@@ -91,6 +101,12 @@ TEST_CASE("roulette of chains keeps the mean of what is left") {
 }
 
 TEST_CASE("a point above a tank of murky water: a closed form") {
+    // A field may tell the density, which is 1 all over the tank.
+    std::string density;
+    SUBCASE("homogeneous") {}
+    SUBCASE("of a density that a field tells") {
+        density = R"(, "density": {"box": {"size": [9, 9, 9]}}, "density_depth": 0.5)";
+    }
     // At the depth z on the axis the point, h above the plane, shines as from h + z/n. What is scattered back along the
     // axis once comes to ∫ σs p(180°) I (1 − R)/(h + z/n)² exp(−2 σt z) dz; more often, to next to nothing.
     constexpr double scattering = 0.006, extinction = 3, intensity = 20, height = 1, index = 1.5, g = -0.3;
@@ -105,12 +121,14 @@ TEST_CASE("a point above a tank of murky water: a closed form") {
     }
     expected *= scattering * backwards * intensity * (1 - r);
     const Scene scene = scene_of(
-        R"("water": {"clear": {"ior": 1.5, "absorption": [2.994, 2.994, 2.994], "scattering": [0.006, 0.006, 0.006], "anisotropy": -0.3}})",
+        R"("water": {"clear": {"ior": 1.5, "absorption": [2.994, 2.994, 2.994], "scattering": [0.006, 0.006, 0.006], "anisotropy": -0.3)" +
+            density + "}}",
         R"({"set": {"phase": "water", "of": {"translate": {"by": [0, 0, -1], "of": {"box": {"size": [3, 3, 2]}}}}}})",
         R"("lights": [{"point": {"position": [0, 0, 1], "intensity": 20}}],
            "render": {"width": 32, "height": 32, "photons": 8, "photon_radius": 1.5})");
     const glm::vec3 origin(0, 0, -0.2f), direction(0, 0, -1);
-    const Moments m = with_photons(scene, origin, direction, 3 * passes);
+    // Where the density varies fewer photons count, and more often.
+    const Moments m = with_photons(scene, origin, direction, (density.empty() ? 3 : 12) * passes);
     CAPTURE(m.mean() / expected);
     CAPTURE(m.standard_error() / expected);
     // The disc in which photons are gathered is darker by 3/4 of (radius/distance)² on average.

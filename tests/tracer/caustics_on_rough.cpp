@@ -1,6 +1,10 @@
-// Rough interfaces that are lit by photons themselves, because the camera sees them before anything else that scatters:
-// held against paths alone.
+// Rough interfaces at which photons are gathered, because no earlier place of a path gathers them: what the camera sees
+// is held against paths alone.
 #include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
 
 #include "photons.hpp"
 #include "rough_scenes.hpp"
@@ -12,7 +16,7 @@ using namespace phasetree::tracer::tests;
 
 namespace {
 
-// As check_against_paths(), and that what is gathered is a part of the light that is worth testing.
+// Runs check_against_paths(), and checks that the photons that are gathered bring 3 % of the light at least.
 void check(const Scene& scene, const glm::vec3& origin, const glm::vec3& direction, int times, double significance) {
     check_against_paths(scene, origin, direction, times * passes, significance);
     const Moments all = with_photons(scene, origin, direction, 4 * passes);
@@ -23,7 +27,7 @@ void check(const Scene& scene, const glm::vec3& origin, const glm::vec3& directi
 
 }  // namespace
 
-TEST_CASE("what falls through smooth glass onto rough glass is as bright as by paths alone") {
+TEST_CASE("light that falls through smooth glass onto rough glass is as bright as by paths alone") {
     const double significance = sidak(1e-4, 2);
     const Scene scene = scene_of(
         clear("glass", 1.4, 0) + ", " + clear("pane", 1.5, 0.3),
@@ -31,7 +35,6 @@ TEST_CASE("what falls through smooth glass onto rough glass is as bright as by p
             in_phase("pane", R"({"translate": {"by": [0, 0, -0.2], "of": {"box": {"size": [4, 4, 0.4]}}}})") + ", " +
             in_phase("glass", R"({"translate": {"by": [0, 0, 1.1], "of": {"sphere": {"radius": 1}}}})") + "]}",
         lit_by(sun, 0.1));
-    // From above, aside of the ball; and from below, through the pane's other side.
     SUBCASE("from above") {
         check(scene, {-1.9f, -1.9f, 0.1f}, {1.9f, 1.9f, -0.1f}, 6, significance);
     }
@@ -43,7 +46,7 @@ TEST_CASE("what falls through smooth glass onto rough glass is as bright as by p
 TEST_CASE("a rough ball within a smooth one, and a rough ball alone: as bright as by paths alone") {
     const double significance = sidak(1e-4, 2);
     const std::string ball = R"({"translate": {"by": [0, 0, 1.1], "of": {"sphere": {"radius": 1}}}})";
-    // What is reflected often within is rare and bright, and would need many more photons.
+    // Absorption dims light that is reflected often inside. It is rare and bright, and would need many more photons.
     const std::string absorbing = R"(, "absorption": [1, 1, 1])";
     const glm::vec3 origin(-3, -3, 0.8f), direction(1, 1, 0.1f);
     SUBCASE("within a smooth one") {
@@ -57,6 +60,37 @@ TEST_CASE("a rough ball within a smooth one, and a rough ball alone: as bright a
         check(scene_of(clear("glass", 1.5, 0.4, absorbing), in_phase("glass", ball), lit_by(sun, 0.1)), origin,
               direction, 10, significance);
     }
+}
+
+TEST_CASE("a point light shines through smooth glass onto rough glass as a small ball does") {
+    // Photons alone find the point, and the ball is found by all techniques.
+    constexpr double intensity = 20, radius = 0.2;
+    const auto with = [](const std::string& light, int times) {
+        const Scene scene = scene_of(
+            clear("glass", 1.4, 0) + ", " + clear("pane", 1.5, 0.4),
+            R"({"over": [)" +
+                in_phase("pane", R"({"translate": {"by": [0, 0, -0.2], "of": {"box": {"size": [4, 4, 0.4]}}}})") +
+                ", " + in_phase("glass", R"({"translate": {"by": [0, 0, 1.1], "of": {"sphere": {"radius": 1}}}})") +
+                "]}",
+            lit_by(light, 0.6));
+        return with_photons(scene, {-1, -1, -2}, {1, 1, 1.8f}, times * passes);
+    };
+    const Moments of_point =
+        with(R"({"point": {"position": [0.3, 0.2, 5], "intensity": )" + std::to_string(intensity) + "}}", 12);
+    const Moments of_ball =
+        with(R"({"sphere": {"centre": [0.3, 0.2, 5], "radius": )" + std::to_string(radius) + R"(, "intensity": )" +
+             std::to_string(intensity / (std::numbers::pi * radius * radius)) + "}}",
+             24);
+    const double error = std::hypot(of_point.standard_error(), of_ball.standard_error());
+    CAPTURE(of_point.mean() / of_ball.mean());
+    CAPTURE(of_point.standard_error() / of_point.mean());
+    CAPTURE(of_ball.standard_error() / of_ball.mean());
+    const auto p_value = [&](double factor) {
+        return phasetree::tests::normal_two_sided((factor * of_point.mean() - of_ball.mean()) / error);
+    };
+    CHECK(p_value(1) > 1e-4);
+    // The ball is noisy, for which an error of a tenth would take minutes to find.
+    CHECK(p_value(1.2) < 1e-4);
 }
 
 }  // namespace test_caustics_on_rough

@@ -2728,10 +2728,10 @@ class lights:
         r"""A ball that shines.
 
         centre: Its centre. ([x, y, z] in m; at least -1e15 and at most 1e15)
-        radius: Its radius. (number in m; more than 0 and at most 1e15)
-        radiance: Radiance of its surface. (colour; zero or more; default [1, 1, 1])
+        radius: Radius of a ball. (number in m; more than 0 and at most 1e15)
+        radiance: Radiance of the surface. (colour; zero or more; default [1, 1, 1])
         intensity: A factor of the radiance. (number; zero or more; default 1)
-        visible_to_camera: Whether the camera sees it by itself. (true or false; default true)
+        visible_to_camera: Whether the camera sees the light by itself. (true or false; default true)
         group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
         """
     @staticmethod
@@ -2739,10 +2739,10 @@ class lights:
         r"""Many equal balls that shine. Each is a sphere light.
 
         centres: Their centres. (list of [x, y, z]s in m; at least -1e15 and at most 1e15)
-        radius: The radius of each. (number in m; more than 0 and at most 1e15)
-        radiance: Radiance of their surface. (colour; zero or more; default [1, 1, 1])
+        radius: Radius of a ball. (number in m; more than 0 and at most 1e15)
+        radiance: Radiance of the surface. (colour; zero or more; default [1, 1, 1])
         intensity: A factor of the radiance. (number; zero or more; default 1)
-        visible_to_camera: Whether the camera sees them by themselves. (true or false; default true)
+        visible_to_camera: Whether the camera sees the light by itself. (true or false; default true)
         group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
         """
     @staticmethod

@@ -29,19 +29,19 @@ class PhotonMap {
     static float half_length(float radius) { return radius; }
     float half_length() const { return half_length(radius_); }
 
-    /// Calls use(photon) for each photon of the phase within the radius of a point of a surface. Those that lie off its
-    /// plane by more than a quarter of the radius are left out: on a surface that is nearly flat within the radius none
-    /// does, so they fell on another one. The estimate of the irradiance is the sum of their powers over expected(),
-    /// because powers have been divided by p(line). Where a surface is strongly curved or ends, the photons of less
-    /// than the disc are counted, and the estimate is too dark within the radius.
+    /// Calls use(photon) for each photon, of whatever phase, within the radius of a point of a surface. Those that lie
+    /// off its plane by more than a quarter of the radius are left out: on a surface that is nearly flat within the
+    /// radius none does, so they fell on another one. The estimate of the irradiance is the sum of their powers over
+    /// expected(), because powers have been divided by p(line). Where a surface is strongly curved or ends, the photons
+    /// of less than the disc are counted, and the estimate is too dark within the radius.
     template <class Use>
-    void near(const glm::vec3& point, const glm::vec3& normal, Phase phase, Use&& use) const {
-        near_of(on_surfaces_, point, normal, phase, use);
+    void near(const glm::vec3& point, const glm::vec3& normal, Use&& use) const {
+        near_of(on_surfaces_, point, normal, use);
     }
-    /// The same of photons that met a rough interface from the side of this phase.
+    /// The same of photons that met a rough interface, from either side.
     template <class Use>
-    void near_at_interface(const glm::vec3& point, const glm::vec3& normal, Phase phase, Use&& use) const {
-        near_of(on_interfaces_, point, normal, phase, use);
+    void near_at_interface(const glm::vec3& point, const glm::vec3& normal, Use&& use) const {
+        near_of(on_interfaces_, point, normal, use);
     }
     /// Calls use(photon, depth) for each photon of the phase whose line passes within the radius of a point of a
     /// medium, and whose place on the line is near enough to count there (photon_placement.hpp). The depth is that of
@@ -71,10 +71,9 @@ class PhotonMap {
     using SurfacePhotons = PhotonGrid<Photon, OfSurface>;
 
     template <class Use>
-    void near_of(const SurfacePhotons& photons, const glm::vec3& point, const glm::vec3& normal, Phase phase,
-                 Use&& use) const {
+    void near_of(const SurfacePhotons& photons, const glm::vec3& point, const glm::vec3& normal, Use&& use) const {
         photons.near(point, [&](const Photon& photon, const glm::vec3& offset) {
-            if (photon.phase == phase && std::abs(glm::dot(offset, normal)) <= 0.25f * radius_) use(photon);
+            if (std::abs(glm::dot(offset, normal)) <= 0.25f * radius_) use(photon);
         });
     }
 

@@ -31,12 +31,12 @@ constexpr float least_survival = 0.05f, nearly_certain = 0.95f;
 // one would count a thousand times. The other techniques find such light instead, but for that of point lights.
 constexpr float least_photon_cosine = 1e-3f;
 
-// The density with which photons find a direction is this factor times the line density at the light's end of the
-// chain: N π r² n² cos θ on a surface and N π r² n² F in a medium (path.hpp), times R of each rough interface on the
-// way, over the densities with which the path has chosen the directions before (rough_chain.hpp).
+// The density with which photons find a direction is `per_line_density` times the line density at the light's end of
+// the chain. That factor is N π r² n² cos θ on a surface and N π r² n² F in a medium (path.hpp), times R of each rough
+// interface on the way, over the densities with which the path has chosen the directions before (rough_chain.hpp).
 struct PhotonDensity {
     float per_line_density = 0;
-    // It is there in a medium that photons light, as long as the distance to the boundary, and so F, is not known yet.
+    // It is set while F is still missing: in a medium that photons light, until the chain's first boundary is known.
     std::optional<PhotonPlacement> placement{};
 
     // Multiplies by F: the boundary at which the chain leaves the medium is at this distance. Later boundaries change
@@ -47,25 +47,25 @@ struct PhotonDensity {
     }
 };
 
-// What a path remembers of the last place where light was sampled. The weight of emission that it finds at the end of a
-// chain depends on it.
+// What a path remembers of the last place where lights were sampled, and of the chain of smooth interfaces since. The
+// weight of emission at the end of the chain depends on it.
 struct Chain {
     // The density with which the BSDF or phase function chose the chain's first direction; none if lights were not
     // sampled there.
     std::optional<float> pdf;
-    LightProposal proposal{};  // by which lights were
-    glm::vec3 direction{0};    // the chain's first
+    LightProposal proposal{};  // how lights were sampled there
+    glm::vec3 direction{0};    // the chain's first direction
     PhotonDensity by_photons{};
     // How many interfaces lead from the place that photons light to the rough one where this chain starts, that one
-    // included; 0 if it starts at what photons light. Where no photons count it means nothing.
+    // included; 0 if photons light the start itself. Where no photons count it means nothing.
     int interfaces_before = 0;
     int length = 0;  // how many smooth clear interfaces it has
 
     // How many interfaces are between what photons light and the lamp.
     int interfaces() const { return interfaces_before + length; }
-    // Whether photons that light an earlier place of the path may come through a rough interface at the chain's end. If
-    // they may not, photons light the rough interface itself.
-    bool leads_photons_on() const {
+    // Whether photons that pass a rough interface at the chain's end count at an earlier place of the path. If they do
+    // not, they count at the rough interface.
+    bool photons_count_earlier() const {
         return pdf && by_photons.per_line_density > 0.0f && photons_follow(interfaces() + 1);
     }
 
@@ -193,8 +193,8 @@ class Path {
         const glm::vec3 wo = frame.to_local(-ray_.direction);
         LightProposal proposal;
         const auto photon_factor_of = [&](const glm::vec3& wi) {
-            return surface.far_side && chain_.leads_photons_on() ? factor_beyond(surface, bsdf, wo, wi)
-                                                                 : factor_at(surface, bsdf, wi);
+            return surface.far_side && chain_.photons_count_earlier() ? factor_beyond(surface, bsdf, wo, wi)
+                                                                      : factor_at(surface, bsdf, wi);
         };
         if (!bsdf.is_delta()) {
             // A rough interface gets light from both sides, so none is preferred and no bending is guessed.
@@ -282,16 +282,17 @@ class Path {
 
     // Chain::interfaces_before of a chain that starts at the surface.
     int interfaces_before(const Surface& surface) const {
-        return surface.far_side && chain_.leads_photons_on() ? chain_.interfaces() + 1 : 0;
+        return surface.far_side && chain_.photons_count_earlier() ? chain_.interfaces() + 1 : 0;
     }
-    // PhotonDensity::per_line_density of a direction that leads from a rough interface into the chain behind it.
+    // PhotonDensity::per_line_density of a direction that leads on from a rough interface, if photons count at an
+    // earlier place.
     float factor_beyond(const Surface& surface, const Bsdf& bsdf, const glm::vec3& wo, const glm::vec3& wi) const {
         const Surface::Side& left_to = wi.z < 0 ? *surface.far_side : surface.near_side;
         return chain_.by_photons.per_line_density / *chain_.pdf *
                rough_factor(bsdf.reverse_pdf(wo, wi), clear_at(scene_, left_to.phase).ior, wi.z,
                             clear_at(scene_, surface.near_side.phase).ior, wo.z);
     }
-    // PhotonDensity::per_line_density, of a direction at a surface; 0 where photons light nothing.
+    // PhotonDensity::per_line_density of a direction at a surface on which photons count; 0 if they do not count in it.
     float factor_at(const Surface& surface, const Bsdf& bsdf, const glm::vec3& wi) const {
         const float cosine = surface.far_side ? std::abs(wi.z) : wi.z;
         if (!photons_ || !(cosine > least_photon_cosine) || bsdf.is_delta()) return 0.0f;
@@ -319,36 +320,30 @@ class Path {
         add_light(throughput_ * f * fluence * weight, photon.emission, photon.towards_light, true);
     }
 
-    // What photons bring that fell near the surface's point.
+    // Adds what photons bring that fell near the surface's point.
     void add_caustics(const Surface& surface, const Bsdf& bsdf, const Frame& frame, const glm::vec3& wo,
                       const LightProposal& proposal) {
         if (!photons_ || scene_.settings.techniques != Techniques::all || bsdf.is_delta()) return;
-        // Of the side of a phase, where the cosines of directions have this sign.
-        const auto use_of_side = [&](Phase phase, float sign) {
-            return [&, sign, across = factor_across(phase)](const Photon& photon) {
-                const glm::vec3 wi = frame.to_local(photon.direction);
-                const float cosine = sign * wi.z;
-                if (!(cosine > least_photon_cosine)) return;
-                const float by_photons = across * cosine * photon.line_density;
-                if (!(by_photons > 0.0f)) return;
-                // Photons are counted by area of the surface, and so have the cosine already that evaluate()
-                // multiplies by.
-                const glm::vec3 f = for_light(bsdf.evaluate(wo, wi), single()) / cosine;
-                add_photon(photon, photon.power, f, by_photons, bsdf.pdf(wo, wi), proposal);
-            };
-        };
-        const glm::vec3& point = surface.near_side.origin;
         const Phase near = surface.near_side.phase;
-        if (!surface.far_side) {
-            photons_.map->near(point, surface.normal, near, use_of_side(near, 1.0f));
-        } else if (!chain_.leads_photons_on()) {
-            const Phase far = surface.far_side->phase;
-            photons_.map->near_at_interface(point, surface.normal, near, use_of_side(near, 1.0f));
-            photons_.map->near_at_interface(point, surface.normal, far, use_of_side(far, -1.0f));
-        }
+        const auto add = [&](const Photon& photon) {
+            const glm::vec3 wi = frame.to_local(photon.direction);
+            // A photon of another surface close by may come from the wrong side.
+            const bool is_from_near = photon.phase == near;
+            if (!is_from_near && !(surface.far_side && photon.phase == surface.far_side->phase)) return;
+            if (is_from_near != (wi.z > 0.0f)) return;
+            const float by_photons = factor_at(surface, bsdf, wi) * photon.line_density;
+            if (!(by_photons > 0.0f)) return;
+            // Photons are counted by area of the surface, and so have the cosine already that evaluate() multiplies by.
+            const glm::vec3 f = for_light(bsdf.evaluate(wo, wi), single()) / std::abs(wi.z);
+            add_photon(photon, photon.power, f, by_photons, bsdf.pdf(wo, wi), proposal);
+        };
+        if (!surface.far_side)
+            photons_.map->near(surface.near_side.origin, surface.normal, add);
+        else if (!chain_.photons_count_earlier())
+            photons_.map->near_at_interface(surface.near_side.origin, surface.normal, add);
     }
 
-    // The same in a medium.
+    // Adds what photons bring whose places in a medium are near the point.
     void add_caustics(const MediumPoint& point, const PhotonPlacement& placement, const LightProposal& proposal) {
         if (scene_.settings.techniques != Techniques::all) return;
         const float across = factor_across(point.phase);

@@ -9,13 +9,19 @@ namespace phasetree::tracer {
 
 namespace {
 
-constexpr double half_turn = std::numbers::pi;
+using std::numbers::pi;
 
-// Bounds that lie at an edge to rounding count as within.
-constexpr double slack = 1e-6;
+// Axes that differ by less than this angle are one, and a point that is this much, relatively, outside of a sphere is
+// within.
+constexpr double axis_slack = 1e-6, distance_slack = 1e-6;
 
-// Of a group that the horizon cuts any lamp may be the one above it, so its cosine is not taken to be smaller.
-constexpr double least_cosine = 1.0 / 16;
+// The cosine of an angle at the edge of a cone may be off by this. Cosines of what lies at the edge are not taken to be
+// less, so that they are not 0.
+constexpr double cosine_slack = 1e-6;
+
+// Where the horizon cuts a cluster, the light may come from a lamp that is well above it. So the cosine is taken to be
+// at least this.
+constexpr double least_cosine_at_horizon = 1.0 / 16;
 
 struct Angle {
     double cosine, sine;
@@ -31,36 +37,36 @@ double sine_of(double cosine) {
     return std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
 }
 
+double angle_of(double cosine) {
+    return std::acos(std::clamp(cosine, -1.0, 1.0));
+}
+
 }  // namespace
 
-EmissionCone::EmissionCone(const glm::dvec3& axis, double normals, double edge)
-    : axis_(axis), cos_normals_(std::cos(normals)), sin_normals_(std::sin(normals)), cos_edge_(std::cos(edge)) {}
+EmissionCone::EmissionCone(const glm::dvec3& axis, double normal_angle, double emission_angle)
+    : axis_(axis),
+      cos_normals_(std::cos(normal_angle)),
+      sin_normals_(std::sin(normal_angle)),
+      cos_emission_(std::cos(emission_angle)) {}
 
 EmissionCone EmissionCone::of_plane(const glm::dvec3& normal) {
-    return {normal, 0.0, half_turn / 2};
+    return {normal, 0.0, pi / 2};
 }
 
 EmissionCone merged(const EmissionCone& a, const EmissionCone& b) {
     const bool a_is_wider = a.cos_normals_ <= b.cos_normals_;
     const EmissionCone &wide = a_is_wider ? a : b, &narrow = a_is_wider ? b : a;
-    const double cos_edge = std::min(a.cos_edge_, b.cos_edge_);
-    const auto angle_of = [](double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); };
     const double between = angle_of(glm::dot(wide.axis_, narrow.axis_));
     const double wide_angle = angle_of(wide.cos_normals_), narrow_angle = angle_of(narrow.cos_normals_);
     EmissionCone both = wide;
-    both.cos_edge_ = cos_edge;
-    if (between + narrow_angle <= wide_angle + slack) return both;
+    both.cos_emission_ = std::min(a.cos_emission_, b.cos_emission_);
+    if (between + narrow_angle <= wide_angle + axis_slack) return both;
     // From the far edge of the one to the far edge of the other.
     const double angle = (wide_angle + between + narrow_angle) / 2;
     const glm::dvec3 aside = narrow.axis_ - glm::dot(wide.axis_, narrow.axis_) * wide.axis_;
     const double length = glm::length(aside), turn = angle - wide_angle;
-    if (!(length > slack) && glm::dot(wide.axis_, narrow.axis_) > 0) {  // one axis, to rounding
-        both.cos_normals_ = std::cos(std::min(between + narrow_angle, half_turn));
-        both.sin_normals_ = sine_of(both.cos_normals_);
-        return both;
-    }
-    // Axes that are opposite to each other leave open how to turn.
-    if (angle >= half_turn || !(length > slack)) {
+    // Opposite axes do not say which way to turn, so all directions count.
+    if (angle >= pi || !(length > axis_slack)) {
         both.cos_normals_ = -1.0;
         both.sin_normals_ = 0.0;
         return both;
@@ -75,39 +81,42 @@ double EmissionCone::greatest_cosine(const glm::dvec3& towards, double cosine, d
     const double to_axis = std::clamp(glm::dot(axis_, towards), -1.0, 1.0);
     const Angle to_normals = difference({to_axis, sine_of(to_axis)}, {cos_normals_, sin_normals_});
     const double least_angle_cosine = difference(to_normals, {cosine, sine}).cosine;
-    return least_angle_cosine < cos_edge_ - slack ? 0.0 : std::max(least_angle_cosine, slack);
+    return least_angle_cosine < cos_emission_ - cosine_slack ? 0.0 : std::max(least_angle_cosine, cosine_slack);
 }
 
 double EmissionCone::measure() const {
-    // 2π ∫ sin θ over the normals, and the cosine-weighted rest up to θo + θe, as the source has it.
-    const double normals = std::acos(std::clamp(cos_normals_, -1.0, 1.0));
-    const double all = std::min(normals + std::acos(std::clamp(cos_edge_, -1.0, 1.0)), half_turn);
-    return 2 * half_turn * (1 - cos_normals_) +
-           half_turn / 2 *
-               (2 * all * sin_normals_ - std::cos(normals - 2 * all) - 2 * normals * sin_normals_ + cos_normals_);
+    // 2π ∫ sin θ over the normals, and the rest up to θo + θe weighted by cosines, as the source has it.
+    const double normals = angle_of(cos_normals_), all = std::min(normals + angle_of(cos_emission_), pi);
+    return 2 * pi * (1 - cos_normals_) +
+           pi / 2 * (2 * all * sin_normals_ - std::cos(normals - 2 * all) - 2 * normals * sin_normals_ + cos_normals_);
 }
 
 double EmissionBounds::received(const LightReceiver& at) const {
     if (!(intensity > 0.0)) return 0.0;
-    const glm::dvec3 way = glm::dvec3(at.p) - glm::dvec3(sphere.centre);
-    const double squared = glm::dot(way, way), radius = static_cast<double>(sphere.radius);
+    const glm::dvec3 from_centre = glm::dvec3(at.p) - glm::dvec3(sphere.centre);
+    const double squared = glm::dot(from_centre, from_centre), radius = static_cast<double>(sphere.radius);
     const double squared_radius = radius * radius;
-    // Within the sphere, light may come from anywhere. 3/(R² + d²) and 3/(3d² − R²) are close to the mean of one over
-    // the squared distance of a place in the sphere, and the mean of the cosine in the middle is 1/4.
-    if (!(squared > squared_radius * (1 + slack))) {
-        const double cosine =
-            at.normal && radius > 0.0 ? -glm::dot(way, glm::dvec3(*at.normal)) / (radius * (1 + slack)) : 1.0;
-        return intensity * std::max((1 + cosine) * (1 + cosine) / 4, least_cosine) * 3 / (squared_radius + squared);
+    // A receiver inside the sphere may get light from all around. 3/(R² + d²), and 3/(3d² − R²) outside, are close to
+    // the mean of 1/distance² over the sphere. The mean of the clamped cosine at the centre is 1/4.
+    if (!(squared > squared_radius * (1 + distance_slack))) {
+        const double cosine = at.normal && radius > 0.0
+                                  ? -glm::dot(from_centre, glm::dvec3(*at.normal)) / (radius * (1 + distance_slack))
+                                  : 1.0;
+        return intensity * std::max((1 + cosine) * (1 + cosine) / 4, least_cosine_at_horizon) * 3 /
+               (squared_radius + squared);
     }
     const double distance = std::sqrt(squared), sine = radius / distance;
-    const double sent = cone.greatest_cosine(way / distance, std::sqrt(1 - sine * sine), sine);
-    if (!(sent > 0.0)) return 0.0;
-    double cosine = at.normal ? mean_cosine(sphere, at) : 1.0;
-    if (cosine > 0.0 && at.normal && cosine < sine) cosine = std::max(cosine, least_cosine);
-    return intensity * sent * cosine * 3 / (3 * squared - squared_radius);
+    const double cosine_at_lamp = cone.greatest_cosine(from_centre / distance, std::sqrt(1 - sine * sine), sine);
+    if (!(cosine_at_lamp > 0.0)) return 0.0;
+    double cosine_at_receiver = at.normal ? mean_cosine(sphere, at) : 1.0;
+    // The mean is less than the sine where the horizon cuts the sphere, from which no cosine is above twice the sine.
+    if (cosine_at_receiver > 0.0 && cosine_at_receiver < sine)
+        cosine_at_receiver = std::max(cosine_at_receiver, std::min(least_cosine_at_horizon, 2 * sine));
+    return intensity * cosine_at_lamp * cosine_at_receiver * 3 / (3 * squared - squared_radius);
 }
 
-// The cosines from c − s to c + s, with s = r/d, are taken to be equally frequent.
+// The cosines from c − s to c + s, with s = r/d, are taken to be equally frequent. The s is slightly enlarged, so that
+// rounding never makes a sphere 0 that is in sight.
 double mean_cosine(const BoundingSphere& sphere, const LightReceiver& at) {
     const glm::vec3 offset = sphere.centre - at.p;
     const auto distance = static_cast<double>(glm::length(offset)), radius = static_cast<double>(sphere.radius);

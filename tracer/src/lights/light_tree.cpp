@@ -1,18 +1,17 @@
 #include "lights/light_tree.hpp"
 
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace phasetree::tracer {
 
 namespace {
 
-// Lamps are sorted into so many slices along an axis, and divided between two of them.
-constexpr std::size_t slices = 12;
+// An axis is cut into this many slices, and clusters are split between two of them.
+constexpr std::size_t slice_count = 12;
 
-// From this depth on groups are halved, so that a way down is never long however lamps are placed.
-constexpr int deepest_split = 40;
+// From this depth on clusters are split into halves by number, which bounds the depth of the tree.
+constexpr int deepest_costed_split = 40;
 
 struct Box {
     glm::dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
@@ -21,8 +20,8 @@ struct Box {
         low = glm::min(low, other.low);
         high = glm::max(high, other.high);
     }
-    // The surface, and a little of the squared diagonal, so that rows of points have some, too.
-    double area() const {
+    // The surface area, plus a little of the squared diagonal, so that points in a row do not count as 0.
+    double area_for_splitting() const {
         const glm::dvec3 size = high - low;
         return 2 * (size.x * size.y + size.y * size.z + size.z * size.x) + 0.01 * glm::dot(size, size);
     }
@@ -41,6 +40,7 @@ struct Summary {
         if (other.cone) cone = cone ? merged(*cone, *other.cone) : other.cone;
         count += other.count;
     }
+    double cost() const { return cone ? intensity * box.area_for_splitting() * cone->measure() : 0.0; }
 };
 
 Summary summary_of(const EmissionBounds& lamp) {
@@ -59,80 +59,74 @@ class LightTree::Builder {
     LightNode build() { return build(order_, 0); }
 
   private:
-    LightNode build(std::span<std::size_t> part, int depth) {
-        if (part.size() == 1) return lamps_[part.front()].node;
-        const std::size_t count = depth < deepest_split ? split(part) : part.size() / 2;
-        const Group group{bounds_of(part),
-                          {build(part.first(count), depth + 1), build(part.subspan(count), depth + 1)}};
-        tree_.groups_.push_back(group);
-        return {LightNode::Kind::group, static_cast<std::uint32_t>(tree_.groups_.size() - 1)};
+    LightNode build(std::span<std::size_t> lamps, int depth) {
+        if (lamps.size() == 1) return lamps_[lamps.front()].node;
+        const std::size_t count = depth < deepest_costed_split ? split(lamps) : lamps.size() / 2;
+        const Cluster cluster{bounds_of(lamps),
+                              {build(lamps.first(count), depth + 1), build(lamps.subspan(count), depth + 1)}};
+        tree_.clusters_.push_back(cluster);
+        return {LightNode::Kind::cluster, static_cast<std::uint32_t>(tree_.clusters_.size() - 1)};
     }
 
-    // Puts those of the first group first, and returns how many they are: neither none nor all.
-    std::size_t split(std::span<std::size_t> part) const {
-        glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
-        for (const std::size_t i : part) {
+    // Moves the lamps of the first part to the front and returns their number, which is neither 0 nor all.
+    std::size_t split(std::span<std::size_t> lamps) const {
+        Box centres;
+        for (const std::size_t i : lamps) {
             const glm::dvec3 centre(lamps_[i].bounds.sphere.centre);
-            low = glm::min(low, centre);
-            high = glm::max(high, centre);
+            centres.add({centre, centre});
         }
+        const glm::dvec3 low = centres.low, size = centres.high - low;
+        const auto slice_of = [this, low, size](std::size_t lamp, int axis) {
+            const double x = static_cast<double>(lamps_[lamp].bounds.sphere.centre[axis]);
+            const double share = (x - low[axis]) / size[axis];
+            return std::min(static_cast<std::size_t>(share * static_cast<double>(slice_count)), slice_count - 1);
+        };
         double least = std::numeric_limits<double>::infinity();
         int least_axis = 0;
         std::size_t least_slice = 0;
-        const auto slice_of = [&](std::size_t lamp, int axis) {
-            const double x = static_cast<double>(lamps_[lamp].bounds.sphere.centre[axis]);
-            const double share = (x - low[axis]) / (high[axis] - low[axis]);
-            return std::min(static_cast<std::size_t>(share * static_cast<double>(slices)), slices - 1);
-        };
         for (int axis = 0; axis < 3; ++axis) {
-            if (!(high[axis] > low[axis])) continue;
-            std::array<Summary, slices> slice{};
-            for (const std::size_t i : part) slice[slice_of(i, axis)].add(summary_of(lamps_[i].bounds));
-            // Thin groups are dearer than their area says: the longest edge over this one.
-            const glm::dvec3 size = high - low;
+            if (!(size[axis] > 0.0)) continue;
+            std::array<Summary, slice_count> slices{};
+            for (const std::size_t i : lamps) slices[slice_of(i, axis)].add(summary_of(lamps_[i].bounds));
+            // A split across a short edge makes thin parts, so it costs more.
             const double thinness = std::max({size.x, size.y, size.z}) / size[axis];
-            std::array<double, slices> cost_above{};
-            Summary above;
-            for (std::size_t s = slices; s-- > 1;) {
-                above.add(slice[s]);
-                cost_above[s] = cost(above);
+            std::array<double, slice_count> upper_cost{};
+            Summary upper;
+            for (std::size_t s = slice_count; s-- > 1;) {
+                upper.add(slices[s]);
+                upper_cost[s] = upper.cost();
             }
-            Summary below;
-            for (std::size_t s = 1; s < slices; ++s) {
-                below.add(slice[s - 1]);
-                if (below.count == 0 || below.count == part.size()) continue;
-                const double total = thinness * (cost(below) + cost_above[s]);
-                if (!(total < least)) continue;
-                least = total;
+            Summary lower;
+            for (std::size_t s = 1; s < slice_count; ++s) {
+                lower.add(slices[s - 1]);
+                if (lower.count == 0 || lower.count == lamps.size()) continue;
+                const double cost = thinness * (lower.cost() + upper_cost[s]);
+                if (!(cost < least)) continue;
+                least = cost;
                 least_axis = axis;
                 least_slice = s;
             }
         }
-        if (least_slice == 0) return part.size() / 2;  // all at one place, or costs are beyond numbers
-        const auto second = std::stable_partition(part.begin(), part.end(),
+        if (least_slice == 0) return lamps.size() / 2;  // all centres are equal, or no cost is finite
+        const auto second = std::stable_partition(lamps.begin(), lamps.end(),
                                                   [&](std::size_t i) { return slice_of(i, least_axis) < least_slice; });
-        return static_cast<std::size_t>(second - part.begin());
+        return static_cast<std::size_t>(second - lamps.begin());
     }
 
-    static double cost(const Summary& lamps) {
-        if (!lamps.cone) return 0;
-        return lamps.intensity * lamps.box.area() * lamps.cone->measure();
-    }
-
-    EmissionBounds bounds_of(std::span<const std::size_t> part) const {
+    EmissionBounds bounds_of(std::span<const std::size_t> lamps) const {
         Summary all;
-        for (const std::size_t i : part) all.add(summary_of(lamps_[i].bounds));
+        for (const std::size_t i : lamps) all.add(summary_of(lamps_[i].bounds));
         EmissionBounds bounds;
         bounds.sphere.centre = glm::vec3((all.box.low + all.box.high) / 2.0);
         bounds.intensity = all.intensity;
         bounds.cone = *all.cone;
         double radius = 0;
-        for (const std::size_t i : part) {
+        for (const std::size_t i : lamps) {
             const BoundingSphere& sphere = lamps_[i].bounds.sphere;
             radius = std::max(radius, glm::distance(glm::dvec3(sphere.centre), glm::dvec3(bounds.sphere.centre)) +
                                           static_cast<double>(sphere.radius));
         }
-        // Rounded up, so that the sphere stays around the lamps in single precision as well.
+        // It is rounded up, so that the sphere stays around the lamps in single precision as well.
         bounds.sphere.radius = static_cast<float>(radius * (1 + 1e-6));
         return bounds;
     }
@@ -142,67 +136,66 @@ class LightTree::Builder {
     std::vector<std::size_t> order_;
 };
 
-void LightTree::add(LightNode::Kind kind) {
-    const auto add_top = [&](LightNode::Kind k, std::uint32_t number) {
-        const auto end = k == LightNode::Kind::area ? tops_.begin() + number : tops_.end();
-        tops_.insert(end, {k, number});
-    };
-    if (!groups_.empty()) {
-        const std::array<std::uint32_t, 2> lamps = lamps_;
-        *this = {};
-        lamps_ = lamps;
-        for (const auto each : {LightNode::Kind::area, LightNode::Kind::point})
-            for (std::uint32_t i = 0; i < lamps_[static_cast<std::size_t>(each)]; ++i) add_top(each, i);
-    }
-    add_top(kind, lamps_[static_cast<std::size_t>(kind)]++);
+void LightTree::roots_are_all_lamps() {
+    roots_.clear();
+    for (const auto kind : {LightNode::Kind::area, LightNode::Kind::point})
+        for (std::uint32_t i = 0; i < lamps_[static_cast<std::size_t>(kind)]; ++i) roots_.push_back({kind, i});
 }
 
-LightTree LightTree::grouped(std::span<const Lamp> lamps) {
+void LightTree::add(LightNode::Kind kind) {
+    if (!clusters_.empty()) {
+        clusters_.clear();
+        parent_.clear();
+        roots_are_all_lamps();
+    }
+    const LightNode lamp{kind, lamps_[static_cast<std::size_t>(kind)]++};
+    roots_.insert(std::ranges::lower_bound(roots_, lamp), lamp);
+}
+
+LightTree LightTree::of(std::span<const Lamp> lamps) {
     LightTree tree;
-    tree.tops_ = {Builder(tree, lamps).build()};
-    // The greatest groups are opened.
-    const auto extent_of = [&](const LightNode& node) {
-        if (node.kind != LightNode::Kind::group) return -1.0;
-        const EmissionBounds& bounds = tree.groups_[node.number].bounds;
+    if (lamps.empty()) return tree;
+    for (const Lamp& lamp : lamps) ++tree.lamps_[static_cast<std::size_t>(lamp.node.kind)];
+    tree.roots_ = {Builder(tree, lamps).build()};
+    // The strongest, widest clusters are replaced by their members until there are enough roots.
+    const auto priority_of = [&](const LightNode& node) {
+        if (node.kind != LightNode::Kind::cluster) return -1.0;
+        const EmissionBounds& bounds = tree.clusters_[node.number].bounds;
         return bounds.intensity * static_cast<double>(bounds.sphere.radius) * static_cast<double>(bounds.sphere.radius);
     };
-    while (tree.tops_.size() < most_compared) {
-        const auto widest = std::ranges::max_element(tree.tops_, {}, extent_of);
-        if (widest->kind != LightNode::Kind::group) break;
-        const std::array<LightNode, 2> members = tree.groups_[widest->number].members;
-        *widest = members[0];
-        tree.tops_.insert(widest + 1, members[1]);
+    while (tree.roots_.size() < most_roots) {
+        const auto next = std::ranges::max_element(tree.roots_, {}, priority_of);
+        if (next->kind != LightNode::Kind::cluster) break;
+        const std::array<LightNode, 2> members = tree.clusters_[next->number].members;
+        *next = members[0];
+        tree.roots_.push_back(members[1]);
     }
-    // Who is below whom, from the tops down.
-    for (const auto kind : {LightNode::Kind::area, LightNode::Kind::point}) {
-        const auto index = static_cast<std::size_t>(kind);
-        const auto count = std::ranges::count(lamps, kind, [](const Lamp& lamp) { return lamp.node.kind; });
-        tree.lamps_[index] = static_cast<std::uint32_t>(count);
-        tree.above_[index].resize(static_cast<std::size_t>(count));
-    }
-    std::vector<LightNode> open = tree.tops_;
-    while (!open.empty()) {
-        const LightNode node = open.back();
-        open.pop_back();
-        if (node.kind != LightNode::Kind::group) continue;
-        for (const LightNode& member : tree.groups_[node.number].members) {
-            (member.kind == LightNode::Kind::group
-                 ? tree.groups_[member.number].above
-                 : tree.above_[static_cast<std::size_t>(member.kind)][member.number]) = node.number;
-            open.push_back(member);
+    std::ranges::sort(tree.roots_);
+    // Every member gets its parent, from the roots down.
+    tree.parent_.resize(lamps.size() + tree.clusters_.size());
+    std::vector<LightNode> to_visit = tree.roots_;
+    while (!to_visit.empty()) {
+        const LightNode node = to_visit.back();
+        to_visit.pop_back();
+        if (node.kind != LightNode::Kind::cluster) continue;
+        for (const LightNode& member : tree.members(node.number)) {
+            tree.parent_[tree.index_of(member)] = node.number;
+            to_visit.push_back(member);
         }
     }
     return tree;
 }
 
-bool LightTree::may_meet(const glm::vec3& origin, const glm::vec3& direction, std::uint32_t group) const {
-    const BoundingSphere& sphere = groups_[group].bounds.sphere;
+bool LightTree::may_hit(const glm::vec3& origin, const glm::vec3& direction, float farthest,
+                        std::uint32_t cluster) const {
+    const BoundingSphere& sphere = clusters_[cluster].bounds.sphere;
     const glm::dvec3 to_centre = glm::dvec3(sphere.centre) - glm::dvec3(origin), d(direction);
     const double along = glm::dot(to_centre, d), radius = static_cast<double>(sphere.radius);
     const glm::dvec3 across = to_centre - along * d;
-    // A direction in single precision may be off, and lamps are met by rays that pass them as closely as that.
-    const double farther = radius + 1e-6 * (std::abs(along) + radius);
-    return along > -farther && glm::dot(across, across) <= farther * farther;
+    // Rounded directions may miss by a little, and lamps accept such rays, so the sphere is slightly enlarged.
+    const double enlarged_radius = radius + 1e-6 * (std::abs(along) + radius);
+    return along > -enlarged_radius && along - enlarged_radius < static_cast<double>(farthest) &&
+           glm::dot(across, across) <= enlarged_radius * enlarged_radius;
 }
 
 }  // namespace phasetree::tracer

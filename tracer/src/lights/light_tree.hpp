@@ -1,14 +1,13 @@
-// Many lamps in groups, groups in groups: so that to choose one of a thousand, or to find those that a ray meets, a few
-// dozen are asked and not all.
+// With many lamps it is too slow to ask each one. The tree joins lamps into clusters, and clusters into larger ones.
+// Choosing a lamp, or finding those that a ray may hit, then looks at a few dozen nodes.
 //
-// A lamp is an area light or a point light. Up to `most_compared` of them are all compared one by one, as exactly as
-// can be. More are in a binary tree, of which only the upmost groups are compared. From the chosen one the way leads
-// down to a lamp, at each group to one of its two members in proportion to what they give at the receiver. What a group
-// gives is estimated (EmissionBounds::received); the caller tells what a lamp gives. The probability with which a lamp
-// is chosen is the product of those along the way.
+// A lamp is an area light or a point light. There are at most `most_roots` roots once lamps are clustered, each a
+// cluster or a lamp; before that every lamp is a root. A root is chosen among all roots; from there the path leads to
+// one of the two members of each cluster, nearly in proportion to what they give at the receiver. The caller says what
+// a node gives, of clusters by received(). The probability below the root is the product along the path.
 //
-// Lamps are divided where the sum of intensity · area · measure of directions of the two groups is least, as in the
-// source of emission_bounds.hpp.
+// A cluster is split where the sum of intensity · area · cone measure of both halves is least, with a penalty for thin
+// ones: A. Conty Estevez, C. Kulla: Importance Sampling of Many Lights with Adaptive Tree Splitting, HPG 2018.
 #pragma once
 
 #include <algorithm>
@@ -24,13 +23,13 @@
 
 namespace phasetree::tracer {
 
-/// An area light or a point light by its number among those, or a group of lamps.
+/// A lamp, by its number among the lamps of its kind, or a cluster, by its number in the tree.
 struct LightNode {
-    enum class Kind : std::uint32_t { area, point, group };
+    enum class Kind : std::uint32_t { area, point, cluster };
 
     Kind kind = Kind::area;
     std::uint32_t number = 0;
-    friend bool operator==(const LightNode&, const LightNode&) = default;
+    auto operator<=>(const LightNode&) const = default;
 };
 
 class LightTree {
@@ -39,83 +38,92 @@ class LightTree {
         LightNode node;
         EmissionBounds bounds;
     };
-    /// So many lamps, or groups, are all compared with each other.
-    static constexpr std::size_t most_compared = 32;
+    /// The greatest number of roots once lamps are clustered. So many lamps are all roots.
+    static constexpr std::size_t most_roots = 32;
 
-    /// Adds the next lamp of its kind. All lamps are compared one by one from then on.
+    /// Adds the next lamp of its kind, and dissolves all clusters.
     void add(LightNode::Kind kind);
-    /// Groups the lamps: all area lights in their order, and then all point lights. There must be one at least.
-    static LightTree grouped(std::span<const Lamp> lamps);
+    /// Clusters the lamps. Numbers of each kind run from 0 without gaps.
+    static LightTree of(std::span<const Lamp> lamps);
 
-    /// What is compared: all lamps, area lights first; or the upmost groups.
-    std::span<const LightNode> tops() const { return tops_; }
+    /// The nodes among which a choice starts: lamps in the order of their numbers, area lights first, and then
+    /// clusters. Each lamp is below exactly one of them, or is one.
+    std::span<const LightNode> roots() const { return roots_; }
 
-    /// What a group gives, as EmissionBounds::received().
-    float received(std::uint32_t group, const LightReceiver& at) const {
-        return static_cast<float>(std::min(groups_[group].bounds.received(at), 3e38));
+    /// What a cluster gives, as EmissionBounds::received(), kept within single precision.
+    float received(std::uint32_t cluster, const LightReceiver& at) const {
+        constexpr double most = std::numeric_limits<float>::max();
+        return static_cast<float>(std::min(clusters_[cluster].bounds.received(at), most));
     }
-    const BoundingSphere& sphere(std::uint32_t group) const { return groups_[group].bounds.sphere; }
-    std::span<const LightNode, 2> members(std::uint32_t group) const { return groups_[group].members; }
+    const BoundingSphere& sphere(std::uint32_t cluster) const { return clusters_[cluster].bounds.sphere; }
+    std::span<const LightNode, 2> members(std::uint32_t cluster) const { return clusters_[cluster].members; }
 
     struct Choice {
         LightNode lamp;
-        float probability;  ///< of the way down to it
-        float u;            ///< what is left of the number that chose it, stretched to [0, 1) again
+        float probability;  ///< with which choose() reached it from the node
+        float u;            ///< u, stretched to [0, 1) again within the part of it that led here
     };
-    /// Chooses a lamp from a node down by u in [0, 1), where given(node) is what a lamp or a group gives. Nothing where
-    /// neither member of a group gives anything.
+    /// Chooses a lamp below a node by u in [0, 1). given(node) is what a node gives. Returns nothing where both members
+    /// of a cluster give nothing, or more than a float holds.
     template <class Given>
     std::optional<Choice> choose(LightNode node, float u, const Given& given) const;
 
-    struct WayDown {
-        std::size_t top;    ///< its number among tops()
-        float probability;  ///< with which choose() finds the lamp from there
+    struct Reached {
+        std::size_t root;   ///< its number in roots()
+        float probability;  ///< with which choose() reaches the lamp from that root
     };
+    /// The root above a lamp, and the probability with which choose() reaches the lamp from it.
     template <class Given>
-    WayDown way_to(LightNode lamp, const Given& given) const;
+    Reached path_to(LightNode lamp, const Given& given) const;
 
-    /// Calls use(number) for each area light that a ray from the origin in a unit direction may meet.
-    template <class Use>
-    void for_each_near(const glm::vec3& origin, const glm::vec3& direction, const Use& use) const;
-
-    /// The same by use(number, top, probability), with the number of the top above it, and the probability with which
-    /// choose() finds it from there.
-    template <class Given, class Use>
-    void for_each_near(const glm::vec3& origin, const glm::vec3& direction, const Given& given, const Use& use) const;
+    /// Calls use(number) for every area light that the ray may hit nearer than `farthest()`, which may become less with
+    /// each call, and for some others. The direction has unit length.
+    template <class Farthest, class Use>
+    void for_each_maybe_hit(const glm::vec3& origin, const glm::vec3& direction, const Farthest& farthest,
+                            const Use& use) const;
 
   private:
-    struct Group {
+    struct Cluster {
         EmissionBounds bounds;
         std::array<LightNode, 2> members;
-        std::optional<std::uint32_t> above{};  ///< the group of which it is a member, if that is not above the tops
     };
     class Builder;
 
-    /// The probability of the first member of a group; none if neither gives anything. What groups give is an estimate,
-    /// so beside them no member that gives something is less likely than this.
+    /// What clusters give is an estimate, so next to one no member that gives something is chosen less often than this.
     static constexpr float least_probability = 1.0f / 256;
+
+    /// The probability of a cluster's first member; none if what both give is 0 or more than a float holds.
     template <class Given>
-    std::optional<float> first_probability(std::uint32_t group, const Given& given) const {
-        const float first = given(members(group)[0]), second = given(members(group)[1]), total = first + second;
-        if (!(total > 0.0f) || total > std::numeric_limits<float>::max()) return std::nullopt;
-        const bool is_estimate =
-            members(group)[0].kind == LightNode::Kind::group || members(group)[1].kind == LightNode::Kind::group;
-        if (!is_estimate || first == 0.0f || second == 0.0f) return first / total;
-        return std::clamp(first / total, least_probability, 1.0f - least_probability);
+    std::optional<float> first_probability(std::uint32_t cluster, const Given& given) const;
+
+    /// Lamps and clusters in one row: area lights, point lights, clusters.
+    std::size_t index_of(const LightNode& node) const {
+        const std::array<std::size_t, 3> first{0, lamps_[0], lamps_[0] + lamps_[1]};
+        return first[static_cast<std::size_t>(node.kind)] + node.number;
     }
-    bool may_meet(const glm::vec3& origin, const glm::vec3& direction, std::uint32_t group) const;
+    void roots_are_all_lamps();
+    bool may_hit(const glm::vec3& origin, const glm::vec3& direction, float farthest, std::uint32_t cluster) const;
 
     std::array<std::uint32_t, 2> lamps_{};  ///< how many area lights and point lights there are
-    std::vector<LightNode> tops_;
-    std::vector<Group> groups_;
-    /// The group of each lamp, by its number among those of its kind; empty if there are no groups.
-    std::array<std::vector<std::optional<std::uint32_t>>, 2> above_;
+    std::vector<LightNode> roots_;
+    std::vector<Cluster> clusters_;
+    std::vector<std::optional<std::uint32_t>> parent_;  ///< the cluster above a node, by index_of(); none above a root
 };
+
+template <class Given>
+std::optional<float> LightTree::first_probability(std::uint32_t cluster, const Given& given) const {
+    const auto& [first, second] = clusters_[cluster].members;
+    const float of_first = given(first), of_second = given(second), total = of_first + of_second;
+    if (!(total > 0.0f) || total > std::numeric_limits<float>::max()) return std::nullopt;
+    const bool has_estimate = first.kind == LightNode::Kind::cluster || second.kind == LightNode::Kind::cluster;
+    if (!has_estimate || of_first == 0.0f || of_second == 0.0f) return of_first / total;
+    return std::clamp(of_first / total, least_probability, 1.0f - least_probability);
+}
 
 template <class Given>
 std::optional<LightTree::Choice> LightTree::choose(LightNode node, float u, const Given& given) const {
     float probability = 1.0f;
-    while (node.kind == LightNode::Kind::group) {
+    while (node.kind == LightNode::Kind::cluster) {
         const std::optional<float> first = first_probability(node.number, given);
         if (!first) return std::nullopt;
         const bool is_first = u < *first;
@@ -128,44 +136,27 @@ std::optional<LightTree::Choice> LightTree::choose(LightNode node, float u, cons
 }
 
 template <class Given>
-LightTree::WayDown LightTree::way_to(LightNode lamp, const Given& given) const {
+LightTree::Reached LightTree::path_to(LightNode lamp, const Given& given) const {
     float probability = 1.0f;
     LightNode node = lamp;
-    const auto above = [&](const LightNode& n) -> std::optional<std::uint32_t> {
-        if (n.kind == LightNode::Kind::group) return groups_[n.number].above;
-        const auto& groups = above_[static_cast<std::size_t>(n.kind)];
-        return groups.empty() ? std::nullopt : groups[n.number];
-    };
-    while (const std::optional<std::uint32_t> group = above(node)) {
-        const std::optional<float> first = first_probability(*group, given);
-        probability *= !first ? 0.0f : node == members(*group)[0] ? *first : 1.0f - *first;
-        node = {LightNode::Kind::group, *group};
+    while (!parent_.empty() && parent_[index_of(node)]) {
+        const std::uint32_t cluster = *parent_[index_of(node)];
+        const std::optional<float> first = first_probability(cluster, given);
+        probability *= !first ? 0.0f : node == members(cluster)[0] ? *first : 1.0f - *first;
+        node = {LightNode::Kind::cluster, cluster};
     }
-    return {static_cast<std::size_t>(std::ranges::find(tops_, node) - tops_.begin()), probability};
+    return {static_cast<std::size_t>(std::ranges::find(roots_, node) - roots_.begin()), probability};
 }
 
-template <class Use>
-void LightTree::for_each_near(const glm::vec3& origin, const glm::vec3& direction, const Use& use) const {
+template <class Farthest, class Use>
+void LightTree::for_each_maybe_hit(const glm::vec3& origin, const glm::vec3& direction, const Farthest& farthest,
+                                   const Use& use) const {
     const auto visit = [&](const auto& self, const LightNode& node) -> void {
         if (node.kind == LightNode::Kind::area) use(node.number);
-        if (node.kind != LightNode::Kind::group || !may_meet(origin, direction, node.number)) return;
+        if (node.kind != LightNode::Kind::cluster || !may_hit(origin, direction, farthest(), node.number)) return;
         for (const LightNode& member : members(node.number)) self(self, member);
     };
-    for (const LightNode& top : tops_) visit(visit, top);
-}
-
-template <class Given, class Use>
-void LightTree::for_each_near(const glm::vec3& origin, const glm::vec3& direction, const Given& given,
-                              const Use& use) const {
-    const auto visit = [&](const auto& self, const LightNode& node, std::size_t top, float probability) -> void {
-        if (node.kind == LightNode::Kind::area) use(node.number, top, probability);
-        if (node.kind != LightNode::Kind::group || !may_meet(origin, direction, node.number)) return;
-        const std::optional<float> first =
-            probability > 0.0f ? first_probability(node.number, given) : std::optional<float>();
-        self(self, members(node.number)[0], top, first ? probability * *first : 0.0f);
-        self(self, members(node.number)[1], top, first ? probability * (1.0f - *first) : 0.0f);
-    };
-    for (std::size_t top = 0; top < tops_.size(); ++top) visit(visit, tops_[top], top, 1.0f);
+    for (const LightNode& root : roots_) visit(visit, root);
 }
 
 }  // namespace phasetree::tracer

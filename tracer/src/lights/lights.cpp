@@ -15,7 +15,7 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// One number a light, without the heap for the usual handful of them.
+// One weight for each choice. Up to 64 need no heap.
 class Scratch {
   public:
     explicit Scratch(std::size_t size) : values_(size, 0.0f, &arena_) {}
@@ -28,7 +28,7 @@ class Scratch {
     std::pmr::vector<float> values_;
 };
 
-// A sun whose middle has set may still be seen in part.
+// A sun whose middle is below the horizon may still be seen in part.
 constexpr float least_cosine_of_sun = 0.02f;
 
 // Where a point light is from p, and the irradiance that it gives there.
@@ -40,13 +40,18 @@ struct FromPoint {
 FromPoint seen_from(const glm::vec3& p, const AnyPointLight& any) {
     return std::visit(
         [&](const auto& light) {
-            const glm::dvec3 way = glm::dvec3(light.position()) - glm::dvec3(p);
-            const double squared = glm::dot(way, way);
-            const glm::vec3 direction(way / std::sqrt(squared));
-            return FromPoint{direction, static_cast<float>(std::sqrt(squared)),
+            const glm::dvec3 to_light = glm::dvec3(light.position()) - glm::dvec3(p);
+            const double squared = glm::dot(to_light, to_light), distance = std::sqrt(squared);
+            const glm::vec3 direction(to_light / distance);
+            return FromPoint{direction, static_cast<float>(distance),
                              glm::vec3(glm::dvec3(light.intensity(-direction)) / squared)};
         },
         any);
+}
+
+// Whether lights can be chosen by weights of this sum. Otherwise there is no sample.
+bool is_usable(float total) {
+    return total > 0.0f && total < infinity;
 }
 
 }  // namespace
@@ -75,8 +80,7 @@ void Lights::add(AnyPointLight light, std::string_view group) {
     tree_.add(LightNode::Kind::point);
 }
 
-void Lights::group_lamps() {
-    if (area_.size() + points_.size() <= LightTree::most_compared) return;
+void Lights::cluster_lamps() {
     std::vector<LightTree::Lamp> lamps;
     const auto add_all = [&](const auto& lights, LightNode::Kind kind) {
         for (std::uint32_t i = 0; i < lights.size(); ++i)
@@ -85,7 +89,7 @@ void Lights::group_lamps() {
     };
     add_all(area_, LightNode::Kind::area);
     add_all(points_, LightNode::Kind::point);
-    tree_ = LightTree::grouped(lamps);
+    tree_ = LightTree::of(lamps);
 }
 
 void Lights::add_to_groups(const glm::vec3& radiance, const Emission& emission, const glm::vec3& direction,
@@ -115,33 +119,32 @@ void Lights::set_background(const std::optional<glm::vec3>& radiance) {
     background_ = radiance;
 }
 
-// Fills in what each light gives, by which lights are chosen, infinite ones first; returns the sum.
-float Lights::shares(const LightReceiver& at, std::span<float> shares) const {
+float Lights::weigh(const LightReceiver& at, std::span<float> weights) const {
     float total = 0.0f;
     std::size_t index = 0;
     for (std::size_t i = 0; i < infinite_.size(); ++i) {
-        shares[index] = std::visit(
+        weights[index] = std::visit(
             [&](const auto& light) {
                 const std::optional<glm::vec3> centre = light.centre_direction();
-                // What is seen through portals is found by looking at them, and hardly by chance.
+                // With portals all of the light counts: what is seen through them is hardly found by chance.
                 const float part = centre || !portals_.empty() ? 1.0f : irradiance_[i].unevenness();
                 if (!at.normal) return part * light.fluence();
                 if (!centre) return part * irradiance_[i].at(*at.normal);
                 return light.fluence() * std::max(glm::dot(*centre, *at.normal), least_cosine_of_sun);
             },
             infinite_[i]);
-        total += shares[index++];
+        total += weights[index++];
     }
-    for (const LightNode& top : tree_.tops()) {
-        shares[index] = given(top, at);
-        total += shares[index++];
+    for (const LightNode& root : tree_.roots()) {
+        weights[index] = received_from(root, at);
+        total += weights[index++];
     }
-    if (!portals_.empty()) share_with_portals(at.p, shares);
+    if (!portals_.empty()) move_weight_to_portals(at.p, weights);
     return total;
 }
 
-float Lights::given(const LightNode& node, const LightReceiver& at) const {
-    if (node.kind == LightNode::Kind::group) return tree_.received(node.number, at);
+float Lights::received_from(const LightNode& node, const LightReceiver& at) const {
+    if (node.kind == LightNode::Kind::cluster) return tree_.received(node.number, at);
     if (node.kind == LightNode::Kind::area)
         return std::visit(
             [&](const auto& light) {
@@ -151,199 +154,198 @@ float Lights::given(const LightNode& node, const LightReceiver& at) const {
                 return static_cast<float>(static_cast<double>(luminance(light.radiance())) * solid_angle * cosine);
             },
             area_[node.number]);
-    const FromPoint seen = seen_from(at.p, points_[node.number]);
-    const float cosine = at.normal ? std::max(glm::dot(seen.direction, *at.normal), 0.0f) : 1.0f;
-    return cosine > 0.0f ? luminance(seen.irradiance) * cosine : 0.0f;
+    const FromPoint from_point = seen_from(at.p, points_[node.number]);
+    const float cosine = at.normal ? std::max(glm::dot(from_point.direction, *at.normal), 0.0f) : 1.0f;
+    return cosine > 0.0f ? luminance(from_point.irradiance) * cosine : 0.0f;
 }
 
-// Moves a part of what lights at infinity that are all around are chosen by to the portals that p sees.
-void Lights::share_with_portals(const glm::vec3& p, std::span<float> shares) const {
+// Moves a part of the weight of lights that are all around to the portals that p sees. The sum stays the same.
+void Lights::move_weight_to_portals(const glm::vec3& p, std::span<float> weights) const {
     constexpr float part = 0.75f;
-    const std::span<float> portals = shares.last(portals_.size());
-    float seen = 0.0f;
+    const std::span<float> portals = weights.last(portals_.size());
+    float solid_angle = 0.0f;
     for (std::size_t i = 0; i < portals_.size(); ++i) {
         portals[i] = static_cast<float>(portals_[i].approximate_solid_angle(p));
-        seen += portals[i];
+        solid_angle += portals[i];
     }
-    if (!(seen > 0.0f)) return;
+    if (!(solid_angle > 0.0f)) return;
     float moved = 0.0f;
     for (std::size_t i = 0; i < infinite_.size(); ++i) {
         if (std::visit([](const auto& light) { return light.centre_direction(); }, infinite_[i])) continue;
-        moved += part * shares[i];
-        shares[i] *= 1.0f - part;
+        moved += part * weights[i];
+        weights[i] *= 1.0f - part;
     }
-    for (float& portal : portals) portal *= moved / seen;
+    for (float& portal : portals) portal *= moved / solid_angle;
 }
 
-// What the portals add to the density of a direction, times the sum of `shares`; but for one of them, if it is one.
-float Lights::portals_pdf(const glm::vec3& p, const glm::vec3& direction, std::span<const float> shares,
-                          std::size_t except) const {
-    const std::size_t first = shares.size() - portals_.size();
-    float sum = 0.0f;
+template <class Hit>
+float Lights::with_others(float density, const std::optional<Chosen>& chosen, const LightReceiver& at,
+                          const glm::vec3& direction, std::span<const float> weights, float total,
+                          const Hit& hit) const {
+    const auto is_other = [&](std::size_t weight) {
+        return weights[weight] > 0.0f && !(chosen && chosen->weight == weight);
+    };
+    for (std::size_t i = 0; i < infinite_.size(); ++i) {
+        if (is_other(i))
+            density +=
+                weights[i] / total * std::visit([&](const auto& light) { return light.pdf(direction); }, infinite_[i]);
+    }
+    float of_portals = 0.0f;
     for (std::size_t i = 0; i < portals_.size(); ++i)
-        if (first + i != except && shares[first + i] > 0.0f) sum += shares[first + i] * portals_[i].pdf(p, direction);
-    return sum;
-}
-
-float Lights::pdf(const LightReceiver& at, const glm::vec3& direction) const {
-    const glm::vec3& p = at.p;
-    Scratch scratch(size());
-    const float total = shares(at, scratch);
-    if (!(total > 0.0f) || total == infinity) return 0.0f;  // as sample() has it
-    const std::span<const float> share_of = scratch.values();
-    float sum = 0.0f;
-    std::size_t index = 0;
-    for (const InfiniteLight& any : infinite_) {
-        const float share = share_of[index++] / total;
-        if (share > 0.0f) sum += share * std::visit([&](const auto& light) { return light.pdf(direction); }, any);
-    }
-    const auto given_by = [&](const LightNode& node) { return given(node, at); };
-    tree_.for_each_near(p, direction, given_by, [&](std::uint32_t number, std::size_t top, float probability) {
-        const float share = share_of[infinite_.size() + top] / total * probability;
-        if (!(share > 0.0f)) return;
+        if (is_other(first_portal() + i)) of_portals += weights[first_portal() + i] * portals_[i].pdf(at.p, direction);
+    density += of_portals / total;
+    const auto given = [&](const LightNode& node) { return received_from(node, at); };
+    for_each_area_light_near(at.p, direction, [&](std::uint32_t number) {
         std::visit(
             [&](const auto& light) {
-                if (const auto distance = light.intersect(p, direction))
-                    sum += share * light.pdf_at(p, direction, *distance);
+                const auto distance = light.intersect(at.p, direction);
+                if (!distance) return;
+                hit(number, *distance);
+                const LightNode lamp{LightNode::Kind::area, number};
+                if (chosen && chosen->lamp == lamp) return;
+                const auto [root, probability] = tree_.path_to(lamp, given);
+                const float weight = weights[infinite_.size() + root];
+                if (weight * probability > 0.0f)
+                    density += weight / total * probability * light.pdf_at(at.p, direction, *distance);
             },
             area_[number]);
     });
-    return sum + portals_pdf(p, direction, share_of, size()) / total;
+    return density;
+}
+
+float Lights::pdf(const LightReceiver& at, const glm::vec3& direction) const {
+    Scratch weights(weight_count());
+    const float total = weigh(at, weights);
+    if (!is_usable(total)) return 0.0f;
+    return with_others(0.0f, {}, at, direction, weights.values(), total, [](std::uint32_t, float) {});
 }
 
 float Lights::point_light_probability(const LightReceiver& at, std::size_t index) const {
-    Scratch scratch(size());
-    const float total = shares(at, scratch);
-    if (!(total > 0.0f) || total == infinity) return 0.0f;  // as sample() has it
+    Scratch weights(weight_count());
+    const float total = weigh(at, weights);
+    if (!is_usable(total)) return 0.0f;
     const LightNode light{LightNode::Kind::point, static_cast<std::uint32_t>(index)};
-    const auto [top, probability] = tree_.way_to(light, [&](const LightNode& node) { return given(node, at); });
-    return scratch.values()[infinite_.size() + top] / total * probability;
+    const auto [root, probability] =
+        tree_.path_to(light, [&](const LightNode& node) { return received_from(node, at); });
+    return weights.values()[infinite_.size() + root] / total * probability;
 }
 
 std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u) const {
     const glm::vec3& p = at.p;
-    Scratch scratch(size());
-    const float total = shares(at, scratch);
-    const std::span<const float> share_of = scratch.values();
-    if (!(total > 0.0f) || total == infinity) return std::nullopt;
+    Scratch scratch(weight_count());
+    const float total = weigh(at, scratch);
+    const std::span<const float> weights = scratch.values();
+    if (!is_usable(total)) return std::nullopt;
 
-    // The last light that shines catches what rounding leaves over at the end.
-    std::size_t chosen = 0;
-    float below = 0.0f;
-    for (std::size_t i = 0; i < share_of.size(); ++i) {
-        if (!(share_of[i] > 0.0f)) continue;
-        chosen = i;
-        below += share_of[i];
-        if (u.x * total < below) break;
+    // If rounding leaves u beyond the sum, the last light with a weight is taken.
+    Chosen chosen{0};
+    float sum = 0.0f;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        if (!(weights[i] > 0.0f)) continue;
+        chosen.weight = i;
+        sum += weights[i];
+        if (u.x * total < sum) break;
     }
-    u.x = std::clamp((u.x * total - (below - share_of[chosen])) / share_of[chosen], 0.0f, 0x1.fffffep-1f);
+    const float weight = weights[chosen.weight];
+    u.x = std::clamp((u.x * total - (sum - weight)) / weight, 0.0f, 0x1.fffffep-1f);
 
-    const std::size_t first_portal = infinite_.size() + tree_.tops().size();
-    std::optional<LightTree::Choice> lamp;
-    const auto given_by = [&](const LightNode& node) { return given(node, at); };
-    if (chosen >= infinite_.size() && chosen < first_portal) {
-        lamp = tree_.choose(tree_.tops()[chosen - infinite_.size()], u.x, given_by);
-        if (!lamp) return std::nullopt;
-        u.x = lamp->u;
+    float probability = weight / total;
+    if (chosen.weight >= infinite_.size() && chosen.weight < first_portal()) {
+        const auto choice = tree_.choose(tree_.roots()[chosen.weight - infinite_.size()], u.x,
+                                         [&](const LightNode& node) { return received_from(node, at); });
+        if (!choice) return std::nullopt;
+        chosen.lamp = choice->lamp;
+        probability *= choice->probability;
+        u.x = choice->u;
     }
-    const float probability = lamp ? lamp->probability : 1.0f;
+    if (!(probability > 0.0f)) return std::nullopt;
     std::optional<DirectionSample> sampled;
-    if (chosen < infinite_.size()) {
-        sampled = std::visit([&](const auto& light) { return light.sample(u); }, infinite_[chosen]);
-    } else if (chosen >= first_portal) {
-        sampled = portals_[chosen - first_portal].sample(p, u);
-    } else if (lamp->lamp.kind == LightNode::Kind::point) {
-        const FromPoint point = seen_from(p, points_[lamp->lamp.number]);
-        if (!(share_of[chosen] / total * probability > 0.0f)) return std::nullopt;
-        return LightSample{point.direction, point.distance, point.irradiance, share_of[chosen] / total * probability,
-                           OfPointLight{lamp->lamp.number}};
+    if (chosen.weight < infinite_.size()) {
+        sampled = std::visit([&](const auto& light) { return light.sample(u); }, infinite_[chosen.weight]);
+    } else if (!chosen.lamp) {
+        sampled = portals_[chosen.weight - first_portal()].sample(p, u);
+    } else if (chosen.lamp->kind == LightNode::Kind::point) {
+        const FromPoint from_point = seen_from(p, points_[chosen.lamp->number]);
+        return LightSample{from_point.direction, from_point.distance, from_point.irradiance, probability,
+                           OfPointLight{chosen.lamp->number}};
     } else {
-        sampled = std::visit([&](const auto& light) { return light.sample(p, u); }, area_[lamp->lamp.number]);
+        sampled = std::visit([&](const auto& light) { return light.sample(p, u); }, area_[chosen.lamp->number]);
     }
     if (!sampled) return std::nullopt;
     const glm::vec3 wi = sampled->direction;
 
-    // What is seen there, and how densely all lights together propose it.
-    float density = share_of[chosen] / total * probability * sampled->pdf;
-    for (std::size_t i = 0; i < infinite_.size(); ++i) {
-        if (i != chosen && share_of[i] > 0.0f)
-            density += share_of[i] / total * std::visit([&](const auto& light) { return light.pdf(wi); }, infinite_[i]);
-    }
-    density += portals_pdf(p, wi, share_of, chosen) / total;
-    std::optional<Emission> nearest;  // of the area lights
-    bool is_met = !lamp;
-    tree_.for_each_near(p, wi, given_by, [&](std::uint32_t number, std::size_t top, float of_way) {
-        std::visit(
-            [&](const auto& light) {
-                const auto distance = light.intersect(p, wi);
-                if (!distance) return;
-                if (!nearest || *distance < nearest->distance)
-                    nearest = Emission{*distance, light.radiance(), OfAreaLight{number}};
-                const float share = share_of[infinite_.size() + top];
-                if (lamp && lamp->lamp.number == number)
-                    is_met = true;
-                else if (share * of_way > 0.0f)
-                    density += share / total * of_way * light.pdf_at(p, wi, *distance);
-            },
-            area_[number]);
-    });
+    std::optional<Emission> nearest_area_light;
+    bool hits_chosen_lamp = !chosen.lamp;
+    const float density = with_others(probability * sampled->pdf, chosen, at, wi, weights, total,
+                                      [&](std::uint32_t number, float distance) {
+                                          if (!nearest_area_light || distance < nearest_area_light->distance)
+                                              nearest_area_light = emission_of(number, distance);
+                                          if (chosen.lamp && chosen.lamp->number == number) hits_chosen_lamp = true;
+                                      });
     // At the very rim of a light rounding can put the direction just outside.
-    if (!is_met || !(density > 0.0f)) return std::nullopt;
-    if (nearest) return LightSample{wi, nearest->distance, nearest->radiance, density, nearest->source};
+    if (!hits_chosen_lamp || !(density > 0.0f)) return std::nullopt;
+    if (nearest_area_light)
+        return LightSample{wi, nearest_area_light->distance, nearest_area_light->radiance, density,
+                           nearest_area_light->source};
     return LightSample{wi, infinity, infinite_radiance(wi), density, InfiniteLights{}};
 }
 
 glm::vec3 Lights::direction_to(const LightNode& node, const glm::vec3& p) const {
     if (node.kind == LightNode::Kind::point) return seen_from(p, points_[node.number]).direction;
-    if (node.kind == LightNode::Kind::group) return glm::normalize(tree_.sphere(node.number).centre - p);
+    if (node.kind == LightNode::Kind::cluster) return glm::normalize(tree_.sphere(node.number).centre - p);
     const glm::vec2 middle(0.5f);
     return std::visit([&](const auto& light) { return light.sample(p, middle).direction; }, area_[node.number]);
 }
 
 std::optional<glm::vec3> Lights::towards_brightest(const glm::vec3& p, const glm::vec3& normal) const {
-    Scratch scratch(size());
-    shares(p, scratch);
+    Scratch weights(weight_count());
+    weigh(p, weights);
     std::optional<glm::vec3> brightest;
     float most = 0.0f;
-    const auto consider = [&](float share, const auto& direction_of) {
-        if (!(share > most)) return false;
+    const auto consider = [&](float weight, const auto& direction_of) {
+        if (!(weight > most)) return false;
         const std::optional<glm::vec3> direction = direction_of();
         if (!direction || !(glm::dot(*direction, normal) > 0.0f)) return false;
-        most = share;
+        most = weight;
         brightest = direction;
         return true;
     };
     for (std::size_t i = 0; i < infinite_.size(); ++i)
-        consider(scratch.values()[i],
+        consider(weights.values()[i],
                  [&] { return std::visit([](const auto& light) { return light.centre_direction(); }, infinite_[i]); });
     std::optional<LightNode> node;
-    for (std::size_t i = 0; i < tree_.tops().size(); ++i) {
-        const LightNode top = tree_.tops()[i];
-        const float share = scratch.values()[infinite_.size() + i];
-        if (consider(share, [&] { return std::optional(direction_to(top, p)); })) node = top;
+    for (std::size_t i = 0; i < tree_.roots().size(); ++i) {
+        const LightNode root = tree_.roots()[i];
+        if (consider(weights.values()[infinite_.size() + i], [&] { return std::optional(direction_to(root, p)); }))
+            node = root;
     }
-    // From a group down to the brighter member of each.
-    while (node && node->kind == LightNode::Kind::group) {
+    // The brighter member of each cluster is followed down to a lamp, or to where none is on the normal's side.
+    while (node && node->kind == LightNode::Kind::cluster) {
         std::optional<LightNode> next;
         most = 0.0f;
         for (const LightNode& member : tree_.members(node->number))
-            if (consider(given(member, p), [&] { return std::optional(direction_to(member, p)); })) next = member;
-        if (!next) return std::nullopt;
+            if (consider(received_from(member, p), [&] { return std::optional(direction_to(member, p)); }))
+                next = member;
         node = next;
     }
     return brightest;
 }
 
+Lights::Emission Lights::emission_of(std::uint32_t area_light, float distance) const {
+    return {distance, std::visit([](const auto& light) { return glm::vec3(light.radiance()); }, area_[area_light]),
+            OfAreaLight{area_light}};
+}
+
 std::optional<Lights::Emission> Lights::area_light_seen(const glm::vec3& origin, const glm::vec3& direction,
                                                         float geometry, bool camera_ray) const {
     std::optional<Emission> nearest;
-    tree_.for_each_near(origin, direction, [&](std::uint32_t number) {
+    const auto farthest = [&] { return nearest ? nearest->distance : geometry; };
+    tree_.for_each_maybe_hit(origin, direction, farthest, [&](std::uint32_t number) {
         std::visit(
             [&](const auto& light) {
                 if (camera_ray && !light.visible_to_camera()) return;
                 const auto distance = light.intersect(origin, direction);
-                if (distance && *distance < (nearest ? nearest->distance : geometry))
-                    nearest = Emission{*distance, light.radiance(), OfAreaLight{number}};
+                if (distance && *distance < farthest()) nearest = emission_of(number, *distance);
             },
             area_[number]);
     });

@@ -1,7 +1,7 @@
 // All lights of a scene, as the integrator sees them.
 //
 // Sampling is one density over *directions*, a mixture of the lights' own:
-//     p(ω | x) = Σᵢ cᵢ(x) pᵢ(ω | x),   Σ cᵢ = 1.
+//     p(ω | x) = Σᵢ cᵢ(x) pᵢ(ω | x),   Σ cᵢ ≤ 1.
 // A light is chosen with cᵢ, a direction from that light's pᵢ, and the sample is then what is *seen* along that
 // direction if no geometry is in the way: the nearest area light, or, if there is none, all infinite lights together
 // (sky + sun). The radiance belongs to the direction, not to the light that proposed it, and the density is the whole
@@ -13,26 +13,27 @@
 // fluence, the mean luminance times the solid angle; of a rectangle, roughly); at a surface, to the luminance that it
 // receives, with the cosine. Of light from all around only what is above its mean counts (unevenness(), in
 // diffuse_irradiance.hpp), unless there are portals. Unlike emitted power this needs no extent of the scene to compare
-// an environment with a lamp, and a lamp that is far away or turned away, or below the surface, takes no samples.
+// an environment with a lamp, and lamps that are far away, turned away or below the surface take few samples or none.
 //
-// Many lamps are in groups (light_tree.hpp), and Σ cᵢ may be less than 1: a group that promises light may have none,
-// and then there is no sample. Then cᵢ of an area or point light is that of the group in which it is,
-// whose luminance at x is estimated, times the probability of the way from there to the lamp.
+// Many lamps, which are area lights and point lights, are in clusters (light_tree.hpp). A lamp's cᵢ is then that of the
+// root above it times the probability of the path to the lamp. Σ cᵢ may be less than 1, since a cluster is chosen by an
+// estimate: if none of its lamps gives light, there is no sample.
 //
-// Area lights hide what is behind them, and nothing else: rectangles from their emitting side, spheres from everywhere.
+// Area lights hide what is behind them, rectangles from their emitting side, spheres from everywhere. No other light
+// hides anything.
 //
-// A point light is chosen by its fluence as the others are, but it is a delta function beside their mixture: a sample
-// of it is its own alone, with the probability of the choice in place of a density, and no direction that
-// a path samples otherwise leads to it.
+// A point light is chosen by the same rule, but it is no part of the density. Its sample has the probability of the
+// choice instead, and no direction that a path samples otherwise leads to it.
 //
-// Through portals, the lights at infinity that are all around are sampled as well: from a point that sees portals,
-// three quarters of what those lights would be chosen by goes to the portals, in proportion to their solid angles. A
-// portal is one more density in the mixture and emits nothing.
+// Portals are sampled in place of some samples of lights that are all around: a point that sees portals moves three
+// quarters of those lights' weight to the portals, in proportion to their solid angles. A portal is one more density in
+// the mixture and emits nothing.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -63,9 +64,9 @@ using LightSource = std::variant<InfiniteLights, Background, OfAreaLight, OfPoin
 struct LightSample {
     glm::vec3 wi;        ///< unit, from the point towards the light
     float distance;      ///< to the light; infinity for infinite lights
-    glm::vec3 radiance;  ///< that arrives from there if no geometry is in between
+    glm::vec3 radiance;  ///< the radiance that arrives from there if no geometry is in between
     float pdf;           ///< per steradian, of the whole mixture; of a point light, the probability that it was chosen
-    LightSource source;  ///< what the radiance is of
+    LightSource source;  ///< the light that the radiance comes from
 
     /// Whether it is of a point light. Then `radiance` is its irradiance on a surface that faces it, and no
     /// direction that is sampled otherwise leads to it.
@@ -91,9 +92,9 @@ class Lights {
     void add(AnyPointLight light, std::string_view group = default_group);
     /// A portal is of no group: it has no light of its own.
     void add(const Portal& portal) { portals_.push_back(portal); }
-    /// To be called once all lights are there: groups lamps, if they are more than LightTree::most_compared. Without
-    /// groups all of them are asked for each sample, and a light that is added later ungroups them.
-    void group_lamps();
+    /// To be called once all lights are there. It clusters the lamps, if there are more than LightTree::most_roots.
+    /// Adding another lamp dissolves the clusters, and then all lamps are asked for each sample.
+    void cluster_lamps();
     /// What camera rays see instead of the infinite lights.
     void set_background(const std::optional<glm::vec3>& radiance);
 
@@ -111,8 +112,8 @@ class Lights {
     std::span<const AnyPointLight> points() const { return points_; }
 
     /// `u` in [0, 1)². Its x chooses the light, and what is left of it, stretched to [0, 1) again, is the x that the
-    /// light's own sampling gets: points that are stratified in the square are so for each light. Nothing when no light
-    /// reaches the place.
+    /// light's own sampling gets: points that are stratified in the square are so for each light. Nothing if no light
+    /// reaches the place, if the cluster that is chosen gives nothing there, or if rounding misses the light.
     std::optional<LightSample> sample(const LightReceiver& at, glm::vec2 u) const;
 
     /// What a ray sees that meets geometry at that distance, infinity for none: the nearest area light before it or, if
@@ -120,11 +121,12 @@ class Lights {
     std::optional<Emission> seen(const glm::vec3& origin, const glm::vec3& direction, float geometry,
                                  bool camera_ray) const;
 
-    /// Calls use(number) for each area light that a ray from the origin in a unit direction may meet, and for few
-    /// others. Up to LightTree::most_compared lights come in their order.
+    /// Calls use(number) for each area light that a ray from the origin in a unit direction may meet, and for some
+    /// others. Without clusters all area lights come, in their order.
     template <class Use>
     void for_each_area_light_near(const glm::vec3& origin, const glm::vec3& direction, const Use& use) const {
-        tree_.for_each_near(origin, direction, use);
+        tree_.for_each_maybe_hit(
+            origin, direction, [] { return std::numeric_limits<float>::infinity(); }, use);
     }
 
     /// The nearest area light that a ray meets before geometry at that distance.
@@ -134,36 +136,46 @@ class Lights {
     /// The density of sample() there, per steradian.
     float pdf(const LightReceiver& at, const glm::vec3& direction) const;
 
-    /// With which probability sample() chooses the point light of this number in points().
+    /// The probability with which sample() chooses the point light of this number in points().
     float point_light_probability(const LightReceiver& at, std::size_t index) const;
 
-    /// Towards the brightest light that has a place, of those on the side of p that the normal points to; nothing if
-    /// there is none. Of lamps in groups it is roughly the brightest one of the brightest group.
+    /// The direction to the brightest light that has a middle, of those whose middle is on the normal's side of p;
+    /// nothing if there is none. Of clusters only the brighter member is followed, so with clusters it is approximate.
     std::optional<glm::vec3> towards_brightest(const glm::vec3& p, const glm::vec3& normal) const;
 
   private:
-    /// How many shares there are: of infinite lights, of the tops of the tree, and of portals, in this order.
-    std::size_t size() const { return infinite_.size() + tree_.tops().size() + portals_.size(); }
-    /// Fills in the shares in the choice, not normalised, and returns their sum.
-    float shares(const LightReceiver& at, std::span<float> shares) const;
-    /// What a lamp or a group of lamps gives.
-    float given(const LightNode& node, const LightReceiver& at) const;
-    /// Towards the middle of a lamp or group, as seen from p.
+    /// How many weights there are: of infinite lights, of the roots of the tree, and of portals, in this order.
+    std::size_t weight_count() const { return infinite_.size() + tree_.roots().size() + portals_.size(); }
+    std::size_t first_portal() const { return infinite_.size() + tree_.roots().size(); }
+    /// Fills in the weights in the choice, which are not normalised, and returns their sum.
+    float weigh(const LightReceiver& at, std::span<float> weights) const;
+    void move_weight_to_portals(const glm::vec3& p, std::span<float> weights) const;
+    /// What a lamp or a cluster gives.
+    float received_from(const LightNode& node, const LightReceiver& at) const;
+    /// Towards the middle of a lamp or a cluster, as seen from p.
     glm::vec3 direction_to(const LightNode& node, const glm::vec3& p) const;
-    void share_with_portals(const glm::vec3& p, std::span<float> shares) const;
-    float portals_pdf(const glm::vec3& p, const glm::vec3& direction, std::span<const float> shares,
-                      std::size_t except) const;
+    /// What was chosen: one of the weights, and below a root a lamp.
+    struct Chosen {
+        std::size_t weight;
+        std::optional<LightNode> lamp{};
+    };
+    /// Adds to a density what all lights but the chosen one propose in a direction, and calls hit(number, distance) for
+    /// each area light that is met there.
+    template <class Hit>
+    float with_others(float density, const std::optional<Chosen>& chosen, const LightReceiver& at,
+                      const glm::vec3& direction, std::span<const float> weights, float total, const Hit& hit) const;
+    Emission emission_of(std::uint32_t area_light, float distance) const;
     glm::vec3 infinite_radiance(const glm::vec3& direction) const;
     std::size_t group_of(std::string_view name);
 
     std::vector<InfiniteLight> infinite_;
-    std::vector<DiffuseIrradiance> irradiance_;  ///< of each of these
+    std::vector<DiffuseIrradiance> irradiance_;  ///< of each infinite light
     std::vector<AreaLight> area_;
     std::vector<AnyPointLight> points_;
     LightTree tree_;  ///< of the area and point lights
     std::vector<Portal> portals_;
     std::vector<std::string> groups_{std::string(default_group)};
-    std::vector<std::size_t> infinite_group_, area_group_, point_group_;  ///< of each light
+    std::vector<std::size_t> infinite_group_, area_group_, point_group_;  ///< the group of each light
     std::optional<glm::vec3> background_;
 };
 

@@ -57,11 +57,8 @@ class SphereLight {
     bool visible_to_camera_;
 };
 
-// As a scene file says it.
-struct SphereLightParameters {
-    static constexpr KindInfo info{"sphere", "A ball that shines."};
-
-    glm::vec3 centre{0.0f};
+// What a scene file says of a ball that shines, but for where it is.
+struct ShiningBallParameters {
     float radius = 1.0f;
     glm::vec3 radiance{1.0f};
     float intensity = 1.0f;
@@ -69,15 +66,30 @@ struct SphereLightParameters {
 
     template <class V>
     static void parameters(V&& v) {
-        using P = SphereLightParameters;
-        v(&P::centre, Parameter{"centre", "m", "Its centre.", coordinate});
-        v(&P::radius, Parameter{"radius", "m", "Its radius.", extent});
-        v(&P::radiance, ColourParameter{{"radiance", "", "Radiance of its surface.", limits::non_negative, true}});
+        using P = ShiningBallParameters;
+        v(&P::radius, Parameter{"radius", "m", "Radius of a ball.", extent});
+        v(&P::radiance, ColourParameter{{"radiance", "", "Radiance of the surface.", limits::non_negative, true}});
         v(&P::intensity, Parameter{"intensity", "", "A factor of the radiance.", limits::non_negative, true});
         v(&P::visible_to_camera,
-          Parameter{"visible_to_camera", "", "Whether the camera sees it by itself.", limits::any, true});
+          Parameter{"visible_to_camera", "", "Whether the camera sees the light by itself.", limits::any, true});
     }
-    SphereLight made() const { return SphereLight(centre, radius, radiance * intensity, visible_to_camera); }
+    SphereLight made_at(const glm::vec3& centre) const {
+        return SphereLight(centre, radius, radiance * intensity, visible_to_camera);
+    }
+};
+
+// As a scene file says it.
+struct SphereLightParameters : ShiningBallParameters {
+    static constexpr KindInfo info{"sphere", "A ball that shines."};
+
+    glm::vec3 centre{0.0f};
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&SphereLightParameters::centre, Parameter{"centre", "m", "Its centre.", coordinate});
+        ShiningBallParameters::parameters(v);
+    }
+    SphereLight made() const { return made_at(centre); }
 };
 
 }  // namespace phasetree::tracer
