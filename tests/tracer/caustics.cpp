@@ -172,6 +172,18 @@ TEST_CASE("lines are as dense from lamps in clusters as from the same lamps one 
     CHECK(met > 2000);
 }
 
+TEST_CASE("light that passes between two balls of glass does not count as found by photons") {
+    // Photons aim at both balls, and at what is between them. What they meet there nothing has bent, so it is not kept.
+    const Scene scene = scene_of(R"("glass": {"clear": {"ior": 1.2, "absorption": [0.3, 0.3, 0.3]}})",
+                                 R"({"set": {"phase": "glass", "of": {"union": {"of": [
+              {"translate": {"by": [-2, 0, 1.1], "of": {"sphere": {"radius": 1}}}},
+              {"translate": {"by": [2, 0, 1.1], "of": {"sphere": {"radius": 1}}}}]}}}})",
+                                 R"("meshes": [{"floor": {"material": {"diffuse": {"color": [0.6, 0.6, 0.6]}}}}],
+           "lights": [{"sun": {"direction": [0.2, 0.3, 1], "irradiance": [4, 4, 4], "diameter": 20}}],
+           "render": {"width": 64, "height": 64, "photons": 3, "photon_radius": 2})");
+    check_against_paths(scene, passes, 1e-4);
+}
+
 TEST_CASE("a lamp in water, behind a ball of glass: as bright as by paths alone") {
     // The chain starts and ends where the index is not 1.
     const Scene scene = scene_of(

@@ -62,6 +62,18 @@ TEST_CASE("a rough ball within a smooth one, and a rough ball alone: as bright a
     }
 }
 
+TEST_CASE("light that falls onto rough glass past smooth glass does not count as found by photons") {
+    // The pane is nearly black, so that what it reflects is all that is seen.
+    const Scene scene = scene_of(
+        clear("glass", 1.4, 0) + ", " + clear("pane", 1.5, 0.4, R"(, "absorption": [9, 9, 9])"),
+        R"({"over": [)" +
+            in_phase("pane", R"({"translate": {"by": [0, 0, -0.2], "of": {"box": {"size": [4, 4, 0.4]}}}})") + ", " +
+            in_phase("glass", R"({"translate": {"by": [0, 0, 1.1], "of": {"sphere": {"radius": 0.5}}}})") + "]}",
+        lit_by(sun, 2));
+    // Seen where the sun is reflected.
+    check_against_paths(scene, {1.1f, 1.05f, 2}, {0.2f, 0.3f, -1}, passes, 1e-4);
+}
+
 TEST_CASE("a point light shines through smooth glass onto rough glass as a small ball does") {
     // Photons alone find the point, and the ball is found by all techniques.
     constexpr double intensity = 20, radius = 0.2;
@@ -79,7 +91,7 @@ TEST_CASE("a point light shines through smooth glass onto rough glass as a small
         with(R"({"point": {"position": [0.3, 0.2, 5], "intensity": )" + std::to_string(intensity) + "}}", 12);
     const Moments of_ball =
         with(R"({"sphere": {"centre": [0.3, 0.2, 5], "radius": )" + std::to_string(radius) + R"(, "intensity": )" +
-             std::to_string(intensity / (std::numbers::pi * radius * radius)) + "}}",
+                 std::to_string(intensity / (std::numbers::pi * radius * radius)) + "}}",
              24);
     const double error = std::hypot(of_point.standard_error(), of_ball.standard_error());
     CAPTURE(of_point.mean() / of_ball.mean());
