@@ -39,7 +39,7 @@ Lights lamps_of_all_kinds(int count, std::uint32_t seed) {
         const glm::vec3 at = bunch + three(random) - 0.5f;
         const glm::vec3 target = at + square_to_uniform_sphere(random.two());
         const glm::vec3 light = std::exp(4.0f * random()) * (three(random) + 0.1f);
-        switch (static_cast<int>(random() * 5)) {
+        switch (static_cast<int>(random() * 6)) {
             case 0:
                 lights.add(SphereLight(at, 0.01f + 0.2f * random(), light));
                 break;
@@ -48,6 +48,9 @@ Lights lamps_of_all_kinds(int count, std::uint32_t seed) {
                 break;
             case 2:
                 lights.add(AnyPointLight(PointLight(at, light)));
+                break;
+            case 4:
+                lights.add(GlowingPart({at, 0.05f + 0.2f * random()}, light.x));
                 break;
             case 3:
                 lights.add(AnyPointLight(IesLight(at, target, 20.0f, profile, light)));
@@ -215,7 +218,7 @@ TEST_CASE("clustered lamps: rays see the same as if each is asked") {
     lights.cluster_lamps();
     Uniform random(7);
     int met = 0;
-    for (int i = 0; i < 200000; ++i) {
+    for (int i = 0; i < 250000; ++i) {
         const glm::vec3 p = 24.0f * (three(random) - 0.5f), w = square_to_uniform_sphere(random.two());
         const bool camera_ray = random() < 0.5f;
         const float geometry = random() < 0.5f ? infinity : 20.0f * random();

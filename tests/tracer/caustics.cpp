@@ -184,6 +184,18 @@ TEST_CASE("light that passes between two balls of glass does not count as found 
     check_against_paths(scene, passes, 1e-4);
 }
 
+TEST_CASE("what glows behind a ball of glass hides the sun from photons, and they bring none of its light") {
+    const Scene scene = scene_of(
+        R"("glass": {"clear": {"ior": 1.2, "absorption": [0.3, 0.3, 0.3]}}, "hot": {"glowing": {"radiance": 4}})",
+        R"({"over": [
+              {"set": {"phase": "glass", "of": {"translate": {"by": [0, 0, 1.1], "of": {"sphere": {"radius": 1}}}}}},
+              {"set": {"phase": "hot", "of": {"translate": {"by": [0.2, 0.3, 3], "of": {"sphere": {"radius": 0.6}}}}}}]})",
+        R"("meshes": [{"floor": {"material": {"diffuse": {"color": [0.6, 0.6, 0.6]}}}}],
+           "lights": [{"sun": {"direction": [0.2, 0.3, 1], "irradiance": [8, 8, 8], "diameter": 60}}],
+           "render": {"width": 64, "height": 64, "photons": 3, "photon_radius": 2})");
+    check_against_paths(scene, 2 * passes, 1e-4);
+}
+
 TEST_CASE("a lamp in water, behind a ball of glass: as bright as by paths alone") {
     // The chain starts and ends where the index is not 1.
     const Scene scene = scene_of(

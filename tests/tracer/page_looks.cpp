@@ -36,6 +36,11 @@ TEST_CASE("a page shows each kind of material as what it is") {
     const Look gold = look_of_material(R"({"conductor": {"metal": "gold"}})");
     CHECK(gold.kind == Look::metal);
     CHECK(gold.color.x > gold.color.z);
+    // A page cannot show how strong a light is, but its colour.
+    const Look ember = look_of_material(R"({"glowing": {"light": [1, 0.5, 0.1], "radiance": 1000}})");
+    CHECK(ember.kind == Look::glowing);
+    CHECK(ember.color.x == doctest::Approx(3));
+    CHECK(ember.color.z == doctest::Approx(0.3));
 }
 
 }  // namespace test_page_looks

@@ -124,6 +124,11 @@ inline void tell(std::vector<float>& told, const tracer::Material& material) {
                 told.push_back(m.film ? m.film->ior : 0);
             }
             if constexpr (requires { m.color; }) tell(told, m.color);
+            if constexpr (requires { m.light; }) {
+                tell(told, m.light);
+                told.push_back(m.radiance);
+                for (const char letter : m.group) told.push_back(static_cast<float>(letter));
+            }
             if constexpr (requires { m.eta; }) {
                 tell(told, m.eta);
                 tell(told, m.k);
@@ -232,6 +237,7 @@ inline std::vector<Case> cases() {
              {{"eta", index}, {"k", index}, {"film_ior", R"("metal": "gold", "film_thickness": 300)"}});
     material("coated", R"("color": [0.1, 0.2, 0.3])",
              {{"film_ior", R"("color": [0.1, 0.2, 0.3], "film_thickness": 300)"}});
+    material("glowing", "");
     for (const char* const name : {"wood", "speckle", "marble", "checker"})
         all.push_back(
             {"Textures", name, "", fmt::format("{{\"diffuse\": {{\"color\": {{\"{}\": ", name), "}}}", tell_material});

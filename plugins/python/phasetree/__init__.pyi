@@ -2529,6 +2529,15 @@ class materials:
         film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
         """
+    @staticmethod
+    def glowing(light: Sequence[float] | str | Texture | None = ..., radiance: float | None = ..., color: Sequence[float] | str | Texture | None = ..., group: str | Expression | None = ...) -> Material:
+        r"""Embers, lava, a filament, a screen: shines alike in all directions.
+
+        light: Colour of its light; white without it. (colour or texture; default none)
+        radiance: Radiance of its surface where the colour of its light is 1; n² times that against a material of index n. (number; positive; default 1)
+        color: Reflectance; black without it. (colour or texture; default none)
+        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
+        """
 
 def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused_silica", "sapphire", "sf11", "water"] | None = ..., abbe_number: float | None = ..., absorption: Sequence[float] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., emission: Sequence[float] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
     r"""Vacuum, air, water, glass, milk, wax, fog: light travels inside, and may be absorbed and scattered there.
@@ -2580,6 +2589,15 @@ def coated(color: Sequence[float] | str | Texture, ior: float | None = ..., roug
     roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
     film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
+    """
+
+def glowing(light: Sequence[float] | str | Texture | None = ..., radiance: float | None = ..., color: Sequence[float] | str | Texture | None = ..., group: str | Expression | None = ...) -> Material:
+    r"""Embers, lava, a filament, a screen: shines alike in all directions.
+
+    light: Colour of its light; white without it. (colour or texture; default none)
+    radiance: Radiance of its surface where the colour of its light is 1; n² times that against a material of index n. (number; positive; default 1)
+    color: Reflectance; black without it. (colour or texture; default none)
+    group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
     """
 
 class textures:

@@ -69,14 +69,21 @@ struct Chain {
         return pdf && by_photons.per_line_density > 0.0f && photons_follow(interfaces() + 1);
     }
 
-    // The weight of light that is seen along the ray. Light at the end of a chain that shadow rays and photons do not
-    // follow to its end is found by the path alone, whichever techniques are asked for.
+    // The weight of light that is seen along the ray, and of what a surface sends that the ray meets, to which photons
+    // bring nothing. Light at the end of a chain that shadow rays and photons do not follow to its end is found by the
+    // path alone, whichever techniques are asked for.
     float weight(const Scene& scene, const Photons& photons, const Ray& ray) const {
-        if (!pdf || length > longest_chain) return 1;
         const float per_line = by_photons.per_line_density;
         const float line = per_line > 0.0f && photons_follow(interfaces()) ? line_density(photons, ray) : 0.0f;
+        return weight(scene, per_line * line);
+    }
+    float weight_of_glowing_surface(const Scene& scene) const { return weight(scene, 0.0f); }
+
+  private:
+    float weight(const Scene& scene, float density_of_photons) const {
+        if (!pdf || length > longest_chain) return 1;
         return technique_weight(scene.settings.techniques, Technique::directions, *pdf,
-                                proposal.pdf(scene.lights, direction), per_line * line);
+                                proposal.pdf(scene.lights, direction), density_of_photons);
     }
 };
 
@@ -127,6 +134,10 @@ class Path {
             chain_.by_photons.reach_boundary(distance);
             recorder_.travelled(ray_.phase, distance);
             ++depth;
+            if (const auto emitted = surface->emitted())
+                add_light(
+                    throughput_ * chain_.weight_of_glowing_surface(scene_) * for_light(emitted->radiance, single()),
+                    {distance, emitted->radiance, OfGlowingSurface{emitted->group}}, ray_.direction, false);
             if (surface->optics.get().disperses()) is_dispersed_ = true;
             const Bsdf bsdf = surface->bsdf(single());
             if (bsdf.passes_through()) {  // equal indices scatter nothing, but do count for max_depth

@@ -27,8 +27,8 @@ float point_density(const ShadowRayContext& context, const Ray& ray, const Light
 
 std::optional<Arrival> trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSample& sampled,
                                         const PathWavelength& wavelength, int interfaces_before) {
-    const auto density_at_end = [&](int length) {
-        if (!photons_follow(interfaces_before + length)) return 0.0f;
+    const auto density_at_end = [&](int length, const LightSource& seen) {
+        if (std::holds_alternative<OfGlowingSurface>(seen) || !photons_follow(interfaces_before + length)) return 0.0f;
         const auto* point = std::get_if<OfPointLight>(&sampled.source);
         return point ? point_density(context, ray, sampled, *point) : line_density(context.photons, ray);
     };
@@ -48,16 +48,21 @@ std::optional<Arrival> trace_shadow_ray(const ShadowRayContext& context, Ray ray
         const float distance = surface ? surface->distance : blocked ? blocked->distance : Bounds::infinity;
         if (segment == 0) to_boundary = distance;
         const Medium& medium = clear_at(context.scene, ray.phase).interior;
-        const auto light = !is_straight ? context.scene.lights.seen(ray.origin, ray.direction, distance, false)
-                           : escaped    ? std::optional(Lights::Emission{to_sampled, sampled.radiance, sampled.source})
-                                        : std::nullopt;
+        const bool is_glowing = blocked && blocked->emitted && !sampled.is_of_point_light();
+        std::optional<Lights::Emission> light;
+        if (!is_straight)
+            light = context.scene.lights.seen(ray.origin, ray.direction, distance, false);
+        else if (escaped)
+            light = Lights::Emission{to_sampled, sampled.radiance, sampled.source};
+        if (!light && is_glowing)
+            light = Lights::Emission{distance, blocked->emitted->radiance, OfGlowingSurface{blocked->emitted->group}};
         if (!light && !surface) return std::nullopt;
         throughput *= transmittance(medium, {ray.origin, ray.direction, light ? light->distance : distance, single},
                                     context.sampler);
         if (light && single && !was_dispersed) throughput *= single->response;
         if (light)
             return Arrival{throughput * for_light(light->radiance, single), *light, ray.direction,
-                           density_at_end(length), to_boundary};
+                           density_at_end(length, light->source), to_boundary};
         if (phase_function(medium) && !chain_survives(throughput, context.sampler)) return std::nullopt;
         if (surface->optics.get().disperses()) single = &wavelength.hero;
         const Bsdf bsdf = surface->bsdf(single);

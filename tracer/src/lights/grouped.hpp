@@ -9,6 +9,21 @@
 
 namespace phasetree::tracer {
 
+inline constexpr Parameter group_parameter{"group", "",
+                                           "The group of lights that it is of: letters, digits, - and _. What the "
+                                           "lights of a group bring is a plane of the picture.",
+                                           limits::any, true};
+
+/// A group's name, which is a part of channels' names. Throws ParameterError for one that cannot be.
+inline const std::string& checked_group(const std::string& group) {
+    const auto is_allowed = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+    };
+    if (group.empty() || group.size() > 64 || !std::ranges::all_of(group, is_allowed))
+        throw ParameterError("group", "\"group\" is made of 1 to 64 letters, digits, - and _");
+    return group;
+}
+
 template <class Kind>
 struct Grouped : Kind {
     std::string group{default_group};
@@ -16,21 +31,11 @@ struct Grouped : Kind {
     template <class V>
     static void parameters(V&& v) {
         Kind::parameters(v);
-        v(&Grouped::group, Parameter{"group", "",
-                                     "The group of lights that it is of: letters, digits, - and _. What the lights of "
-                                     "a group bring is a plane of the picture.",
-                                     limits::any, true});
+        v(&Grouped::group, group_parameter);
     }
 
-    /// The group's name, which is a part of channels' names. Throws ParameterError for one that cannot be.
-    const std::string& checked_group() const {
-        const auto is_allowed = [](char c) {
-            return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
-        };
-        if (group.empty() || group.size() > 64 || !std::ranges::all_of(group, is_allowed))
-            throw ParameterError("group", "\"group\" is made of 1 to 64 letters, digits, - and _");
-        return group;
-    }
+    /// The group's name. Throws ParameterError for one that cannot be.
+    const std::string& checked_group() const { return tracer::checked_group(group); }
 };
 
 }  // namespace phasetree::tracer

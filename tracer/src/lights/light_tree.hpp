@@ -1,10 +1,11 @@
 // With many lamps it is too slow to ask each one. The tree joins lamps into clusters, and clusters into larger ones.
 // Choosing a lamp, or finding those that a ray may hit, then looks at a few dozen nodes.
 //
-// A lamp is an area light or a point light. There are at most `most_roots` roots once lamps are clustered, each a
-// cluster or a lamp; before that every lamp is a root. A root is chosen among all roots; from there the path leads to
-// one of the two members of each cluster, nearly in proportion to what they give at the receiver. The caller says what
-// a node gives, of clusters by received(). The probability below the root is the product along the path.
+// A lamp is an area light, a point light, or a part of a surface that glows. There are at most `most_roots` roots once
+// lamps are clustered, each a cluster or a lamp; before that every lamp is a root. A root is chosen among all roots;
+// from there the path leads to one of the two members of each cluster, nearly in proportion to what they give at the
+// receiver. The caller says what a node gives, of clusters by received(). The probability below the root is the product
+// along the path.
 //
 // A cluster is split where the sum of intensity · area · cone measure of both halves is least, with a penalty for thin
 // ones: A. Conty Estevez, C. Kulla: Importance Sampling of Many Lights with Adaptive Tree Splitting, HPG 2018.
@@ -15,6 +16,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <vector>
@@ -25,7 +27,7 @@ namespace phasetree::tracer {
 
 /// A lamp, by its number among the lamps of its kind, or a cluster, by its number in the tree.
 struct LightNode {
-    enum class Kind : std::uint32_t { area, point, cluster };
+    enum class Kind : std::uint32_t { area, point, glowing, cluster };
 
     Kind kind = Kind::area;
     std::uint32_t number = 0;
@@ -46,8 +48,8 @@ class LightTree {
     /// Clusters the lamps. Numbers of each kind run from 0 without gaps.
     static LightTree of(std::span<const Lamp> lamps);
 
-    /// The nodes among which a choice starts: lamps in the order of their numbers, area lights first, and then
-    /// clusters. Each lamp is below exactly one of them, or is one.
+    /// The nodes among which a choice starts, in the order of LightNode::Kind and then of their numbers. Each lamp is
+    /// below exactly one of them, or is one.
     std::span<const LightNode> roots() const { return roots_; }
 
     /// What a cluster gives, as EmissionBounds::received(), kept within single precision.
@@ -76,11 +78,17 @@ class LightTree {
     template <class Given>
     Reached path_to(LightNode lamp, const Given& given) const;
 
-    /// Calls use(number) for every area light that the ray may hit nearer than `farthest()`, which may become less with
-    /// each call, and for some others. The direction has unit length.
+    /// Calls use(lamp) for every area light and glowing part that the ray may hit nearer than `farthest()`, which may
+    /// become less with each call, and for some others. The direction has unit length.
     template <class Farthest, class Use>
     void for_each_maybe_hit(const glm::vec3& origin, const glm::vec3& direction, const Farthest& farthest,
                             const Use& use) const;
+
+    /// The same of all that the ray may hit, with the way to each lamp: calls use(lamp, way_of), where way_of() is
+    /// path_to(lamp, given), but for rounding. What is asked of a cluster is computed once for all lamps below.
+    template <class Given, class Use>
+    void for_each_maybe_hit_with_way(const glm::vec3& origin, const glm::vec3& direction, const Given& given,
+                                     const Use& use) const;
 
   private:
     struct Cluster {
@@ -96,15 +104,25 @@ class LightTree {
     template <class Given>
     std::optional<float> first_probability(std::uint32_t cluster, const Given& given) const;
 
-    /// Lamps and clusters in one row: area lights, point lights, clusters.
+    /// Lamps and clusters in one row, in the order of LightNode::Kind.
     std::size_t index_of(const LightNode& node) const {
-        const std::array<std::size_t, 3> first{0, lamps_[0], lamps_[0] + lamps_[1]};
-        return first[static_cast<std::size_t>(node.kind)] + node.number;
+        const auto kind = static_cast<std::ptrdiff_t>(node.kind);
+        return std::accumulate(lamps_.begin(), lamps_.begin() + kind, std::size_t(0)) + node.number;
     }
+    /// A node on the way from a root, and what choose() makes of it.
+    struct Step {
+        const Step* before = nullptr;  ///< the cluster that it is a member of; none of a root
+        LightNode node{};
+        mutable std::optional<float> probability{};                       ///< with which it is reached from the root
+        mutable std::optional<std::optional<float>> first_probability{};  ///< of a cluster, as the function has it
+    };
+    template <class Given>
+    float probability_of(const Step& step, const Given& given) const;
+
     void roots_are_all_lamps();
     bool may_hit(const glm::vec3& origin, const glm::vec3& direction, float farthest, std::uint32_t cluster) const;
 
-    std::array<std::uint32_t, 2> lamps_{};  ///< how many area lights and point lights there are
+    std::array<std::uint32_t, 3> lamps_{};  ///< how many there are of each kind
     std::vector<LightNode> roots_;
     std::vector<Cluster> clusters_;
     std::vector<std::optional<std::uint32_t>> parent_;  ///< the cluster above a node, by index_of(); none above a root
@@ -152,11 +170,37 @@ template <class Farthest, class Use>
 void LightTree::for_each_maybe_hit(const glm::vec3& origin, const glm::vec3& direction, const Farthest& farthest,
                                    const Use& use) const {
     const auto visit = [&](const auto& self, const LightNode& node) -> void {
-        if (node.kind == LightNode::Kind::area) use(node.number);
+        if (node.kind == LightNode::Kind::area || node.kind == LightNode::Kind::glowing) use(node);
         if (node.kind != LightNode::Kind::cluster || !may_hit(origin, direction, farthest(), node.number)) return;
         for (const LightNode& member : members(node.number)) self(self, member);
     };
     for (const LightNode& root : roots_) visit(visit, root);
+}
+
+template <class Given>
+float LightTree::probability_of(const Step& step, const Given& given) const {
+    if (step.probability) return *step.probability;
+    if (!step.before) return 1.0f;
+    const Step& before = *step.before;
+    if (!before.first_probability) before.first_probability = first_probability(before.node.number, given);
+    const std::optional<float>& first = *before.first_probability;
+    const bool is_first = step.node == members(before.node.number)[0];
+    step.probability = !first ? 0.0f : probability_of(before, given) * (is_first ? *first : 1.0f - *first);
+    return *step.probability;
+}
+
+template <class Given, class Use>
+void LightTree::for_each_maybe_hit_with_way(const glm::vec3& origin, const glm::vec3& direction, const Given& given,
+                                            const Use& use) const {
+    constexpr float everywhere = std::numeric_limits<float>::infinity();
+    const auto visit = [&](const auto& self, std::size_t root, const Step& step) -> void {
+        const LightNode& node = step.node;
+        if (node.kind == LightNode::Kind::area || node.kind == LightNode::Kind::glowing)
+            use(node, [&] { return Reached{root, probability_of(step, given)}; });
+        if (node.kind != LightNode::Kind::cluster || !may_hit(origin, direction, everywhere, node.number)) return;
+        for (const LightNode& member : members(node.number)) self(self, root, Step{&step, member});
+    };
+    for (std::size_t root = 0; root < roots_.size(); ++root) visit(visit, root, Step{nullptr, roots_[root]});
 }
 
 }  // namespace phasetree::tracer

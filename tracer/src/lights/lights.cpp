@@ -80,6 +80,11 @@ void Lights::add(AnyPointLight light, std::string_view group) {
     tree_.add(LightNode::Kind::point);
 }
 
+void Lights::add(const GlowingPart& part) {
+    glowing_.push_back(part);
+    tree_.add(LightNode::Kind::glowing);
+}
+
 void Lights::cluster_lamps() {
     std::vector<LightTree::Lamp> lamps;
     const auto add_all = [&](const auto& lights, LightNode::Kind kind) {
@@ -89,6 +94,8 @@ void Lights::cluster_lamps() {
     };
     add_all(area_, LightNode::Kind::area);
     add_all(points_, LightNode::Kind::point);
+    for (std::uint32_t i = 0; i < glowing_.size(); ++i)
+        lamps.push_back({{LightNode::Kind::glowing, i}, glowing_[i].emission_bounds()});
     tree_ = LightTree::of(lamps);
 }
 
@@ -99,6 +106,8 @@ void Lights::add_to_groups(const glm::vec3& radiance, const Emission& emission, 
         groups[area_group_[area->index]] += radiance;
     } else if (const auto* point = std::get_if<OfPointLight>(&emission.source)) {
         groups[point_group_[point->index]] += radiance;
+    } else if (const auto* glowing = std::get_if<OfGlowingSurface>(&emission.source)) {
+        groups[glowing->group] += radiance;
     } else if (std::holds_alternative<Background>(emission.source) || infinite_.empty()) {
         groups[0] += radiance;
     } else if (std::ranges::all_of(infinite_group_, is_like_first)) {
@@ -154,6 +163,11 @@ float Lights::received_from(const LightNode& node, const LightReceiver& at) cons
                 return static_cast<float>(static_cast<double>(luminance(light.radiance())) * solid_angle * cosine);
             },
             area_[node.number]);
+    if (node.kind == LightNode::Kind::glowing) {
+        const GlowingPart& part = glowing_[node.number];
+        const double cosine = at.normal ? mean_cosine(part.bounding_sphere(), at) : 1.0;
+        return static_cast<float>(static_cast<double>(part.luminance()) * part.solid_angle(at.p) * cosine);
+    }
     const FromPoint from_point = seen_from(at.p, points_[node.number]);
     const float cosine = at.normal ? std::max(glm::dot(from_point.direction, *at.normal), 0.0f) : 1.0f;
     return cosine > 0.0f ? luminance(from_point.irradiance) * cosine : 0.0f;
@@ -195,20 +209,26 @@ float Lights::with_others(float density, const std::optional<Chosen>& chosen, co
         if (is_other(first_portal() + i)) of_portals += weights[first_portal() + i] * portals_[i].pdf(at.p, direction);
     density += of_portals / total;
     const auto given = [&](const LightNode& node) { return received_from(node, at); };
-    for_each_area_light_near(at.p, direction, [&](std::uint32_t number) {
+    tree_.for_each_maybe_hit_with_way(at.p, direction, given, [&](const LightNode& lamp, const auto& way_of) {
+        // `pdf` is the density of the lamp's own sampling, computed only if the lamp may be chosen.
+        const auto add = [&](const auto& pdf) {
+            if (chosen && chosen->lamp == lamp) return;
+            const auto [root, probability] = way_of();
+            const float weight = weights[infinite_.size() + root];
+            if (weight * probability > 0.0f) density += weight / total * probability * pdf();
+        };
+        if (lamp.kind == LightNode::Kind::glowing) {
+            if (const float pdf = glowing_[lamp.number].pdf(at.p, direction); pdf > 0.0f) add([&] { return pdf; });
+            return;
+        }
         std::visit(
             [&](const auto& light) {
                 const auto distance = light.intersect(at.p, direction);
                 if (!distance) return;
-                hit(number, *distance);
-                const LightNode lamp{LightNode::Kind::area, number};
-                if (chosen && chosen->lamp == lamp) return;
-                const auto [root, probability] = tree_.path_to(lamp, given);
-                const float weight = weights[infinite_.size() + root];
-                if (weight * probability > 0.0f)
-                    density += weight / total * probability * light.pdf_at(at.p, direction, *distance);
+                hit(lamp.number, *distance);
+                add([&] { return light.pdf_at(at.p, direction, *distance); });
             },
-            area_[number]);
+            area_[lamp.number]);
     });
     return density;
 }
@@ -268,6 +288,8 @@ std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u) 
         const FromPoint from_point = seen_from(p, points_[chosen.lamp->number]);
         return LightSample{from_point.direction, from_point.distance, from_point.irradiance, probability,
                            OfPointLight{chosen.lamp->number}};
+    } else if (chosen.lamp->kind == LightNode::Kind::glowing) {
+        sampled = glowing_[chosen.lamp->number].sample(p, u);
     } else {
         sampled = std::visit([&](const auto& light) { return light.sample(p, u); }, area_[chosen.lamp->number]);
     }
@@ -275,12 +297,13 @@ std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u) 
     const glm::vec3 wi = sampled->direction;
 
     std::optional<Emission> nearest_area_light;
-    bool hits_chosen_lamp = !chosen.lamp;
+    const bool is_area_light = chosen.lamp && chosen.lamp->kind == LightNode::Kind::area;
+    bool hits_chosen_lamp = !is_area_light;
     const float density = with_others(probability * sampled->pdf, chosen, at, wi, weights, total,
                                       [&](std::uint32_t number, float distance) {
                                           if (!nearest_area_light || distance < nearest_area_light->distance)
                                               nearest_area_light = emission_of(number, distance);
-                                          if (chosen.lamp && chosen.lamp->number == number) hits_chosen_lamp = true;
+                                          if (is_area_light && chosen.lamp->number == number) hits_chosen_lamp = true;
                                       });
     // At the very rim of a light rounding can put the direction just outside.
     if (!hits_chosen_lamp || !(density > 0.0f)) return std::nullopt;
@@ -293,6 +316,7 @@ std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u) 
 glm::vec3 Lights::direction_to(const LightNode& node, const glm::vec3& p) const {
     if (node.kind == LightNode::Kind::point) return seen_from(p, points_[node.number]).direction;
     if (node.kind == LightNode::Kind::cluster) return glm::normalize(tree_.sphere(node.number).centre - p);
+    if (node.kind == LightNode::Kind::glowing) return glm::normalize(glowing_[node.number].centre() - p);
     const glm::vec2 middle(0.5f);
     return std::visit([&](const auto& light) { return light.sample(p, middle).direction; }, area_[node.number]);
 }
@@ -340,14 +364,15 @@ std::optional<Lights::Emission> Lights::area_light_seen(const glm::vec3& origin,
                                                         float geometry, bool camera_ray) const {
     std::optional<Emission> nearest;
     const auto farthest = [&] { return nearest ? nearest->distance : geometry; };
-    tree_.for_each_maybe_hit(origin, direction, farthest, [&](std::uint32_t number) {
+    tree_.for_each_maybe_hit(origin, direction, farthest, [&](const LightNode& lamp) {
+        if (lamp.kind != LightNode::Kind::area) return;
         std::visit(
             [&](const auto& light) {
                 if (camera_ray && !light.visible_to_camera()) return;
                 const auto distance = light.intersect(origin, direction);
-                if (distance && *distance < farthest()) nearest = emission_of(number, *distance);
+                if (distance && *distance < farthest()) nearest = emission_of(lamp.number, *distance);
             },
-            area_[number]);
+            area_[lamp.number]);
     });
     return nearest;
 }

@@ -15,15 +15,19 @@
 // diffuse_irradiance.hpp), unless there are portals. Unlike emitted power this needs no extent of the scene to compare
 // an environment with a lamp, and lamps that are far away, turned away or below the surface take few samples or none.
 //
-// Many lamps, which are area lights and point lights, are in clusters (light_tree.hpp). A lamp's cᵢ is then that of the
-// root above it times the probability of the path to the lamp. Σ cᵢ may be less than 1, since a cluster is chosen by an
-// estimate: if none of its lamps gives light, there is no sample.
+// Many lamps, which are area lights, point lights and parts of surfaces that glow, are in clusters (light_tree.hpp). A
+// lamp's cᵢ is then that of the root above it times the probability of the path to the lamp. Σ cᵢ may be less than 1,
+// since a cluster is chosen by an estimate: if none of its lamps gives light, there is no sample.
 //
 // Area lights hide what is behind them, rectangles from their emitting side, spheres from everywhere. No other light
 // hides anything.
 //
 // A point light is chosen by the same rule, but it is no part of the density. Its sample has the probability of the
 // choice instead, and no direction that a path samples otherwise leads to it.
+//
+// Surfaces that glow are part of the geometry, and no light of this list. Balls around them are lamps of the tree that
+// propose directions and emit nothing (glowing_part.hpp): a shadow ray in a direction, whoever proposed it, brings what
+// the glowing surface sends that it meets before it gets to the light that is seen there.
 //
 // Portals are sampled in place of some samples of lights that are all around: a point that sees portals moves three
 // quarters of those lights' weight to the portals, in proportion to their solid angles. A portal is one more density in
@@ -42,6 +46,7 @@
 #include <vector>
 
 #include "lights/diffuse_irradiance.hpp"
+#include "lights/glowing_part.hpp"
 #include "lights/kinds.hpp"
 #include "lights/light_receiver.hpp"
 #include "lights/light_tree.hpp"
@@ -49,8 +54,8 @@
 
 namespace phasetree::tracer {
 
-/// What shines in some direction: all infinite lights together, what camera rays see instead of them, an area light,
-/// or a point light; the last two by their number in area() or points().
+/// What shines in some direction: all infinite lights together, what camera rays see instead of them, an area light or
+/// a point light, by its number in area() or points(), or a surface that glows, by its group's number in groups().
 struct InfiniteLights {};
 struct Background {};
 struct OfAreaLight {
@@ -59,7 +64,10 @@ struct OfAreaLight {
 struct OfPointLight {
     std::uint32_t index;
 };
-using LightSource = std::variant<InfiniteLights, Background, OfAreaLight, OfPointLight>;
+struct OfGlowingSurface {
+    std::uint32_t group;
+};
+using LightSource = std::variant<InfiniteLights, Background, OfAreaLight, OfPointLight, OfGlowingSurface>;
 
 struct LightSample {
     glm::vec3 wi;        ///< unit, from the point towards the light
@@ -90,6 +98,7 @@ class Lights {
     void add(InfiniteLight light, std::string_view group = default_group);
     void add(AreaLight light, std::string_view group = default_group);
     void add(AnyPointLight light, std::string_view group = default_group);
+    void add(const GlowingPart& part);
     /// A portal is of no group: it has no light of its own.
     void add(const Portal& portal) { portals_.push_back(portal); }
     /// To be called once all lights are there. It clusters the lamps, if there are more than LightTree::most_roots.
@@ -98,6 +107,8 @@ class Lights {
     /// What camera rays see instead of the infinite lights.
     void set_background(const std::optional<glm::vec3>& radiance);
 
+    /// The number in groups() of a group, which is added if there is none of this name.
+    std::size_t group_of(std::string_view name);
     /// The names of the groups, default_group first.
     const std::vector<std::string>& groups() const { return groups_; }
     /// Adds radiance, which came of an emission that was seen in the direction, to that emission's group. What came
@@ -110,6 +121,7 @@ class Lights {
     std::span<const InfiniteLight> infinite() const { return infinite_; }
     std::span<const AreaLight> area() const { return area_; }
     std::span<const AnyPointLight> points() const { return points_; }
+    std::span<const GlowingPart> glowing() const { return glowing_; }
 
     /// `u` in [0, 1)². Its x chooses the light, and what is left of it, stretched to [0, 1) again, is the x that the
     /// light's own sampling gets: points that are stratified in the square are so for each light. Nothing if no light
@@ -126,7 +138,10 @@ class Lights {
     template <class Use>
     void for_each_area_light_near(const glm::vec3& origin, const glm::vec3& direction, const Use& use) const {
         tree_.for_each_maybe_hit(
-            origin, direction, [] { return std::numeric_limits<float>::infinity(); }, use);
+            origin, direction, [] { return std::numeric_limits<float>::infinity(); },
+            [&](const LightNode& lamp) {
+                if (lamp.kind == LightNode::Kind::area) use(lamp.number);
+            });
     }
 
     /// The nearest area light that a ray meets before geometry at that distance.
@@ -166,13 +181,13 @@ class Lights {
                       const glm::vec3& direction, std::span<const float> weights, float total, const Hit& hit) const;
     Emission emission_of(std::uint32_t area_light, float distance) const;
     glm::vec3 infinite_radiance(const glm::vec3& direction) const;
-    std::size_t group_of(std::string_view name);
 
     std::vector<InfiniteLight> infinite_;
     std::vector<DiffuseIrradiance> irradiance_;  ///< of each infinite light
     std::vector<AreaLight> area_;
     std::vector<AnyPointLight> points_;
-    LightTree tree_;  ///< of the area and point lights
+    std::vector<GlowingPart> glowing_;
+    LightTree tree_;  ///< of the area and point lights, and of what glows
     std::vector<Portal> portals_;
     std::vector<std::string> groups_{std::string(default_group)};
     std::vector<std::size_t> infinite_group_, area_group_, point_group_;  ///< the group of each light

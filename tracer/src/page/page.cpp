@@ -122,6 +122,11 @@ Look look_of(const std::string& name, const Material& material, const Bounds& bo
             } else if constexpr (requires { m.eta; }) {
                 look.kind = Look::metal;
                 look.color = reflectance(m);
+            } else if constexpr (requires { m.light; }) {
+                look.kind = Look::glowing;
+                // However strong it is, its colour should be seen.
+                const glm::vec3 light = m.radiance * mean(m.light, bounds);
+                look.color = light * std::min(1.f, 3.f / std::max({light.x, light.y, light.z, 1e-6f}));
             } else {
                 look.kind = requires {
                     m.ior;

@@ -82,6 +82,7 @@ vec3 radiance(vec3 o, vec3 d) {
         }
         if (c.from > 0) weight *= exp(-here.xyz * c.t_in);
         float cos_i = clamp(dot(n, d), 0.0, 1.0);
+        if (there.w > 3.5) return sum + weight * there.xyz;  // glowing
         if (there.w > 0.5) {  // opaque
             vec3 reflected = reflect(d, n), color = there.xyz;
             float grazing = pow(1.0 - cos_i, 5.0);

@@ -42,7 +42,6 @@ Lights read_lights(const Document& document, Value root) {
             });
         }
     }
-    lights.cluster_lamps();
     if (const std::optional<Value> background = root.find("background"))
         lights.set_background(as_colour(document, *background, "\"background\""));
     return lights;

@@ -6,6 +6,7 @@
 #include <string>
 #include <variant>
 
+#include "lights/grouped.hpp"
 #include "phasetree/io/kind.hpp"
 #include "phasetree/model/concepts.hpp"
 #include "scene/parameter_types.hpp"
@@ -180,7 +181,30 @@ struct CoatedParameters : FilmParameters {
     Coated made() const { return {color, ior, roughness, film()}; }
 };
 
-using MaterialKinds = TypeList<ClearParameters, DiffuseParameters, ConductorParameters, CoatedParameters>;
+struct GlowingParameters {
+    static constexpr KindInfo info{"glowing", "Embers, lava, a filament, a screen: shines alike in all directions."};
+
+    Texture light = Glowing{}.light;
+    float radiance = Glowing{}.radiance;
+    Texture color = Glowing{}.color;
+    std::string group{default_group};
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = GlowingParameters;
+        v(&P::light, Parameter{"light", "", "Colour of its light; white without it.", limits::any, true});
+        v(&P::radiance, Parameter{"radiance", "",
+                                  "Radiance of its surface where the colour of its light is 1; n² times that against a "
+                                  "material of index n.",
+                                  limits::positive, true});
+        v(&P::color, Parameter{"color", "", "Reflectance; black without it.", limits::any, true});
+        v(&P::group, group_parameter);
+    }
+    Glowing made() const { return {light, radiance, color, checked_group(group)}; }
+};
+
+using MaterialKinds =
+    TypeList<ClearParameters, DiffuseParameters, ConductorParameters, CoatedParameters, GlowingParameters>;
 
 // Who adds a material and forgets the list is told here.
 template <class... Kinds, class... Materials>

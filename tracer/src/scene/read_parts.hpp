@@ -10,6 +10,7 @@
 namespace phasetree::tracer {
 
 Material read_material(const Document& document, Value value);
+// Without clusters: lamps may still be added.
 Lights read_lights(const Document& document, Value root);
 // Sets the pixel filter of the film, too.
 AnyCameraParameters read_camera(const Document& document, Value value, FilmSettings& film);

@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "phasetree/trace/tracer.hpp"
 #include "scene/file_parts.hpp"
+#include "scene/glowing.hpp"
 #include "scene/image_parameters.hpp"
 #include "scene/read_parts.hpp"
 
@@ -93,6 +96,11 @@ void read_model_into(const Document& document, const FileParts& parts, const Shu
 
 }  // namespace
 
+bool Scene::glows() const {
+    return std::ranges::any_of(materials, tracer::glows) ||
+           std::ranges::any_of(meshes, [](const Mesh& mesh) { return tracer::glows(mesh.material); });
+}
+
 std::vector<std::string> object_names(const Scene& scene) {
     std::vector<std::string> names;
     if (scene.placed.empty()) names.emplace_back("object");
@@ -133,6 +141,8 @@ Scene read_scene(const Document& document, NodePlaces* places) {
         } catch (const ModelError& e) {
             throw document.error(*parts.tree, e.what());
         }
+    find_glowing_parts(scene);
+    scene.lights.cluster_lamps();
     return scene;
 }
 

@@ -71,6 +71,8 @@ struct Scene {
     FilmSettings film;
     RenderSettings settings;
 
+    // Whether any phase or mesh shines by itself.
+    bool glows() const;
     // Whether anything moves while the shutter is open.
     bool moves() const { return !camera_moments.empty() || !placed.moving.empty(); }
 };

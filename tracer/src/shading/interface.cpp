@@ -70,6 +70,12 @@ Interface::Optics optics_of(const Clear& from, const Coated& to, SharedSurfaces&
                                    thickness_of(to.film)};
 }
 
+Interface::Optics optics_of(const Clear& from, const Glowing& to, SharedSurfaces&) {
+    return Interface::GlowingOptics{std::make_shared<const Texture>(to.color),
+                                    std::make_shared<const Texture>(to.light), to.radiance * from.ior * from.ior,
+                                    to.group_number};
+}
+
 Bsdf dispersive_bsdf(const Interface::ClearOptics::Dispersive& sides, float wavelength) {
     const auto index = [&](const std::optional<Dispersion>& side, float ior) {
         return side ? side->index(wavelength) : ior;
@@ -105,6 +111,10 @@ Bsdf bsdf_of(const Interface::CoatedOptics& optics, const TexturePoint& p) {
                              color_at(*optics.color, p));
 }
 
+Bsdf bsdf_of(const Interface::GlowingOptics& optics, const TexturePoint& p) {
+    return DiffuseBsdf(color_at(*optics.color, p));
+}
+
 }  // namespace
 
 Interface Interface::between(const Material& from, const Material& to, SharedSurfaces& shared) {
@@ -117,6 +127,12 @@ Interface Interface::between(const Material& from, const Material& to, SharedSur
 bool Interface::disperses() const {
     const ClearOptics* clear = std::get_if<ClearOptics>(&optics_);
     return clear && clear->dispersive;
+}
+
+std::optional<Interface::Emitted> Interface::emitted(const TexturePoint& point) const {
+    const GlowingOptics* glowing = std::get_if<GlowingOptics>(&optics_);
+    if (!glowing) return std::nullopt;
+    return Emitted{glowing->radiance * color_at(*glowing->light, point), glowing->group};
 }
 
 Bsdf Interface::at(const TexturePoint& point, const Wavelength* single) const& {

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
@@ -35,6 +36,14 @@ class Interface {
     Bsdf at(const TexturePoint& point, const Wavelength* single = nullptr) && = delete;
     /// Whether it refracts light of different wavelengths differently.
     bool disperses() const;
+
+    /// What a surface sends by itself to the side from which it is seen, the same to all directions.
+    struct Emitted {
+        glm::vec3 radiance;
+        std::uint32_t group;  ///< Glowing::group_number
+    };
+    /// It is nothing of all that does not glow.
+    std::optional<Emitted> emitted(const TexturePoint& point) const;
 
     struct ClearOptics {
         /// Both sides of an interface that disperses light: one that is smooth and has no film, of its own or of the
@@ -62,7 +71,12 @@ class Interface {
         Number roughness;
         Number thickness;
     };
-    using Optics = std::variant<ClearOptics, MetalOptics, DiffuseOptics, CoatedOptics>;
+    struct GlowingOptics {
+        std::shared_ptr<const Texture> color, light;
+        float radiance;  ///< where `light` is 1, in the index of the side it is seen from
+        std::uint32_t group;
+    };
+    using Optics = std::variant<ClearOptics, MetalOptics, DiffuseOptics, CoatedOptics, GlowingOptics>;
 
   private:
     explicit Interface(Optics optics) : optics_(std::move(optics)) {}

@@ -5,8 +5,10 @@
 // smooth, which no eye tells apart. What the surface between two materials does is in interface.hpp.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <string>
 #include <variant>
 
 #include "media/medium.hpp"
@@ -56,14 +58,28 @@ struct Coated {
     std::optional<SurfaceFilm> film{};
 };
 
+/// What shines by itself: embers, lava, a filament, a screen. Its surface sends the radiance `radiance` · `light` to
+/// all directions of a vacuum, and n² times that within a clear material of index n, as what is hot does: through
+/// smooth glass that touches it, it looks as bright as without the glass, but for what the glass reflects. What falls
+/// on it is reflected diffusely.
+struct Glowing {
+    Texture light = ConstantTexture{glm::vec3(1.0f)};
+    float radiance = 1;
+    Texture color = ConstantTexture{glm::vec3(0.0f)};
+    std::string group{};             ///< of lights
+    std::uint32_t group_number = 0;  ///< in Lights::groups()
+};
+
 /// Every kind of material.
-using Material = std::variant<Clear, Diffuse, Conductor, Coated>;
+using Material = std::variant<Clear, Diffuse, Conductor, Coated, Glowing>;
 
 /// Whether a texture of it needs the texture coordinates of a mesh.
 inline bool needs_uv(const Material& material) {
     return std::visit(
         [](const auto& kind) {
-            if constexpr (requires { kind.color; })
+            if constexpr (requires { kind.light; })
+                return needs_uv(kind.light) || needs_uv(kind.color);
+            else if constexpr (requires { kind.color; })
                 return needs_uv(kind.color);
             else
                 return false;
@@ -73,6 +89,10 @@ inline bool needs_uv(const Material& material) {
 
 inline Material vacuum() {
     return Clear{};
+}
+
+inline bool glows(const Material& material) {
+    return std::holds_alternative<Glowing>(material);
 }
 
 inline bool is_clear(const Material& material) {

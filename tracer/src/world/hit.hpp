@@ -39,6 +39,8 @@ struct Surface {
 
     /// For light of one wavelength, or of all.
     Bsdf bsdf(const Wavelength* single = nullptr) const { return optics.get().at(place, single); }
+    /// What it sends by itself to the near side.
+    std::optional<Interface::Emitted> emitted() const { return optics.get().emitted(place); }
     /// A ray that leaves the surface to the side from which it was met.
     Ray reflected(const glm::vec3& direction) const { return leaving(near_side, direction); }
     /// A ray that leaves the surface to its far side. Throws std::bad_optional_access if light does not travel there.
@@ -63,9 +65,10 @@ struct MediumPoint {
     Ray leaving(const glm::vec3& direction) const { return {position, direction, phase, {}, in}; }
 };
 
-/// The ray met something that light does not pass: a mesh or an opaque phase. Of that only the distance is known.
+/// The ray met something that light does not pass: a mesh or an opaque phase.
 struct Blocked {
     float distance;
+    std::optional<Interface::Emitted> emitted{};  ///< what it sends by itself against the ray
 };
 
 /// What stands between a point and a light: nothing, something opaque, or an interface of two clear phases, beyond

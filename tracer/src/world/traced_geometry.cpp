@@ -155,15 +155,19 @@ Visibility TracedGeometry::visibility(const Ray& ray, float far, PathCounters& c
         const Hit hit = intersect_several(ray, far, counters);
         const Surface* surface = std::get_if<Surface>(&hit);
         if (!surface) return Escaped{};
-        if (!surface->far_side) return Blocked{surface->distance};
+        if (!surface->far_side) return Blocked{surface->distance, surface->emitted()};
         return *surface;
     }
     embree::Query query;
     RTCRayHit hit;
     if (!trace(ray, far, query, hit, counters)) return Escaped{};
-    if (hit.hit.geomID != object_id) return Blocked{hit.ray.tfar};
-    if (!is_clear(scene_.materials[query.crossing.to.index])) return Blocked{query.crossing.t_in};
-    return surface_of_object(ray, query, hit);
+    const bool is_mesh = hit.hit.geomID != object_id;
+    const Material& met =
+        is_mesh ? scene_.meshes[hit.hit.geomID - first_mesh_id].material : scene_.materials[query.crossing.to.index];
+    if (!is_clear(met) && !glows(met)) return Blocked{is_mesh ? hit.ray.tfar : query.crossing.t_in};
+    const Surface surface = is_mesh ? surface_of_mesh(ray, hit) : surface_of_object(ray, query, hit);
+    if (surface.far_side) return surface;
+    return Blocked{surface.distance, surface.emitted()};
 }
 
 Surface TracedGeometry::surface_of_object(const Ray& ray, const embree::Query& query, const RTCRayHit& hit) const {

@@ -1,0 +1,226 @@
+// Phases and meshes that shine by themselves: closed forms, a furnace whose walls glow, and shadow rays against the
+// paths' own directions. Where the shadow rays are sent must cover what shines, or they bring nothing.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "paths.hpp"
+#include "sampling/warps.hpp"
+#include "support/uniform.hpp"
+
+namespace test_glowing {
+
+using namespace phasetree::tracer;
+using namespace phasetree::tracer::tests;
+using phasetree::tests::normal_two_sided;
+using phasetree::tests::Uniform;
+
+namespace {
+
+constexpr Techniques each_technique[] = {Techniques::all, Techniques::shadow_rays_alone, Techniques::directions_alone};
+
+const std::string dark = R"("lights": [])";
+const std::string floor_of =
+    R"("meshes": [{"floor": {"size": 40, "material": {"diffuse": {"color": [0.5, 0.5, 0.5]}}}}])";
+
+std::string hot(const std::string& shape, const std::string& at = "[0, 0, 0]") {
+    return R"({"set": {"phase": "hot", "of": {"translate": {"by": )" + at + R"(, "of": )" + shape + "}}}}";
+}
+std::string glowing(const std::string& more = "") {
+    return R"("hot": {"glowing": {"light": [1, 0.5, 0.25], "radiance": 8)" + more + "}}";
+}
+
+void check_radiance(const World& world, const Scene& scene, const glm::vec3& origin, const glm::vec3& direction,
+                    std::uint32_t count, double expected, double significance, double planted = 0.01) {
+    const auto m = radiance_along(world, scene, origin, direction, count);
+    CAPTURE(m[0].mean() / expected);
+    CAPTURE(m[0].standard_error() / expected);
+    CHECK(mean_p_value(m[0], expected, 0) > significance);
+    CHECK(mean_p_value(m[0], (1 + planted) * expected, 0) < significance);
+    // The light has its colour.
+    CHECK(m[1].mean() == doctest::Approx(0.5 * m[0].mean()).epsilon(1e-4));
+    CHECK(m[2].mean() == doctest::Approx(0.25 * m[0].mean()).epsilon(1e-4));
+}
+
+// The radiance along a ray by all techniques against that by directions alone.
+void check_against_directions(Scene scene, const glm::vec3& origin, const glm::vec3& direction, std::uint32_t count,
+                              double significance) {
+    const World world(scene);
+    const Moments all = radiance_along(world, scene, origin, direction, count, 1)[0];
+    scene.settings.techniques = Techniques::directions_alone;
+    const Moments alone = radiance_along(world, scene, origin, direction, 4 * count, 2)[0];
+    const double error = std::hypot(all.standard_error(), alone.standard_error());
+    CAPTURE(all.mean() / alone.mean());
+    CAPTURE(all.standard_error() / alone.mean());
+    CAPTURE(alone.standard_error() / alone.mean());
+    CHECK(normal_two_sided((all.mean() - alone.mean()) / error) > significance);
+    CHECK(normal_two_sided((1.05 * all.mean() - alone.mean()) / error) < significance);
+    // Shadow rays find it, too, and not by luck.
+    CHECK(all.variance() < 0.7 * alone.variance());
+}
+
+}  // namespace
+
+TEST_CASE("below a ball that glows a floor is as bright as E = π L (r/d)²") {
+    const double significance = sidak(1e-4, 6);
+    Scene scene = scene_of(glowing(), hot(R"({"sphere": {"radius": 0.5}})", "[0, 0, 2]"), floor_of + ", " + dark);
+    const World world(scene);
+    for (const Techniques techniques : each_technique) {
+        scene.settings.techniques = techniques;
+        CAPTURE(static_cast<int>(techniques));
+        // Directions by themselves find a small ball rarely.
+        const bool is_by_luck = techniques == Techniques::directions_alone;
+        check_radiance(world, scene, {0, 3, 1}, {0, -3, -1}, is_by_luck ? 2'000'000 : 400'000,
+                       8 * (0.5 / 2) * (0.5 / 2) * 0.5, significance, is_by_luck ? 0.02 : 0.01);
+    }
+}
+
+TEST_CASE("what glows is as bright through glass that touches it as without, but for what the glass reflects") {
+    // A plate that glows under a plate of glass, seen straight from above.
+    const Scene scene = scene_of(glowing() + R"(, "glass": {"clear": {"ior": 1.5}})",
+                                 R"({"over": [)" + hot(R"({"box": {"size": [8, 8, 1]}})", "[0, 0, -0.5]") +
+                                     R"(, {"set": {"phase": "glass", "of": {"box": {"size": [8, 8, 2]}}}}]})",
+                                 dark);
+    const World world(scene);
+    check_radiance(world, scene, {0, 0, 4}, {0, 0, -1}, 100'000, 8 * (1 - 0.04), 1e-4);
+    // Within the glass it is n² times as bright.
+    check_radiance(world, scene, {0, 0, 0.5}, {0, 0, -1}, 1000, 8 * 2.25, 1e-4);
+}
+
+TEST_CASE("within walls that glow with what they do not reflect everything is as bright") {
+    // Basic radiance, over the square of the index, is 1 everywhere. A lens touches a wall, and so does varnish.
+    Scene scene = scene_of(
+        R"("wall": {"glowing": {"radiance": 0.3, "color": [0.7, 0.7, 0.7]}}, "glass": {"clear": {"ior": 1.5}},
+           "air": {"clear": {"ior": 1}}, "milk": {"clear": {"ior": 1.3, "scattering": [2, 2, 2]}})",
+        R"({"over": [{"set": {"phase": "glass", "of": {"translate": {"by": [0, 0, -1], "of": {"sphere": {"radius": 0.5}}}}}},
+                     {"set": {"phase": "milk", "of": {"translate": {"by": [0.6, 0.4, 0.2], "of": {"sphere": {"radius": 0.3}}}}}},
+                     {"set": {"phase": "air", "of": {"box": {"size": [2, 2, 2]}}}},
+                     {"set": {"phase": "wall", "of": {"box": {"size": [3, 3, 3]}}}}]})",
+        dark);
+    const World world(scene);
+    Uniform random(7);
+    for (int i = 0; i < 12; ++i) {
+        const glm::vec3 direction = square_to_uniform_sphere(random.two());
+        const auto m = radiance_along(world, scene, {-0.1f, 0.2f, 0.1f}, direction, 20'000, 3);
+        CAPTURE(m[0].mean());
+        CAPTURE(m[0].standard_error());
+        CHECK(std::abs(m[0].mean() - 1) < 5 * m[0].standard_error() + 1e-6);
+        CHECK(m[0].standard_error() < 0.01);
+    }
+}
+
+TEST_CASE("shadow rays and directions find the same light of what glows") {
+    const double significance = sidak(1e-4, 7);
+    const glm::vec3 origin(-2, -2, 0.1f), direction(1.9f, 1.9f, -0.1f);
+    const std::string torus = R"({"torus": {"major": 0.5, "minor": 0.1}})";
+    SUBCASE("a ring") {
+        check_against_directions(scene_of(glowing(), hot(torus, "[0, 0, 1]"), floor_of + ", " + dark), origin,
+                                 direction, 60'000, significance);
+    }
+    SUBCASE("a ring within a slab of glass, through which it shines") {
+        check_against_directions(
+            scene_of(
+                glowing() + R"(, "glass": {"clear": {"ior": 1.4}})",
+                R"({"over": [)" + hot(torus, "[0, 0, 1]") +
+                    R"(, {"set": {"phase": "glass", "of": {"translate": {"by": [0, 0, 1], "of": {"box": {"size": [3, 3, 0.6]}}}}}}]})",
+                floor_of + ", " + dark),
+            origin, direction, 60'000, significance);
+    }
+    SUBCASE("a coil of thin wire") {
+        check_against_directions(
+            scene_of(glowing(),
+                     hot(R"({"helix": {"radius": 0.3, "pitch": 0.2, "turns": 3, "wire_radius": 0.03}})", "[0, 0, 1]"),
+                     floor_of + ", " + dark),
+            origin, direction, 100'000, significance);
+    }
+    SUBCASE("before a lamp, whose light it hides, and below a sky") {
+        check_against_directions(
+            scene_of(
+                glowing(), hot(R"({"sphere": {"radius": 0.4}})", "[0, 0, 1]"),
+                floor_of + R"(, "lights": [{"sphere": {"centre": [0, 0, 4], "radius": 1.5, "radiance": [1, 0.5, 0.25]}},
+                                                {"constant": {"radiance": [0.1, 0.05, 0.025]}}])"),
+            origin, direction, 60'000, significance);
+    }
+    SUBCASE("before a point light, which it hides") {
+        check_against_directions(
+            scene_of(glowing(), hot(R"({"sphere": {"radius": 0.4}})", "[0, 0, 1]"),
+                     floor_of + R"(, "lights": [{"point": {"position": [-0.1, -0.1, 5], "intensity": 50}}])"),
+            origin, direction, 60'000, significance);
+    }
+    SUBCASE("a mesh") {
+        check_against_directions(
+            scene_of(
+                R"("glass": {"clear": {"ior": 1.5}})",
+                R"({"set": {"phase": "glass", "of": {"translate": {"by": [3, 3, 1], "of": {"sphere": {"radius": 0.5}}}}}})",
+                R"("meshes": [{"floor": {"size": 40, "material": {"diffuse": {"color": [0.5, 0.5, 0.5]}}}},
+                                   {"floor": {"height": 2, "size": 1, "material": {"glowing": {"radiance": 3}}}}], )" +
+                    dark),
+            origin, direction, 60'000, significance);
+    }
+    SUBCASE("copies of an object, one of which moves") {
+        const Scene scene = read_scene(phasetree::Document::from_text(
+            R"({"version": 1, "phases": {"hot": {"glowing": {"radiance": 8}}}, "lights": [],
+                "camera": {"position": [0, -5, 0], "look_at": [0, 0, 0]}, "render": {"shutter": [0, 1]},
+                "objects": [{"name": "ember", "tree": {"set": {"phase": "hot", "of": {"sphere": {"radius": 0.2}}}}}],
+                "instances": [{"of": "ember", "transform": {"keys": [[0, {"translate": {"by": [0.5, 0, 1]}}],
+                                                                     [1, {"translate": {"by": [0.9, 0, 1]}}]]}},
+                              {"of": "ember", "transform": [{"scale": {"factor": 1.5}}, {"translate": {"by": [-0.5, 0.5, 1.2]}}]}],
+                "meshes": [{"floor": {"size": 40, "material": {"diffuse": {"color": [0.5, 0.5, 0.5]}}}}]})",
+            "test.json"));
+        check_against_directions(scene, origin, direction, 60'000, significance);
+    }
+}
+
+TEST_CASE("balls cover what glows, and are not many") {
+    for (const char* const shape : {R"({"sphere": {"radius": 0.5}})",
+                                    R"({"helix": {"radius": 0.3, "pitch": 0.2, "turns": 3, "wire_radius": 0.01}})"}) {
+        CAPTURE(shape);
+        const Scene scene = scene_of(glowing(), hot(shape, "[1, 2, 3]"), dark);
+        const auto parts = scene.lights.glowing();
+        CHECK(parts.size() >= 8);
+        CHECK(parts.size() <= 512);
+        const World world(scene);
+        Uniform random(3);
+        PathCounters counters;
+        int met = 0;
+        for (int i = 0; i < 20'000; ++i) {
+            const glm::vec3 from = glm::vec3(1, 2, 3) + 2.0f * square_to_uniform_sphere(random.two());
+            const glm::vec3 to = glm::vec3(1, 2, 3) + 0.6f * (2.0f * glm::vec3(random(), random(), random()) - 1.0f);
+            const Hit hit =
+                world.geometry().intersect({from, glm::normalize(to - from), phasetree::vacuum, {}}, counters);
+            const auto* surface = std::get_if<Surface>(&hit);
+            if (!surface) continue;
+            ++met;
+            REQUIRE(std::ranges::any_of(parts, [&](const GlowingPart& part) {
+                const BoundingSphere ball = part.bounding_sphere();
+                return glm::distance(ball.centre, surface->near_side.origin) <= 1.0001f * ball.radius;
+            }));
+        }
+        CHECK(met > 500);
+    }
+}
+
+TEST_CASE("what glows is of a group of lights") {
+    const Scene scene = scene_of(glowing(R"(, "group": "embers")"), hot(R"({"sphere": {"radius": 0.5}})", "[0, 0, 2]"),
+                                 floor_of + R"(, "lights": [{"constant": {"radiance": [0.5, 0.5, 0.5]}}])");
+    REQUIRE(scene.lights.groups().size() == 2);
+    CHECK(scene.lights.groups()[1] == "embers");
+    const World world(scene);
+    PathCounters counters;
+    PathRecord record;
+    double embers = 0, all = 0;
+    for (std::uint32_t i = 0; i < 50'000; ++i) {
+        Sampler sampler(i, 0, 0, 1);
+        const Ray ray{{0, 3, 1}, glm::normalize(glm::vec3(0, -3, -1)), phasetree::vacuum, {}};
+        all += static_cast<double>(trace_path(world, scene, ray, sampler, counters, &record).x);
+        embers += static_cast<double>(record.groups[1].x);
+        REQUIRE(record.groups[0].x + record.groups[1].x ==
+                doctest::Approx(record.direct.x + record.indirect.x).epsilon(1e-4));
+    }
+    CHECK(embers / 50'000 == doctest::Approx(8 * 0.25 * 0.25 * 0.5).epsilon(0.02));
+    CHECK(embers < 0.9 * all);
+}
+
+}  // namespace test_glowing
