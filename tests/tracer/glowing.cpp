@@ -1,5 +1,5 @@
 // Phases and meshes that shine by themselves: closed forms, a furnace whose walls glow, and shadow rays against the
-// paths' own directions. Where the shadow rays are sent must cover what shines, or they bring nothing.
+// paths' own directions. Balls must cover what shines, or shadow rays find it by chance.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 
 #include "paths.hpp"
 #include "sampling/warps.hpp"
+#include "scene/parts_of_surfaces.hpp"
 #include "support/uniform.hpp"
 
 namespace test_glowing {
@@ -200,6 +201,104 @@ TEST_CASE("balls cover what glows, and are not many") {
         }
         CHECK(met > 500);
     }
+}
+
+TEST_CASE("of many copies each has one ball, and of very many none") {
+    const auto scene_with = [](int copies) {
+        std::string instances;
+        for (int i = 0; i < copies; ++i)
+            instances += (i > 0 ? ", " : "") + std::string(R"({"of": "ember", "transform": {"translate": {"by": [)") +
+                         std::to_string(i) + ", 0, 1]}}}";
+        return read_scene(phasetree::Document::from_text(
+            R"({"version": 1, "phases": {"hot": {"glowing": {"radiance": 8}}}, "lights": [],
+                "camera": {"position": [0, -5, 0], "look_at": [0, 0, 0]},
+                "objects": [{"name": "ember", "tree": {"set": {"phase": "hot", "of": {"sphere": {"radius": 0.2}}}}}],
+                "instances": [)" +
+                instances + "]}",
+            "test.json"));
+    };
+    const std::size_t of_one = scene_with(1).lights.glowing().size();
+    CHECK(of_one > 8);
+    CHECK(scene_with(10).lights.glowing().size() == 10 * of_one);
+    const Scene many = scene_with(5000);
+    CHECK(many.lights.glowing().size() == 5000);
+    const BoundingSphere last = many.lights.glowing().back().bounding_sphere();
+    CHECK(glm::distance(last.centre, glm::vec3(4999, 0, 1)) < 0.01f);
+    CHECK(last.radius >= 0.2f);
+    CHECK(last.radius < 0.5f);
+    CHECK(scene_with(10'001).lights.glowing().empty());
+}
+
+TEST_CASE("copies that do not shine do not count") {
+    std::string grass;
+    for (int i = 0; i < 20'000; ++i)
+        grass += R"({"of": "grass", "transform": {"translate": {"by": [)" + std::to_string(i) + ", 0, 1]}}}, ";
+    const Scene scene = read_scene(phasetree::Document::from_text(
+        R"({"version": 1, "lights": [], "camera": {"position": [0, -5, 0], "look_at": [0, 0, 0]},
+            "phases": {"hot": {"glowing": {}}, "green": {"diffuse": {"color": [0, 1, 0]}}},
+            "objects": [{"name": "ember", "tree": {"set": {"phase": "hot", "of": {"sphere": {"radius": 0.2}}}}},
+                        {"name": "grass", "tree": {"set": {"phase": "green", "of": {"sphere": {"radius": 0.1}}}}}],
+            "instances": [)" +
+            grass + R"({"of": "ember", "transform": {"translate": {"by": [0, 3, 1]}}}]})",
+        "test.json"));
+    CHECK(scene.lights.glowing().size() > 8);
+}
+
+TEST_CASE("each phase has balls of its own size, and a hidden one has none") {
+    const Scene scene = scene_of(
+        R"("lava": {"glowing": {}}, "spark": {"glowing": {"radiance": 5}}, "core": {"glowing": {"radiance": 9}},
+           "stone": {"diffuse": {"color": [0.5, 0.5, 0.5]}})",
+        R"({"over": [
+              {"set": {"phase": "lava", "of": {"box": {"size": [10, 10, 0.4]}}}},
+              {"set": {"phase": "spark", "of": {"translate": {"by": [2, 1, 3], "of": {"sphere": {"radius": 0.02}}}}}},
+              {"set": {"phase": "stone", "of": {"translate": {"by": [-2, 1, 3], "of": {"sphere": {"radius": 1}}}}}},
+              {"set": {"phase": "core", "of": {"translate": {"by": [-2, 1, 3], "of": {"sphere": {"radius": 0.3}}}}}}]})",
+        dark);
+    int lava = 0, spark = 0, core = 0;
+    for (const GlowingPart& part : scene.lights.glowing()) {
+        const BoundingSphere ball = part.bounding_sphere();
+        ++(part.luminance() < 3 ? lava : part.luminance() < 7 ? spark : core);
+        if (part.luminance() > 3) CHECK(glm::distance(ball.centre, glm::vec3(2, 1, 3)) + ball.radius < 0.1f);
+    }
+    CHECK(lava >= 8);
+    CHECK(spark >= 8);
+    CHECK(core == 0);
+}
+
+TEST_CASE("a mesh of two triangles is divided, and collapsed triangles are no trouble") {
+    const Scene scene = scene_of(R"("glass": {"clear": {"ior": 1.5}})",
+                                 R"({"set": {"phase": "glass", "of": {"sphere": {"radius": 1}}}})",
+                                 R"("meshes": [{"floor": {"size": 40, "material": {"glowing": {}}}}], )" + dark);
+    CHECK(scene.lights.glowing().size() == 64);
+    Uniform random(5);
+    // The box of a triangle with a longest edge of 10 m is 10 by 5.
+    for (const GlowingPart& part : scene.lights.glowing()) CHECK(part.bounding_sphere().radius < 5.6f);
+    for (int i = 0; i < 2000; ++i) {
+        const glm::vec3 p(40 * random() - 20, 40 * random() - 20, 0);
+        REQUIRE(std::ranges::any_of(scene.lights.glowing(), [&](const GlowingPart& part) {
+            return glm::distance(part.bounding_sphere().centre, p) <= 1.0001f * part.bounding_sphere().radius;
+        }));
+    }
+    Mesh mesh;
+    mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 5, 5}};
+    mesh.triangles = {{0, 1, 2}, {3, 3, 3}, {3, 3, 3}};
+    mesh.material = Glowing{};
+    const std::vector<SurfacePart> parts = parts_of_mesh(mesh);
+    CHECK(parts.size() == 64);
+    for (const SurfacePart& part : parts) CHECK(part.ball.radius < 0.5f);
+    mesh.triangles = {{3, 3, 3}, {3, 3, 3}};
+    CHECK(parts_of_mesh(mesh).size() <= 2);
+    mesh.triangles.clear();
+    CHECK(parts_of_mesh(mesh).empty());
+}
+
+TEST_CASE("a scene that nothing lights does not shine") {
+    const std::string ball = R"({"set": {"phase": "stone", "of": {"sphere": {"radius": 1}}}})";
+    const std::string phases = R"("stone": {"diffuse": {"color": [0.5, 0.5, 0.5]}}, )";
+    CHECK_FALSE(scene_of(phases + glowing(), ball, dark).glows());
+    CHECK_FALSE(
+        scene_of(R"("hot": {"glowing": {"light": [0, 0, 0]}})", hot(R"({"sphere": {"radius": 1}})"), dark).glows());
+    CHECK(scene_of(glowing(), hot(R"({"sphere": {"radius": 1}})"), dark).glows());
 }
 
 TEST_CASE("what glows is of a group of lights") {

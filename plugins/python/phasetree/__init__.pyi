@@ -2534,7 +2534,7 @@ class materials:
         r"""Embers, lava, a filament, a screen: shines alike in all directions.
 
         light: Colour of its light; white without it. (colour or texture; default none)
-        radiance: Radiance of its surface where the colour of its light is 1; n² times that against a material of index n. (number; positive; default 1)
+        radiance: Radiance of its surface where the colour of its light is 1; n² times that against a material of index n. (number; more than 0 and at most 1e12; default 1)
         color: Reflectance; black without it. (colour or texture; default none)
         group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
         """
@@ -2595,7 +2595,7 @@ def glowing(light: Sequence[float] | str | Texture | None = ..., radiance: float
     r"""Embers, lava, a filament, a screen: shines alike in all directions.
 
     light: Colour of its light; white without it. (colour or texture; default none)
-    radiance: Radiance of its surface where the colour of its light is 1; n² times that against a material of index n. (number; positive; default 1)
+    radiance: Radiance of its surface where the colour of its light is 1; n² times that against a material of index n. (number; more than 0 and at most 1e12; default 1)
     color: Reflectance; black without it. (colour or texture; default none)
     group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
     """

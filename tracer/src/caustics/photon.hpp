@@ -23,8 +23,8 @@ struct Photon {
     /// steradian, over the square of the refractive index m around the light. Of a point light, per steradian alone.
     float line_density;
     Phase phase;                   ///< in which it travelled when it fell
-    Lights::Emission emission;     ///< what is seen of the light from where the photon started
-    glm::vec3 towards_light;       ///< the direction in which the light is seen from there
+    LightSource source;            ///< the light that is seen from where the photon started
+    glm::vec3 towards_light;       ///< the direction in which it is seen from there
     DensityQuotients quotients{};  ///< of a chain in which rough interfaces are
     /// It was dispersed: every component of `power` is that at the wavelength of the photon's map.
     bool of_one_wavelength = false;

@@ -69,8 +69,15 @@ class PhotonFlight {
     const Medium& medium() const { return clear_at(scene_, ray_.phase).interior; }
 
     Photon photon_at(const glm::vec3& position) const {
-        return {position,          -ray_.direction,         power_,     emitted_.line_density, ray_.phase,
-                emitted_.emission, -emitted_.ray.direction, quotients_, single_ != nullptr};
+        return {position,
+                -ray_.direction,
+                power_,
+                emitted_.line_density,
+                ray_.phase,
+                emitted_.emission.source,
+                -emitted_.ray.direction,
+                quotients_,
+                single_ != nullptr};
     }
 
     void keep_in_medium(float distance, TracedPhotons& traced) {

@@ -69,14 +69,14 @@ struct Chain {
         return pdf && by_photons.per_line_density > 0.0f && photons_follow(interfaces() + 1);
     }
 
-    // The weight of light that is seen along the ray, and of what a surface sends that the ray meets, to which photons
-    // bring nothing. Light at the end of a chain that shadow rays and photons do not follow to its end is found by the
-    // path alone, whichever techniques are asked for.
+    // The weight of light that is seen along the ray. Light at the end of a chain that shadow rays and photons do not
+    // follow to its end is found by the path alone, whichever techniques are asked for.
     float weight(const Scene& scene, const Photons& photons, const Ray& ray) const {
         const float per_line = by_photons.per_line_density;
         const float line = per_line > 0.0f && photons_follow(interfaces()) ? line_density(photons, ray) : 0.0f;
         return weight(scene, per_line * line);
     }
+    // The same of what the surface sends that the ray met. Photons bring none of it.
     float weight_of_glowing_surface(const Scene& scene) const { return weight(scene, 0.0f); }
 
   private:
@@ -119,7 +119,7 @@ class Path {
             if (light && !flight.scattered_at) {
                 add_light(throughput_ * chain_.weight(scene_, photons_, ray_) * flight.weight *
                               for_light(light->radiance, single()),
-                          *light, ray_.direction, false);
+                          light->source, ray_.direction, false);
                 break;
             }
             throughput_ *= flight.weight;
@@ -137,7 +137,7 @@ class Path {
             if (const auto emitted = surface->emitted())
                 add_light(
                     throughput_ * chain_.weight_of_glowing_surface(scene_) * for_light(emitted->radiance, single()),
-                    {distance, emitted->radiance, OfGlowingSurface{emitted->group}}, ray_.direction, false);
+                    OfGlowingSurface{emitted->group}, ray_.direction, false);
             if (surface->optics.get().disperses()) is_dispersed_ = true;
             const Bsdf bsdf = surface->bsdf(single());
             if (bsdf.passes_through()) {  // equal indices scatter nothing, but do count for max_depth
@@ -171,16 +171,16 @@ class Path {
     void add_emission_of_medium(const glm::vec3& emitted) {
         if (emitted == glm::vec3(0.0f)) return;
         const glm::vec3 radiance = throughput_ * emitted;
-        add_light(radiance, {Bounds::infinity, radiance, Background{}}, ray_.direction, false);
+        add_light(radiance, Background{}, ray_.direction, false);
     }
 
-    // Adds radiance that the path found, of an emission that was seen in the direction. If the path has a single
+    // Adds radiance that the path found, of a light that was seen in the direction. If the path has a single
     // wavelength it is that at the wavelength, and becomes a colour here.
-    void add_light(const glm::vec3& found, const Lights::Emission& emission, const glm::vec3& direction,
+    void add_light(const glm::vec3& found, const LightSource& source, const glm::vec3& direction,
                    bool is_to_be_scattered) {
         const glm::vec3 radiance = is_dispersed_ ? found * hero_.response : found;
         radiance_ += radiance;
-        recorder_.add_light(radiance, emission, direction, is_to_be_scattered);
+        recorder_.add_light(radiance, source, direction, is_to_be_scattered);
     }
 
     // Tells the recorder of a surface before the path's ray leaves it.
@@ -287,7 +287,7 @@ class Path {
         const float weight = technique_weight(scene_.settings.techniques, Technique::shadow_rays, light.pdf,
                                               light.is_of_point_light() ? 0.0f : pdf,
                                               by_photons.per_line_density * arrival->line_density);
-        add_light(throughput_ * f * arrival->radiance * (weight / light.pdf), arrival->emission, arrival->direction,
+        add_light(throughput_ * f * arrival->radiance * (weight / light.pdf), arrival->source, arrival->direction,
                   true);
     }
 
@@ -328,7 +328,7 @@ class Path {
             fluence = for_light(fluence, single());
         else if (!is_dispersed_)
             fluence *= hero_.response;
-        add_light(throughput_ * f * fluence * weight, photon.emission, photon.towards_light, true);
+        add_light(throughput_ * f * fluence * weight, photon.source, photon.towards_light, true);
     }
 
     // Adds what photons bring that fell near the surface's point.

@@ -61,7 +61,7 @@ std::optional<Arrival> trace_shadow_ray(const ShadowRayContext& context, Ray ray
                                     context.sampler);
         if (light && single && !was_dispersed) throughput *= single->response;
         if (light)
-            return Arrival{throughput * for_light(light->radiance, single), *light, ray.direction,
+            return Arrival{throughput * for_light(light->radiance, single), light->source, ray.direction,
                            density_at_end(length, light->source), to_boundary};
         if (phase_function(medium) && !chain_survives(throughput, context.sampler)) return std::nullopt;
         if (surface->optics.get().disperses()) single = &wavelength.hero;

@@ -24,10 +24,10 @@ struct PathWavelength {
     const Wavelength* single;  ///< that of the path; null as long as it is of all wavelengths
 };
 
-/// What a shadow ray finds: the radiance that arrives, and of which emission, in which direction in the end, it is.
+/// What a shadow ray finds: the radiance that arrives, and the light that it is of, in which direction in the end.
 struct Arrival {
     glm::vec3 radiance;
-    Lights::Emission emission;
+    LightSource source;
     glm::vec3 direction;
     /// line_density() of the chain's last ray; 0 if photons come by no interface, or by too many. Of a point light
     /// EmittedPhoton::line_density over n² d², with the index n at the start and the distance d (rough_chain.hpp).

@@ -3,8 +3,8 @@
 // the surface sends that it meets, inside of the ball or anywhere else.
 //
 // Directions are uniform in the cone that the ball fills, as towards a ball light. Where the surface fills little of
-// the ball many of them miss it, which makes noise and nothing else: surfaces that no ball covers are found by the
-// paths' own directions alone.
+// the ball many of them miss it, which makes noise and nothing else. Surfaces outside all balls are found by the paths'
+// directions, and by shadow rays that something else proposed.
 #pragma once
 
 #include <glm/glm.hpp>

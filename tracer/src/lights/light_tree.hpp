@@ -84,11 +84,11 @@ class LightTree {
     void for_each_maybe_hit(const glm::vec3& origin, const glm::vec3& direction, const Farthest& farthest,
                             const Use& use) const;
 
-    /// The same of all that the ray may hit, with the way to each lamp: calls use(lamp, way_of), where way_of() is
+    /// The same of all that the ray may hit, with the path to each lamp: calls use(lamp, path), where path() is
     /// path_to(lamp, given), but for rounding. What is asked of a cluster is computed once for all lamps below.
     template <class Given, class Use>
-    void for_each_maybe_hit_with_way(const glm::vec3& origin, const glm::vec3& direction, const Given& given,
-                                     const Use& use) const;
+    void for_each_maybe_hit_with_path(const glm::vec3& origin, const glm::vec3& direction, const Given& given,
+                                      const Use& use) const;
 
   private:
     struct Cluster {
@@ -109,7 +109,7 @@ class LightTree {
         const auto kind = static_cast<std::ptrdiff_t>(node.kind);
         return std::accumulate(lamps_.begin(), lamps_.begin() + kind, std::size_t(0)) + node.number;
     }
-    /// A node on the way from a root, and what choose() makes of it.
+    /// A node on the path from a root, and what choose() makes of it.
     struct Step {
         const Step* before = nullptr;  ///< the cluster that it is a member of; none of a root
         LightNode node{};
@@ -190,8 +190,8 @@ float LightTree::probability_of(const Step& step, const Given& given) const {
 }
 
 template <class Given, class Use>
-void LightTree::for_each_maybe_hit_with_way(const glm::vec3& origin, const glm::vec3& direction, const Given& given,
-                                            const Use& use) const {
+void LightTree::for_each_maybe_hit_with_path(const glm::vec3& origin, const glm::vec3& direction, const Given& given,
+                                             const Use& use) const {
     constexpr float everywhere = std::numeric_limits<float>::infinity();
     const auto visit = [&](const auto& self, std::size_t root, const Step& step) -> void {
         const LightNode& node = step.node;

@@ -99,26 +99,26 @@ void Lights::cluster_lamps() {
     tree_ = LightTree::of(lamps);
 }
 
-void Lights::add_to_groups(const glm::vec3& radiance, const Emission& emission, const glm::vec3& direction,
+void Lights::add_to_groups(const glm::vec3& radiance, const LightSource& source, const glm::vec3& direction,
                            std::span<glm::vec3> groups) const {
     const auto is_like_first = [&](std::size_t group) { return group == infinite_group_.front(); };
-    if (const auto* area = std::get_if<OfAreaLight>(&emission.source)) {
+    if (const auto* area = std::get_if<OfAreaLight>(&source)) {
         groups[area_group_[area->index]] += radiance;
-    } else if (const auto* point = std::get_if<OfPointLight>(&emission.source)) {
+    } else if (const auto* point = std::get_if<OfPointLight>(&source)) {
         groups[point_group_[point->index]] += radiance;
-    } else if (const auto* glowing = std::get_if<OfGlowingSurface>(&emission.source)) {
+    } else if (const auto* glowing = std::get_if<OfGlowingSurface>(&source)) {
         groups[glowing->group] += radiance;
-    } else if (std::holds_alternative<Background>(emission.source) || infinite_.empty()) {
+    } else if (std::holds_alternative<Background>(source) || infinite_.empty()) {
         groups[0] += radiance;
     } else if (std::ranges::all_of(infinite_group_, is_like_first)) {
         groups[infinite_group_.front()] += radiance;
     } else {
+        const glm::vec3 all = infinite_radiance(direction);
         for (std::size_t i = 0; i < infinite_.size(); ++i) {
             const glm::vec3 part =
                 std::visit([&](const auto& light) { return light.radiance(direction); }, infinite_[i]);
             for (int c = 0; c < 3; ++c)
-                if (emission.radiance[c] > 0)
-                    groups[infinite_group_[i]][c] += radiance[c] * (part[c] / emission.radiance[c]);
+                if (all[c] > 0) groups[infinite_group_[i]][c] += radiance[c] * (part[c] / all[c]);
         }
     }
 }
@@ -209,11 +209,11 @@ float Lights::with_others(float density, const std::optional<Chosen>& chosen, co
         if (is_other(first_portal() + i)) of_portals += weights[first_portal() + i] * portals_[i].pdf(at.p, direction);
     density += of_portals / total;
     const auto given = [&](const LightNode& node) { return received_from(node, at); };
-    tree_.for_each_maybe_hit_with_way(at.p, direction, given, [&](const LightNode& lamp, const auto& way_of) {
+    tree_.for_each_maybe_hit_with_path(at.p, direction, given, [&](const LightNode& lamp, const auto& path) {
         // `pdf` is the density of the lamp's own sampling, computed only if the lamp may be chosen.
         const auto add = [&](const auto& pdf) {
             if (chosen && chosen->lamp == lamp) return;
-            const auto [root, probability] = way_of();
+            const auto [root, probability] = path();
             const float weight = weights[infinite_.size() + root];
             if (weight * probability > 0.0f) density += weight / total * probability * pdf();
         };
@@ -298,15 +298,16 @@ std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u) 
 
     std::optional<Emission> nearest_area_light;
     const bool is_area_light = chosen.lamp && chosen.lamp->kind == LightNode::Kind::area;
-    bool hits_chosen_lamp = !is_area_light;
+    bool misses_chosen_area_light = is_area_light;
     const float density = with_others(probability * sampled->pdf, chosen, at, wi, weights, total,
                                       [&](std::uint32_t number, float distance) {
                                           if (!nearest_area_light || distance < nearest_area_light->distance)
                                               nearest_area_light = emission_of(number, distance);
-                                          if (is_area_light && chosen.lamp->number == number) hits_chosen_lamp = true;
+                                          if (is_area_light && chosen.lamp->number == number)
+                                              misses_chosen_area_light = false;
                                       });
     // At the very rim of a light rounding can put the direction just outside.
-    if (!hits_chosen_lamp || !(density > 0.0f)) return std::nullopt;
+    if (misses_chosen_area_light || !(density > 0.0f)) return std::nullopt;
     if (nearest_area_light)
         return LightSample{wi, nearest_area_light->distance, nearest_area_light->radiance, density,
                            nearest_area_light->source};

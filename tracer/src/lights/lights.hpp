@@ -11,9 +11,10 @@
 //
 // cᵢ(x) is proportional to the luminance the light sends through x from all directions if nothing is in the way (its
 // fluence, the mean luminance times the solid angle; of a rectangle, roughly); at a surface, to the luminance that it
-// receives, with the cosine. Of light from all around only what is above its mean counts (unevenness(), in
-// diffuse_irradiance.hpp), unless there are portals. Unlike emitted power this needs no extent of the scene to compare
-// an environment with a lamp, and lamps that are far away, turned away or below the surface take few samples or none.
+// receives, with the cosine. Of light from all around the share counts by which it is uneven, a tenth at
+// least (unevenness(), in diffuse_irradiance.hpp), unless there are portals. Unlike emitted power this needs no extent
+// of the scene to compare an environment with a lamp, and lamps that are far away, turned away or below the surface
+// take few samples or none.
 //
 // Many lamps, which are area lights, point lights and parts of surfaces that glow, are in clusters (light_tree.hpp). A
 // lamp's cᵢ is then that of the root above it times the probability of the path to the lamp. Σ cᵢ may be less than 1,
@@ -111,12 +112,13 @@ class Lights {
     std::size_t group_of(std::string_view name);
     /// The names of the groups, default_group first.
     const std::vector<std::string>& groups() const { return groups_; }
-    /// Adds radiance, which came of an emission that was seen in the direction, to that emission's group. What came
+    /// Adds radiance, which came of a light that was seen in the direction, to that light's group. What came
     /// of infinite lights in several groups is shared out as they shine in that direction; it then adds up to the
     /// radiance but for rounding. `groups` is as long as groups().
-    void add_to_groups(const glm::vec3& radiance, const Emission& emission, const glm::vec3& direction,
+    void add_to_groups(const glm::vec3& radiance, const LightSource& source, const glm::vec3& direction,
                        std::span<glm::vec3> groups) const;
 
+    /// Whether there are none, glowing parts left aside.
     bool empty() const { return infinite_.empty() && area_.empty() && points_.empty(); }
     std::span<const InfiniteLight> infinite() const { return infinite_; }
     std::span<const AreaLight> area() const { return area_; }

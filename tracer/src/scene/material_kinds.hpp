@@ -196,7 +196,7 @@ struct GlowingParameters {
         v(&P::radiance, Parameter{"radiance", "",
                                   "Radiance of its surface where the colour of its light is 1; n² times that against a "
                                   "material of index n.",
-                                  limits::positive, true});
+                                  Limits{.low = 0, .high = 1e12f, .low_open = true}, true});
         v(&P::color, Parameter{"color", "", "Reflectance; black without it.", limits::any, true});
         v(&P::group, group_parameter);
     }

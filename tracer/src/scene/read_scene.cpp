@@ -97,8 +97,11 @@ void read_model_into(const Document& document, const FileParts& parts, const Shu
 }  // namespace
 
 bool Scene::glows() const {
-    return std::ranges::any_of(materials, tracer::glows) ||
-           std::ranges::any_of(meshes, [](const Mesh& mesh) { return tracer::glows(mesh.material); });
+    PhaseSet present = object ? phasetree::phases(object) : PhaseSet{};
+    for (const PlacedObject& one : placed.objects) present = present | phasetree::phases(one.tree);
+    for (std::size_t i = 0; i < materials.size(); ++i)
+        if (present.contains(static_cast<int>(i)) && tracer::glows(materials[i])) return true;
+    return std::ranges::any_of(meshes, [](const Mesh& mesh) { return tracer::glows(mesh.material); });
 }
 
 std::vector<std::string> object_names(const Scene& scene) {
@@ -136,12 +139,12 @@ Scene read_scene(const Document& document, NodePlaces* places) {
     scene.camera_moments = read_camera_moments(document, camera, shutter);
 
     // An object that cannot be traced is found here, and not after the meshes are in memory.
-    if (scene.object) try {
-            (void)prepare_to_trace(scene.object);
-        } catch (const ModelError& e) {
-            throw document.error(*parts.tree, e.what());
-        }
-    find_glowing_parts(scene);
+    try {
+        if (scene.object) (void)prepare_to_trace(scene.object);
+        find_glowing_parts(scene);
+    } catch (const ModelError& e) {
+        throw document.error(parts.tree ? *parts.tree : document.root(), e.what());
+    }
     scene.lights.cluster_lamps();
     return scene;
 }

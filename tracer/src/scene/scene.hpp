@@ -29,8 +29,9 @@ struct Mesh {
 };
 
 // How the light of lamps is found: by shadow rays, by directions that surfaces and media sample, and by photons if the
-// scene asks for caustics, weighted by the power heuristic; or by one of the first two alone, which is as right and
-// shows in a measurement what each is good for.
+// scene asks for caustics, weighted by the power heuristic; or by one of the first two alone, which shows in a
+// measurement what each is good for. It is as right, but that shadow rays alone miss what glows outside of all balls
+// (scene/glowing.hpp).
 enum class Techniques { all, shadow_rays_alone, directions_alone };
 
 struct RenderSettings {
@@ -71,7 +72,7 @@ struct Scene {
     FilmSettings film;
     RenderSettings settings;
 
-    // Whether any phase or mesh shines by itself.
+    // Whether any phase of the objects, or any mesh, shines by itself.
     bool glows() const;
     // Whether anything moves while the shutter is open.
     bool moves() const { return !camera_moments.empty() || !placed.moving.empty(); }

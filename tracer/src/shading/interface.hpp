@@ -42,7 +42,7 @@ class Interface {
         glm::vec3 radiance;
         std::uint32_t group;  ///< Glowing::group_number
     };
-    /// It is nothing of all that does not glow.
+    /// None if the surface does not glow.
     std::optional<Emitted> emitted(const TexturePoint& point) const;
 
     struct ClearOptics {

@@ -91,8 +91,12 @@ inline Material vacuum() {
     return Clear{};
 }
 
+/// Whether it shines, which a glowing one does not whose light is black everywhere.
 inline bool glows(const Material& material) {
-    return std::holds_alternative<Glowing>(material);
+    const Glowing* glowing = std::get_if<Glowing>(&material);
+    if (!glowing) return false;
+    const ConstantTexture* light = std::get_if<ConstantTexture>(&glowing->light);
+    return !light || light->color != glm::vec3(0.0f);
 }
 
 inline bool is_clear(const Material& material) {

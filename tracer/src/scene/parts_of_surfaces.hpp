@@ -1,0 +1,43 @@
+// Balls around parts of surfaces that shine by themselves. Together they cover the surface, but for what rounding
+// leaves out.
+//
+// *Of a phase:* its component φ of the tree's distances is 1-Lipschitz and negative inside of the phase. So a box whose
+// points are all within r of its centre has none of the phase's surface if |φ(centre)| > r. Starting with the object's
+// bounds, boxes are divided into eight while few enough are kept; each of the last becomes a ball.
+//
+// *Of a mesh:* the largest of its sets of triangles is divided, again and again: in halves, or, if it is one triangle,
+// at the middle of its longest edge.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "lights/bounding_sphere.hpp"
+#include "phasetree/math/bounds.hpp"
+#include "phasetree/model/handle.hpp"
+#include "shading/material.hpp"
+
+namespace phasetree::tracer {
+
+struct Mesh;
+
+struct SurfacePart {
+    BoundingSphere ball;
+    float luminance;  ///< roughly that of the surface's radiance
+};
+
+/// A ball around a box, of a surface with this luminance.
+inline SurfacePart part_in(const Bounds& box, float luminance) {
+    return {{box.centre(), 0.5f * box.diagonal()}, luminance};
+}
+
+/// Roughly the luminance of a surface, by its texture at some of its places. However dark these are, it is not less
+/// than a small share of the material's radiance.
+float luminance_at(std::span<const TexturePoint> places, const Glowing& material);
+
+/// Of the phases whose materials, by phase, shine. Throws ModelError for a tree that cannot be traced.
+std::vector<SurfacePart> parts_of_phases(const Phased& tree, std::span<const Material> materials);
+/// Of a mesh whose material shines.
+std::vector<SurfacePart> parts_of_mesh(const Mesh& mesh);
+
+}  // namespace phasetree::tracer
