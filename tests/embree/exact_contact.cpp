@@ -125,6 +125,7 @@ const std::vector<Meant> meant = {
     {"drinks",
      {film("ice", "tonic", "ice"), film("ice", "whisky", "ice")},
      "Two cubes of ice nearly touch, and the cracks in a cube are thin sheets, which the drink fills."},
+    {"ember", {film("vacuum", "water", "vacuum")}, "The puddle around the block of ice is shallow."},
     {"entremet", {film("marble", "brass", "vacuum")}, "The foot of brass is drawn out thin under the marble."},
     {"entremet",
      {film("mousse", "glaze", "vacuum"), film("skin", "glaze", "vacuum")},

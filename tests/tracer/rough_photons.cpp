@@ -112,10 +112,10 @@ TEST_CASE("a photon and a path that comes along its way backwards know the same 
             const Wavelength hero;
             const auto arrival = trace_shadow_ray({world, scene, {&emission, &map}, sampler, counters}, end->shadow,
                                                   light, {.hero = hero, .single = nullptr}, 1);
-            REQUIRE(arrival);
+            REQUIRE(arrival.light);
             // Of a point light the line density that a shadow ray knows is q/(n'² d²), and the photon's is q.
             const float lamp_ior = c.in_oil ? ior_of_oil : 1;
-            const float by_photons = arrival->line_density * factor_of(*end, lamp_ior) / photon.line_density;
+            const float by_photons = arrival.light->line_density * factor_of(*end, lamp_ior) / photon.line_density;
             if (is_point)
                 CHECK(photon.quotients.by_directions == 0.0f);
             else

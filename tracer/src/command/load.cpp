@@ -100,7 +100,7 @@ Scene load_scene(const Document& document, NodePlaces* places) {
     if (!is_clear(scene.materials[phase.index]))
         throw document.error(*document.root().find("camera"),
                              fmt::format("the camera is inside \"{}\", which is opaque", scene.phases[phase]));
-    if (scene.lights.empty() && !scene.glows())
+    if (scene.lights.empty() && !scene.shines())
         throw document.error(document.root(), "the scene has no lights, so every image of it would be black");
     if (scene.settings.view) (void)display_of(document, scene.settings, {}, {}, {});
     return scene;

@@ -76,8 +76,8 @@ struct Chain {
         const float line = per_line > 0.0f && photons_follow(interfaces()) ? line_density(photons, ray) : 0.0f;
         return weight(scene, per_line * line);
     }
-    // The same of what the surface sends that the ray met. Photons bring none of it.
-    float weight_of_glowing_surface(const Scene& scene) const { return weight(scene, 0.0f); }
+    // The same of what a surface sends that the ray met, or a medium on the ray. Photons bring none of it.
+    float weight_without_photons(const Scene& scene) const { return weight(scene, 0.0f); }
 
   private:
     float weight(const Scene& scene, float density_of_photons) const {
@@ -135,9 +135,8 @@ class Path {
             recorder_.travelled(ray_.phase, distance);
             ++depth;
             if (const auto emitted = surface->emitted())
-                add_light(
-                    throughput_ * chain_.weight_of_glowing_surface(scene_) * for_light(emitted->radiance, single()),
-                    OfGlowingSurface{emitted->group}, ray_.direction, false);
+                add_light(throughput_ * chain_.weight_without_photons(scene_) * for_light(emitted->radiance, single()),
+                          OfGlowingSurface{emitted->group}, ray_.direction, false);
             if (surface->optics.get().disperses()) is_dispersed_ = true;
             const Bsdf bsdf = surface->bsdf(single());
             if (bsdf.passes_through()) {  // equal indices scatter nothing, but do count for max_depth
@@ -170,7 +169,7 @@ class Path {
     // What a medium shines by itself is of no lamp, and goes with the background.
     void add_emission_of_medium(const glm::vec3& emitted) {
         if (emitted == glm::vec3(0.0f)) return;
-        const glm::vec3 radiance = throughput_ * emitted;
+        const glm::vec3 radiance = throughput_ * chain_.weight_without_photons(scene_) * emitted;
         add_light(radiance, Background{}, ray_.direction, false);
     }
 
@@ -277,18 +276,23 @@ class Path {
                           const Ray& shadow, int interfaces_before) {
         if (scene_.settings.techniques == Techniques::directions_alone) return;
         const Photons photons = by_photons.per_line_density > 0.0f ? photons_ : Photons{};
-        const auto arrival = trace_shadow_ray({world_, scene_, photons, sampler_, counters_}, shadow, light,
-                                              {.hero = hero_, .single = single()}, interfaces_before);
-        if (!arrival) return;
+        const Arrival arrival = trace_shadow_ray({world_, scene_, photons, sampler_, counters_}, shadow, light,
+                                                 {.hero = hero_, .single = single()}, interfaces_before);
+        // No direction that the path takes by itself meets a point.
+        const float by_directions = light.is_of_point_light() ? 0.0f : pdf;
+        const auto weight = [&](float density_of_photons) {
+            return technique_weight(scene_.settings.techniques, Technique::shadow_rays, light.pdf, by_directions,
+                                    density_of_photons);
+        };
+        if (arrival.from_media != glm::vec3(0.0f))
+            add_light(throughput_ * f * arrival.from_media * (weight(0.0f) / light.pdf), Background{}, light.wi, true);
+        if (!arrival.light) return;
+        const auto& [radiance, source, direction, line_density, to_boundary] = *arrival.light;
         // Photons that light a medium come by its boundary. A shadow ray that meets none has no line density, and the
         // distance to the boundary is infinite, of which there is no coverage to be asked for.
-        if (arrival->line_density > 0.0f) by_photons.reach_boundary(arrival->to_boundary);
-        // No direction that the path takes by itself meets a point.
-        const float weight = technique_weight(scene_.settings.techniques, Technique::shadow_rays, light.pdf,
-                                              light.is_of_point_light() ? 0.0f : pdf,
-                                              by_photons.per_line_density * arrival->line_density);
-        add_light(throughput_ * f * arrival->radiance * (weight / light.pdf), arrival->source, arrival->direction,
-                  true);
+        if (line_density > 0.0f) by_photons.reach_boundary(to_boundary);
+        add_light(throughput_ * f * radiance * (weight(by_photons.per_line_density * line_density) / light.pdf), source,
+                  direction, true);
     }
 
     // Chain::interfaces_before of a chain that starts at the surface.

@@ -25,8 +25,8 @@ float point_density(const ShadowRayContext& context, const Ray& ray, const Light
 
 }  // namespace
 
-std::optional<Arrival> trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSample& sampled,
-                                        const PathWavelength& wavelength, int interfaces_before) {
+Arrival trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSample& sampled,
+                         const PathWavelength& wavelength, int interfaces_before) {
     const auto density_at_end = [&](int length, const LightSource& seen) {
         if (std::holds_alternative<OfGlowingSurface>(seen) || !photons_follow(interfaces_before + length)) return 0.0f;
         const auto* point = std::get_if<OfPointLight>(&sampled.source);
@@ -34,6 +34,7 @@ std::optional<Arrival> trace_shadow_ray(const ShadowRayContext& context, Ray ray
     };
     const Wavelength* single = wavelength.single;
     const bool was_dispersed = single != nullptr;
+    Arrival arrival;
     glm::vec3 throughput(1.0f);
     float to_boundary = 0;
     float to_sampled =
@@ -56,14 +57,21 @@ std::optional<Arrival> trace_shadow_ray(const ShadowRayContext& context, Ray ray
             light = Lights::Emission{to_sampled, sampled.radiance, sampled.source};
         if (!light && is_glowing)
             light = Lights::Emission{distance, blocked->emitted->radiance, OfGlowingSurface{blocked->emitted->group}};
-        if (!light && !surface) return std::nullopt;
-        throughput *= transmittance(medium, {ray.origin, ray.direction, light ? light->distance : distance, single},
-                                    context.sampler);
-        if (light && single && !was_dispersed) throughput *= single->response;
-        if (light)
-            return Arrival{throughput * for_light(light->radiance, single), light->source, ray.direction,
-                           density_at_end(length, light->source), to_boundary};
-        if (phase_function(medium) && !chain_survives(throughput, context.sampler)) return std::nullopt;
+        const bool brings_emission = shines(medium) && !sampled.is_of_point_light();
+        if (!light && !surface && !brings_emission) return arrival;
+        const Passage passage =
+            pass(medium, {ray.origin, ray.direction, light ? light->distance : distance, single}, context.sampler);
+        const glm::vec3 response = single && !was_dispersed ? single->response : glm::vec3(1.0f);
+        if (brings_emission) arrival.from_media += throughput * passage.emitted * response;
+        if (!light && !surface) return arrival;
+        throughput *= passage.left;
+        if (light) {
+            throughput *= response;
+            arrival.light = Arrival::FromLight{throughput * for_light(light->radiance, single), light->source,
+                                               ray.direction, density_at_end(length, light->source), to_boundary};
+            return arrival;
+        }
+        if (phase_function(medium) && !chain_survives(throughput, context.sampler)) return arrival;
         if (surface->optics.get().disperses()) single = &wavelength.hero;
         const Bsdf bsdf = surface->bsdf(single);
         if (bsdf.passes_through()) {
@@ -71,11 +79,11 @@ std::optional<Arrival> trace_shadow_ray(const ShadowRayContext& context, Ray ray
             ray = surface->transmitted(ray.direction);
             continue;
         }
-        if (sampled.is_of_point_light() || !is_link(bsdf, *surface) || ++length > longest_chain) return std::nullopt;
+        if (sampled.is_of_point_light() || !is_link(bsdf, *surface) || ++length > longest_chain) return arrival;
         const Frame frame(surface->normal);
         // A smooth interface has no lobe in which a direction would be chosen by the two numbers.
         const auto next = bsdf.sample(frame.to_local(-ray.direction), context.sampler.next(), glm::vec2(0.0f));
-        if (!next) return std::nullopt;
+        if (!next) return arrival;
         throughput *= for_light(next->weight, single);
         ray = continued(*surface, frame, *next);
     }

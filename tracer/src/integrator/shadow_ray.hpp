@@ -24,28 +24,35 @@ struct PathWavelength {
     const Wavelength* single;  ///< that of the path; null as long as it is of all wavelengths
 };
 
-/// What a shadow ray finds: the radiance that arrives, and the light that it is of, in which direction in the end.
+/// What a shadow ray finds.
 struct Arrival {
-    glm::vec3 radiance;
-    LightSource source;
-    glm::vec3 direction;
-    /// line_density() of the chain's last ray; 0 if photons come by no interface, or by too many. Of a point light
-    /// EmittedPhoton::line_density over n² d², with the index n at the start and the distance d (rough_chain.hpp).
-    float line_density;
-    float to_boundary;  ///< how far the first boundary is from the start; infinity if the light is before it
+    /// The radiance that arrives from a light, and from which, in which direction in the end.
+    struct FromLight {
+        glm::vec3 radiance;
+        LightSource source;
+        glm::vec3 direction;
+        /// line_density() of the chain's last ray; 0 if photons come by no interface, or by too many. Of a point light
+        /// EmittedPhoton::line_density over n² d², with the index n at the start and the distance d (rough_chain.hpp).
+        float line_density;
+        float to_boundary;  ///< how far the first boundary is from the start; infinity if the light is before it
+    };
+    std::optional<FromLight> light{};
+    /// The radiance that the media on the way send by themselves, also if there is no light behind. A shadow ray to a
+    /// point light brings none of it: it has no density of directions.
+    glm::vec3 from_media{0.0f};
 };
 
 /// One random sample of E (path.hpp) along a shadow ray: the emission at the end of a chain of smooth clear interfaces,
 /// each of which reflects or refracts the ray at random, times the transmittance of the media and the weights of the
-/// interfaces; none if there is no light. Up to the first boundary that it meets the ray goes straight to the light
+/// interfaces. Up to the first boundary that it meets the ray goes straight to the light
 /// that was sampled, which is known; after that it is asked what light it sees. Of a shadow ray that is dispersed on
 /// its way the radiance includes the response to its wavelength; a path that was dispersed before multiplies by that
 /// itself, as for all light that it finds. A point light is seen by the straight ray alone, through boundaries that
 /// bend nothing: what it sends through an interface that bends light is left to photons, because no direction that is
 /// sampled here leads through the interface to a point. The ray may start at a rough interface that
 /// photons pass on their way to what they light: `interfaces_before` counts it and the interfaces between the two.
-std::optional<Arrival> trace_shadow_ray(const ShadowRayContext&, Ray ray, const LightSample& sampled,
-                                        const PathWavelength&, int interfaces_before);
+Arrival trace_shadow_ray(const ShadowRayContext&, Ray ray, const LightSample& sampled, const PathWavelength&,
+                         int interfaces_before);
 
 /// With which density photons start on the line on which a ray leads to a light (EmittedPhoton::line_density); 0 if
 /// there are none.

@@ -1,10 +1,10 @@
-// A ball around a part of a surface that shines by itself (Glowing, in shading/material.hpp). Shadow rays are sent
-// towards it, so that such a surface is found as lamps are. The ball emits nothing: what a shadow ray brings is what
-// the surface sends that it meets, inside of the ball or anywhere else.
+// A ball around a part of what shines by itself: of a surface (Glowing, in shading/material.hpp), or of a medium with
+// emission. Shadow rays are sent towards it, so that it is found as lamps are. The ball emits nothing: what a shadow
+// ray brings is what the media on its way send, and the surface that it meets, inside of the ball or anywhere else.
 //
-// Directions are uniform in the cone that the ball fills, as towards a ball light. Where the surface fills little of
-// the ball many of them miss it, which makes noise and nothing else. Surfaces outside all balls are found by the paths'
-// directions, and by shadow rays that something else proposed.
+// Directions are uniform in the cone that the ball fills, as towards a ball light. Where little of the
+// ball is filled many of them miss it, which makes noise and nothing else. What shines outside all balls is found by
+// the paths' directions, and by shadow rays that something else proposed.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -18,7 +18,7 @@ namespace phasetree::tracer {
 
 class GlowingPart {
   public:
-    /// `luminance` is roughly that of the surface's radiance. Both numbers are positive.
+    /// `luminance` is roughly that of the radiance which comes from there. Both numbers are positive.
     GlowingPart(const BoundingSphere& ball, float luminance) : ball_(ball.centre, ball.radius, glm::vec3(luminance)) {}
 
     BoundingSphere bounding_sphere() const { return ball_.bounding_sphere(); }

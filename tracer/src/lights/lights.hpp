@@ -26,9 +26,10 @@
 // A point light is chosen by the same rule, but it is no part of the density. Its sample has the probability of the
 // choice instead, and no direction that a path samples otherwise leads to it.
 //
-// Surfaces that glow are part of the geometry, and no light of this list. Balls around them are lamps of the tree that
-// propose directions and emit nothing (glowing_part.hpp): a shadow ray in a direction, whoever proposed it, brings what
-// the glowing surface sends that it meets before it gets to the light that is seen there.
+// Surfaces that glow, and media that shine, are part of the geometry, and no light of this list. Balls around them are
+// lamps of the tree that propose directions and emit nothing (glowing_part.hpp): a shadow ray in a direction, whoever
+// proposed it, brings what the media on its way send, and the glowing surface that it meets before it gets to the light
+// that is seen there.
 //
 // Portals are sampled in place of some samples of lights that are all around: a point that sees portals moves three
 // quarters of those lights' weight to the portals, in proportion to their solid angles. A portal is one more density in

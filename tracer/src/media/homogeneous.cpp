@@ -7,8 +7,26 @@
 
 namespace phasetree::tracer {
 
+namespace {
+
+// ∫₀ᵈ ε T dt, with what passes all of the way, T(d).
+glm::vec3 emitted_along(const ScatteringCoefficients& coefficients, const glm::vec3& passed) {
+    const glm::vec3 extinction = coefficients.extinction();
+    glm::vec3 emitted(0.0f);
+    for (int c = 0; c < 3; ++c)
+        if (extinction[c] > 0.0f) emitted[c] = coefficients.emission[c] * (1.0f - passed[c]) / extinction[c];
+    return emitted;
+}
+
+}  // namespace
+
 glm::vec3 HomogeneousMedium::transmittance(const Way& way, Sampler&) const {
     return beer_lambert(coefficients_.for_light(way.single).extinction(), way.length);
+}
+
+Passage HomogeneousMedium::pass(const Way& way, Sampler& sampler) const {
+    const glm::vec3 left = transmittance(way, sampler);
+    return {left, emitted_along(coefficients_.for_light(way.single), left)};
 }
 
 Flight HomogeneousMedium::fly(const Way& way, const glm::vec3& throughput, Sampler& sampler) const {
@@ -16,8 +34,7 @@ Flight HomogeneousMedium::fly(const Way& way, const glm::vec3& throughput, Sampl
     const glm::vec3 extinction = coefficients.extinction();
     const glm::vec3 passed = beer_lambert(extinction, way.length);
     Flight flight;
-    for (int c = 0; c < 3; ++c)
-        if (extinction[c] > 0.0f) flight.emitted[c] = coefficients.emission[c] * (1.0f - passed[c]) / extinction[c];
+    flight.emitted = emitted_along(coefficients, passed);
     if (!coefficients.scatters()) {
         flight.weight = passed;
         return flight;

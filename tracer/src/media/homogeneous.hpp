@@ -24,6 +24,7 @@ class HomogeneousMedium {
     explicit HomogeneousMedium(const ScatteringCoefficients& coefficients) : coefficients_(coefficients) {}
 
     glm::vec3 transmittance(const Way& way, Sampler&) const;
+    Passage pass(const Way& way, Sampler& sampler) const;
     Flight fly(const Way& way, const glm::vec3& throughput, Sampler& sampler) const;
     const HenyeyGreenstein& phase_function() const { return coefficients_.phase_function; }
     const ScatteringCoefficients& coefficients() const { return coefficients_; }

@@ -30,6 +30,33 @@ inline glm::vec3 transmittance(const Medium& medium, const Way& way, Sampler& sa
     return std::visit([&](const auto& kind) { return kind.transmittance(way, sampler); }, medium);
 }
 
+/// MediumKind's passage of a medium of any kind; one that only absorbs shines not.
+inline Passage pass(const Medium& medium, const Way& way, Sampler& sampler) {
+    return std::visit(
+        [&]<class Kind>(const Kind& kind) {
+            if constexpr (ScatteringMediumKind<Kind>)
+                return kind.pass(way, sampler);
+            else
+                return Passage{.left = kind.transmittance(way, sampler)};
+        },
+        medium);
+}
+
+/// What it shines by itself where it is densest, in radiance per unit of length.
+inline glm::vec3 emission(const Medium& medium) {
+    return std::visit(
+        []<class Kind>(const Kind& kind) {
+            if constexpr (ScatteringMediumKind<Kind>)
+                return kind.coefficients().emission;
+            else
+                return glm::vec3(0.0f);
+        },
+        medium);
+}
+inline bool shines(const Medium& medium) {
+    return emission(medium) != glm::vec3(0.0f);
+}
+
 /// The flight of a path through a medium of any kind; through one that only absorbs nothing is random.
 inline Flight fly(const Medium& medium, const Way& way, const glm::vec3& throughput, Sampler& sampler) {
     return std::visit(

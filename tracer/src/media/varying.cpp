@@ -58,14 +58,16 @@ void VaryingMedium::for_each_tentative_collision(const Way& way, Sampler& sample
     }
 }
 
-glm::vec3 VaryingMedium::transmittance(const Way& way, Sampler& sampler) const {
-    const glm::vec3 share = coefficients_.for_light(way.single).extinction() / majorant_;
-    glm::vec3 left(1.0f);
+Passage VaryingMedium::pass(const Way& way, Sampler& sampler) const {
+    const ScatteringCoefficients coefficients = coefficients_.for_light(way.single);
+    const glm::vec3 share = coefficients.extinction() / majorant_, emitted = coefficients.emission / majorant_;
+    Passage passage;
     for_each_tentative_collision(way, sampler, [&](float, float density) {
-        left *= 1.0f - share * density;
-        return left != glm::vec3(0.0f);
+        passage.emitted += passage.left * emitted * density;
+        passage.left *= 1.0f - share * density;
+        return passage.left != glm::vec3(0.0f);
     });
-    return left;
+    return passage;
 }
 
 Flight VaryingMedium::fly(const Way& way, const glm::vec3& throughput, Sampler& sampler) const {

@@ -25,10 +25,13 @@ class VaryingMedium {
     /// The coefficients are those at density 1.
     VaryingMedium(const ScatteringCoefficients& coefficients, const Density& density);
 
-    glm::vec3 transmittance(const Way& way, Sampler& sampler) const;
+    glm::vec3 transmittance(const Way& way, Sampler& sampler) const { return pass(way, sampler).left; }
+    Passage pass(const Way& way, Sampler& sampler) const;
     Flight fly(const Way& way, const glm::vec3& throughput, Sampler& sampler) const;
     const HenyeyGreenstein& phase_function() const { return coefficients_.phase_function; }
     const ScatteringCoefficients& coefficients() const { return coefficients_; }
+    /// A box outside of which there is nothing of it.
+    const Bounds& bounds() const { return density_.bounds(); }
 
   private:
     template <class Visit>

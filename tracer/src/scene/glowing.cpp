@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "scene/parts_of_surfaces.hpp"
 #include "scene/scene.hpp"
+#include "scene/shining_parts.hpp"
 
 namespace phasetree::tracer {
 
@@ -39,13 +39,13 @@ std::optional<BoundingSphere> around(const BoundingSphere& ball, const Places& p
     return placed;
 }
 
-void add(std::span<const SurfacePart> parts, const Places& places, Lights& lights) {
-    for (const SurfacePart& part : parts)
+void add(std::span<const ShiningPart> parts, const Places& places, Lights& lights) {
+    for (const ShiningPart& part : parts)
         if (const auto ball = around(part.ball, places)) lights.add(GlowingPart(*ball, part.luminance));
 }
 
 // One ball around all of them.
-SurfacePart merged(std::span<const SurfacePart> parts) {
+ShiningPart merged(std::span<const ShiningPart> parts) {
     Bounds box;
     float sum = 0;
     for (const auto& [ball, luminance] : parts) {
@@ -57,7 +57,7 @@ SurfacePart merged(std::span<const SurfacePart> parts) {
 
 // What of an object shines, and where its copies are, by their numbers.
 struct ShiningObject {
-    std::vector<SurfacePart> parts;
+    std::vector<ShiningPart> parts;
     std::map<std::uint32_t, Places> copies;
 
     std::size_t parts_in_all() const { return parts.size() * copies.size(); }
@@ -111,7 +111,7 @@ void find_glowing_parts(Scene& scene) {
     };
     for (Material& material : scene.materials) join_group(material);
     for (Mesh& mesh : scene.meshes) join_group(mesh.material);
-    if (!scene.glows()) return;
+    if (!scene.shines()) return;
     if (scene.object)
         add(parts_of_phases(scene.object, scene.materials), Places(), scene.lights);
     else

@@ -1,8 +1,8 @@
-// Where the phases and meshes are that shine by themselves: balls around parts of their surfaces, towards which shadow
-// rays are sent (lights/glowing_part.hpp).
+// Where the phases and meshes are that shine by themselves, by their surface or by the medium inside: balls around
+// parts of them, towards which shadow rays are sent (lights/glowing_part.hpp).
 //
-// Which balls there are is a matter of noise alone: surfaces outside all balls are found by the paths' directions, and
-// by shadow rays that something else proposed.
+// Which balls there are is a matter of noise alone: what shines outside all balls is found by the paths' directions,
+// and by shadow rays that something else proposed.
 #pragma once
 
 namespace phasetree::tracer {

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <array>
 
-#include "scene/parts_of_surfaces.hpp"
 #include "scene/scene.hpp"
+#include "scene/shining_parts.hpp"
 
 namespace phasetree::tracer {
 
@@ -77,7 +77,7 @@ float luminance_of(const Set& set, const Glowing& material) {
 
 }  // namespace
 
-std::vector<SurfacePart> parts_of_mesh(const Mesh& mesh) {
+std::vector<ShiningPart> parts_of_mesh(const Mesh& mesh) {
     if (mesh.triangles.empty()) return {};
     const auto is_smaller = [](const Set& a, const Set& b) { return a.bounds.diagonal() < b.bounds.diagonal(); };
     std::vector<Set> sets{Set(triangles_of(mesh))};
@@ -90,7 +90,7 @@ std::vector<SurfacePart> parts_of_mesh(const Mesh& mesh) {
             std::ranges::push_heap(sets, is_smaller);
         }
     }
-    std::vector<SurfacePart> parts;
+    std::vector<ShiningPart> parts;
     for (const Set& set : sets)
         parts.push_back(part_in(set.bounds, luminance_of(set, std::get<Glowing>(mesh.material))));
     return parts;

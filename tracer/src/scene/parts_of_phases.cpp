@@ -3,7 +3,7 @@
 
 #include "image/luminance.hpp"
 #include "phasetree/trace/tracer.hpp"
-#include "scene/parts_of_surfaces.hpp"
+#include "scene/shining_parts.hpp"
 
 namespace phasetree::tracer {
 
@@ -27,21 +27,24 @@ std::array<Bounds, 8> eighths(const Bounds& box) {
     return parts;
 }
 
-// Finds those boxes that may have some of a phase's surface.
-class SurfaceFinder {
+enum class Counts { surface_alone, inside_too };
+
+// Finds those boxes that may have some of a phase.
+class PhaseFinder {
   public:
-    explicit SurfaceFinder(const Phased& tree)
+    explicit PhaseFinder(const Phased& tree)
         : bounds_(prepare_to_trace(tree).bounds),
           evaluator_(record(tree)),
           values_(evaluator_.program().outputs.size()) {}
 
-    // None if the phase has no surface.
-    std::vector<Bounds> boxes_of(Phase phase) {
-        std::vector<Bounds> boxes{bounds_};
+    // Within a box; none if nothing is there that counts.
+    std::vector<Bounds> boxes_of(Phase phase, const Bounds& within, Counts counts) {
+        std::vector<Bounds> boxes{intersect(bounds_, within)};
+        if (boxes.front().empty()) return {};
         for (;;) {
             std::vector<Bounds> finer;
             for (const Bounds& box : boxes) {
-                add_eighths_with_surface(box, phase, finer);
+                add_eighths(box, phase, counts, finer);
                 if (finer.size() > most_boxes_of_rod) break;
             }
             if (finer.empty()) return {};
@@ -53,7 +56,7 @@ class SurfaceFinder {
     }
 
   private:
-    void add_eighths_with_surface(const Bounds& box, Phase phase, std::vector<Bounds>& kept) {
+    void add_eighths(const Bounds& box, Phase phase, Counts counts, std::vector<Bounds>& kept) {
         const auto& outputs = evaluator_.program().outputs;
         const auto output = std::ranges::find(outputs, phase, &Output::phase);
         if (output == outputs.end()) return;
@@ -71,7 +74,8 @@ class SurfaceFinder {
         // Rounding must not lose a surface that passes through a corner.
         const float radius = 1.001f * 0.5f * parts.front().diagonal();
         for (std::size_t i = 0; i < parts.size(); ++i)
-            if (std::abs(distance[i]) <= radius) kept.push_back(parts[i]);
+            if (distance[i] <= radius && (counts == Counts::inside_too || distance[i] >= -radius))
+                kept.push_back(parts[i]);
     }
 
     Bounds bounds_;
@@ -79,8 +83,33 @@ class SurfaceFinder {
     std::vector<BatchOfFloats> values_;
 };
 
+// A medium as dense as it gets, along the mean way through the box's ball, which is 4/3 of the radius, or as far as one
+// can see in it.
+float luminance_in(const Bounds& box, const Medium& medium) {
+    const float through = 4.0f / 3 * 0.5f * box.diagonal();
+    return std::visit(
+        [&]<class Kind>(const Kind& kind) {
+            if constexpr (ScatteringMediumKind<Kind>) {
+                const ScatteringCoefficients& c = kind.coefficients();
+                return luminance(c.emission / glm::max(c.extinction(), 1.0f / through));
+            } else {
+                return 0.0f;
+            }
+        },
+        medium);
+}
+
+// Where it shines: outside of this box there is nothing of it.
+Bounds bounds_of_light(const Material& material) {
+    const Clear* clear = std::get_if<Clear>(&material);
+    const VaryingMedium* varying = clear ? std::get_if<VaryingMedium>(&clear->interior) : nullptr;
+    return varying ? varying->bounds() : Bounds::everything();
+}
+
 // The surface in a box is looked at in its centre and halfway to its corners.
-float luminance_in(const Bounds& box, const Glowing& material) {
+float luminance_in(const Bounds& box, const Material& of_phase) {
+    if (const Clear* clear = std::get_if<Clear>(&of_phase)) return luminance_in(box, clear->interior);
+    const auto& material = std::get<Glowing>(of_phase);
     const auto place_at = [](const glm::vec3& p) { return TexturePoint{p, {0, 0, 1}, std::nullopt}; };
     std::vector<TexturePoint> places{place_at(box.centre())};
     for (int i = 0; i < 8; ++i) places.push_back(place_at(0.5f * (box.centre() + box.corner(i))));
@@ -95,16 +124,17 @@ float luminance_at(std::span<const TexturePoint> places, const Glowing& material
     return material.radiance * std::max(sum / static_cast<float>(places.size()), least_share);
 }
 
-std::vector<SurfacePart> parts_of_phases(const Phased& tree, std::span<const Material> materials) {
+std::vector<ShiningPart> parts_of_phases(const Phased& tree, std::span<const Material> materials) {
     const PhaseSet present = phases(tree);
-    std::vector<SurfacePart> parts;
-    std::optional<SurfaceFinder> finder;
+    std::vector<ShiningPart> parts;
+    std::optional<PhaseFinder> finder;
     for (std::size_t i = 0; i < materials.size(); ++i) {
         const Phase phase{static_cast<std::uint8_t>(i)};
-        if (!glows(materials[i]) || !present.contains(phase)) continue;
+        if (!shines(materials[i]) || !present.contains(phase)) continue;
         if (!finder) finder.emplace(tree);
-        for (const Bounds& box : finder->boxes_of(phase))
-            parts.push_back(part_in(box, luminance_in(box, std::get<Glowing>(materials[i]))));
+        const Counts counts = glows(materials[i]) ? Counts::surface_alone : Counts::inside_too;
+        for (const Bounds& box : finder->boxes_of(phase, bounds_of_light(materials[i]), counts))
+            parts.push_back(part_in(box, luminance_in(box, materials[i])));
     }
     return parts;
 }

@@ -96,12 +96,12 @@ void read_model_into(const Document& document, const FileParts& parts, const Shu
 
 }  // namespace
 
-bool Scene::glows() const {
+bool Scene::shines() const {
     PhaseSet present = object ? phasetree::phases(object) : PhaseSet{};
     for (const PlacedObject& one : placed.objects) present = present | phasetree::phases(one.tree);
     for (std::size_t i = 0; i < materials.size(); ++i)
-        if (present.contains(static_cast<int>(i)) && tracer::glows(materials[i])) return true;
-    return std::ranges::any_of(meshes, [](const Mesh& mesh) { return tracer::glows(mesh.material); });
+        if (present.contains(static_cast<int>(i)) && tracer::shines(materials[i])) return true;
+    return std::ranges::any_of(meshes, [](const Mesh& mesh) { return tracer::shines(mesh.material); });
 }
 
 std::vector<std::string> object_names(const Scene& scene) {

@@ -73,7 +73,7 @@ struct Scene {
     RenderSettings settings;
 
     // Whether any phase of the objects, or any mesh, shines by itself.
-    bool glows() const;
+    bool shines() const;
     // Whether anything moves while the shutter is open.
     bool moves() const { return !camera_moments.empty() || !placed.moving.empty(); }
 };

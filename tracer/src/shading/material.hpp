@@ -99,6 +99,12 @@ inline bool glows(const Material& material) {
     return !light || light->color != glm::vec3(0.0f);
 }
 
+/// Whether its surface shines, or the medium inside.
+inline bool shines(const Material& material) {
+    const Clear* clear = std::get_if<Clear>(&material);
+    return clear ? shines(clear->interior) : glows(material);
+}
+
 inline bool is_clear(const Material& material) {
     return std::holds_alternative<Clear>(material);
 }

@@ -1,9 +1,9 @@
-// Balls around parts of surfaces that shine by themselves. Together they cover the surface, but for what rounding
-// leaves out.
+// Balls around parts of what shines by itself. Together they cover it, but for what rounding leaves out.
 //
 // *Of a phase:* its component φ of the tree's distances is 1-Lipschitz and negative inside of the phase. So a box whose
-// points are all within r of its centre has none of the phase's surface if |φ(centre)| > r. Starting with the object's
-// bounds, boxes are divided into eight while few enough are kept; each of the last becomes a ball.
+// points are all within r of its centre has nothing of the phase if φ(centre) > r, and none of its surface if
+// |φ(centre)| > r. Starting with the object's bounds, boxes are divided into eight while few enough are kept; each of
+// the last becomes a ball. Of a phase whose medium shines the inside counts, too.
 //
 // *Of a mesh:* the largest of its sets of triangles is divided, again and again: in halves, or, if it is one triangle,
 // at the middle of its longest edge.
@@ -21,13 +21,13 @@ namespace phasetree::tracer {
 
 struct Mesh;
 
-struct SurfacePart {
+struct ShiningPart {
     BoundingSphere ball;
-    float luminance;  ///< roughly that of the surface's radiance
+    float luminance;  ///< roughly that of the radiance which comes from there
 };
 
-/// A ball around a box, of a surface with this luminance.
-inline SurfacePart part_in(const Bounds& box, float luminance) {
+/// A ball around a box, of something with this luminance.
+inline ShiningPart part_in(const Bounds& box, float luminance) {
     return {{box.centre(), 0.5f * box.diagonal()}, luminance};
 }
 
@@ -36,8 +36,8 @@ inline SurfacePart part_in(const Bounds& box, float luminance) {
 float luminance_at(std::span<const TexturePoint> places, const Glowing& material);
 
 /// Of the phases whose materials, by phase, shine. Throws ModelError for a tree that cannot be traced.
-std::vector<SurfacePart> parts_of_phases(const Phased& tree, std::span<const Material> materials);
+std::vector<ShiningPart> parts_of_phases(const Phased& tree, std::span<const Material> materials);
 /// Of a mesh whose material shines.
-std::vector<SurfacePart> parts_of_mesh(const Mesh& mesh);
+std::vector<ShiningPart> parts_of_mesh(const Mesh& mesh);
 
 }  // namespace phasetree::tracer
