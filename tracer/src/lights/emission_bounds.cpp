@@ -78,6 +78,7 @@ EmissionCone merged(const EmissionCone& a, const EmissionCone& b) {
 }
 
 double EmissionCone::greatest_cosine(const glm::dvec3& towards, double cosine, double sine) const {
+    if (!(cos_normals_ > -1.0)) return 1.0;  // all directions are normals
     const double to_axis = std::clamp(glm::dot(axis_, towards), -1.0, 1.0);
     const Angle to_normals = difference({to_axis, sine_of(to_axis)}, {cos_normals_, sin_normals_});
     const double least_angle_cosine = difference(to_normals, {cosine, sine}).cosine;

@@ -50,12 +50,18 @@ float SphereLight::pdf_at(const glm::vec3& p, const glm::vec3&, float) const {
 }
 
 std::optional<float> SphereLight::intersect(const glm::vec3& origin, const glm::vec3& direction) const {
-    const glm::dvec3 d = glm::normalize(glm::dvec3(direction));
     const glm::dvec3 to_centre = centre_ - glm::dvec3(origin);
+    const double squared_distance = glm::dot(to_centre, to_centre);
+    const bool inside = !(squared_distance > radius_ * radius_);
+    // Most rays miss by far, which the direction as it is tells, whose length is 1 but for rounding.
+    const double roughly_along = glm::dot(to_centre, glm::dvec3(direction));
+    const double far_reach = 1.001 * radius_ + 1e-5 * std::abs(roughly_along);
+    if (!inside && squared_distance - (1 + 1e-5) * roughly_along * roughly_along > far_reach * far_reach)
+        return std::nullopt;
+    const glm::dvec3 d = glm::normalize(glm::dvec3(direction));
     const double along = glm::dot(to_centre, d);
     const glm::dvec3 across = to_centre - along * d;
     const double squared_half_chord = radius_ * radius_ - glm::dot(across, across);
-    const bool inside = cap_height(to_centre) == 2.0;
     if (inside) return static_cast<float>(along + std::sqrt(std::max(0.0, squared_half_chord)));
     // How far a unit direction may be off, whose three coordinates were rounded several times by a change of frame.
     constexpr double rounding = 2e-7;

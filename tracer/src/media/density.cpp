@@ -24,6 +24,10 @@ BatchOfFloats Density::along(const glm::vec3& origin, const glm::vec3& direction
         y[i] = origin.y + t[i] * direction.y;
         z[i] = origin.z + t[i] * direction.z;
     }
+    return at(x, y, z);
+}
+
+BatchOfFloats Density::at(const BatchOfFloats& x, const BatchOfFloats& y, const BatchOfFloats& z) const {
     // Those of a recorded field are two: its phase and the vacuum.
     std::array<BatchOfFloats, 2> values;
     evaluator_->evaluate(x, y, z, std::span(values).first(outputs_), Evaluator::thread_workspace());

@@ -17,6 +17,8 @@ class Density {
     /// Throws ModelError for a field that cannot be recorded.
     Density(const Field& field, float depth);
 
+    /// ρ at eight points.
+    BatchOfFloats at(const BatchOfFloats& x, const BatchOfFloats& y, const BatchOfFloats& z) const;
     /// ρ at eight points of a ray, by one run of the field's program.
     BatchOfFloats along(const glm::vec3& origin, const glm::vec3& direction, const BatchOfFloats& t) const;
     /// A box outside of which ρ is 0.

@@ -53,6 +53,17 @@ inline glm::vec3 emission(const Medium& medium) {
         },
         medium);
 }
+/// Its σt where it is densest.
+inline glm::vec3 extinction(const Medium& medium) {
+    return std::visit(
+        []<class Kind>(const Kind& kind) {
+            if constexpr (ScatteringMediumKind<Kind>)
+                return kind.coefficients().extinction();
+            else
+                return kind.absorption;
+        },
+        medium);
+}
 inline bool shines(const Medium& medium) {
     return emission(medium) != glm::vec3(0.0f);
 }

@@ -12,6 +12,10 @@ namespace {
 // Where a field without bounds lets a ray go on through nothing for ever, it is let go after so many collisions.
 constexpr int most_collisions = 1 << 16;
 
+// So many collisions a passage has in the mean at least. Eight are evaluated in the time of one, and more of them
+// estimate what is left and what shines with less noise.
+constexpr float collisions_of_passage = 5;
+
 // The part of a way within a box: from the first distance to the second, which is not greater if there is none.
 std::pair<float, float> within(const Bounds& box, const Way& way) {
     float from = 0.0f, to = way.length;
@@ -36,35 +40,36 @@ VaryingMedium::VaryingMedium(const ScatteringCoefficients& coefficients, const D
     majorant_ = std::max({extinction.x, extinction.y, extinction.z});
 }
 
-// Calls visit(distance, density) until it returns false. The points of eight collisions are evaluated together.
+// Calls visit(distance, density, rate) until it returns false, with the rate of collisions per unit of length: the
+// majorant at least, and `least` on the way within the bounds. The points of eight collisions are evaluated together.
 template <class Visit>
-void VaryingMedium::for_each_tentative_collision(const Way& way, Sampler& sampler, Visit&& visit) const {
+void VaryingMedium::for_each_tentative_collision(const Way& way, Sampler& sampler, float least, Visit&& visit) const {
     const auto [from, to] = within(density_.bounds(), way);
     if (!(majorant_ > 0.0f) || !(from < to)) return;
+    const float rate = std::max(majorant_, least / (to - from));
     float t = from;
     for (int collisions = 0; collisions < most_collisions;) {
         BatchOfFloats at;
         std::size_t count = 0;
         while (count < batch_size && t < to) {
-            t -= std::log1p(-sampler.next()) / majorant_;
+            t -= std::log1p(-sampler.next()) / rate;
             if (t < to) at[count++] = t;
         }
         if (count == 0) return;
         for (std::size_t i = count; i < batch_size; ++i) at[i] = at[0];
         const BatchOfFloats density = density_.along(way.origin, way.direction, at);
         for (std::size_t i = 0; i < count; ++i)
-            if (!visit(at[i], density[i])) return;
+            if (!visit(at[i], density[i], rate)) return;
         collisions += static_cast<int>(count);
     }
 }
 
 Passage VaryingMedium::pass(const Way& way, Sampler& sampler) const {
     const ScatteringCoefficients coefficients = coefficients_.for_light(way.single);
-    const glm::vec3 share = coefficients.extinction() / majorant_, emitted = coefficients.emission / majorant_;
     Passage passage;
-    for_each_tentative_collision(way, sampler, [&](float, float density) {
-        passage.emitted += passage.left * emitted * density;
-        passage.left *= 1.0f - share * density;
+    for_each_tentative_collision(way, sampler, collisions_of_passage, [&](float, float density, float rate) {
+        passage.emitted += passage.left * coefficients.emission * (density / rate);
+        passage.left *= 1.0f - coefficients.extinction() * (density / rate);
         return passage.left != glm::vec3(0.0f);
     });
     return passage;
@@ -74,7 +79,7 @@ Flight VaryingMedium::fly(const Way& way, const glm::vec3& throughput, Sampler& 
     // No wavelength has more than the densest channel, so the majorant is one for each.
     const ScatteringCoefficients coefficients = coefficients_.for_light(way.single);
     Flight flight;
-    for_each_tentative_collision(way, sampler, [&](float distance, float density) {
+    for_each_tentative_collision(way, sampler, 0.0f, [&](float distance, float density, float) {
         const glm::vec3 scattering = coefficients.scattering * density;
         const glm::vec3 null = glm::max(majorant_ - coefficients.extinction() * density, glm::vec3(0.0f));
         flight.emitted += flight.weight * coefficients.emission * (density / majorant_);

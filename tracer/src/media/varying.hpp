@@ -30,12 +30,16 @@ class VaryingMedium {
     Flight fly(const Way& way, const glm::vec3& throughput, Sampler& sampler) const;
     const HenyeyGreenstein& phase_function() const { return coefficients_.phase_function; }
     const ScatteringCoefficients& coefficients() const { return coefficients_; }
+    /// The share of the coefficients at eight points.
+    BatchOfFloats density_at(const BatchOfFloats& x, const BatchOfFloats& y, const BatchOfFloats& z) const {
+        return density_.at(x, y, z);
+    }
     /// A box outside of which there is nothing of it.
     const Bounds& bounds() const { return density_.bounds(); }
 
   private:
     template <class Visit>
-    void for_each_tentative_collision(const Way& way, Sampler& sampler, Visit&& visit) const;
+    void for_each_tentative_collision(const Way& way, Sampler& sampler, float least, Visit&& visit) const;
 
     ScatteringCoefficients coefficients_;
     Density density_;

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <array>
+#include <numbers>
+#include <optional>
 
 #include "image/luminance.hpp"
 #include "phasetree/trace/tracer.hpp"
@@ -12,11 +14,9 @@ namespace {
 // More balls aim better, and choosing among them takes longer. Halving the boxes doubles their number along a rod that
 // is thinner than they are, and quadruples it on a surface. A growth below 3 counts as a rod, which its balls fill the
 // better the smaller they are.
-constexpr std::size_t most_boxes = 64, most_boxes_of_rod = 512;
+constexpr std::size_t most_boxes = 16, most_boxes_of_rod = 128;
 constexpr std::size_t growth_of_rod = 3;
 constexpr float finest = 1e-4f;  // of the object's diagonal
-
-constexpr float least_share = 1.0f / 32;
 
 std::array<Bounds, 8> eighths(const Bounds& box) {
     std::array<Bounds, 8> parts;
@@ -25,6 +25,28 @@ std::array<Bounds, 8> eighths(const Bounds& box) {
         parts[static_cast<std::size_t>(i)] = {glm::min(corner, centre), glm::max(corner, centre)};
     }
     return parts;
+}
+
+// The centres of a box's eighths.
+struct EightPoints {
+    BatchOfFloats x, y, z;
+
+    explicit EightPoints(const Bounds& box) {
+        const std::array<Bounds, 8> parts = eighths(box);
+        static_assert(batch_size == parts.size());
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            const glm::vec3 centre = parts[i].centre();
+            x[i] = centre.x;
+            y[i] = centre.y;
+            z[i] = centre.z;
+        }
+    }
+    glm::vec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+};
+
+// No point of a box is farther from its centre. Rounding must not lose a surface that passes through a corner.
+float farthest(const Bounds& box) {
+    return 1.001f * 0.5f * box.diagonal();
 }
 
 enum class Counts { surface_alone, inside_too };
@@ -55,24 +77,19 @@ class PhaseFinder {
         }
     }
 
-  private:
-    void add_eighths(const Bounds& box, Phase phase, Counts counts, std::vector<Bounds>& kept) {
+    // φ at the centres of a box's eighths.
+    BatchOfFloats distances(const EightPoints& at, Phase phase) {
         const auto& outputs = evaluator_.program().outputs;
         const auto output = std::ranges::find(outputs, phase, &Output::phase);
-        if (output == outputs.end()) return;
+        evaluator_.evaluate(at.x, at.y, at.z, values_, Evaluator::thread_workspace());
+        return values_[static_cast<std::size_t>(output - outputs.begin())];
+    }
+
+  private:
+    void add_eighths(const Bounds& box, Phase phase, Counts counts, std::vector<Bounds>& kept) {
         const std::array<Bounds, 8> parts = eighths(box);
-        static_assert(batch_size == parts.size());
-        BatchOfFloats x, y, z;
-        for (std::size_t i = 0; i < parts.size(); ++i) {
-            const glm::vec3 centre = parts[i].centre();
-            x[i] = centre.x;
-            y[i] = centre.y;
-            z[i] = centre.z;
-        }
-        evaluator_.evaluate(x, y, z, values_, Evaluator::thread_workspace());
-        const BatchOfFloats& distance = values_[static_cast<std::size_t>(output - outputs.begin())];
-        // Rounding must not lose a surface that passes through a corner.
-        const float radius = 1.001f * 0.5f * parts.front().diagonal();
+        const BatchOfFloats distance = distances(EightPoints(box), phase);
+        const float radius = farthest(parts.front());
         for (std::size_t i = 0; i < parts.size(); ++i)
             if (distance[i] <= radius && (counts == Counts::inside_too || distance[i] >= -radius))
                 kept.push_back(parts[i]);
@@ -83,21 +100,68 @@ class PhaseFinder {
     std::vector<BatchOfFloats> values_;
 };
 
-// A medium as dense as it gets, along the mean way through the box's ball, which is 4/3 of the radius, or as far as one
-// can see in it.
-float luminance_in(const Bounds& box, const Medium& medium) {
-    const float through = 4.0f / 3 * 0.5f * box.diagonal();
-    return std::visit(
-        [&]<class Kind>(const Kind& kind) {
-            if constexpr (ScatteringMediumKind<Kind>) {
-                const ScatteringCoefficients& c = kind.coefficients();
-                return luminance(c.emission / glm::max(c.extinction(), 1.0f / through));
-            } else {
-                return 0.0f;
+// How bright the ball around a box is, by 64 places in it.
+class Brightness {
+  public:
+    Brightness(PhaseFinder& finder, Phase phase, const Material& material)
+        : finder_(finder), phase_(phase), material_(material) {}
+
+    float operator()(const Bounds& box) const {
+        const float brightness = std::visit([&](const auto& kind) { return of(kind, box); }, material_);
+        return std::max(brightness, least_brightness * most(box));
+    }
+
+  private:
+    // An even surface across the box is near half of the places. What is near fewer, such as a rod, fills less of it.
+    float of(const Glowing& glowing, const Bounds& box) const {
+        constexpr float places_near_even_surface = 32;
+        float near_surface = 0, sum = 0;
+        for (const Bounds& eighth : eighths(box)) {
+            const EightPoints at(eighth);
+            const BatchOfFloats distance = finder_.distances(at, phase_);
+            const float radius = farthest(eighths(eighth).front());
+            for (std::size_t i = 0; i < batch_size; ++i) {
+                if (!(std::abs(distance[i]) <= radius)) continue;
+                ++near_surface;
+                sum += luminance(color_at(glowing.light, {at[i], {0, 0, 1}, std::nullopt}));
             }
-        },
-        medium);
-}
+        }
+        return glowing.radiance * sum / std::max(near_surface, places_near_even_surface);
+    }
+    // What the medium in the box sends in one direction, if it absorbs nothing, over the ball's cross section; but no
+    // more than a deep medium.
+    float of(const Clear& clear, const Bounds& box) const {
+        float inside = 0;
+        for (const Bounds& eighth : eighths(box)) {
+            const EightPoints at(eighth);
+            const BatchOfFloats distance = finder_.distances(at, phase_);
+            const auto* varying = std::get_if<VaryingMedium>(&clear.interior);
+            const BatchOfFloats density = varying ? varying->density_at(at.x, at.y, at.z) : BatchOfFloats{};
+            for (std::size_t i = 0; i < batch_size; ++i)
+                if (distance[i] < 0.0f) inside += (varying ? density[i] : 1.0f) / 64;
+        }
+        const glm::vec3 extent = box.extent();
+        const float volume = extent.x * extent.y * extent.z * inside, radius = 0.5f * box.diagonal();
+        const float through = volume / (std::numbers::pi_v<float> * radius * radius);
+        const glm::vec3 seen = glm::min(glm::vec3(through), 1.0f / glm::max(extinction(clear.interior), 1e-30f));
+        return luminance(emission(clear.interior) * seen);
+    }
+    template <class Dark>
+    float of(const Dark&, const Bounds&) const {
+        return 0.0f;
+    }
+
+    // How bright it is if all of the box shines.
+    float most(const Bounds& box) const {
+        if (const Glowing* glowing = std::get_if<Glowing>(&material_)) return glowing->radiance;
+        const Medium& medium = std::get<Clear>(material_).interior;
+        return luminance(emission(medium) / glm::max(extinction(medium), 1.0f / box.diagonal()));
+    }
+
+    PhaseFinder& finder_;
+    Phase phase_;
+    const Material& material_;
+};
 
 // Where it shines: outside of this box there is nothing of it.
 Bounds bounds_of_light(const Material& material) {
@@ -106,23 +170,7 @@ Bounds bounds_of_light(const Material& material) {
     return varying ? varying->bounds() : Bounds::everything();
 }
 
-// The surface in a box is looked at in its centre and halfway to its corners.
-float luminance_in(const Bounds& box, const Material& of_phase) {
-    if (const Clear* clear = std::get_if<Clear>(&of_phase)) return luminance_in(box, clear->interior);
-    const auto& material = std::get<Glowing>(of_phase);
-    const auto place_at = [](const glm::vec3& p) { return TexturePoint{p, {0, 0, 1}, std::nullopt}; };
-    std::vector<TexturePoint> places{place_at(box.centre())};
-    for (int i = 0; i < 8; ++i) places.push_back(place_at(0.5f * (box.centre() + box.corner(i))));
-    return luminance_at(places, material);
-}
-
 }  // namespace
-
-float luminance_at(std::span<const TexturePoint> places, const Glowing& material) {
-    float sum = 0;
-    for (const TexturePoint& place : places) sum += luminance(color_at(material.light, place));
-    return material.radiance * std::max(sum / static_cast<float>(places.size()), least_share);
-}
 
 std::vector<ShiningPart> parts_of_phases(const Phased& tree, std::span<const Material> materials) {
     const PhaseSet present = phases(tree);
@@ -133,8 +181,9 @@ std::vector<ShiningPart> parts_of_phases(const Phased& tree, std::span<const Mat
         if (!shines(materials[i]) || !present.contains(phase)) continue;
         if (!finder) finder.emplace(tree);
         const Counts counts = glows(materials[i]) ? Counts::surface_alone : Counts::inside_too;
+        const Brightness brightness(*finder, phase, materials[i]);
         for (const Bounds& box : finder->boxes_of(phase, bounds_of_light(materials[i]), counts))
-            parts.push_back(part_in(box, luminance_in(box, materials[i])));
+            parts.push_back(part_in(box, brightness(box)));
     }
     return parts;
 }

@@ -26,14 +26,14 @@ struct ShiningPart {
     float luminance;  ///< roughly that of the radiance which comes from there
 };
 
+/// However little of a part seems to shine at the places that are looked at, it counts as at least this share of what
+/// may come from there at most.
+inline constexpr float least_brightness = 1.0f / 32;
+
 /// A ball around a box, of something with this luminance.
 inline ShiningPart part_in(const Bounds& box, float luminance) {
     return {{box.centre(), 0.5f * box.diagonal()}, luminance};
 }
-
-/// Roughly the luminance of a surface, by its texture at some of its places. However dark these are, it is not less
-/// than a small share of the material's radiance.
-float luminance_at(std::span<const TexturePoint> places, const Glowing& material);
 
 /// Of the phases whose materials, by phase, shine. Throws ModelError for a tree that cannot be traced.
 std::vector<ShiningPart> parts_of_phases(const Phased& tree, std::span<const Material> materials);
