@@ -133,7 +133,7 @@ TEST_CASE("within walls that glow with what they do not reflect everything is as
 }
 
 TEST_CASE("shadow rays and directions find the same light of what glows") {
-    const double significance = sidak(1e-4, 10);
+    const double significance = sidak(1e-4, 11);
     const glm::vec3 origin(-2, -2, 0.1f), direction(1.9f, 1.9f, -0.1f);
     const std::string torus = R"({"torus": {"major": 0.5, "minor": 0.1}})";
     SUBCASE("a ring") {
@@ -192,7 +192,7 @@ TEST_CASE("shadow rays and directions find the same light of what glows") {
                 floor_of + ", " + dark),
             origin, direction, 60'000, significance);
     }
-    SUBCASE("embers in smoke that glows, beside a point light") {
+    SUBCASE("embers in smoke that glows") {
         check_against_directions(
             scene_of(
                 glowing() +
@@ -200,6 +200,15 @@ TEST_CASE("shadow rays and directions find the same light of what glows") {
                 R"({"over": [)" + hot(R"({"sphere": {"radius": 0.2}})", "[0, 0, 1]") +
                     R"(, {"set": {"phase": "smoke", "of": {"translate": {"by": [0, 0, 1], "of": {"box": {"size": [1.5, 1.5, 1]}}}}}}]})",
                 floor_of + ", " + dark),
+            origin, direction, 60'000, significance);
+    }
+    SUBCASE("a flame below a plate, which hides a point light") {
+        check_against_directions(
+            scene_of(
+                R"("flame": {"clear": {)" + flame + R"(}}, "plate": {"diffuse": {"color": [0.3, 0.3, 0.3]}})",
+                R"({"over": [{"set": {"phase": "flame", "of": {"translate": {"by": [0, 0, 1], "of": {"sphere": {"radius": 0.4}}}}}},
+                                  {"set": {"phase": "plate", "of": {"translate": {"by": [0, 0, 1.8], "of": {"box": {"size": [3, 3, 0.1]}}}}}}]})",
+                floor_of + R"(, "lights": [{"point": {"position": [-0.1, -0.1, 5], "intensity": 50}}])"),
             origin, direction, 60'000, significance);
     }
     SUBCASE("a mesh") {
