@@ -27,6 +27,15 @@ TEST_CASE("a page shows each kind of material as what it is") {
         look_of_material(R"({"clear": {"ior": 1.3, "albedo": [0.9, 0.9, 0.9], "mean_free_path": [1, 1, 1]}})");
     CHECK(milk.kind == Look::diffuse);
     CHECK(milk.color.x > 0.2f);
+    // A little haze hides nothing.
+    const Look ice =
+        look_of_material(R"({"clear": {"ior": 1.3, "absorption": [1, 0, 0], "scattering": [0.1, 0.1, 0.1]}})");
+    CHECK(ice.kind == Look::clear);
+    CHECK(ice.absorption.x == doctest::Approx(1.1));
+    const Look flame = look_of_material(R"({"clear": {"ior": 1, "absorption": [2, 2, 2], "emission": [40, 20, 4]}})");
+    CHECK(flame.kind == Look::glowing);
+    CHECK(flame.color.x == doctest::Approx(3));
+    CHECK(flame.color.z == doctest::Approx(0.3));
     const Look paper = look_of_material(R"({"diffuse": {"color": [0.1, 0.2, 0.3]}})");
     CHECK(paper.kind == Look::diffuse);
     CHECK(paper.color.z == doctest::Approx(0.3));

@@ -96,15 +96,28 @@ glm::vec3 reflectance(const Conductor& c) {
     return (less * less + k2) / (more * more + k2);
 }
 
-// What is in a clear phase: what scatters looks like a diffuse surface.
-void show(const Medium& interior, Look& look) {
+// However strong a light is, its colour should be seen.
+void show_light(const glm::vec3& light, Look& look) {
+    look.kind = Look::glowing;
+    look.color = light * std::min(1.f, 3.f / std::max({light.x, light.y, light.z, 1e-6f}));
+}
+
+// What is in a clear phase: a flame glows, and what scatters looks like a diffuse surface, but for what is so thin that
+// most light passes half of the object.
+void show(const Medium& interior, float half_size, Look& look) {
+    constexpr float thin = 0.5f;
+    look.absorption = extinction(interior);
     std::visit(
         [&](const auto& medium) {
             if constexpr (requires { medium.coefficients(); }) {
-                look.kind = Look::diffuse;
-                look.color = reflectance(medium.coefficients());
-            } else {
-                look.absorption = medium.absorption;
+                const ScatteringCoefficients& c = medium.coefficients();
+                const float scattered = std::max({c.scattering.x, c.scattering.y, c.scattering.z}) * half_size;
+                if (shines(interior) && !c.scatters()) {
+                    show_light(c.emission / glm::max(c.extinction(), glm::vec3(1e-6f)), look);
+                } else if (scattered > thin) {
+                    look.kind = Look::diffuse;
+                    look.color = reflectance(c);
+                }
             }
         },
         interior);
@@ -118,15 +131,12 @@ Look look_of(const std::string& name, const Material& material, const Bounds& bo
         [&]<class Kind>(const Kind& m) {
             if constexpr (requires { m.interior; }) {
                 look.ior = m.ior;
-                show(m.interior, look);
+                show(m.interior, 0.5f * bounds.diagonal(), look);
             } else if constexpr (requires { m.eta; }) {
                 look.kind = Look::metal;
                 look.color = reflectance(m);
             } else if constexpr (requires { m.light; }) {
-                look.kind = Look::glowing;
-                // However strong it is, its colour should be seen.
-                const glm::vec3 light = m.radiance * mean(m.light, bounds);
-                look.color = light * std::min(1.f, 3.f / std::max({light.x, light.y, light.z, 1e-6f}));
+                show_light(m.radiance * mean(m.light, bounds), look);
             } else {
                 look.kind = requires {
                     m.ior;
