@@ -212,6 +212,17 @@ TEST_CASE("clustered lamps give the irradiance that all of them give together") 
     }));
 }
 
+TEST_CASE("a lamp that is added to a tree of any size is chosen as the others are") {
+    for (const int count : {1, 2, 40}) {
+        CAPTURE(count);
+        Lights lights;
+        for (int i = 0; i < count; ++i) lights.add(SphereLight({static_cast<float>(i), 0, 2}, 0.3f, glm::vec3(1)));
+        lights.cluster_lamps();
+        lights.add(SphereLight({0, 5, 0}, 0.5f, glm::vec3(3)));
+        CHECK(lights.pdf(glm::vec3(0), {0, 1, 0}) > 0.0f);
+    }
+}
+
 TEST_CASE("clustered lamps: rays see the same as if each is asked") {
     const Lights one_by_one = lamps_of_all_kinds(500, 6);
     Lights lights = one_by_one;

@@ -353,6 +353,21 @@ TEST_CASE("a mesh of two triangles is divided, and collapsed triangles are no tr
     CHECK(parts_of_mesh(mesh).empty());
 }
 
+TEST_CASE("huge and strong flames have balls with finite numbers") {
+    for (const char* const shape : {R"({"shell": {"half_thickness": 1e9, "of": {"sphere": {"radius": 1e13}}}})",
+                                    R"({"sphere": {"radius": 1e13}})", R"({"sphere": {"radius": 100}})"}) {
+        CAPTURE(shape);
+        const Scene scene =
+            scene_of(R"("flame": {"clear": {"ior": 1, "emission": [1e38, 1, 1], "absorption": [1, 1, 1]}})",
+                     std::string(R"({"set": {"phase": "flame", "of": )") + shape + "}}", dark);
+        CHECK(!scene.lights.glowing().empty());
+        for (const GlowingPart& part : scene.lights.glowing()) {
+            CHECK(std::isfinite(part.luminance()));
+            CHECK(part.luminance() > 0);
+        }
+    }
+}
+
 TEST_CASE("a scene that nothing lights does not shine") {
     const std::string ball = R"({"set": {"phase": "stone", "of": {"sphere": {"radius": 1}}}})";
     const std::string phases = R"("stone": {"diffuse": {"color": [0.5, 0.5, 0.5]}}, )";

@@ -58,13 +58,14 @@ Arrival trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSa
         if (!light && is_glowing)
             light = Lights::Emission{distance, blocked->emitted->radiance, OfGlowingSurface{blocked->emitted->group}};
         const bool brings_emission = shines(medium) && !sampled.is_of_point_light();
-        if (!light && !surface && !brings_emission) return arrival;
+        const bool is_dark = light ? light->radiance == glm::vec3(0.0f) : !surface;
+        if (is_dark && !brings_emission) return arrival;
         const Passage passage =
             pass(medium, {ray.origin, ray.direction, light ? light->distance : distance, single}, context.sampler);
         const glm::vec3 response = single && !was_dispersed ? single->response : glm::vec3(1.0f);
         if (brings_emission) arrival.from_media += throughput * passage.emitted * response;
-        if (!light && !surface) return arrival;
         throughput *= passage.left;
+        if (is_dark || throughput == glm::vec3(0.0f)) return arrival;
         if (light) {
             throughput *= response;
             arrival.light = Arrival::FromLight{throughput * for_light(light->radiance, single), light->source,
@@ -81,7 +82,7 @@ Arrival trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSa
         }
         if (sampled.is_of_point_light() || !is_link(bsdf, *surface) || ++length > longest_chain) return arrival;
         const Frame frame(surface->normal);
-        // A smooth interface has no lobe in which a direction would be chosen by the two numbers.
+        // A smooth interface has no lobe to choose a direction in, so the two numbers do not matter.
         const auto next = bsdf.sample(frame.to_local(-ray.direction), context.sampler.next(), glm::vec2(0.0f));
         if (!next) return arrival;
         throughput *= for_light(next->weight, single);

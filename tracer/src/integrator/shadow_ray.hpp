@@ -26,13 +26,14 @@ struct PathWavelength {
 
 /// What a shadow ray finds.
 struct Arrival {
-    /// The radiance that arrives from a light, and from which, in which direction in the end.
+    /// The radiance that arrives, the light that it is of, and the direction of the last ray.
     struct FromLight {
         glm::vec3 radiance;
         LightSource source;
         glm::vec3 direction;
         /// line_density() of the chain's last ray; 0 if photons come by no interface, or by too many. Of a point light
-        /// EmittedPhoton::line_density over n² d², with the index n at the start and the distance d (rough_chain.hpp).
+        /// it is EmittedPhoton::line_density / (n² d²), with the index n at the start and the distance d
+        /// (rough_chain.hpp).
         float line_density;
         float to_boundary;  ///< how far the first boundary is from the start; infinity if the light is before it
     };
@@ -44,13 +45,13 @@ struct Arrival {
 
 /// One random sample of E (path.hpp) along a shadow ray: the emission at the end of a chain of smooth clear interfaces,
 /// each of which reflects or refracts the ray at random, times the transmittance of the media and the weights of the
-/// interfaces. Up to the first boundary that it meets the ray goes straight to the light
-/// that was sampled, which is known; after that it is asked what light it sees. Of a shadow ray that is dispersed on
-/// its way the radiance includes the response to its wavelength; a path that was dispersed before multiplies by that
-/// itself, as for all light that it finds. A point light is seen by the straight ray alone, through boundaries that
-/// bend nothing: what it sends through an interface that bends light is left to photons, because no direction that is
-/// sampled here leads through the interface to a point. The ray may start at a rough interface that
-/// photons pass on their way to what they light: `interfaces_before` counts it and the interfaces between the two.
+/// interfaces. Up to the first boundary that it meets the ray goes straight to the light that was sampled, which is
+/// known; after that it is asked what light it sees. Of a shadow ray that is dispersed on its way the radiance includes
+/// the response to its wavelength; a path that was dispersed before multiplies by that itself, as for all light that it
+/// finds. A point light is seen by the straight ray alone, through boundaries that bend nothing: what it sends through
+/// an interface that bends light is left to photons, because no direction that is sampled here leads through the
+/// interface to a point. The ray may start at a rough interface that photons pass on their way to a lit place:
+/// `interfaces_before` counts that interface and those from there to the lit place.
 Arrival trace_shadow_ray(const ShadowRayContext&, Ray ray, const LightSample& sampled, const PathWavelength&,
                          int interfaces_before);
 

@@ -143,7 +143,7 @@ void LightTree::roots_are_all_lamps() {
 }
 
 void LightTree::add(LightNode::Kind kind) {
-    if (!clusters_.empty()) {
+    if (!parent_.empty()) {
         clusters_.clear();
         parent_.clear();
         roots_are_all_lamps();

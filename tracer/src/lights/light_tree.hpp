@@ -97,7 +97,8 @@ class LightTree {
     };
     class Builder;
 
-    /// What clusters give is an estimate, so next to one no member that gives something is chosen less often than this.
+    /// If either member is a cluster, of which only an estimate is known, no member that gives something is chosen with
+    /// a smaller probability than this.
     static constexpr float least_probability = 1.0f / 256;
 
     /// The probability of a cluster's first member; none if what both give is 0 or more than a float holds.
@@ -114,7 +115,7 @@ class LightTree {
         const Step* before = nullptr;  ///< the cluster that it is a member of; none of a root
         LightNode node{};
         mutable std::optional<float> probability{};                       ///< with which it is reached from the root
-        mutable std::optional<std::optional<float>> first_probability{};  ///< of a cluster, as the function has it
+        mutable std::optional<std::optional<float>> first_probability{};  ///< of a cluster; unset until it is computed
     };
     template <class Given>
     float probability_of(const Step& step, const Given& given) const;

@@ -210,7 +210,7 @@ float Lights::with_others(float density, const std::optional<Chosen>& chosen, co
     density += of_portals / total;
     const auto given = [&](const LightNode& node) { return received_from(node, at); };
     tree_.for_each_maybe_hit_with_path(at.p, direction, given, [&](const LightNode& lamp, const auto& path) {
-        // `pdf` is the density of the lamp's own sampling, computed only if the lamp may be chosen.
+        // `pdf` is the density of the lamp's own sampling.
         const auto add = [&](const auto& pdf) {
             if (chosen && chosen->lamp == lamp) return;
             const auto [root, probability] = path();
@@ -218,6 +218,7 @@ float Lights::with_others(float density, const std::optional<Chosen>& chosen, co
             if (weight * probability > 0.0f) density += weight / total * probability * pdf();
         };
         if (lamp.kind == LightNode::Kind::glowing) {
+            if (chosen && chosen->lamp == lamp) return;
             if (const float pdf = glowing_[lamp.number].pdf(at.p, direction); pdf > 0.0f) add([&] { return pdf; });
             return;
         }
@@ -363,6 +364,7 @@ Lights::Emission Lights::emission_of(std::uint32_t area_light, float distance) c
 
 std::optional<Lights::Emission> Lights::area_light_seen(const glm::vec3& origin, const glm::vec3& direction,
                                                         float geometry, bool camera_ray) const {
+    if (area_.empty()) return std::nullopt;
     std::optional<Emission> nearest;
     const auto farthest = [&] { return nearest ? nearest->distance : geometry; };
     tree_.for_each_maybe_hit(origin, direction, farthest, [&](const LightNode& lamp) {

@@ -9,11 +9,12 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Where a field without bounds lets a ray go on through nothing for ever, it is let go after so many collisions.
+// After so many collisions the rest of a way counts as empty. It ends ways without end through a field without bounds,
+// and those that are longer than so many mean free paths of the densest place.
 constexpr int most_collisions = 1 << 16;
 
-// So many collisions a passage has in the mean at least. Eight are evaluated in the time of one, and more of them
-// estimate what is left and what shines with less noise.
+// A passage has at least this many tentative collisions on average. Eight are evaluated in the time of one, and more of
+// them estimate what is left and what shines with less noise.
 constexpr float collisions_of_passage = 5;
 
 // The part of a way within a box: from the first distance to the second, which is not greater if there is none.
@@ -40,20 +41,22 @@ VaryingMedium::VaryingMedium(const ScatteringCoefficients& coefficients, const D
     majorant_ = std::max({extinction.x, extinction.y, extinction.z});
 }
 
-// Calls visit(distance, density, rate) until it returns false, with the rate of collisions per unit of length: the
-// majorant at least, and `least` on the way within the bounds. The points of eight collisions are evaluated together.
+// Calls visit(distance, density, rate) until it returns false. `rate` is that of collisions per unit of length: at
+// least the majorant, and high enough for `least` collisions on average within the bounds. The points of eight
+// collisions are evaluated together.
 template <class Visit>
 void VaryingMedium::for_each_tentative_collision(const Way& way, Sampler& sampler, float least, Visit&& visit) const {
     const auto [from, to] = within(density_.bounds(), way);
     if (!(majorant_ > 0.0f) || !(from < to)) return;
-    const float rate = std::max(majorant_, least / (to - from));
-    float t = from;
+    const float length = to - from, rate = std::max(majorant_, std::min(least / length, 1e30f));
+    // It is counted from where the bounds begin: far away, steps may be less than floats resolve.
+    float gone = 0.0f;
     for (int collisions = 0; collisions < most_collisions;) {
         BatchOfFloats at;
         std::size_t count = 0;
-        while (count < batch_size && t < to) {
-            t -= std::log1p(-sampler.next()) / rate;
-            if (t < to) at[count++] = t;
+        while (count < batch_size && gone < length) {
+            gone -= std::log1p(-sampler.next()) / rate;
+            if (gone < length) at[count++] = from + gone;
         }
         if (count == 0) return;
         for (std::size_t i = count; i < batch_size; ++i) at[i] = at[0];
@@ -66,10 +69,11 @@ void VaryingMedium::for_each_tentative_collision(const Way& way, Sampler& sample
 
 Passage VaryingMedium::pass(const Way& way, Sampler& sampler) const {
     const ScatteringCoefficients coefficients = coefficients_.for_light(way.single);
+    const glm::vec3 extinction = coefficients.extinction();
     Passage passage;
     for_each_tentative_collision(way, sampler, collisions_of_passage, [&](float, float density, float rate) {
         passage.emitted += passage.left * coefficients.emission * (density / rate);
-        passage.left *= 1.0f - coefficients.extinction() * (density / rate);
+        passage.left *= 1.0f - extinction * (density / rate);
         return passage.left != glm::vec3(0.0f);
     });
     return passage;

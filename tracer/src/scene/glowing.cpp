@@ -14,17 +14,19 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Of a scene with more copies of all objects none is looked at: there may be billions.
-constexpr std::uint64_t most_copies = 10'000'000;
-// If more copies shine than that, none has balls.
+// With more copies of all objects than this, shining or not, no object has balls: to look for those that shine would
+// take too long.
+constexpr std::uint64_t most_copies_searched = 10'000'000;
+// With more copies that shine than this, none has balls.
 constexpr std::size_t most_shining_copies = 10'000;
-// If they would have more balls than that in all, each copy of the object that has most of them has but one.
+// While there are more balls than this, the object with the most is reduced to one ball a copy.
 constexpr std::size_t most_parts = 50'000;
 
 // As the shutter opens, halfway, and as it closes.
 using Places = std::array<Transform, 3>;
 
-// A ball around a ball in all its places; none if floats do not hold it.
+// A ball around a ball in all three places; between them it may leave that. None if floats do not hold it, or if it has
+// no radius.
 std::optional<BoundingSphere> around(const BoundingSphere& ball, const Places& places) {
     Bounds centres;
     double stretch = 0;
@@ -69,7 +71,7 @@ std::vector<ShiningObject> shining_objects(const Scene& scene) {
     for (std::size_t i = 0; i < objects.size(); ++i) try {
             objects[i].parts = parts_of_phases(placed.objects[i].tree, scene.materials);
         } catch (const ModelError&) {
-            // It cannot be traced, which is said where that is tried.
+            // It cannot be traced; the world says so once it is built.
         }
     std::size_t shining = 0;
     for (std::size_t moment = 0; moment < Places().size(); ++moment)
@@ -87,7 +89,7 @@ std::vector<ShiningObject> shining_objects(const Scene& scene) {
 }
 
 void add_objects(Scene& scene) {
-    if (scene.placed.copies() > most_copies) return;
+    if (scene.placed.copies() > most_copies_searched) return;
     std::vector<ShiningObject> objects = shining_objects(scene);
     const auto in_all = [&] {
         std::size_t sum = 0;

@@ -12,8 +12,8 @@ namespace phasetree::tracer {
 namespace {
 
 // More balls aim better, and choosing among them takes longer. Halving the boxes doubles their number along a rod that
-// is thinner than they are, and quadruples it on a surface. A growth below 3 counts as a rod, which its balls fill the
-// better the smaller they are.
+// is thinner than they are, and quadruples it on a surface. Growth below 3 counts as a rod: the smaller the balls, the
+// more of each the rod fills.
 constexpr std::size_t most_boxes = 16, most_boxes_of_rod = 128;
 constexpr std::size_t growth_of_rod = 3;
 constexpr float finest = 1e-4f;  // of the object's diagonal
@@ -44,7 +44,8 @@ struct EightPoints {
     glm::vec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
 };
 
-// No point of a box is farther from its centre. Rounding must not lose a surface that passes through a corner.
+// No point of the box is farther than this from its centre. The margin keeps rounding from losing a surface that passes
+// through a corner.
 float farthest(const Bounds& box) {
     return 1.001f * 0.5f * box.diagonal();
 }
@@ -59,7 +60,7 @@ class PhaseFinder {
           evaluator_(record(tree)),
           values_(evaluator_.program().outputs.size()) {}
 
-    // Within a box; none if nothing is there that counts.
+    // Boxes that together cover what counts of the phase in `within`; none if nothing does.
     std::vector<Bounds> boxes_of(Phase phase, const Bounds& within, Counts counts) {
         std::vector<Bounds> boxes{intersect(bounds_, within)};
         if (boxes.front().empty()) return {};
@@ -128,8 +129,8 @@ class Brightness {
         }
         return glowing.radiance * sum / std::max(near_surface, places_near_even_surface);
     }
-    // What the medium in the box sends in one direction, if it absorbs nothing, over the ball's cross section; but no
-    // more than a deep medium.
+    // The radiance that the medium in the box would send without absorption, averaged over the ball's cross section; at
+    // most that of an infinitely deep medium.
     float of(const Clear& clear, const Bounds& box) const {
         float inside = 0;
         for (const Bounds& eighth : eighths(box)) {
@@ -140,10 +141,13 @@ class Brightness {
             for (std::size_t i = 0; i < batch_size; ++i)
                 if (distance[i] < 0.0f) inside += (varying ? density[i] : 1.0f) / 64;
         }
-        const glm::vec3 extent = box.extent();
-        const float volume = extent.x * extent.y * extent.z * inside, radius = 0.5f * box.diagonal();
-        const float through = volume / (std::numbers::pi_v<float> * radius * radius);
-        const glm::vec3 seen = glm::min(glm::vec3(through), 1.0f / glm::max(extinction(clear.interior), 1e-30f));
+        // The volume of a large box is more than a float holds.
+        const glm::dvec3 extent(box.extent());
+        const double radius = 0.5 * static_cast<double>(box.diagonal());
+        const double through =
+            extent.x * extent.y * extent.z * static_cast<double>(inside) / (std::numbers::pi * radius * radius);
+        const glm::vec3 seen =
+            glm::min(glm::vec3(static_cast<float>(through)), 1.0f / glm::max(extinction(clear.interior), 1e-30f));
         return luminance(emission(clear.interior) * seen);
     }
     template <class Dark>

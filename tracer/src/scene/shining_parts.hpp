@@ -26,13 +26,14 @@ struct ShiningPart {
     float luminance;  ///< roughly that of the radiance which comes from there
 };
 
-/// However little of a part seems to shine at the places that are looked at, it counts as at least this share of what
-/// may come from there at most.
+/// A part is never rated below this share of the most that it could send, however little shines at the places that are
+/// looked at.
 inline constexpr float least_brightness = 1.0f / 32;
 
 /// A ball around a box, of something with this luminance.
 inline ShiningPart part_in(const Bounds& box, float luminance) {
-    return {{box.centre(), 0.5f * box.diagonal()}, luminance};
+    constexpr float most = 1e30f;  // products with it stay within single precision
+    return {{box.centre(), 0.5f * box.diagonal()}, luminance < most ? luminance : most};
 }
 
 /// Of the phases whose materials, by phase, shine. Throws ModelError for a tree that cannot be traced.
