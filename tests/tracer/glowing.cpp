@@ -133,7 +133,7 @@ TEST_CASE("within walls that glow with what they do not reflect everything is as
 }
 
 TEST_CASE("shadow rays and directions find the same light of what glows") {
-    const double significance = sidak(1e-4, 11);
+    const double significance = sidak(1e-4, 13);
     const glm::vec3 origin(-2, -2, 0.1f), direction(1.9f, 1.9f, -0.1f);
     const std::string torus = R"({"torus": {"major": 0.5, "minor": 0.1}})";
     SUBCASE("a ring") {
@@ -210,6 +210,24 @@ TEST_CASE("shadow rays and directions find the same light of what glows") {
                                   {"set": {"phase": "plate", "of": {"translate": {"by": [0, 0, 1.8], "of": {"box": {"size": [3, 3, 0.1]}}}}}}]})",
                 floor_of + R"(, "lights": [{"point": {"position": [-0.1, -0.1, 5], "intensity": 50}}])"),
             origin, direction, 60'000, significance);
+    }
+    const auto in_dispersing_glass = [&](const std::string& phase, const std::string& shape) {
+        return scene_of(
+            phase + R"(, "glass": {"clear": {"ior": 1.4, "abbe_number": 20}})",
+            R"({"over": [)" + shape +
+                R"(, {"set": {"phase": "glass", "of": {"translate": {"by": [0, 0, 1], "of": {"box": {"size": [3, 3, 1.2]}}}}}}]})",
+            floor_of + ", " + dark);
+    };
+    SUBCASE("a ring within glass that disperses its light") {
+        check_against_directions(in_dispersing_glass(glowing(), hot(torus, "[0, 0, 1]")), origin, direction, 250'000,
+                                 significance);
+    }
+    SUBCASE("a flame within glass that disperses its light") {
+        check_against_directions(
+            in_dispersing_glass(
+                R"("flame": {"clear": {"ior": 1.4, "emission": [16, 8, 4], "absorption": [0.5, 1, 2]}})",
+                R"({"set": {"phase": "flame", "of": {"translate": {"by": [0, 0, 1], "of": {"sphere": {"radius": 0.4}}}}}})"),
+            origin, direction, 250'000, significance);
     }
     SUBCASE("a mesh") {
         check_against_directions(
