@@ -16,8 +16,8 @@ using namespace phasetree::tracer::tests;
 namespace {
 
 // Some of everything: clear, rough, diffuse, textured, coated and metal phases, a mesh, lights near and far, a lens;
-// and caustics, if wanted.
-Scene everything(bool caustics = false) {
+// and caustics and a guide, if wanted.
+Scene everything(bool caustics = false, bool guiding = false) {
     return scene_of(
         R"("glass": {"clear": {"ior": 1.5, "absorption": [0.2, 0.1, 0.3]}}, "water": {"clear": {"ior": 1.33}},
            "frost": {"clear": {"ior": 1.4, "roughness": 0.2}}, "sand": {"diffuse": {"color": {"speckle": {"grain": 0.02}}}},
@@ -34,7 +34,7 @@ Scene everything(bool caustics = false) {
                       {"rectangle": {"centre": [-2, -2, 3], "target": [0, 0, 0], "width": 1, "height": 1, "radiance": [9, 8, 7]}}],
            "camera": {"position": [0.5, -4, 1.2], "look_at": [0, 0, -0.3], "fov": 40, "lens_radius": 0.05},
            "render": {"width": 37, "height": 29, "samples": 5, "seed": 3, "caustics": )") +
-            (caustics ? "true" : "false") + "}");
+            (caustics ? "true" : "false") + R"(, "guiding": )" + (guiding ? "true" : "false") + "}");
 }
 
 Image image_with(const World& world, const Scene& scene, int threads, std::optional<PixelRange> part = {}) {
@@ -89,8 +89,9 @@ TEST_CASE("any number of threads, any crop") {
     CHECK_FALSE(equal_bits(one, image_with(world, scene, 1)));
 }
 
-TEST_CASE("any number of threads, any crop, with photons") {
-    const Scene scene = everything(true);
+namespace {
+
+void check_threads_and_crop(const Scene& scene) {
     const World world(scene);
     const Image one = image_with(world, scene, 1);
     CHECK(equal_bits(one, image_with(world, scene, 3)));
@@ -101,8 +102,22 @@ TEST_CASE("any number of threads, any crop, with photons") {
         for (int x = part.x0; x < part.x1; ++x)
             different += !equal_bits(crop.pixels[part.index(x, y)], one.pixels[scene.film.whole().index(x, y)]);
     CHECK(different == 0);
-    // Photons did something.
+    // Photons and guides do something.
     CHECK_FALSE(equal_bits(one, image_with(world, everything(), 1)));
+}
+
+}  // namespace
+
+TEST_CASE("any number of threads, any crop, with photons") {
+    check_threads_and_crop(everything(true));
+}
+
+TEST_CASE("any number of threads, any crop, with a guide") {
+    check_threads_and_crop(everything(false, true));
+}
+
+TEST_CASE("any number of threads, any crop, with photons and a guide") {
+    check_threads_and_crop(everything(true, true));
 }
 
 TEST_CASE("any instruction set") {

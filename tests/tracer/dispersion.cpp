@@ -180,7 +180,7 @@ TEST_CASE("photons of one wavelength: the ground of a pool of flint glass under 
         REQUIRE(map.has_value());
         Sampler sampler(static_cast<std::uint32_t>(pass), 0, 0, 1);
         const glm::vec3 radiance =
-            trace_path(world, scene, ray, sampler, counters, nullptr, {&caustics.emission(), &*map});
+            trace_path(world, scene, ray, sampler, counters, nullptr, {.photons = {&caustics.emission(), &*map}});
         for (std::size_t c = 0; c < 3; ++c) moments[c].add(static_cast<double>(radiance[static_cast<int>(c)]));
     }
     const double significance = sidak(1e-4, 3);

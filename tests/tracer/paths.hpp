@@ -37,14 +37,15 @@ inline Image image_of(const World& world, const Scene& scene) {
 // Radiance along a ray, per colour channel: `count` independent paths (each the first sample of a pixel of its own, so
 // that nothing is stratified and a z-test applies).
 inline std::array<Moments, 3> radiance_along(const World& world, const Scene& scene, const glm::vec3& origin,
-                                             const glm::vec3& direction, std::uint32_t count, std::uint32_t seed = 1) {
+                                             const glm::vec3& direction, std::uint32_t count, std::uint32_t seed = 1,
+                                             const PathHelp& help = {}) {
     const FlushSubnormals flush;
     std::array<Moments, 3> moments;
     PathCounters counters;
     const Ray ray{origin, glm::normalize(direction), world.geometry().label(origin), {}};
     for (std::uint32_t i = 0; i < count; ++i) {
         Sampler sampler(i & 0xffffu, i >> 16, 0, seed);
-        const glm::vec3 radiance = trace_path(world, scene, ray, sampler, counters);
+        const glm::vec3 radiance = trace_path(world, scene, ray, sampler, counters, nullptr, help);
         for (int c = 0; c < 3; ++c) moments[static_cast<std::size_t>(c)].add(static_cast<double>(radiance[c]));
     }
     return moments;

@@ -58,7 +58,8 @@ inline Moments with_photons(const Scene& scene, const glm::vec3& origin, const g
         for (std::uint32_t path = 0; path < paths_a_pass; ++path) {
             Sampler sampler(static_cast<std::uint32_t>(pass), path, 0, 1);
             sum += static_cast<double>(
-                trace_path(world, scene, ray, sampler, counters, nullptr, {&caustics.emission(), &*map}).x);
+                trace_path(world, scene, ray, sampler, counters, nullptr, {.photons = {&caustics.emission(), &*map}})
+                    .x);
         }
         moments.add(sum / paths_a_pass);
     }

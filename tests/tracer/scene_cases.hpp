@@ -204,7 +204,7 @@ inline void tell_settings(const Document& document, std::vector<float>& told) {
     for (const int i : {film.width, film.height, s.samples, s.max_depth}) told.push_back(static_cast<float>(i));
     told.push_back(static_cast<float>(s.seed));
     told.insert(told.end(), {s.exposure_ev, s.caustics ? 1.0f : 0.0f, s.photons, s.photon_radius});
-    told.push_back(s.noise);
+    told.insert(told.end(), {s.noise, s.guiding ? 1.0f : 0.0f});
     told.insert(told.end(), {s.shutter.x, s.shutter.y});
     told.push_back(static_cast<float>(s.view ? s.view->size() : 0));
 }

@@ -2918,7 +2918,7 @@ def camera(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np
     focus_at: In place of the distance: a point of the plane of focus. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
     """
 
-def image(width: int | None = ..., height: int | None = ..., frames_per_second: float | None = ..., shutter: Sequence[float] | np.ndarray | None = ..., samples: int | None = ..., noise: float | None = ..., seed: int | None = ..., max_depth: int | None = ..., caustics: bool | None = ..., photons: float | None = ..., photon_radius: float | None = ..., exposure: float | None = ..., view: str | Expression | None = ...) -> ImageSettings:
+def image(width: int | None = ..., height: int | None = ..., frames_per_second: float | None = ..., shutter: Sequence[float] | np.ndarray | None = ..., samples: int | None = ..., noise: float | None = ..., seed: int | None = ..., max_depth: int | None = ..., guiding: bool | None = ..., caustics: bool | None = ..., photons: float | None = ..., photon_radius: float | None = ..., exposure: float | None = ..., view: str | Expression | None = ...) -> ImageSettings:
     r"""How large the image is, and how it is made.
 
     width: Width of the image. (whole number in pixels; at least 1 and at most 32768; default 1024)
@@ -2929,6 +2929,7 @@ def image(width: int | None = ..., height: int | None = ..., frames_per_second: 
     noise: Pixels stop before that where their relative error is estimated to be at most this, after 32 samples at the earliest; 0 if none is to stop. (number; at least 0 and at most 1; default 0)
     seed: Another whole number gives other noise. (whole number; zero or more; default 0)
     max_depth: The most surfaces that a path meets. One between equal indices counts, too. (whole number; at least 1 and at most 1048576; default 65536)
+    guiding: Whether paths learn where light comes from before the first sample, so that half of them go there from diffuse surfaces. It pays where most light has been scattered several times, as in a room that is lit through a door from the next one. (true or false; default false)
     caustics: Whether photons look for the light that lamps, the sun and the bright parts of environment images throw through clear surfaces, curved or rough, onto other surfaces and into media that scatter and are alike throughout. They blur it by a pixel or two, less with more samples. (true or false; default false)
     photons: For caustics: photons for each pixel and sample. (number; at least 0 and at most 64; default 1)
     photon_radius: For caustics: how far around a point photons count as light on it, in the first pass. (number in pixels; at least 0.01 and at most 100; default 2)

@@ -231,17 +231,44 @@ Rendering rendered(const RenderOptions& options, const World& world, const Scene
     const ProgressOutput output = ProgressOutput::standard_error(options.quiet);
     std::optional<Progress> progress;
     std::optional<TimeProgress> time_progress;
-    if (job.deadline) {
-        time_progress.emplace(*job.deadline, output, "rendering");
-        job.advance = [&](std::uint64_t) { time_progress->tell(); };
-    } else {
-        progress.emplace(total, output);
-        job.advance = [&](std::uint64_t n) { progress->advance(n); };
-    }
+    std::uint64_t done_before = 0;  // of samples that need not be made, before there is a progress to tell
+    const auto begin = [&] {
+        if (job.deadline)
+            time_progress.emplace(*job.deadline, output, "rendering");
+        else
+            progress.emplace(total, output).advance(done_before);
+    };
+    std::optional<LateProgress> learning;
+    if (scene.settings.guiding && total > 0)
+        learning.emplace(output, "learning where light comes from");
+    else
+        begin();
+    job.learned = [&](double share) {
+        learning->tell(share);
+        if (share < 1) return;
+        learning.reset();
+        begin();
+    };
+    job.advance = [&](std::uint64_t n) {
+        if (progress)
+            progress->advance(n);
+        else if (time_progress)
+            time_progress->tell();
+        else
+            done_before += n;
+    };
     // While this lives, another thread saves the film, which has a lock.
     std::optional<Checkpoints> checkpoints;
     if (options.checkpoint) checkpoints.emplace(*options.checkpoint, options.checkpoint_seconds, header, film);
     return render(world, scene, job, film);
+}
+
+bool has_samples(const Film& film) {
+    const PixelRange& area = film.area();
+    for (int y = area.y0; y < area.y1; ++y)
+        for (int x = area.x0; x < area.x1; ++x)
+            if (film.pixels().samples(x, y) > 0) return true;
+    return false;
 }
 
 // What is said of a render that ended before all pixels had all samples.
@@ -305,6 +332,12 @@ int render_scene(const RenderOptions& options) {
     }
     Rendering rendering = rendered(options, *world, scene, job, header, film);
 
+    // As while light is looked for, before the first path. A picture of an earlier render is worth more than a black
+    // one.
+    if (rendering.cancelled && !has_samples(film)) {
+        say("phasetree: interrupted before the first sample; nothing is written\n");
+        return code_of_interruption(can_resume(options));
+    }
     // A render that ends with its time is one of as many samples as it had by then.
     if (rendering.is_out_of_time && scene.settings.noise == 0)
         header.samples.last = header.samples_in_all = header.samples.first + rendering.samples;

@@ -6,6 +6,10 @@
 #include "caustics/photon_map.hpp"
 #include "caustics/photon_placement.hpp"
 #include "caustics/trace_photon.hpp"
+#include "guiding/guide.hpp"
+#include "guiding/lessons.hpp"
+#include "image/luminance.hpp"
+#include "integrator/guided.hpp"
 #include "integrator/light_proposal.hpp"
 #include "integrator/path_recorder.hpp"
 #include "integrator/shadow_ray.hpp"
@@ -91,10 +95,12 @@ struct Chain {
 class Path {
   public:
     Path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters,
-         const Photons& photons, PathRecord* record)
+         const PathHelp& help, PathRecord* record)
         : world_(world),
           scene_(scene),
-          photons_(photons),
+          photons_(help.photons),
+          guide_(help.guide),
+          lessons_(help.lessons),
           sampler_(sampler),
           counters_(counters),
           ray_(ray),
@@ -104,8 +110,8 @@ class Path {
         // photons it is chosen by the first number that a path draws, which is spread the most evenly over the samples
         // of a pixel.
         if (world.disperses())
-            hero_ =
-                photons && photons.map->wavelength() ? *photons.map->wavelength() : sampled_wavelength(sampler.next());
+            hero_ = photons_ && photons_.map->wavelength() ? *photons_.map->wavelength()
+                                                           : sampled_wavelength(sampler.next());
     }
 
     glm::vec3 trace() {
@@ -179,12 +185,12 @@ class Path {
                    bool is_to_be_scattered) {
         const glm::vec3 radiance = is_dispersed_ ? found * hero_.response : found;
         radiance_ += radiance;
+        if (lessons_) lessons_->add_light(luminance(found));
         recorder_.add_light(radiance, source, direction, is_to_be_scattered);
     }
 
     // Tells the recorder of a surface before the path's ray leaves it.
     void record(const Surface& surface, const Bsdf& bsdf, const std::optional<BsdfSample>& next) {
-        if (!recorder_.is_asked()) return;
         const auto ior = [&](Phase phase) { return clear_at(scene_, phase).ior; };
         // The albedo is in all colours though the path may have a single wavelength: it tells what a surface looks
         // like.
@@ -195,38 +201,53 @@ class Path {
                             throughput_ * weight * (from_camera * from_camera));
     }
 
+    // Whether a guide takes part in choosing directions: on a surface that gets light from nearly all directions.
+    // Elsewhere the BSDF knows better. In media many directions follow one another, and guided ones leave weights that
+    // differ more and more: of a body of jade the variance was seven times that without a guide.
+    static bool is_guided(const Surface& surface, const Bsdf& bsdf) { return !surface.far_side && bsdf.is_diffuse(); }
+    const DirectionTree* guide_at(const Surface& surface, const Bsdf& bsdf) const {
+        if (!guide_ || !is_guided(surface, bsdf)) return nullptr;
+        return guide_->at(surface.near_side.origin, facing_of(surface.normal));
+    }
+
     // Adds direct light and what photons bring, and samples the path's next ray. Returns whether there is one.
-    bool scatter_and_continue(const Surface& surface, const Bsdf& bsdf) {
+    bool scatter_and_continue(const Surface& surface, const Bsdf& bsdf_there) {
         ++counters_.interactions;
         is_camera_ray_ = false;
         const Frame frame(surface.normal);
-        const glm::vec3 wo = frame.to_local(-ray_.direction);
+        const GuidedBsdf bsdf(bsdf_there, frame, frame.to_local(-ray_.direction), guide_at(surface, bsdf_there));
         LightProposal proposal;
         const auto photon_factor_of = [&](const glm::vec3& wi) {
-            return surface.far_side && chain_.photons_count_earlier() ? factor_beyond(surface, bsdf, wo, wi)
-                                                                      : factor_at(surface, bsdf, wi);
+            return surface.far_side && chain_.photons_count_earlier() ? factor_beyond(surface, bsdf, wi)
+                                                                      : factor_at(surface, bsdf_there, wi);
         };
-        if (!bsdf.is_delta()) {
+        if (!bsdf_there.is_delta()) {
             // A rough interface gets light from both sides, so none is preferred and no bending is guessed.
             proposal = surface.far_side ? LightProposal(surface.near_side.origin)
                                         : LightProposal::at(surface, world_, scene_, counters_);
-            add_direct_light(surface, bsdf, frame, wo, proposal, photon_factor_of);
-            add_caustics(surface, bsdf, frame, wo, proposal);
+            add_direct_light(surface, bsdf, proposal, photon_factor_of);
+            add_caustics(surface, bsdf, proposal);
         }
         const float lobe = sampler_.next();
-        const auto next = bsdf.sample(wo, lobe, sampler_.next2());
-        record(surface, bsdf, next);
+        const glm::vec2 u = sampler_.next2();
+        const auto next = bsdf.sample(lobe, u);
+        // What the surface looks like is told without the guide, whose weights are noise.
+        if (recorder_.is_asked()) record(surface, bsdf_there, bsdf.unguided_sample(lobe, u));
         if (!next) return false;
         throughput_ *= for_light(next->weight, single());
+        over_unguided_ *= next->over_unguided;
         ray_ = continued(surface, frame, *next);
         if (surface.far_side) entered_ = next->transmitted ? surface.normal : -surface.normal;
+        if (lessons_ && !next->delta && is_guided(surface, bsdf_there))
+            lessons_->leave(surface.near_side.origin, facing_of(surface.normal), ray_.direction, next->wi.z / next->pdf,
+                            luminance(throughput_));
         if (!next->delta)
             chain_ = {.pdf = next->pdf,
                       .proposal = proposal,
                       .direction = ray_.direction,
                       .by_photons = {photon_factor_of(next->wi)},
                       .interfaces_before = interfaces_before(surface)};
-        else if (is_link(bsdf, surface))
+        else if (is_link(bsdf_there, surface))
             ++chain_.length;
         else
             chain_ = {};  // a delta lobe that shadow rays cannot follow: that of a mirror or of a smooth coat
@@ -253,15 +274,15 @@ class Path {
 
     // Next-event estimation: what arrives from the lights by a shadow ray, and is scattered into the path.
     template <class PhotonFactor>
-    void add_direct_light(const Surface& surface, const Bsdf& bsdf, const Frame& frame, const glm::vec3& wo,
-                          const LightProposal& proposal, PhotonFactor&& photon_factor_of) {
+    void add_direct_light(const Surface& surface, const GuidedBsdf& bsdf, const LightProposal& proposal,
+                          PhotonFactor&& photon_factor_of) {
         const auto light = sampled_light(proposal);
         if (!light) return;
-        const glm::vec3 wi = frame.to_local(light->wi);
-        const glm::vec3 f = for_light(bsdf.evaluate(wo, wi), single());
+        const glm::vec3 wi = bsdf.frame().to_local(light->wi);
+        const glm::vec3 f = for_light(bsdf.evaluate(wi), single());
         if (f == glm::vec3(0.0f)) return;
         const float photon_factor = photon_factor_of(wi);
-        add_direct_light(*light, f, bsdf.pdf(wo, wi), {photon_factor},
+        add_direct_light(*light, f, bsdf.pdf(wi), {photon_factor},
                          wi.z < 0 ? surface.transmitted(light->wi) : surface.reflected(light->wi),
                          interfaces_before(surface));
     }
@@ -301,11 +322,11 @@ class Path {
     }
     // PhotonDensity::per_line_density of a direction that leads on from a rough interface, if photons count at an
     // earlier place.
-    float factor_beyond(const Surface& surface, const Bsdf& bsdf, const glm::vec3& wo, const glm::vec3& wi) const {
+    float factor_beyond(const Surface& surface, const GuidedBsdf& bsdf, const glm::vec3& wi) const {
         const Surface::Side& left_to = wi.z < 0 ? *surface.far_side : surface.near_side;
         return chain_.by_photons.per_line_density / *chain_.pdf *
-               rough_factor(bsdf.reverse_pdf(wo, wi), clear_at(scene_, left_to.phase).ior, wi.z,
-                            clear_at(scene_, surface.near_side.phase).ior, wo.z);
+               rough_factor(bsdf.reverse_pdf(wi), clear_at(scene_, left_to.phase).ior, wi.z,
+                            clear_at(scene_, surface.near_side.phase).ior, bsdf.wo().z);
     }
     // PhotonDensity::per_line_density of a direction at a surface on which photons count; 0 if they do not count in it.
     float factor_at(const Surface& surface, const Bsdf& bsdf, const glm::vec3& wi) const {
@@ -336,21 +357,20 @@ class Path {
     }
 
     // Adds what photons bring that fell near the surface's point.
-    void add_caustics(const Surface& surface, const Bsdf& bsdf, const Frame& frame, const glm::vec3& wo,
-                      const LightProposal& proposal) {
-        if (!photons_ || scene_.settings.techniques != Techniques::all || bsdf.is_delta()) return;
+    void add_caustics(const Surface& surface, const GuidedBsdf& bsdf, const LightProposal& proposal) {
+        if (!photons_ || scene_.settings.techniques != Techniques::all) return;
         const Phase near = surface.near_side.phase;
         const auto add = [&](const Photon& photon) {
-            const glm::vec3 wi = frame.to_local(photon.direction);
+            const glm::vec3 wi = bsdf.frame().to_local(photon.direction);
             // A photon of another surface close by may come from the wrong side.
             const bool is_from_near = photon.phase == near;
             if (!is_from_near && !(surface.far_side && photon.phase == surface.far_side->phase)) return;
             if (is_from_near != (wi.z > 0.0f)) return;
-            const float by_photons = factor_at(surface, bsdf, wi) * photon.line_density;
+            const float by_photons = factor_at(surface, bsdf.bsdf(), wi) * photon.line_density;
             if (!(by_photons > 0.0f)) return;
             // Photons are counted by area of the surface, and so have the cosine already that evaluate() multiplies by.
-            const glm::vec3 f = for_light(bsdf.evaluate(wo, wi), single()) / std::abs(wi.z);
-            add_photon(photon, photon.power, f, by_photons, bsdf.pdf(wo, wi), proposal);
+            const glm::vec3 f = for_light(bsdf.evaluate(wi), single()) / std::abs(wi.z);
+            add_photon(photon, photon.power, f, by_photons, bsdf.pdf(wi), proposal);
         };
         if (!surface.far_side)
             photons_.map->near(surface.near_side.origin, surface.normal, add);
@@ -379,10 +399,12 @@ class Path {
     // Russian roulette on what the path can still bring to the camera. Refraction preserves L/n², and the throughput is
     // that of L, so the share of the camera's light that is found here is throughput · n²(here)/n²(camera). Returns
     // whether the path goes on. Survival is several times that share, because in long chains of clear interfaces what
-    // is rouletted often comes back as noise that costs more than the steps that are saved.
+    // is rouletted often comes back as noise that costs more than the steps that are saved. Where a guide chose
+    // directions the throughput is what it would be without one: paths that go where light is have little weight each,
+    // and are what a guide is for.
     bool roulette(int depth) {
         const float ior = clear_at(scene_, ray_.phase).ior / camera_ior_;
-        const float worth = std::max({throughput_.x, throughput_.y, throughput_.z}) * ior * ior;
+        const float worth = over_unguided_ * std::max({throughput_.x, throughput_.y, throughput_.z}) * ior * ior;
         if (!(worth > 0)) return false;
         const float survival = std::max(survival_per_worth * worth, least_survival);
         if (depth > depth_without_roulette && survival < nearly_certain) {
@@ -395,11 +417,14 @@ class Path {
     const World& world_;
     const Scene& scene_;
     const Photons& photons_;
+    const Guide* guide_;
+    PathLessons* lessons_;
     Sampler& sampler_;
     PathCounters& counters_;
     Ray ray_;
     float camera_ior_;
     glm::vec3 radiance_{0.0f}, throughput_{1.0f};
+    float over_unguided_ = 1;  // the product of GuidedBsdf::Sample::over_unguided
     Chain chain_;
     std::optional<glm::vec3>
         entered_;  // the outward normal of the clear boundary that the path met last in this medium
@@ -412,13 +437,13 @@ class Path {
 }  // namespace
 
 glm::vec3 trace_path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters,
-                     PathRecord* record, const Photons& photons) {
+                     PathRecord* record, const PathHelp& help) {
     ++counters.paths;
     if (!is_clear(scene.materials[ray.phase.index])) {
         PathRecorder(record, scene).finish(glm::vec3(0.0f));
         return glm::vec3(0.0f);
     }
-    return Path(world, scene, ray, sampler, counters, photons, record).trace();
+    return Path(world, scene, ray, sampler, counters, help, record).trace();
 }
 
 }  // namespace phasetree::tracer

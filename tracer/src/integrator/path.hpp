@@ -8,6 +8,8 @@
 
 namespace phasetree::tracer {
 
+class Guide;
+class PathLessons;
 class PhotonEmission;
 class PhotonMap;
 
@@ -16,6 +18,13 @@ struct Photons {
     const PhotonEmission* emission = nullptr;
     const PhotonMap* map = nullptr;
     explicit operator bool() const { return map != nullptr; }
+};
+
+/// What was found out before a path starts, and helps it to find light; each is left out where it is not there.
+struct PathHelp {
+    Photons photons{};
+    const Guide* guide = nullptr;    ///< of the directions in which paths go on
+    PathLessons* lessons = nullptr;  ///< takes what the path finds out itself; it is not finished
 };
 
 /// An estimate of the radiance that arrives along a ray, unbiased but for the light that is lost where paths end
@@ -65,6 +74,6 @@ struct Photons {
 ///
 /// With a record it also fills that in. Neither the radiance nor the random numbers that are drawn depend on it.
 glm::vec3 trace_path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters,
-                     PathRecord* record = nullptr, const Photons& photons = {});
+                     PathRecord* record = nullptr, const PathHelp& help = {});
 
 }  // namespace phasetree::tracer

@@ -11,32 +11,16 @@
 #include <chrono>
 #include <utility>
 
-#include "camera/moving_camera.hpp"
 #include "caustics/caustics.hpp"
 #include "phasetree/math/float_mode.hpp"
+#include "render/camera_paths.hpp"
+#include "render/guide_training.hpp"
 #include "render/noise_limit.hpp"
 #include "sampling/shutter_time.hpp"
 
 namespace phasetree::tracer {
 
 namespace {
-
-// The phases in which camera rays start.
-class StartingPhases {
-  public:
-    StartingPhases(const TracedGeometry& geometry, const MovingCamera& camera, const Scene& scene)
-        : geometry_(geometry) {
-        const auto origin = camera.single_origin();
-        if (origin && !scene.moves()) single_ = geometry.inside(*origin);
-    }
-    TracedGeometry::Inside at(const glm::vec3& origin, float time) const {
-        return single_ ? *single_ : geometry_.inside(origin, time);
-    }
-
-  private:
-    const TracedGeometry& geometry_;
-    std::optional<TracedGeometry::Inside> single_;  // of a camera whose rays all start at one point, asked for once
-};
 
 // How many of a job's samples each pixel has when a pass over the picture is done, from how many it had.
 int after_pass(int had, int in_all) {
@@ -51,8 +35,7 @@ class Renderer {
           scene_(scene),
           job_(job),
           samples_(job.samples.value_or(SampleRange{0, scene.settings.samples})),
-          camera_(scene.camera, scene.camera_moments, scene.film.resolution()),
-          phases_(world.geometry(), camera_, scene),
+          cameras_(world, scene),
           // Of a picture alone no path need tell more.
           recording_(scene.film.planes.count() > 1),
           axis_{position_of(scene.camera), glm::normalize(look_at_of(scene.camera) - position_of(scene.camera))},
@@ -68,6 +51,11 @@ class Renderer {
     int run() {
         leave_out_quiet_blocks();
         int done = fewest_samples();
+        if (scene_.settings.guiding && done < samples_.size() && !blocks_.empty()) {
+            guide_ = trained_guide({world_, scene_, cameras_, caustics_ ? &*caustics_ : nullptr, counters_.local(),
+                                    job_.learned, job_.cancelled});
+            stopped_ = !guide_;
+        }
         while (done < samples_.size() && !stopped_ && !blocks_.empty()) {
             const int next = after_next_pass(done);
             if (next == done) break;
@@ -171,13 +159,12 @@ class Renderer {
                         static_cast<std::uint32_t>(number), scene_.settings.seed);
         const glm::dvec2 on_film = film_.sample_position(x, y, sampler.next2());
         const float time = scene_.moves() ? time_of(x, y, number) : 0.0f;
-        const CameraRay ray = camera_.generate(on_film, sampler.next2(), static_cast<double>(time));
-        const TracedGeometry::Inside start = phases_.at(ray.origin, time);
-        const Ray first{ray.origin, ray.direction, start.phase, {}, start.in};
+        const Ray first = cameras_.first_ray(on_film, time, sampler);
         FilmSample result{.number = static_cast<std::uint32_t>(number)};
         PathRecord* record = recording_ ? &records_.local() : nullptr;
-        const Photons photons = photons_ ? Photons{&caustics_->emission(), &*photons_} : Photons{};
-        result.radiance = trace_path(world_, scene_, first, sampler, counters, record, photons);
+        PathHelp help{.guide = guide_ ? &*guide_ : nullptr};
+        if (photons_) help.photons = {&caustics_->emission(), &*photons_};
+        result.radiance = trace_path(world_, scene_, first, sampler, counters, record, help);
         result.record = record;
         if (record && record->first) result.depth = glm::dot(record->first->position - axis_.origin, axis_.direction);
         return result;
@@ -194,8 +181,7 @@ class Renderer {
     const Scene& scene_;
     const RenderJob& job_;
     SampleRange samples_;
-    MovingCamera camera_;
-    StartingPhases phases_;
+    CameraPaths cameras_;
     bool recording_;
     CameraRay axis_;  // from where the camera is when the shutter opens to where it looks
     Film& film_;
@@ -205,6 +191,7 @@ class Renderer {
     bool is_out_of_time_ = false;
     std::optional<Caustics> caustics_;
     std::optional<PhotonMap> photons_;  // of this pass
+    std::optional<Guide> guide_;        // where light comes from, if the scene asks for that
     tbb::enumerable_thread_specific<PathCounters> counters_;
     tbb::enumerable_thread_specific<PathRecord> records_;
     std::atomic<bool> stopped_{false};

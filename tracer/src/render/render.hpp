@@ -25,6 +25,9 @@ struct RenderJob {
     /// Called with the samples done since the last call, from any thread; those that a block need not have, because it
     /// has little noise, count as done.
     std::function<void(std::uint64_t)> advance = [](std::uint64_t) {};
+    /// Called with how much is done, from 0 to 1, of what is learned before the first pass if the scene asks for
+    /// guiding; by one thread at a time. Not called without.
+    std::function<void(double)> learned = [](double) {};
     std::function<bool()> cancelled = [] { return false; };
     /// Called after each whole pass with how many samples each pixel has by then; nothing is added meanwhile.
     std::function<void(const Film&, int)> passed = [](const Film&, int) {};

@@ -35,6 +35,11 @@ struct ImageParameters : RenderSettings {
         v(&P::max_depth,
           Parameter{"max_depth", "", "The most surfaces that a path meets. One between equal indices counts, too.",
                     Limits{.low = 1, .high = 1 << 20}, true});
+        v(&P::guiding, Parameter{"guiding", "",
+                                 "Whether paths learn where light comes from before the first sample, so that half "
+                                 "of them go there from diffuse surfaces. It pays where most light has been scattered "
+                                 "several times, as in a room that is lit through a door from the next one.",
+                                 limits::any, true});
         v(&P::caustics, Parameter{"caustics", "",
                                   "Whether photons look for the light that lamps, the sun and the bright parts of "
                                   "environment images throw through clear surfaces, curved or rough, onto other "

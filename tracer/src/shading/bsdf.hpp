@@ -66,6 +66,10 @@ class Bsdf {
     bool is_delta() const {
         return std::visit([](const auto& bsdf) { return bsdf.is_delta(); }, kind_);
     }
+    /// Whether it has a diffuse part, so that light from nearly any direction counts.
+    bool is_diffuse() const {
+        return std::holds_alternative<DiffuseBsdf>(kind_) || std::holds_alternative<CoatedDiffuseBsdf>(kind_);
+    }
     bool passes_through() const {
         return std::visit([](const auto& bsdf) { return bsdf.passes_through(); }, kind_);
     }

@@ -91,8 +91,8 @@ bool Session::draw_coarser(const Wishes& wishes, int scale) {
     scene_->film.width = size.x;
     scene_->film.height = size.y;
     scene_->settings.samples = 1;
-    // Photons would take longer than all of a coarse picture, because where they are worth something is learnt anew.
-    scene_->settings.caustics = false;
+    // Photons and guides would take longer than all of a coarse picture, because where light is is learnt anew.
+    scene_->settings.caustics = scene_->settings.guiding = false;
     const bool is_first = is_first_of(wishes);
     RenderJob job;
     job.pixels = scene_->film.whole();
@@ -110,6 +110,7 @@ bool Session::draw_whole(const Wishes& wishes, int samples) {
     scene_->film.height = viewed_->scene.film.height;
     scene_->settings.samples = samples;
     scene_->settings.caustics = viewed_->scene.settings.caustics;
+    scene_->settings.guiding = viewed_->scene.settings.guiding;
     RenderJob job;
     job.pixels = scene_->film.whole();
     job.threads = options_.threads;

@@ -1,0 +1,111 @@
+#include "guiding/direction_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sampling/warps.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+constexpr float below_one = 0x1.fffffep-1f;
+
+// A square is divided that has more than this share of all light, and enough arrivals to tell where in it that comes
+// from: with 16 of them, not 64, a room behind a door had 1.6 × the variance. The depth is limited by what a float can
+// tell.
+constexpr double divided_share = 0.01;
+constexpr std::size_t divided_arrivals = 64;
+constexpr int most_depth = 12;
+
+}  // namespace
+
+glm::vec2 sphere_to_square(const glm::vec3& direction) {
+    const float turn = std::atan2(direction.y, direction.x) / (2.0f * pi);
+    return {std::clamp(turn < 0.0f ? turn + 1.0f : turn, 0.0f, below_one),
+            std::clamp(0.5f * (1.0f + direction.z), 0.0f, below_one)};
+}
+
+glm::vec3 square_to_sphere(const glm::vec2& point) {
+    const float z = 2.0f * point.y - 1.0f;
+    const float across = std::sqrt(std::max(0.0f, 1.0f - z * z));
+    const float phi = 2.0f * pi * point.x;
+    return {across * std::cos(phi), across * std::sin(phi), z};
+}
+
+struct DirectionTree::Division {
+    double light;  // of all arrivals
+};
+
+DirectionTree::DirectionTree(std::span<Arrival> arrivals) {
+    double light = 0;
+    for (const Arrival& arrival : arrivals) light += static_cast<double>(arrival.light);
+    divide({light}, arrivals, {0.0f, 0.0f}, 0);
+}
+
+// Makes the node of the square of side 2^−depth whose low corner is given. Returns its number.
+std::uint32_t DirectionTree::divide(const Division& all, std::span<Arrival> arrivals, glm::vec2 corner, int depth) {
+    const auto number = static_cast<std::uint32_t>(nodes_.size());
+    nodes_.emplace_back();
+    const float half = std::ldexp(0.5f, -depth);
+    const glm::vec2 middle = corner + half;
+    const auto by_row = std::partition(arrivals.begin(), arrivals.end(),
+                                       [&](const Arrival& arrival) { return arrival.on_square.y < middle.y; });
+    const auto is_left = [&](const Arrival& arrival) { return arrival.on_square.x < middle.x; };
+    const std::array bounds{arrivals.begin(), std::partition(arrivals.begin(), by_row, is_left), by_row,
+                            std::partition(by_row, arrivals.end(), is_left), arrivals.end()};
+    std::array<double, 4> light{};
+    for (std::size_t q = 0; q < 4; ++q)
+        for (auto arrival = bounds[q]; arrival != bounds[q + 1]; ++arrival)
+            light[q] += static_cast<double>(arrival->light);
+    const double sum = light[0] + light[1] + light[2] + light[3];
+    for (std::size_t q = 0; q < 4; ++q) {
+        nodes_[number].share[q] = static_cast<float>(light[q] / sum);
+        const std::span<Arrival> part(bounds[q], bounds[q + 1]);
+        if (depth + 1 == most_depth || part.size() < divided_arrivals || !(light[q] > divided_share * all.light))
+            continue;
+        const glm::vec2 part_corner = corner + half * glm::vec2(static_cast<float>(q % 2), static_cast<float>(q / 2));
+        const std::uint32_t child = divide(all, part, part_corner, depth + 1);
+        nodes_[number].child[q] = child;
+    }
+    return number;
+}
+
+glm::vec3 DirectionTree::sample(glm::vec2 u) const {
+    glm::vec2 corner(0.0f);
+    float half = 0.5f;
+    // Chooses the low or the high half with the probability of the low one, and stretches the rest of the number.
+    const auto is_high = [](float& number, float low) {
+        const bool high = number >= low;
+        number = high ? (number - low) / (1.0f - low) : number / low;
+        number = std::min(number, below_one);
+        return high;
+    };
+    for (std::uint32_t number = 0;; half *= 0.5f) {
+        const Node& node = nodes_[number];
+        const bool right = is_high(u.x, node.share[0] + node.share[2]);
+        const float below = node.share[right ? 1 : 0], above = node.share[right ? 3 : 2];
+        const bool high = is_high(u.y, below / (below + above));
+        const std::size_t q = (right ? 1 : 0) + (high ? 2 : 0);
+        corner += half * glm::vec2(right ? 1.0f : 0.0f, high ? 1.0f : 0.0f);
+        number = node.child[q];
+        if (number == 0) return square_to_sphere(corner + half * u);
+    }
+}
+
+float DirectionTree::pdf(const glm::vec3& direction) const {
+    glm::vec2 within = sphere_to_square(direction);
+    float density = 1.0f / (4.0f * pi);
+    for (std::uint32_t number = 0;;) {
+        const Node& node = nodes_[number];
+        within *= 2.0f;
+        const bool right = within.x >= 1.0f, high = within.y >= 1.0f;
+        within -= glm::vec2(right ? 1.0f : 0.0f, high ? 1.0f : 0.0f);
+        const std::size_t q = (right ? 1 : 0) + (high ? 2 : 0);
+        density *= 4.0f * node.share[q];
+        number = node.child[q];
+        if (number == 0) return density;
+    }
+}
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,82 @@
+// The directions in which a path goes on from a surface, chosen by its BSDF, or half by that and half by a guide
+// (guiding/guide.hpp). Both together are one density, the mean of the two, by which shadow rays, photons and directions
+// are weighted against each other as ever: a bad guide costs noise and never shifts the mean.
+#pragma once
+
+#include <optional>
+
+#include "guiding/direction_tree.hpp"
+#include "shading/bsdf.hpp"
+#include "shading/frame.hpp"
+
+namespace phasetree::tracer {
+
+class GuidedBsdf {
+  public:
+    /// For light that leaves in the direction `wo` of the frame. It refers to the BSDF, the frame and the guide;
+    /// without a guide (null) all is as the BSDF has it.
+    GuidedBsdf(const Bsdf& bsdf, const Frame& frame, const glm::vec3& wo, const DirectionTree* guide)
+        : bsdf_(bsdf), frame_(frame), wo_(wo), guide_(guide) {}
+
+    const Bsdf& bsdf() const { return bsdf_; }
+    const Frame& frame() const { return frame_; }
+    const glm::vec3& wo() const { return wo_; }
+
+    /// As Bsdf has them, for directions `wi` of the frame.
+    glm::vec3 evaluate(const glm::vec3& wi) const { return bsdf_.evaluate(wo_, wi); }
+    float reverse_pdf(const glm::vec3& wi) const { return bsdf_.reverse_pdf(wo_, wi); }
+    /// The density of sample(), delta lobes left out.
+    float pdf(const glm::vec3& wi) const { return mixed(bsdf_.pdf(wo_, wi), wi); }
+
+    struct Sample : BsdfSample {
+        /// The density of `wi` over that with which the BSDF alone would choose it; 1 without a guide.
+        float over_unguided = 1;
+    };
+    /// Nothing if the path ends here.
+    std::optional<Sample> sample(float u_lobe, const glm::vec2& u) const {
+        if (guide_ && u_lobe < guided_share) return sampled_by_guide(u);
+        const auto next = sampled_by_bsdf(u_lobe, u);
+        if (!next) return std::nullopt;
+        // A guide never chooses the one direction of a delta lobe.
+        const float pdf = !guide_       ? next->pdf
+                          : next->delta ? (1.0f - guided_share) * next->pdf
+                                        : mixed(next->pdf, next->wi);
+        return as_chosen_with(pdf, *next);
+    }
+    /// What the BSDF alone would choose by the same numbers.
+    std::optional<BsdfSample> unguided_sample(float u_lobe, const glm::vec2& u) const {
+        return guide_ && u_lobe < guided_share ? bsdf_.sample(wo_, u_lobe / guided_share, u)
+                                               : sampled_by_bsdf(u_lobe, u);
+    }
+
+  private:
+    static constexpr float guided_share = 0.5f;
+
+    float mixed(float by_bsdf, const glm::vec3& wi) const {
+        if (!guide_) return by_bsdf;
+        return (1.0f - guided_share) * by_bsdf + guided_share * guide_->pdf(frame_.to_world(wi));
+    }
+    static Sample as_chosen_with(float pdf, BsdfSample next) {
+        const float over_unguided = pdf / next.pdf;
+        next.weight /= over_unguided;
+        next.pdf = pdf;
+        return {next, over_unguided};
+    }
+    std::optional<BsdfSample> sampled_by_bsdf(float u_lobe, const glm::vec2& u) const {
+        return bsdf_.sample(wo_, guide_ ? (u_lobe - guided_share) / (1.0f - guided_share) : u_lobe, u);
+    }
+    std::optional<Sample> sampled_by_guide(const glm::vec2& u) const {
+        const glm::vec3 wi = frame_.to_local(guide_->sample(u));
+        const glm::vec3 f = evaluate(wi);
+        const float by_bsdf = bsdf_.pdf(wo_, wi);
+        if (f == glm::vec3(0.0f) || !(by_bsdf > 0.0f)) return std::nullopt;
+        return as_chosen_with(mixed(by_bsdf, wi), {wi, f / by_bsdf, by_bsdf, false, wi.z < 0.0f});
+    }
+
+    const Bsdf& bsdf_;
+    const Frame& frame_;
+    glm::vec3 wo_;
+    const DirectionTree* guide_;
+};
+
+}  // namespace phasetree::tracer
