@@ -63,7 +63,7 @@ struct Quadratic {
         for (std::size_t i = 0; i < 3; ++i) {
             const int k = static_cast<int>(i);
             double change = 0;
-            for (int j = 0; j < 3; ++j) change += std::abs(h[j][k]) * where.reach[static_cast<std::size_t>(j)];
+            for (int j = 0; j < 3; ++j) change += std::abs(h[j][k]) * where.half_extents[static_cast<std::size_t>(j)];
             f.gradient[i] = gradient[k];
             f.gradients[i] = {gradient[k] - change, gradient[k] + change};
         }

@@ -40,7 +40,7 @@ void look(const Mesh& mesh, Random& rng, Found& found) {
     PointRange box;
     for (std::size_t i = 0; i < 3; ++i) {
         box.centre[i] = static_cast<double>(static_cast<float>(middle[static_cast<int>(i)]));
-        box.reach[i] = static_cast<double>(std::exp2(rng.uniform(-9, -3)));
+        box.half_extents[i] = static_cast<double>(std::exp2(rng.uniform(-9, -3)));
     }
     std::vector<float> pieces;
     if (!Mesh::specialise(mesh.table.data(), box, {}, pieces)) return;
@@ -52,7 +52,7 @@ void look(const Mesh& mesh, Random& rng, Found& found) {
         glm::dvec3 p;
         for (std::size_t i = 0; i < 3; ++i) {
             const double u = rng.chance(0.5) ? (rng.chance(0.5) ? 1 : -1) : static_cast<double>(rng.uniform(-1, 1));
-            p[static_cast<int>(i)] = box.centre[i] + u * larger * box.reach[i];
+            p[static_cast<int>(i)] = box.centre[i] + u * larger * box.half_extents[i];
         }
         return p;
     };

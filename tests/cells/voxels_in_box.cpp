@@ -35,7 +35,7 @@ void look(const VoxelGrid& grid, bool is_spline, Random& rng, Found& found) {
         const auto a = static_cast<glm::length_t>(i);
         const double u = static_cast<double>(rng.uniform(-1, static_cast<float>(l.size[i])));
         box.centre[i] = static_cast<double>(static_cast<float>(l.first[a] + u * l.spacing[a]));
-        box.reach[i] = l.spacing[a] * static_cast<double>(std::exp2(rng.uniform(-5, 2)));
+        box.half_extents[i] = l.spacing[a] * static_cast<double>(std::exp2(rng.uniform(-5, 2)));
     }
     const float* data = grid.table.data();
     const bounding::VoxelsInBox known = bounding::voxels_in_box(data, box, is_spline);
@@ -48,7 +48,7 @@ void look(const VoxelGrid& grid, bool is_spline, Random& rng, Found& found) {
         glm::dvec3 p;
         for (std::size_t i = 0; i < 3; ++i) {
             const double u = rng.chance(0.4) ? (rng.chance(0.5) ? 1 : -1) : static_cast<double>(rng.uniform(-1, 1));
-            p[static_cast<int>(i)] = box.centre[i] + u * larger * box.reach[i];
+            p[static_cast<int>(i)] = box.centre[i] + u * larger * box.half_extents[i];
         }
         return p;
     };

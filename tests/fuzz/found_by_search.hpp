@@ -31,7 +31,7 @@ void promise_search(const Node& node, Also&& also) {
         PointRange range;
         for (std::size_t i = 0; i < 3; ++i) {
             range.centre[i] = static_cast<double>(at[static_cast<int>(i)]);
-            range.reach[i] = 0.01 * static_cast<double>(node.box.diagonal());
+            range.half_extents[i] = 0.01 * static_cast<double>(node.box.diagonal());
         }
         std::vector<float> few;
         if (Node::specialise(data, range, {}, few)) {

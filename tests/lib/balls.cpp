@@ -85,7 +85,7 @@ TEST_CASE("in a box few balls are enough: all values to the last bit, or those u
             PointRange box;
             for (std::size_t i = 0; i < 3; ++i) {
                 box.centre[i] = static_cast<double>(rng.uniform(-1.1f, 1.1f));
-                box.reach[i] = static_cast<double>(std::exp2(rng.uniform(-8, -3)));
+                box.half_extents[i] = static_cast<double>(std::exp2(rng.uniform(-8, -3)));
             }
             const float farthest = rng.chance(0.5) ? 0.f : rng.uniform(-0.02f, 0.05f);
             std::vector<float> exact, required, part;
@@ -96,7 +96,7 @@ TEST_CASE("in a box few balls are enough: all values to the last bit, or those u
                 continue;
             }
             PointRange half = box;
-            for (double& r : half.reach) r /= 2;
+            for (double& r : half.half_extents) r /= 2;
             REQUIRE(Balls::specialise(node.table.data(), half, static_cast<double>(farthest), required, part));
             for (const auto* list : {&exact, &required, &part}) REQUIRE(Balls::Specialised::is_sound(*list));
             all_balls += balls::ShortList::count(exact.data());
@@ -107,7 +107,7 @@ TEST_CASE("in a box few balls are enough: all values to the last bit, or those u
                     float* axes[] = {&p.x, &p.y, &p.z};
                     for (std::size_t i = 0; i < 3; ++i) {
                         const float u = rng.chance(0.5) ? (rng.chance(0.5) ? 1.f : -1.f) : rng.uniform(-1, 1);
-                        *axes[i] = static_cast<float>(in.centre[i] + static_cast<double>(u) * in.reach[i]);
+                        *axes[i] = static_cast<float>(in.centre[i] + static_cast<double>(u) * in.half_extents[i]);
                     }
                     return p;
                 };
@@ -123,7 +123,7 @@ TEST_CASE("in a box few balls are enough: all values to the last bit, or those u
                 REQUIRE(is_right(part, point_in(half)));
                 ++points;
                 PointRange large = box;
-                for (double& r : large.reach) r *= 8;
+                for (double& r : large.half_extents) r *= 8;
                 beyond += !is_right(required, point_in(large));
             }
         }

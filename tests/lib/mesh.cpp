@@ -127,7 +127,7 @@ TEST_CASE("in a box a mesh is few pieces, to the last bit") {
             PointRange box;
             for (std::size_t i = 0; i < 3; ++i) {
                 box.centre[i] = static_cast<double>(middle[static_cast<int>(i)]);
-                box.reach[i] = static_cast<double>(std::exp2(rng.uniform(-10, -3)));
+                box.half_extents[i] = static_cast<double>(std::exp2(rng.uniform(-10, -3)));
             }
             ++boxes;
             std::vector<float> list, part;
@@ -137,7 +137,7 @@ TEST_CASE("in a box a mesh is few pieces, to the last bit") {
             }
             REQUIRE(Mesh::Specialised::is_sound(list));
             PointRange half = box;
-            for (double& r : half.reach) r /= 2;
+            for (double& r : half.half_extents) r /= 2;
             REQUIRE(Mesh::specialise(node.table.data(), half, list, part));
             for (int kind = 0; kind < 3; ++kind)
                 pieces += static_cast<std::size_t>(list[static_cast<std::size_t>(kind)]);
@@ -146,7 +146,7 @@ TEST_CASE("in a box a mesh is few pieces, to the last bit") {
                 float* axes[] = {&p.x, &p.y, &p.z};
                 for (std::size_t i = 0; i < 3; ++i) {
                     const double u = rng.chance(0.5) ? (rng.chance(0.5) ? 1 : -1) : rng.uniform(-1, 1);
-                    *axes[i] = static_cast<float>(in.centre[i] + u * larger * in.reach[i]);
+                    *axes[i] = static_cast<float>(in.centre[i] + u * larger * in.half_extents[i]);
                 }
                 const float whole = Mesh::distance(node.table.data(), p);
                 const float few = Mesh::Specialised::distance(floats.data(), p);

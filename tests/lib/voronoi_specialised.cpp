@@ -25,7 +25,7 @@ glm::vec3 within(Random& rng, const PointRange& box, double larger) {
     for (int i = 0; i < 3; ++i) {
         const double u = rng.chance(0.5) ? (rng.chance(0.5) ? 1 : -1) : rng.uniform(-1, 1);
         const auto k = static_cast<std::size_t>(i);
-        p[i] = static_cast<float>(box.centre[k] + u * larger * box.reach[k]);
+        p[i] = static_cast<float>(box.centre[k] + u * larger * box.half_extents[k]);
     }
     return p;
 }
@@ -36,7 +36,7 @@ void look(const P& primitive, float size, float far, Random& rng, Found& found) 
     PointRange box;
     for (std::size_t i = 0; i < 3; ++i) {
         box.centre[i] = static_cast<double>(far * size * rng.uniform(-1, 1));
-        box.reach[i] = static_cast<double>(size * std::exp2(rng.uniform(-8, -2)));
+        box.half_extents[i] = static_cast<double>(size * std::exp2(rng.uniform(-8, -2)));
     }
     // Some centres are where cubes meet.
     if (rng.chance(0.2))
@@ -50,8 +50,8 @@ void look(const P& primitive, float size, float far, Random& rng, Found& found) 
     // The same of a part of it, from all sites and from those.
     PointRange part = box;
     for (std::size_t i = 0; i < 3; ++i) {
-        part.reach[i] *= static_cast<double>(rng.uniform(0.1f, 0.9f));
-        part.centre[i] += (box.reach[i] - part.reach[i]) * static_cast<double>(rng.uniform(-1, 1));
+        part.half_extents[i] *= static_cast<double>(rng.uniform(0.1f, 0.9f));
+        part.centre[i] += (box.half_extents[i] - part.half_extents[i]) * static_cast<double>(rng.uniform(-1, 1));
     }
     REQUIRE(primitive.specialise(part, around, near));
     found.sites += P::Specialised::sites(near.data());

@@ -55,7 +55,7 @@ Enclosure enclose_long_primitive(const float* constants, const Vec3<Enclosure>& 
     if constexpr (std::is_same_v<P, Siren::Network>) {
         // The second number of a network's data is half of the cube's side.
         const auto half_of_cube = static_cast<double>(constants[1]);
-        if (at.farthest() < half_of_cube) return enclose(network_in_box(constants, at.centre, at.reach), at);
+        if (at.farthest() < half_of_cube) return enclose(network_in_box(constants, at.centre, at.half_extents), at);
     }
     if constexpr (std::is_same_v<P, FractalNoise>) return program::distance_of<P>(constants, q);
     double value = 0;

@@ -27,7 +27,7 @@ void for_each_normal(const float* data, F&& f) {
         for (std::size_t left = PieceList::count(data, Kind::kind); left > 0; --left, piece += Kind::floats) {
             const float* n = piece + Kind::normal;
             double largest_angle = 0;
-            if constexpr (!std::is_same_v<Kind, Face>) largest_angle = static_cast<double>(piece[Kind::spread]);
+            if constexpr (!std::is_same_v<Kind, Face>) largest_angle = static_cast<double>(piece[Kind::largest_angle]);
             f(glm::dvec3(n[0], n[1], n[2]), largest_angle);
         }
     });

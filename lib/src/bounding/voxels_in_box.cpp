@@ -26,7 +26,7 @@ struct Counted {
             const auto spacing = 1 / static_cast<double>(data[voxels::inverse_spacing + i]);
             const double centre = (box.centre[i] - static_cast<double>(data[voxels::first + i])) / spacing;
             // A coordinate in voxels is rounded as a float.
-            const double half_extent = box.reach[i] / spacing + 1e-6 * (std::abs(centre) + 64);
+            const double half_extent = box.half_extents[i] / spacing + 1e-6 * (std::abs(centre) + 64);
             const auto size = static_cast<double>(data[voxels::size + i]);
             const double beyond = is_spline ? 0.5 : 0;
             is_beyond[i] = centre - half_extent < -beyond || centre + half_extent > size - 1 + beyond;

@@ -26,7 +26,7 @@ struct Region : PointRange {
     explicit Region(const Vec3<Enclosure>& q) : x{&q.x, &q.y, &q.z} {
         for (std::size_t i = 0; i < 3; ++i) {
             centre[i] = x[i]->centre;
-            reach[i] = std::max(x[i]->value.high - centre[i], centre[i] - x[i]->value.low);
+            half_extents[i] = std::max(x[i]->value.high - centre[i], centre[i] - x[i]->value.low);
         }
     }
     /// The largest absolute value of a coordinate.
@@ -47,7 +47,7 @@ inline Enclosure enclose(const FieldInBox& f, const Region& at) {
     double change = 0, squared_slope = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         const double steepest = f.gradients[i].magnitude();
-        change += steepest * at.reach[i];
+        change += steepest * at.half_extents[i];
         squared_slope += steepest * steepest;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             e.gradient[axis] = e.gradient[axis] + f.gradients[i] * at.x[i]->gradient[axis];

@@ -45,8 +45,8 @@ class NoiseInBox {
     /// space.
     explicit NoiseInBox(const Region& at) : at_(at) {
         for (std::size_t i = 0; i < dimensions; ++i) {
-            low_[i] = std::floor(at.centre[i] - at.reach[i]);
-            const double cells = std::floor(at.centre[i] + at.reach[i]) - low_[i] + 1;
+            low_[i] = std::floor(at.centre[i] - at.half_extents[i]);
+            const double cells = std::floor(at.centre[i] + at.half_extents[i]) - low_[i] + 1;
             if (!(cells <= 4)) is_large_ = true;
             count_[i] = is_large_ ? 1 : static_cast<std::size_t>(cells);
             all_ *= count_[i];
@@ -85,7 +85,7 @@ class NoiseInBox {
             double change = 0, mixed = 0;
             for (std::size_t j = 0; j < dimensions; ++j) {
                 const double most = d.second[i][j].magnitude();
-                change += most * at_.reach[j];
+                change += most * at_.half_extents[j];
                 if (j != i) mixed += most;
             }
             f.gradients[i] = {std::max(d.first[i].low, f.gradient[i] - change),
@@ -131,8 +131,8 @@ class NoiseInBox {
         join(d.value, values);
         std::array<std::optional<FadeRange>, dimensions> fade;
         for (std::size_t i = 0; i < dimensions; ++i)
-            fade[i].emplace(std::clamp(at_.centre[i] - at_.reach[i] - cell[i], 0.0, 1.0),
-                            std::clamp(at_.centre[i] + at_.reach[i] - cell[i], 0.0, 1.0));
+            fade[i].emplace(std::clamp(at_.centre[i] - at_.half_extents[i] - cell[i], 0.0, 1.0),
+                            std::clamp(at_.centre[i] + at_.half_extents[i] - cell[i], 0.0, 1.0));
         for (std::size_t i = 0; i < dimensions; ++i) {
             const Range steps = of_differences(w, std::size_t{1} << i, 0);
             join(d.first[i], fade[i]->first * steps);

@@ -178,7 +178,7 @@ InBox in_box(const float* ball, const PointRange& box) {
     double near = 0, far = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         const double away = std::abs(box.centre[i] - static_cast<double>(ball[i]));
-        const double least = std::max(away - box.reach[i], 0.0), most = away + box.reach[i];
+        const double least = std::max(away - box.half_extents[i], 0.0), most = away + box.half_extents[i];
         near += least * least;
         far += most * most;
     }
@@ -254,7 +254,7 @@ const float* Tree::nearest(const float* data, const Vec3<float>& point) {
 bool Tree::balls_in(const float* tree, const Wanted& wanted, std::span<const float> around,
                     std::vector<float>& floats) {
     const TreeView view(tree);
-    const auto &centre = wanted.box.centre, &half_extents = wanted.box.reach;
+    const auto &centre = wanted.box.centre, &half_extents = wanted.box.half_extents;
     const double slack =
         2 * (margin(view.largest, centre) + 2e-6 * std::max({half_extents[0], half_extents[1], half_extents[2]}));
     Candidates candidates(wanted, slack);

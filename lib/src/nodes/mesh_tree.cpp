@@ -143,7 +143,7 @@ struct BoxOfPoints {
             const double distance = distance_to(end, vector, std::clamp(t, 0.0, 1.0));
             return {distance - radius, distance};
         } else {
-            const double distance = distance_to(piece + Vertex::place, nullptr, 0);
+            const double distance = distance_to(piece + Vertex::position, nullptr, 0);
             return {distance - radius, distance};
         }
     }
@@ -178,7 +178,8 @@ FoundPiece PieceTree::nearest(const float* data, const Vec3<float>& point) {
 
 bool PieceTree::pieces_in(const float* tree, const PointRange& range, std::span<const float> around, std::size_t most,
                           std::vector<float>& floats) {
-    BoxOfPoints box{range.centre, range.reach, std::hypot(range.reach[0], range.reach[1], range.reach[2]), 0};
+    BoxOfPoints box{range.centre, range.half_extents,
+                    std::hypot(range.half_extents[0], range.half_extents[1], range.half_extents[2]), 0};
     box.margin = margin(tree + piece_kinds, box.centre.data()) + 2e-6 * box.radius;
     if (!(box.margin < 1e12)) return false;
 

@@ -22,12 +22,12 @@ constexpr std::size_t most_sites = 100;
 PointRange in_cubes(PointRange r, float size) {
     for (int i = 0; i < 3; ++i) {
         r.centre[i] /= static_cast<double>(size);
-        r.reach[i] /= static_cast<double>(size);
+        r.half_extents[i] /= static_cast<double>(size);
     }
     return r;
 }
 double radius(const PointRange& r) {
-    return std::hypot(r.reach[0], r.reach[1], r.reach[2]);
+    return std::hypot(r.half_extents[0], r.half_extents[1], r.half_extents[2]);
 }
 bool is_small(const PointRange& r) {
     return radius(r) < largest_radius &&
@@ -46,7 +46,7 @@ bool append(std::span<const VoronoiSites::Site> sites, std::array<float, Special
     floats.push_back(static_cast<float>(sites.size() * VoronoiSites::site_floats));
     for (const VoronoiSites::Site& s : sites) {
         floats.insert(floats.end(), s.cube.begin(), s.cube.end());
-        floats.insert(floats.end(), s.place.begin(), s.place.end());
+        floats.insert(floats.end(), s.in_cube.begin(), s.in_cube.end());
         floats.push_back(s.hash);
     }
     return true;
@@ -64,7 +64,7 @@ void VoronoiSites::find(const Search& search, std::span<const float> list, std::
         if (s.hash < search.low || s.hash >= search.high) return;
         double squared = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            s.position[axis] = static_cast<double>(s.cube[axis]) + static_cast<double>(s.place[axis]) + corner;
+            s.position[axis] = static_cast<double>(s.cube[axis]) + static_cast<double>(s.in_cube[axis]) + corner;
             squared += (s.position[axis] - centre[axis]) * (s.position[axis] - centre[axis]);
         }
         s.distance = std::sqrt(squared);
@@ -129,7 +129,7 @@ bool VoronoiCells::specialise(const PointRange& range, std::span<const float> of
             const double apart = std::hypot(between[0], between[1], between[2]);
             if (apart == 0) return false;
             double bisector = 0.5 * (t.distance - s.distance) * (t.distance + s.distance) / apart;
-            for (std::size_t i = 0; i < 3; ++i) bisector -= std::abs(between[i]) / apart * box.reach[i];
+            for (std::size_t i = 0; i < 3; ++i) bisector -= std::abs(between[i]) / apart * box.half_extents[i];
             return bisector - margin(box.centre) > far;
         });
     }

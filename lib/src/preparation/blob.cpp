@@ -21,7 +21,7 @@ namespace {
 double steepness(const Blob& blob, const std::vector<double>& distances, double radius) {
     double sum = 0;
     for (std::size_t i = 0; i < distances.size(); ++i) {
-        const double falloff_radius = static_cast<double>(blob.reach(i)), top = std::sqrt(0.2);
+        const double falloff_radius = static_cast<double>(blob.radius(i)), top = std::sqrt(0.2);
         const double low = std::max(distances[i] - radius, 0.0) / falloff_radius,
                      high = (distances[i] + radius) / falloff_radius;
         if (low >= 1) continue;
@@ -81,18 +81,18 @@ class Skeletons {
 double blob_slope(const Blob& blob) {
     double everywhere = 0;
     for (std::size_t i = 0; i < blob.count(); ++i)
-        everywhere += static_cast<double>(blob.weight(i)) * static_cast<double>(steepest_falloff / blob.reach(i));
+        everywhere += static_cast<double>(blob.weight(i)) * static_cast<double>(steepest_falloff / blob.radius(i));
     BoundsQuery query;
     Bounds support;
     std::size_t i = 0;
     const auto grown = [&](const std::vector<glm::vec3>& some) {
         Bounds b;
         for (const glm::vec3& v : some) b = unite(b, Bounds{v, v});
-        support = unite(support, b.inflated(blob.reach(i++)));
+        support = unite(support, b.inflated(blob.radius(i++)));
     };
     for (const glm::vec3& v : blob.points) grown({v});
     if (!blob.polyline.empty()) grown(blob.polyline);
-    for (const Field& f : blob.of) support = unite(support, query(f, blob.reach(i++)));
+    for (const Field& f : blob.of) support = unite(support, query(f, blob.radius(i++)));
     if (!support.finite() || support.empty()) return everywhere;
 
     struct Cube {

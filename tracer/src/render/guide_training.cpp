@@ -27,7 +27,7 @@ constexpr std::size_t fewest = std::size_t{1} << 17, most = std::size_t{1} << 20
 constexpr std::uint32_t column_of_training = 0x80000002u;
 
 std::size_t last_round(const Scene& scene) {
-    return std::clamp(std::bit_floor(scene.film.whole().size()), fewest, most);
+    return std::clamp(std::bit_floor(2 * scene.film.whole().size()), fewest, most);
 }
 
 class Training {

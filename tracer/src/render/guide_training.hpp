@@ -23,7 +23,7 @@ struct GuideTraining {
     const std::function<bool()>& cancelled;      ///< asked from any thread
 };
 
-/// How many paths there are in all rounds, which is what time and memory grow with: two for each pixel of the picture
+/// How many paths there are in all rounds, which is what time and memory grow with: four for each pixel of the picture
 /// at most, but a quarter of a million at least and two million at most.
 std::size_t training_paths(const Scene& scene);
 

@@ -100,11 +100,11 @@ T nearer(const T& a, const T& b) {
     return max((a - b) * 0.5f, a);
 }
 
-/// The contribution of a skeleton at the distance d to a blob: (1 − (d/R)²)³, zero beyond R (Wyvill et al., "Data
-/// Structure for Soft Objects", 1986, with the square for their cubic).
+/// The contribution of a skeleton at the distance d to a blob of radius R: (1 − (d/R)²)³, zero beyond R (Wyvill et al.,
+/// "Data Structure for Soft Objects", 1986, with the square for their cubic).
 template <class T>
-T falloff(const T& d, float reach) {
-    const T x = max(d, T(0.f)) * (1.f / reach);
+T falloff(const T& d, float radius) {
+    const T x = max(d, T(0.f)) * (1.f / radius);
     const T y = max(1.f - x * x, T(0.f));
     return y * y * y;
 }

@@ -4,9 +4,9 @@
 
 namespace phasetree {
 
-/// A box of points, given by its centre and by its reach, which is half its size along each axis.
+/// A box of points, given by its centre and half of its size along each axis.
 struct PointRange {
-    std::array<double, 3> centre{}, reach{};
+    std::array<double, 3> centre{}, half_extents{};
 };
 
 }  // namespace phasetree

@@ -76,7 +76,7 @@ struct Blob {
 
     /// The number of skeletons.
     std::size_t count() const { return points.size() + (polyline.empty() ? 0 : 1) + of.size(); }
-    float reach(std::size_t i) const { return radii[radii.size() == 1 ? 0 : i]; }
+    float radius(std::size_t i) const { return radii[radii.size() == 1 ? 0 : i]; }
     float weight(std::size_t i) const { return weights.empty() ? 1.f : weights[weights.size() == 1 ? 0 : i]; }
 
     void prepare();
@@ -86,8 +86,8 @@ struct Blob {
         std::optional<typename D::Scalar> sum, nearest;
         std::size_t i = 0;
         const auto add = [&](const typename D::Scalar& distance) {
-            const float w = weight(i), r = radius_at(reach(i), level);
-            auto g = falloff(distance, reach(i));
+            const float w = weight(i), r = radius_at(radius(i), level);
+            auto g = falloff(distance, radius(i));
             if (w != 1) g = g * w;
             sum = sum ? *sum + g : g;
             nearest = nearest ? min(*nearest, distance - r) : distance - r;
@@ -107,7 +107,7 @@ struct Blob {
     Bounds bounds(BoundsQuery& q, float at_level) const {
         Bounds all;
         std::size_t i = 0;
-        const auto reached = [&] { return radius_at(reach(i++), level) + at_level; };
+        const auto reached = [&] { return radius_at(radius(i++), level) + at_level; };
         const auto add = [&](const glm::vec3& v, float by) {
             if (by >= 0)
                 all = unite(all, q.placed(Bounds{v, v}.inflated(by), [&](const glm::dvec3& d) {
@@ -122,7 +122,7 @@ struct Blob {
     }
 
     /// The distance at which falloff(·, R) falls below the level.
-    static float radius_at(float reach, float level) { return reach * std::sqrt(1 - std::cbrt(level)) * (1 + 1e-6f); }
+    static float radius_at(float radius, float level) { return radius * std::sqrt(1 - std::cbrt(level)) * (1 + 1e-6f); }
 };
 
 }  // namespace phasetree

@@ -56,7 +56,8 @@ struct Face {
 /// of the two faces, and how far beyond its ends its region reaches, as a share of its length.
 struct Edge {
     static constexpr PieceKind kind = PieceKind::edge;
-    static constexpr std::size_t end = 0, vector = 3, inverse = 6, normal = 7, spread = 10, slack = 11, floats = 12;
+    static constexpr std::size_t end = 0, vector = 3, inverse = 6, normal = 7, largest_angle = 10, slack = 11,
+                                 floats = 12;
 
     template <class T>
     static Told<T> tell(const float* piece, const Vec3<T>& p) {
@@ -67,14 +68,14 @@ struct Edge {
                 along(piece + normal, away)};
     }
 };
-/// The place, the normal, and the largest angle between that and a normal of the faces about the vertex.
+/// The position, the normal, and the largest angle between that and a normal of the faces about the vertex.
 struct Vertex {
     static constexpr PieceKind kind = PieceKind::vertex;
-    static constexpr std::size_t place = 0, normal = 3, spread = 6, floats = 7;
+    static constexpr std::size_t position = 0, normal = 3, largest_angle = 6, floats = 7;
 
     template <class T>
     static Told<T> tell(const float* piece, const Vec3<T>& p) {
-        const Vec3<T> q = from(piece + place, p);
+        const Vec3<T> q = from(piece + position, p);
         return {dot(q, q), along(piece + normal, q)};
     }
 };

@@ -78,7 +78,7 @@ struct VoronoiSites {
 
     /// A site is given by its cube, its place in the cube along each axis (see moved()) and its hash.
     struct Site {
-        std::array<float, 3> cube, place;
+        std::array<float, 3> cube, in_cube;
         float hash;
         std::array<double, 3> position;  ///< in cubes
         double distance;                 ///< from the centre of the search
