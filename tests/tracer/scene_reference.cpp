@@ -185,7 +185,8 @@ TEST_CASE("every key changes what is read") {
                                                     {"glass", "\"sf11\""},
                                                     {"abbe_number", "40"},
                                                     {"density", R"({"sphere": {"radius": 0.5}})"},
-                                                    {"caustics", "true"}};
+                                                    {"caustics", "true"},
+                                                    {"guiding", "true"}};
     for (const Case& c : cases()) {
         CAPTURE(c.name);
         for (const Value property : properties_of(c)) {
