@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "guiding/guide.hpp"
+#include "phasetree/math/float_mode.hpp"
 #include "sampling/warps.hpp"
 #include "support/statistics.hpp"
 #include "support/uniform.hpp"
@@ -81,7 +82,7 @@ TEST_CASE("directions are sampled with the density that the tree tells") {
     for (double& e : expected) e *= count / sum;
     Uniform random(3);
     const auto cell_of = [&](const glm::vec2& u) {
-        const glm::vec2 at = sphere_to_square(tree.sample(u)) * static_cast<float>(cells);
+        const glm::vec2 at = sphere_to_square(tree.sample(u).direction) * static_cast<float>(cells);
         return static_cast<std::size_t>(static_cast<int>(at.y) * cells + static_cast<int>(at.x));
     };
     for (int i = 0; i < count; ++i) {
@@ -91,6 +92,38 @@ TEST_CASE("directions are sampled with the density that the tree tells") {
     }
     CHECK(chi_squared_test(observed, expected).p_value > sidak(1e-4, 2));
     CHECK(chi_squared_test(defective, expected).p_value < sidak(1e-4, 2));
+}
+
+TEST_CASE("at all corners of the square there is a direction, with the density that it has") {
+    const phasetree::FlushSubnormals flush;
+    Uniform random(9);
+    const float corners[] = {0.0f, 0x1p-24f, 0.5f, 1 - 0x1p-24f};
+    for (int round = 0; round < 2000; ++round) {
+        // Whole columns, rows and squares without light, and light of all strengths, down to nothing beside the rest.
+        std::vector<DirectionTree::Arrival> light;
+        const float strength = 30 * random(), wide = random() * random();
+        const glm::vec2 corner = random.two();
+        for (int i = 0; i < 300; ++i)
+            light.push_back(
+                {glm::min(corner + wide * random.two(), 1 - 0x1p-24f), std::exp(strength * (random() - 1))});
+        light.push_back({random.two(), std::exp(-85 * random())});
+        const DirectionTree tree(light);
+        for (const float x : corners)
+            for (const float y : corners) {
+                const DirectionTree::Sample sample = tree.sample({x, y});
+                REQUIRE(std::abs(glm::length(sample.direction) - 1) < 1e-3f);
+                REQUIRE(sample.pdf > 0.0f);
+                REQUIRE(std::isfinite(sample.pdf));
+            }
+        const DirectionTree::Sample sample = tree.sample(random.two());
+        const float asked = tree.pdf(sample.direction);
+        // A direction at the edge of its square may be rounded into the next.
+        if (asked != doctest::Approx(sample.pdf).epsilon(1e-5)) {
+            const glm::vec2 at = sphere_to_square(sample.direction) * 4096.0f;
+            REQUIRE(std::min({at.x - std::floor(at.x), std::ceil(at.x) - at.x, at.y - std::floor(at.y),
+                              std::ceil(at.y) - at.y}) < 0.02f);
+        }
+    }
 }
 
 TEST_CASE("the density is what of the light comes from a square") {
@@ -107,7 +140,7 @@ TEST_CASE("the density is what of the light comes from a square") {
     Uniform random(5);
     int found = 0;
     constexpr int count = 100'000;
-    for (int i = 0; i < count; ++i) found += is_narrow(sphere_to_square(tree.sample(random.two())));
+    for (int i = 0; i < count; ++i) found += is_narrow(sphere_to_square(tree.sample(random.two()).direction));
     CHECK(static_cast<double>(found) / count == doctest::Approx(narrow / all).epsilon(0.02));
     // Where 40 % of the light comes from a thousandth of the sphere, the density is hundreds of times the mean.
     CHECK(tree.pdf(square_to_sphere({0.315f, 0.715f})) * 4.0f * pi > 100.0f);
@@ -141,12 +174,26 @@ TEST_CASE("a guide tells places and sides apart, and knows nothing where nothing
     CHECK(at({100, 100, 100}, {0, 0, 1}, {1, 0.1f, 0.3f}) > 10.0f);
 }
 
+TEST_CASE("a handful of findings tells nothing, and one that is very bright little") {
+    std::vector<Finding> findings(60, {{0, 0, 0}, 0, {0, 0, 1}, 1.0f});
+    CHECK(Guide(findings).at({0, 0, 0}, 0) == nullptr);
+    findings.resize(1000, findings[0]);
+    findings.push_back({{0, 0, 0}, 0, {0, 1, 0}, 1e29f});
+    const Guide guide(findings);
+    const DirectionTree* tree = guide.at({0, 0, 0}, 0);
+    REQUIRE(tree != nullptr);
+    CHECK(tree->pdf({0, 1, 0}) < tree->pdf({0, 0, 1}));
+    // Places without bounds are divided in bounded time.
+    for (int i = 0; i < 5000; ++i) findings.push_back({{1e30f * static_cast<float>(i % 7), 0, 0}, 0, {0, 0, 1}, 1.0f});
+    CHECK(Guide(findings).at({0, 0, 0}, 0) != nullptr);
+}
+
 TEST_CASE("findings all at one place, and of one direction, are no reason to divide forever") {
     std::vector<Finding> findings(50000, {{1, 2, 3}, 0, {0, 0, 1}, 1.0f});
     const Guide guide(findings);
     REQUIRE(guide.at({1, 2, 3}, 0) != nullptr);
     CHECK(std::isfinite(guide.at({1, 2, 3}, 0)->pdf({0, 0, 1})));
-    CHECK(glm::length(guide.at({1, 2, 3}, 0)->sample({0.5f, 0.5f}) - glm::vec3(0, 0, 1)) < 0.05f);
+    CHECK(glm::length(guide.at({1, 2, 3}, 0)->sample({0.5f, 0.5f}).direction - glm::vec3(0, 0, 1)) < 0.05f);
 }
 
 }  // namespace test_direction_tree

@@ -231,12 +231,16 @@ Rendering rendered(const RenderOptions& options, const World& world, const Scene
     const ProgressOutput output = ProgressOutput::standard_error(options.quiet);
     std::optional<Progress> progress;
     std::optional<TimeProgress> time_progress;
+    // While these live, another thread saves the film, which has a lock. There are none while the film may be empty: it
+    // would replace a file that has samples.
+    std::optional<Checkpoints> checkpoints;
     std::uint64_t done_before = 0;  // of samples that need not be made, before there is a progress to tell
     const auto begin = [&] {
         if (job.deadline)
             time_progress.emplace(*job.deadline, output, "rendering");
         else
             progress.emplace(total, output).advance(done_before);
+        if (options.checkpoint) checkpoints.emplace(*options.checkpoint, options.checkpoint_seconds, header, film);
     };
     std::optional<LateProgress> learning;
     if (scene.settings.guiding && total > 0)
@@ -257,9 +261,6 @@ Rendering rendered(const RenderOptions& options, const World& world, const Scene
         else
             done_before += n;
     };
-    // While this lives, another thread saves the film, which has a lock.
-    std::optional<Checkpoints> checkpoints;
-    if (options.checkpoint) checkpoints.emplace(*options.checkpoint, options.checkpoint_seconds, header, film);
     return render(world, scene, job, film);
 }
 

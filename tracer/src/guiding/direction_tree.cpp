@@ -12,11 +12,12 @@ namespace {
 constexpr float below_one = 0x1.fffffep-1f;
 
 // A square is divided that has more than this share of all light, and enough arrivals to tell where in it that comes
-// from: with 16 of them, not 64, a room behind a door had 1.6 × the variance. The depth is limited by what a float can
-// tell.
+// from: with 16 of them a room behind a door had 1.6 × the variance that it has with 64 (benchmarks/experiments.md).
+// The depth is limited by what a float can tell.
 constexpr double divided_share = 0.01;
 constexpr std::size_t divided_arrivals = 64;
 constexpr int most_depth = 12;
+constexpr float least_share = 1e-6f;
 
 }  // namespace
 
@@ -33,18 +34,14 @@ glm::vec3 square_to_sphere(const glm::vec2& point) {
     return {across * std::cos(phi), across * std::sin(phi), z};
 }
 
-struct DirectionTree::Division {
-    double light;  // of all arrivals
-};
-
 DirectionTree::DirectionTree(std::span<Arrival> arrivals) {
     double light = 0;
     for (const Arrival& arrival : arrivals) light += static_cast<double>(arrival.light);
-    divide({light}, arrivals, {0.0f, 0.0f}, 0);
+    divide(light, arrivals, {0.0f, 0.0f}, 0);
 }
 
 // Makes the node of the square of side 2^−depth whose low corner is given. Returns its number.
-std::uint32_t DirectionTree::divide(const Division& all, std::span<Arrival> arrivals, glm::vec2 corner, int depth) {
+std::uint32_t DirectionTree::divide(double light_of_all, std::span<Arrival> arrivals, glm::vec2 corner, int depth) {
     const auto number = static_cast<std::uint32_t>(nodes_.size());
     nodes_.emplace_back();
     const float half = std::ldexp(0.5f, -depth);
@@ -60,22 +57,26 @@ std::uint32_t DirectionTree::divide(const Division& all, std::span<Arrival> arri
             light[q] += static_cast<double>(arrival->light);
     const double sum = light[0] + light[1] + light[2] + light[3];
     for (std::size_t q = 0; q < 4; ++q) {
-        nodes_[number].share[q] = static_cast<float>(light[q] / sum);
+        // What is too little for a float's usual digits is nothing: sample() divides by it.
+        const auto share = static_cast<float>(light[q] / sum);
+        nodes_[number].share[q] = share < least_share ? 0.0f : share;
         const std::span<Arrival> part(bounds[q], bounds[q + 1]);
-        if (depth + 1 == most_depth || part.size() < divided_arrivals || !(light[q] > divided_share * all.light))
+        if (depth + 1 == most_depth || part.size() < divided_arrivals || !(light[q] > divided_share * light_of_all))
             continue;
         const glm::vec2 part_corner = corner + half * glm::vec2(static_cast<float>(q % 2), static_cast<float>(q / 2));
-        const std::uint32_t child = divide(all, part, part_corner, depth + 1);
+        const std::uint32_t child = divide(light_of_all, part, part_corner, depth + 1);
         nodes_[number].child[q] = child;
     }
     return number;
 }
 
-glm::vec3 DirectionTree::sample(glm::vec2 u) const {
+DirectionTree::Sample DirectionTree::sample(glm::vec2 u) const {
     glm::vec2 corner(0.0f);
-    float half = 0.5f;
-    // Chooses the low or the high half with the probability of the low one, and stretches the rest of the number.
-    const auto is_high = [](float& number, float low) {
+    float half = 0.5f, density = 1.0f / (4.0f * pi);
+    // Chooses the low or the high half by what is in them, and stretches the rest of the number. A half without light
+    // is never chosen: the quotient is exactly 0 or 1 then.
+    const auto is_high = [](float& number, float in_low, float in_high) {
+        const float low = in_low / (in_low + in_high);
         const bool high = number >= low;
         number = high ? (number - low) / (1.0f - low) : number / low;
         number = std::min(number, below_one);
@@ -83,13 +84,13 @@ glm::vec3 DirectionTree::sample(glm::vec2 u) const {
     };
     for (std::uint32_t number = 0;; half *= 0.5f) {
         const Node& node = nodes_[number];
-        const bool right = is_high(u.x, node.share[0] + node.share[2]);
-        const float below = node.share[right ? 1 : 0], above = node.share[right ? 3 : 2];
-        const bool high = is_high(u.y, below / (below + above));
+        const bool right = is_high(u.x, node.share[0] + node.share[2], node.share[1] + node.share[3]);
+        const bool high = is_high(u.y, node.share[right ? 1 : 0], node.share[right ? 3 : 2]);
         const std::size_t q = (right ? 1 : 0) + (high ? 2 : 0);
         corner += half * glm::vec2(right ? 1.0f : 0.0f, high ? 1.0f : 0.0f);
+        density *= 4.0f * node.share[q];
         number = node.child[q];
-        if (number == 0) return square_to_sphere(corner + half * u);
+        if (number == 0) return {square_to_sphere(corner + half * u), density};
     }
 }
 

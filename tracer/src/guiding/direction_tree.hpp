@@ -26,9 +26,14 @@ class DirectionTree {
     /// The density in proportion to the light of the arrivals, which are put into another order. There must be one.
     explicit DirectionTree(std::span<Arrival> arrivals);
 
+    struct Sample {
+        glm::vec3 direction;
+        float pdf;  ///< of the square that the direction was taken from, per steradian; greater than 0
+    };
     /// A direction for a point of the unit square [0, 1)². Neighbours stay neighbours, mostly.
-    glm::vec3 sample(glm::vec2 u) const;
-    /// The density of sample() in a direction of unit length, per steradian.
+    Sample sample(glm::vec2 u) const;
+    /// The density of sample() in a direction of unit length, per steradian. Asked for a sampled direction it may be
+    /// that of the next square, for a direction is rounded.
     float pdf(const glm::vec3& direction) const;
 
   private:
@@ -38,8 +43,7 @@ class DirectionTree {
         std::array<std::uint32_t, 4> child{};  // of the quarters that are divided; 0 of those that are not
     };
 
-    struct Division;
-    std::uint32_t divide(const Division& all, std::span<Arrival> arrivals, glm::vec2 corner, int depth);
+    std::uint32_t divide(double light_of_all, std::span<Arrival> arrivals, glm::vec2 corner, int depth);
 
     std::vector<Node> nodes_;
 };

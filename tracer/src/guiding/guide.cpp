@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -13,10 +14,12 @@ namespace {
 
 // A part of space with more findings than this is divided.
 constexpr std::size_t findings_a_part = 2048;
-// A finding counts as so many times the mean of its part at most. Few paths find very much, by luck, and what they
-// found tells less of where light comes from than of luck: without this a room behind a door had 1.2 × the variance.
+// One with fewer than this knows nothing: a handful of findings is luck.
+constexpr std::size_t fewest_findings = 64;
+// A finding counts as so many times the mean of its part at most, where the mean is of what counts. Few paths find very
+// much, by luck, and what they found tells less of where light comes from than of luck: without this a room behind a
+// door had 1.2 × the variance.
 constexpr double most_of_mean = 4;
-constexpr int undivided = 3;
 
 }  // namespace
 
@@ -46,16 +49,33 @@ struct Guide::Builder {
         const float at = low[axis] + 0.5f * size[axis];
         const auto is_low = [&](std::uint32_t number) { return findings[number].position[axis] < at; };
         if (numbers.size() <= findings_a_part || !(low[axis] < at && at < high[axis])) {
-            nodes[node] = {.axis = undivided, .low = parts.size()};
+            if (numbers.size() < fewest_findings) return node;
+            nodes[node].tree = parts.size();
             parts.push_back(numbers);
             return node;
         }
         const auto middle = std::partition(numbers.begin(), numbers.end(), is_low);
         const std::size_t low_half = divide({numbers.begin(), middle}), high_half = divide({middle, numbers.end()});
-        nodes[node] = {axis, at, low_half, high_half};
+        nodes[node] = {axis, at, low_half, high_half, std::nullopt};
         return node;
     }
 };
+
+namespace {
+
+float most_that_counts(const std::vector<Finding>& findings, std::span<const std::uint32_t> part) {
+    float most = std::numeric_limits<float>::max();
+    for (int round = 0; round < 16; ++round) {
+        double light = 0;
+        for (const std::uint32_t number : part) light += static_cast<double>(std::min(findings[number].light, most));
+        const float before = most;
+        most = static_cast<float>(most_of_mean * light / static_cast<double>(part.size()));
+        if (most > 0.9f * before) break;
+    }
+    return most;
+}
+
+}  // namespace
 
 Guide::Guide(const std::vector<Finding>& findings) {
     std::array<std::vector<std::uint32_t>, facings> numbers;
@@ -68,9 +88,7 @@ Guide::Guide(const std::vector<Finding>& findings) {
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
         std::vector<DirectionTree::Arrival> arrivals;
         arrivals.reserve(parts[i].size());
-        double light = 0;
-        for (const std::uint32_t number : parts[i]) light += static_cast<double>(findings[number].light);
-        const auto most = static_cast<float>(most_of_mean * light / static_cast<double>(parts[i].size()));
+        const float most = most_that_counts(findings, parts[i]);
         for (const std::uint32_t number : parts[i])
             arrivals.push_back({sphere_to_square(findings[number].direction), std::min(findings[number].light, most)});
         trees[i].emplace(arrivals);
@@ -83,7 +101,7 @@ const DirectionTree* Guide::at(const glm::vec3& position, Facing facing) const {
     if (nodes.empty()) return nullptr;
     const Node* node = nodes.data();
     while (node->axis != undivided) node = &nodes[position[node->axis] < node->at ? node->low : node->high];
-    return &trees_[node->low];
+    return node->tree ? &trees_[*node->tree] : nullptr;
 }
 
 }  // namespace phasetree::tracer

@@ -5,12 +5,16 @@
 // directions (direction_tree.hpp). Surfaces are told apart by where they face, because light falls on the two sides of
 // a thin wall from different directions: space is divided six times, for normals near each direction of the axes.
 // Since walls that face alike have much the same cosines, what is learnt is the light times the cosine at the surface,
-// where Müller, Gross & Novák (direction_tree.hpp) learn the light alone.
+// where Müller, Gross & Novák (direction_tree.hpp) learn the light alone. It is what a path's own directions find, by
+// the weight that they have against shadow rays and photons: where a lamp is in plain sight, shadow rays find it, and a
+// guide need not.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
 #include "guiding/direction_tree.hpp"
@@ -18,8 +22,8 @@
 namespace phasetree::tracer {
 
 /// Where a surface faces: the direction of the axes that is nearest to its normal, +x, −x, +y, −y, +z or −z.
-using Facing = std::size_t;
-inline constexpr Facing facings = 6;
+using Facing = std::uint8_t;
+inline constexpr std::size_t facings = 6;
 Facing facing_of(const glm::vec3& normal);
 
 /// Light that a path found from a place on a surface.
@@ -44,12 +48,14 @@ class Guide {
     const DirectionTree* at(const glm::vec3& position, Facing facing) const;
 
   private:
-    // A half is a part of space that is divided again, or one of the trees of directions.
+    // A part of space: divided into two, each with a node of its own, or with one tree of directions, or with none.
     struct Node {
-        int axis = 0;  // along which space is divided; 3 of a part that is not
-        float at = 0;
-        std::size_t low = 0, high = 0;  // the nodes of the halves; of a part that is not divided, `low` is its tree
+        int axis = undivided;  // along which it is divided
+        float at = 0;          // and where
+        std::size_t low = 0, high = 0;
+        std::optional<std::size_t> tree{};  // of a part that is not divided
     };
+    static constexpr int undivided = 3;
     struct Builder;
 
     std::array<std::vector<Node>, facings> parts_;  // the first node is all of space

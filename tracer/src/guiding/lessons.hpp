@@ -12,8 +12,8 @@ namespace phasetree::tracer {
 
 class PathLessons {
   public:
-    /// The path leaves a place on a surface in a direction that is not one of few. `cosine_over_pdf` is the cosine
-    /// there over the density of the direction, and `throughput` the luminance of the path's with that direction.
+    /// The path leaves a place on a surface, by no delta lobe. `cosine_over_pdf` is the cosine there over the density
+    /// of the direction, and `throughput` the luminance of the path's throughput with that direction.
     void leave(const glm::vec3& position, Facing facing, const glm::vec3& direction, float cosine_over_pdf,
                float throughput) {
         if (count_ == places_.size() || !(throughput > 0.0f)) return;
@@ -32,14 +32,14 @@ class PathLessons {
     }
 
   private:
-    // More than a float can add up a million times is no light.
+    // What is more has overflowed, or soon will.
     static constexpr float most_light = 1e30f;
 
     struct Place {
         Finding finding;
         float per_luminance = 0;
     };
-    std::array<Place, 32> places_{};  // later places of long paths tell nothing
+    std::array<Place, 16> places_{};  // later places of long paths tell nothing
     std::size_t count_ = 0;
 };
 

@@ -52,9 +52,11 @@ class GuidedBsdf {
   private:
     static constexpr float guided_share = 0.5f;
 
+    static float mean(float by_bsdf, float by_guide) {
+        return (1.0f - guided_share) * by_bsdf + guided_share * by_guide;
+    }
     float mixed(float by_bsdf, const glm::vec3& wi) const {
-        if (!guide_) return by_bsdf;
-        return (1.0f - guided_share) * by_bsdf + guided_share * guide_->pdf(frame_.to_world(wi));
+        return guide_ ? mean(by_bsdf, guide_->pdf(frame_.to_world(wi))) : by_bsdf;
     }
     static Sample as_chosen_with(float pdf, BsdfSample next) {
         const float over_unguided = pdf / next.pdf;
@@ -66,11 +68,12 @@ class GuidedBsdf {
         return bsdf_.sample(wo_, guide_ ? (u_lobe - guided_share) / (1.0f - guided_share) : u_lobe, u);
     }
     std::optional<Sample> sampled_by_guide(const glm::vec2& u) const {
-        const glm::vec3 wi = frame_.to_local(guide_->sample(u));
+        const DirectionTree::Sample chosen = guide_->sample(u);
+        const glm::vec3 wi = frame_.to_local(chosen.direction);
         const glm::vec3 f = evaluate(wi);
         const float by_bsdf = bsdf_.pdf(wo_, wi);
         if (f == glm::vec3(0.0f) || !(by_bsdf > 0.0f)) return std::nullopt;
-        return as_chosen_with(mixed(by_bsdf, wi), {wi, f / by_bsdf, by_bsdf, false, wi.z < 0.0f});
+        return as_chosen_with(mean(by_bsdf, chosen.pdf), {wi, f / by_bsdf, by_bsdf, false, wi.z < 0.0f});
     }
 
     const Bsdf& bsdf_;

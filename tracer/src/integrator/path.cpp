@@ -31,6 +31,10 @@ constexpr float survival_per_worth = 4.0f;
 constexpr int depth_without_roulette = 3;
 constexpr float least_survival = 0.05f, nearly_certain = 0.95f;
 
+// A guide is not asked any more by a path that it has led where BSDFs would have gone so many times as often, all
+// places together: a guide that is wrong at each place of a long path would double its weight each time.
+constexpr float least_over_unguided = 1.0f / 8;
+
 // Photons whose direction has a smaller cosine than this are dropped, because what they bring is divided by the cosine:
 // one would count a thousand times. The other techniques find such light instead, but for that of point lights.
 constexpr float least_photon_cosine = 1e-3f;
@@ -206,7 +210,7 @@ class Path {
     // differ more and more: of a body of jade the variance was seven times that without a guide.
     static bool is_guided(const Surface& surface, const Bsdf& bsdf) { return !surface.far_side && bsdf.is_diffuse(); }
     const DirectionTree* guide_at(const Surface& surface, const Bsdf& bsdf) const {
-        if (!guide_ || !is_guided(surface, bsdf)) return nullptr;
+        if (!guide_ || over_unguided_ < least_over_unguided || !is_guided(surface, bsdf)) return nullptr;
         return guide_->at(surface.near_side.origin, facing_of(surface.normal));
     }
 
@@ -400,11 +404,12 @@ class Path {
     // that of L, so the share of the camera's light that is found here is throughput · n²(here)/n²(camera). Returns
     // whether the path goes on. Survival is several times that share, because in long chains of clear interfaces what
     // is rouletted often comes back as noise that costs more than the steps that are saved. Where a guide chose
-    // directions the throughput is what it would be without one: paths that go where light is have little weight each,
-    // and are what a guide is for.
+    // directions with a greater density than BSDFs would have, the throughput is taken to be what it would be then:
+    // paths that go where light is have little weight each, and are what a guide is for.
     bool roulette(int depth) {
         const float ior = clear_at(scene_, ray_.phase).ior / camera_ior_;
-        const float worth = over_unguided_ * std::max({throughput_.x, throughput_.y, throughput_.z}) * ior * ior;
+        const float worth =
+            std::max(over_unguided_, 1.0f) * std::max({throughput_.x, throughput_.y, throughput_.z}) * ior * ior;
         if (!(worth > 0)) return false;
         const float survival = std::max(survival_per_worth * worth, least_survival);
         if (depth > depth_without_roulette && survival < nearly_certain) {

@@ -20,11 +20,11 @@ struct Photons {
     explicit operator bool() const { return map != nullptr; }
 };
 
-/// What was found out before a path starts, and helps it to find light; each is left out where it is not there.
+/// What a path knows beforehand of where light is, and what takes down what it finds out; null where it is not there.
 struct PathHelp {
     Photons photons{};
-    const Guide* guide = nullptr;    ///< of the directions in which paths go on
-    PathLessons* lessons = nullptr;  ///< takes what the path finds out itself; it is not finished
+    const Guide* guide = nullptr;    ///< where light on surfaces comes from: paths go on there (integrator/guided.hpp)
+    PathLessons* lessons = nullptr;  ///< for the next guide; who traces the path calls finish()
 };
 
 /// An estimate of the radiance that arrives along a ray, unbiased but for the light that is lost where paths end

@@ -51,13 +51,17 @@ class Renderer {
     int run() {
         leave_out_quiet_blocks();
         int done = fewest_samples();
-        if (scene_.settings.guiding && done < samples_.size() && !blocks_.empty()) {
-            guide_ = trained_guide({world_, scene_, cameras_, caustics_ ? &*caustics_ : nullptr, counters_.local(),
-                                    job_.learned, job_.cancelled});
+        // What is resumed when its time is over already has no use for a guide.
+        const bool is_late = job_.deadline && done > 0 && Clock::now() >= *job_.deadline;
+        if (scene_.settings.guiding && done < samples_.size() && !blocks_.empty() && !is_late) {
+            guide_ = trained_guide(
+                {world_, scene_, cameras_, caustics_ ? &*caustics_ : nullptr, job_.learned, job_.cancelled});
             stopped_ = !guide_;
         }
         while (done < samples_.size() && !stopped_ && !blocks_.empty()) {
-            const int next = after_next_pass(done);
+            // What was learned is used at least once, or a render that is resumed again and again would learn forever.
+            const bool is_first_with_guide = guide_ && seconds_of_sample_ == 0;
+            const int next = is_first_with_guide ? done + 1 : after_next_pass(done);
             if (next == done) break;
             const Clock::time_point start = Clock::now();
             if (caustics_) {

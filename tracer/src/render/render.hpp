@@ -20,7 +20,8 @@ struct RenderJob {
     /// Which of a pixel's samples, by their numbers: [first, last). All of the scene's if it is not said.
     std::optional<SampleRange> samples = std::nullopt;
     int threads = 0;  ///< 0: as many as there are cores
-    /// No pass begins that would not end by then, as far as the last one tells; the first one is always done.
+    /// No pass begins that would not end by then, as far as the last one tells; the first one is always done, and one
+    /// after a guide was learned.
     std::optional<std::chrono::steady_clock::time_point> deadline = std::nullopt;
     /// Called with the samples done since the last call, from any thread; those that a block need not have, because it
     /// has little noise, count as done.
