@@ -68,6 +68,8 @@ void check_guided(const Bsdf& bsdf, double significance) {
     Uniform random(8);
     Moments with_guide, without, told, from_the_right;
     int rounded_away = 0;  // to the next square of the tree
+    int wrong = 0;
+    const auto is_near = [](float found, float expected) { return std::abs(found - expected) < 1e-3f * expected; };
     for (int i = 0; i < 400'000; ++i) {
         const float lobe = random();
         const glm::vec2 u = random.two();
@@ -78,13 +80,13 @@ void check_guided(const Bsdf& bsdf, double significance) {
         without.add(plain ? static_cast<double>(plain->weight.x) : 0.0);
         told.add(shown ? static_cast<double>(shown->weight.x) : 0.0);
         from_the_right.add(next && frame.to_world(next->wi).x > 0.5f ? 1.0 : 0.0);
-        if (plain) REQUIRE(plain->over_unguided == 1.0f);
+        if (plain && plain->over_unguided != 1.0f) ++wrong;
         if (!next || next->delta) continue;
-        if (next->pdf != doctest::Approx(guided.pdf(next->wi)).epsilon(1e-3)) ++rounded_away;
-        REQUIRE(next->over_unguided == doctest::Approx(next->pdf / bsdf.pdf(wo, next->wi)).epsilon(1e-3));
-        const glm::vec3 weight = bsdf.evaluate(wo, next->wi) / next->pdf;
-        REQUIRE(next->weight.x == doctest::Approx(weight.x).epsilon(1e-3));
+        if (!is_near(guided.pdf(next->wi), next->pdf)) ++rounded_away;
+        if (!is_near(next->over_unguided, next->pdf / bsdf.pdf(wo, next->wi))) ++wrong;
+        if (!is_near(next->weight.x, bsdf.evaluate(wo, next->wi).x / next->pdf)) ++wrong;
     }
+    CHECK(wrong == 0);
     CHECK(rounded_away < 40);
     // Both find the same albedo, and an error of 1 % would be seen.
     const auto p_value = [&](const Moments& other, double factor) {
@@ -152,9 +154,9 @@ TEST_CASE("in the next room paths that are guided find the same light with less 
         }
         const std::optional<Guide> guide = guide_for(world, scene, caustics ? &*caustics : nullptr);
         REQUIRE(guide.has_value());
-        const Moments alone = radiance_along(world, scene, in_the_dark, to_floor, 200'000, 1, help)[0];
+        const Moments alone = radiance_along(world, scene, in_the_dark, to_floor, 120'000, 1, help)[0];
         help.guide = &*guide;
-        const Moments guided = radiance_along(world, scene, in_the_dark, to_floor, 200'000, 2, help)[0];
+        const Moments guided = radiance_along(world, scene, in_the_dark, to_floor, 120'000, 2, help)[0];
         const double error = std::hypot(alone.standard_error(), guided.standard_error());
         CAPTURE(guided.mean() / alone.mean());
         CAPTURE(error / alone.mean());
