@@ -20,12 +20,12 @@
 #include "command/pictures.hpp"
 #include "command/reading.hpp"
 #include "command/render_options.hpp"
+#include "command/render_progress.hpp"
 #include "command/unplaced_report.hpp"
 #include "denoise/denoise.hpp"
 #include "film_file/read.hpp"
 #include "output/interrupt.hpp"
 #include "output/late_progress.hpp"
-#include "output/progress.hpp"
 #include "phasetree/cells/file.hpp"
 #include "render/threads.hpp"
 
@@ -228,39 +228,16 @@ Rendering rendered(const RenderOptions& options, const World& world, const Scene
     for (int y = film.area().y0; y < film.area().y1; ++y)
         for (int x = film.area().x0; x < film.area().x1; ++x)
             total += static_cast<std::uint64_t>(job.samples->size()) - film.pixels().samples(x, y);
-    const ProgressOutput output = ProgressOutput::standard_error(options.quiet);
-    std::optional<Progress> progress;
-    std::optional<TimeProgress> time_progress;
-    // While these live, another thread saves the film, which has a lock. There are none while the film may be empty: it
-    // would replace a file that has samples.
+    // While they live, another thread saves the film, which has a lock. There are none before the first sample: an
+    // empty film would replace a file that has samples.
     std::optional<Checkpoints> checkpoints;
-    std::uint64_t done_before = 0;  // of samples that need not be made, before there is a progress to tell
-    const auto begin = [&] {
-        if (job.deadline)
-            time_progress.emplace(*job.deadline, output, "rendering");
-        else
-            progress.emplace(total, output).advance(done_before);
-        if (options.checkpoint) checkpoints.emplace(*options.checkpoint, options.checkpoint_seconds, header, film);
-    };
-    std::optional<LateProgress> learning;
-    if (scene.settings.guiding && total > 0)
-        learning.emplace(output, "learning where light comes from");
-    else
-        begin();
-    job.learned = [&](double share) {
-        learning->tell(share);
-        if (share < 1) return;
-        learning.reset();
-        begin();
-    };
-    job.advance = [&](std::uint64_t n) {
-        if (progress)
-            progress->advance(n);
-        else if (time_progress)
-            time_progress->tell();
-        else
-            done_before += n;
-    };
+    RenderProgress progress(ProgressOutput::standard_error(options.quiet), total, job.deadline,
+                            scene.settings.guiding && total > 0, [&] {
+                                if (options.checkpoint)
+                                    checkpoints.emplace(*options.checkpoint, options.checkpoint_seconds, header, film);
+                            });
+    job.learned = [&](double share) { progress.learned(share); };
+    job.advance = [&](std::uint64_t samples) { progress.advance(samples); };
     return render(world, scene, job, film);
 }
 

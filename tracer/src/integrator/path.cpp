@@ -11,25 +11,16 @@
 #include "image/luminance.hpp"
 #include "integrator/guided.hpp"
 #include "integrator/light_proposal.hpp"
+#include "integrator/path_chain.hpp"
 #include "integrator/path_recorder.hpp"
+#include "integrator/roulette.hpp"
 #include "integrator/shadow_ray.hpp"
-#include "integrator/technique_weight.hpp"
 #include "phasetree/math/bounds.hpp"
 #include "world/chain.hpp"
 
 namespace phasetree::tracer {
 
 namespace {
-
-// A path survives Russian roulette with this times the share of what it began with that it can still bring: for certain
-// from a quarter on. With 4 a picture of glasses had half of the variance times time that it had with 1, one of an
-// hourglass 0.82 of it; with 16 it was 0.49 and 0.85.
-constexpr float survival_per_worth = 4.0f;
-// Roulette spares the first three surfaces and places in media that a path meets: with a wall of glass in front, that
-// is as far as what is seen behind it. At least a twentieth of the paths survive, so that no weight grows by more than
-// 20 at once; where nearly all would, no random number is drawn.
-constexpr int depth_without_roulette = 3;
-constexpr float least_survival = 0.05f, nearly_certain = 0.95f;
 
 // A guide is not asked any more by a path that it has led where BSDFs would have gone so many times as often, all
 // places together: a guide that is wrong at each place of a long path would double its weight each time.
@@ -38,62 +29,6 @@ constexpr float least_over_unguided = 1.0f / 8;
 // Photons whose direction has a smaller cosine than this are dropped, because what they bring is divided by the cosine:
 // one would count a thousand times. The other techniques find such light instead, but for that of point lights.
 constexpr float least_photon_cosine = 1e-3f;
-
-// The density with which photons find a direction is `per_line_density` times the line density at the light's end of
-// the chain. That factor is N π r² n² cos θ on a surface and N π r² n² F in a medium (path.hpp), times R of each rough
-// interface on the way, over the densities with which the path has chosen the directions before (rough_chain.hpp).
-struct PhotonDensity {
-    float per_line_density = 0;
-    // It is set while F is still missing: in a medium that photons light, until the chain's first boundary is known.
-    std::optional<PhotonPlacement> placement{};
-
-    // Multiplies by F: the boundary at which the chain leaves the medium is at this distance. Later boundaries change
-    // nothing.
-    void reach_boundary(float distance) {
-        if (placement) per_line_density *= placement->coverage(distance);
-        placement.reset();
-    }
-};
-
-// What a path remembers of the last place where lights were sampled, and of the chain of smooth interfaces since. The
-// weight of emission at the end of the chain depends on it.
-struct Chain {
-    // The density with which the BSDF or phase function chose the chain's first direction; none if lights were not
-    // sampled there.
-    std::optional<float> pdf;
-    LightProposal proposal{};  // how lights were sampled there
-    glm::vec3 direction{0};    // the chain's first direction
-    PhotonDensity by_photons{};
-    // How many interfaces lead from the place that photons light to the rough one where this chain starts, that one
-    // included; 0 if photons light the start itself. Where no photons count it means nothing.
-    int interfaces_before = 0;
-    int length = 0;  // how many smooth clear interfaces it has
-
-    // How many interfaces are between what photons light and the lamp.
-    int interfaces() const { return interfaces_before + length; }
-    // Whether photons that pass a rough interface at the chain's end count at an earlier place of the path. If they do
-    // not, they count at the rough interface.
-    bool photons_count_earlier() const {
-        return pdf && by_photons.per_line_density > 0.0f && photons_follow(interfaces() + 1);
-    }
-
-    // The weight of light that is seen along the ray. Light at the end of a chain that shadow rays and photons do not
-    // follow to its end is found by the path alone, whichever techniques are asked for.
-    float weight(const Scene& scene, const Photons& photons, const Ray& ray) const {
-        const float per_line = by_photons.per_line_density;
-        const float line = per_line > 0.0f && photons_follow(interfaces()) ? line_density(photons, ray) : 0.0f;
-        return weight(scene, per_line * line);
-    }
-    // The same of what a surface sends that the ray met, or a medium on the ray. Photons bring none of it.
-    float weight_without_photons(const Scene& scene) const { return weight(scene, 0.0f); }
-
-  private:
-    float weight(const Scene& scene, float density_of_photons) const {
-        if (!pdf || length > longest_chain) return 1;
-        return technique_weight(scene.settings.techniques, Technique::directions, *pdf,
-                                proposal.pdf(scene.lights, direction), density_of_photons);
-    }
-};
 
 // One path, and what it needs at every step.
 class Path {
@@ -320,7 +255,7 @@ class Path {
                   direction, true);
     }
 
-    // Chain::interfaces_before of a chain that starts at the surface.
+    // PathChain::interfaces_before of a chain that starts at the surface.
     int interfaces_before(const Surface& surface) const {
         return surface.far_side && chain_.photons_count_earlier() ? chain_.interfaces() + 1 : 0;
     }
@@ -402,17 +337,15 @@ class Path {
 
     // Russian roulette on what the path can still bring to the camera. Refraction preserves L/n², and the throughput is
     // that of L, so the share of the camera's light that is found here is throughput · n²(here)/n²(camera). Returns
-    // whether the path goes on. Survival is several times that share, because in long chains of clear interfaces what
-    // is rouletted often comes back as noise that costs more than the steps that are saved. Where a guide chose
-    // directions with a greater density than BSDFs would have, the throughput is taken to be what it would be then:
-    // paths that go where light is have little weight each, and are what a guide is for.
+    // whether the path goes on. Where the path went in directions that a guide prefers to BSDFs, the share is taken to
+    // be what it would be had the BSDFs chosen them: paths to where light is have little weight each, and are what a
+    // guide is for.
     bool roulette(int depth) {
         const float ior = clear_at(scene_, ray_.phase).ior / camera_ior_;
-        const float worth =
-            std::max(over_unguided_, 1.0f) * std::max({throughput_.x, throughput_.y, throughput_.z}) * ior * ior;
+        const float worth = std::max({throughput_.x, throughput_.y, throughput_.z}) * ior * ior;
         if (!(worth > 0)) return false;
-        const float survival = std::max(survival_per_worth * worth, least_survival);
-        if (depth > depth_without_roulette && survival < nearly_certain) {
+        const float survival = roulette_survival(std::max(over_unguided_, 1.0f) * worth, depth);
+        if (survival < 1.0f) {
             if (sampler_.next() >= survival) return false;
             throughput_ /= survival;
         }
@@ -430,7 +363,7 @@ class Path {
     float camera_ior_;
     glm::vec3 radiance_{0.0f}, throughput_{1.0f};
     float over_unguided_ = 1;  // the product of GuidedBsdf::Sample::over_unguided
-    Chain chain_;
+    PathChain chain_;
     std::optional<glm::vec3>
         entered_;  // the outward normal of the clear boundary that the path met last in this medium
     bool is_camera_ray_ = true;

@@ -1,0 +1,70 @@
+// What a path remembers of the last place where lights were sampled, and of the chain of smooth interfaces since. The
+// weight of emission at the end of the chain depends on it (path.hpp).
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "caustics/photon_placement.hpp"
+#include "integrator/light_proposal.hpp"
+#include "integrator/shadow_ray.hpp"
+#include "integrator/technique_weight.hpp"
+#include "world/chain.hpp"
+
+namespace phasetree::tracer {
+
+/// The density with which photons find a direction is `per_line_density` times the line density at the light's end of
+/// the chain. That factor is N π r² n² cos θ on a surface and N π r² n² F in a medium (path.hpp), times R of each rough
+/// interface on the way, over the densities with which the path has chosen the directions before (rough_chain.hpp).
+struct PhotonDensity {
+    float per_line_density = 0;
+    /// It is set while F is still missing: in a medium that photons light, until the chain's first boundary is known.
+    std::optional<PhotonPlacement> placement{};
+
+    /// Multiplies by F: the boundary at which the chain leaves the medium is at this distance. Later boundaries change
+    /// nothing.
+    void reach_boundary(float distance) {
+        if (placement) per_line_density *= placement->coverage(distance);
+        placement.reset();
+    }
+};
+
+struct PathChain {
+    /// The density with which the path chose the chain's first direction: by the BSDF, a guide, or the phase function.
+    /// None if lights were not sampled there.
+    std::optional<float> pdf;
+    LightProposal proposal{};  ///< how lights were sampled there
+    glm::vec3 direction{0};    ///< the chain's first direction
+    PhotonDensity by_photons{};
+    /// How many interfaces lead from the place that photons light to the rough one where this chain starts, that one
+    /// included; 0 if photons light the start itself. Where no photons count it means nothing.
+    int interfaces_before = 0;
+    int length = 0;  ///< how many smooth clear interfaces it has
+
+    /// How many interfaces are between what photons light and the lamp.
+    int interfaces() const { return interfaces_before + length; }
+    /// Whether photons that pass a rough interface at the chain's end count at an earlier place of the path. If they do
+    /// not, they count at the rough interface.
+    bool photons_count_earlier() const {
+        return pdf && by_photons.per_line_density > 0.0f && photons_follow(interfaces() + 1);
+    }
+
+    /// The weight of light that is seen along the ray. Light at the end of a chain that shadow rays and photons do not
+    /// follow to its end is found by the path alone, whichever techniques are asked for.
+    float weight(const Scene& scene, const Photons& photons, const Ray& ray) const {
+        const float per_line = by_photons.per_line_density;
+        const float line = per_line > 0.0f && photons_follow(interfaces()) ? line_density(photons, ray) : 0.0f;
+        return weight(scene, per_line * line);
+    }
+    /// The same of what a surface sends that the ray met, or a medium on the ray. Photons bring none of it.
+    float weight_without_photons(const Scene& scene) const { return weight(scene, 0.0f); }
+
+  private:
+    float weight(const Scene& scene, float density_of_photons) const {
+        if (!pdf || length > longest_chain) return 1;
+        return technique_weight(scene.settings.techniques, Technique::directions, *pdf,
+                                proposal.pdf(scene.lights, direction), density_of_photons);
+    }
+};
+
+}  // namespace phasetree::tracer
