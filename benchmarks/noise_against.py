@@ -31,7 +31,8 @@ def rendered(command, scene, options, seed, folder):
         return None
     with open(stats, encoding="utf-8") as file:
         seconds = json.load(file)["render_seconds"]
-    pixels = oiio.ImageBuf(output).get_pixels(oiio.FLOAT)[:, :, :3].astype(np.float64)
+    # An ImageBuf would show the picture before this one again where both were written in the same second.
+    pixels = oiio.ImageInput.open(output).read_image(oiio.FLOAT)[:, :, :3].astype(np.float64)
     return pixels @ (0.2126, 0.7152, 0.0722), seconds
 
 
