@@ -1,11 +1,11 @@
-// Paths that go where light was found: by a guide the same light is found, by less noise where light is scattered
+// Paths that go where light was found: by a guide they find the same light, with less noise where light is scattered
 // often.
 #include <doctest/doctest.h>
 
 #include <atomic>
 #include <cmath>
 
-#include "guiding/lessons.hpp"
+#include "guiding/path_findings.hpp"
 #include "integrator/guided.hpp"
 #include "paths.hpp"
 #include "render/guide_training.hpp"
@@ -51,7 +51,7 @@ const glm::vec3 in_the_dark(0.3f, -2.5f, 1.4f), to_floor(-0.1f, 1.5f, -1.3f);
 
 // A tree that favours directions of +x.
 DirectionTree sideways() {
-    std::vector<DirectionTree::Arrival> light;
+    std::vector<DirectionTree::Light> light;
     Uniform random(7);
     for (int i = 0; i < 3000; ++i)
         light.push_back({sphere_to_square(glm::normalize(glm::vec3(1, 0, 0.5f) +
@@ -66,9 +66,9 @@ void check_guided(const Bsdf& bsdf, double significance) {
     const glm::vec3 wo = glm::normalize(glm::vec3(0.3f, 0.2f, 0.8f));
     const GuidedBsdf guided(bsdf, frame, wo, &tree), alone(bsdf, frame, wo, nullptr);
     Uniform random(8);
-    Moments with_guide, without, told, from_the_right;
+    Moments with_guide, without, recorded, from_the_right;
     int rounded_away = 0;  // to the next square of the tree
-    int wrong = 0;
+    int changed_without_guide = 0, wrong_quotients = 0, wrong_weights = 0;
     const auto is_near = [](float found, float expected) { return std::abs(found - expected) < 1e-3f * expected; };
     for (int i = 0; i < 400'000; ++i) {
         const float lobe = random();
@@ -78,15 +78,17 @@ void check_guided(const Bsdf& bsdf, double significance) {
         const auto shown = guided.unguided_sample(lobe, u);
         with_guide.add(next ? static_cast<double>(next->weight.x) : 0.0);
         without.add(plain ? static_cast<double>(plain->weight.x) : 0.0);
-        told.add(shown ? static_cast<double>(shown->weight.x) : 0.0);
+        recorded.add(shown ? static_cast<double>(shown->weight.x) : 0.0);
         from_the_right.add(next && frame.to_world(next->wi).x > 0.5f ? 1.0 : 0.0);
-        if (plain && plain->over_unguided != 1.0f) ++wrong;
+        if (plain && plain->pdf_over_unguided != 1.0f) ++changed_without_guide;
         if (!next || next->delta) continue;
-        if (!is_near(guided.pdf(next->wi), next->pdf)) ++rounded_away;
-        if (!is_near(next->over_unguided, next->pdf / bsdf.pdf(wo, next->wi))) ++wrong;
-        if (!is_near(next->weight.x, bsdf.evaluate(wo, next->wi).x / next->pdf)) ++wrong;
+        if (!is_near(guided.pdf(next->wi, frame.to_world(next->wi)), next->pdf)) ++rounded_away;
+        if (!is_near(next->pdf_over_unguided, next->pdf / bsdf.pdf(wo, next->wi))) ++wrong_quotients;
+        if (!is_near(next->weight.x, bsdf.evaluate(wo, next->wi).x / next->pdf)) ++wrong_weights;
     }
-    CHECK(wrong == 0);
+    CHECK(changed_without_guide == 0);
+    CHECK(wrong_quotients == 0);
+    CHECK(wrong_weights == 0);
     CHECK(rounded_away < 40);
     // Both find the same albedo, and an error of 1 % would be seen.
     const auto p_value = [&](const Moments& other, double factor) {
@@ -95,7 +97,7 @@ void check_guided(const Bsdf& bsdf, double significance) {
     };
     CHECK(p_value(with_guide, 1) > significance);
     CHECK(p_value(with_guide, 1.01) < significance);
-    CHECK((told.mean() == doctest::Approx(without.mean()).epsilon(0.003)));
+    CHECK((recorded.mean() == doctest::Approx(without.mean()).epsilon(0.003)));
     CHECK(from_the_right.mean() > 0.5);
 }
 
@@ -116,25 +118,34 @@ TEST_CASE("half of the directions are guided, and the albedo is what it was") {
     }
 }
 
-TEST_CASE("light counts for the places that the path had left before, over what the path had lost there") {
-    PathLessons lessons;
+TEST_CASE("light counts for the points that the path had left before, divided by the throughput that it had there") {
+    PathFindings of_path;
     std::vector<Finding> findings;
-    lessons.add_light(100);  // which the camera sees directly
-    lessons.leave({1, 0, 0}, 0, {0, 0, 1}, 2.0f, 0.5f);
-    lessons.add_light(3);
-    lessons.leave({2, 0, 0}, 1, {0, 1, 0}, 1.0f, 0.25f);
-    lessons.add_light(1);
-    lessons.leave({3, 0, 0}, 1, {0, 1, 0}, 1.0f, 0.25f);  // of which nothing comes
-    lessons.finish(findings);
+    of_path.add_light(100);  // which the camera sees directly
+    of_path.leave({1, 0, 0}, 0, {0, 0, 1}, 2.0f, 0.5f);
+    of_path.add_light(3);
+    of_path.leave({2, 0, 0}, 1, {0, 1, 0}, 1.0f, 0.25f);
+    of_path.add_light(1);
+    of_path.leave({3, 0, 0}, 1, {0, 1, 0}, 1.0f, 0.25f);  // of which nothing comes
+    of_path.take(findings);
     REQUIRE(findings.size() == 2);
-    CHECK(findings[0].position.x == 1.0f);
+    CHECK(findings[0].point.x == 1.0f);
     CHECK(findings[0].light == doctest::Approx((3 + 1) * 2.0 / 0.5));
-    CHECK(findings[1].position.x == 2.0f);
+    CHECK(findings[1].point.x == 2.0f);
     CHECK(findings[1].light == doctest::Approx(1 * 1.0 / 0.25));
     // The next path has nothing of it.
-    lessons.add_light(5);
-    lessons.finish(findings);
+    of_path.add_light(5);
+    of_path.take(findings);
     CHECK(findings.size() == 2);
+    // Of long paths the first points count, and none without throughput, nor light without bounds.
+    findings.clear();
+    of_path.leave({0, 0, 0}, 0, {0, 0, 1}, 1.0f, 0.0f);
+    for (int i = 0; i < 40; ++i)
+        of_path.leave({static_cast<float>(i), 0, 0}, 0, {0, 0, 1}, 1.0f, i == 3 ? 1e-38f : 1.0f);
+    of_path.add_light(2);
+    of_path.take(findings);
+    CHECK(findings.size() == 15);
+    for (const Finding& finding : findings) CHECK(finding.light == 2.0f);
 }
 
 TEST_CASE("in the next room paths that are guided find the same light with less noise") {
@@ -167,12 +178,12 @@ TEST_CASE("in the next room paths that are guided find the same light with less 
     }
 }
 
-TEST_CASE("within walls that glow with what they do not reflect paths that are guided see a radiance of 1") {
+TEST_CASE("paths that are guided see a radiance of 1 within walls that glow with what they do not reflect") {
     const Scene scene = scene_of(
         R"("wall": {"glowing": {"light": [0.3, 0.3, 0.3], "color": [0.7, 0.7, 0.7]}}, "glass": {"clear": {"ior": 1.5}},
-           "shade": {"diffuse": {"color": [1, 1, 1]}})",
+           "ball": {"diffuse": {"color": [1, 1, 1]}})",
         R"({"over": [{"set": {"phase": "glass", "of": {"sphere": {"radius": 0.3}}}},
-                     {"set": {"phase": "shade", "of": {"translate": {"by": [0.7, 0, 0], "of": {"sphere": {"radius": 0.2}}}}}},
+                     {"set": {"phase": "ball", "of": {"translate": {"by": [0.7, 0, 0], "of": {"sphere": {"radius": 0.2}}}}}},
                      {"set": {"phase": "wall", "of": {"difference": {"from": {"box": {"size": [3, 3, 3]}}, "subtract": [{"box": {"size": [2, 2, 2]}}]}}}}]})",
         R"("lights": [], "camera": {"position": [0, -0.9, 0], "look_at": [0, 0, 0], "fov": 90},
            "render": {"width": 32, "height": 32, "guiding": true, "max_depth": 10000})");
@@ -209,7 +220,7 @@ TEST_CASE("a guide that is wrong everywhere costs noise within bounds, and no li
     CHECK(m.variance() < 20);
 }
 
-TEST_CASE("a guide that knows nothing changes no bit, and one that knows much no albedo") {
+TEST_CASE("a guide that knows nothing changes no bit, and a good one does not change recorded albedos") {
     const Scene scene = rooms();
     const World world(scene);
     const std::optional<Guide> guide = guide_for(world, scene);

@@ -11,12 +11,13 @@ namespace {
 
 constexpr float below_one = 0x1.fffffep-1f;
 
-// A square is divided that has more than this share of all light, and enough arrivals to tell where in it that comes
+// A square is divided if it has more than this share of all light, and enough lights to tell where in it they come
 // from: with 16 of them a room behind a door had 1.6 × the variance that it has with 64 (benchmarks/experiments.md).
-// The depth is limited by what a float can tell.
 constexpr double divided_share = 0.01;
-constexpr std::size_t divided_arrivals = 64;
+constexpr std::size_t divided_lights = 64;
+// Each level takes bits from numbers of 24.
 constexpr int most_depth = 12;
+// Smaller shares count as 0, because sample() divides by shares.
 constexpr float least_share = 1e-6f;
 
 }  // namespace
@@ -34,37 +35,35 @@ glm::vec3 square_to_sphere(const glm::vec2& point) {
     return {across * std::cos(phi), across * std::sin(phi), z};
 }
 
-DirectionTree::DirectionTree(std::span<Arrival> arrivals) {
-    double light = 0;
-    for (const Arrival& arrival : arrivals) light += static_cast<double>(arrival.light);
-    divide(light, arrivals, {0.0f, 0.0f}, 0);
+DirectionTree::DirectionTree(std::span<Light> lights) {
+    double amount = 0;
+    for (const Light& light : lights) amount += static_cast<double>(light.amount);
+    divide(amount, lights, {0.0f, 0.0f}, 0);
 }
 
 // Makes the node of the square of side 2^−depth whose low corner is given. Returns its number.
-std::uint32_t DirectionTree::divide(double light_of_all, std::span<Arrival> arrivals, glm::vec2 corner, int depth) {
+std::uint32_t DirectionTree::divide(double amount_of_all, std::span<Light> lights, glm::vec2 corner, int depth) {
     const auto number = static_cast<std::uint32_t>(nodes_.size());
     nodes_.emplace_back();
     const float half = std::ldexp(0.5f, -depth);
     const glm::vec2 middle = corner + half;
-    const auto by_row = std::partition(arrivals.begin(), arrivals.end(),
-                                       [&](const Arrival& arrival) { return arrival.on_square.y < middle.y; });
-    const auto is_left = [&](const Arrival& arrival) { return arrival.on_square.x < middle.x; };
-    const std::array bounds{arrivals.begin(), std::partition(arrivals.begin(), by_row, is_left), by_row,
-                            std::partition(by_row, arrivals.end(), is_left), arrivals.end()};
-    std::array<double, 4> light{};
+    const auto is_below = [&](const Light& light) { return light.on_square.y < middle.y; };
+    const auto is_left = [&](const Light& light) { return light.on_square.x < middle.x; };
+    const auto row = std::partition(lights.begin(), lights.end(), is_below);
+    const std::array bounds{lights.begin(), std::partition(lights.begin(), row, is_left), row,
+                            std::partition(row, lights.end(), is_left), lights.end()};
+    std::array<double, 4> amount{};
     for (std::size_t q = 0; q < 4; ++q)
-        for (auto arrival = bounds[q]; arrival != bounds[q + 1]; ++arrival)
-            light[q] += static_cast<double>(arrival->light);
-    const double sum = light[0] + light[1] + light[2] + light[3];
+        for (auto light = bounds[q]; light != bounds[q + 1]; ++light) amount[q] += static_cast<double>(light->amount);
+    const double sum = amount[0] + amount[1] + amount[2] + amount[3];
     for (std::size_t q = 0; q < 4; ++q) {
-        // What is too little for a float's usual digits is nothing: sample() divides by it.
-        const auto share = static_cast<float>(light[q] / sum);
+        const auto share = static_cast<float>(amount[q] / sum);
         nodes_[number].share[q] = share < least_share ? 0.0f : share;
-        const std::span<Arrival> part(bounds[q], bounds[q + 1]);
-        if (depth + 1 == most_depth || part.size() < divided_arrivals || !(light[q] > divided_share * light_of_all))
+        const std::span<Light> part(bounds[q], bounds[q + 1]);
+        if (depth + 1 == most_depth || part.size() < divided_lights || !(amount[q] > divided_share * amount_of_all))
             continue;
         const glm::vec2 part_corner = corner + half * glm::vec2(static_cast<float>(q % 2), static_cast<float>(q / 2));
-        const std::uint32_t child = divide(light_of_all, part, part_corner, depth + 1);
+        const std::uint32_t child = divide(amount_of_all, part, part_corner, depth + 1);
         nodes_[number].child[q] = child;
     }
     return number;

@@ -18,19 +18,20 @@ namespace phasetree::tracer {
 class DirectionTree {
   public:
     /// Light that was found to arrive from a direction, as a point of the square.
-    struct Arrival {
+    struct Light {
         glm::vec2 on_square;
-        float light = 0;  ///< in any unit; greater than 0
+        float amount = 0;  ///< in any unit; greater than 0
     };
 
-    /// The density in proportion to the light of the arrivals, which are put into another order. There must be one.
-    explicit DirectionTree(std::span<Arrival> arrivals);
+    /// The density in proportion to the lights, which are put into another order. There must be one.
+    explicit DirectionTree(std::span<Light> lights);
 
     struct Sample {
         glm::vec3 direction;
-        float pdf;  ///< of the square that the direction was taken from, per steradian; greater than 0
+        float pdf;  ///< the density in the square that the direction was taken from, per steradian; greater than 0
     };
-    /// A direction for a point of the unit square [0, 1)². Neighbours stay neighbours, mostly.
+    /// A direction for a point of the unit square [0, 1)². Neighbours mostly stay neighbours, so what is stratified
+    /// stays so.
     Sample sample(glm::vec2 u) const;
     /// The density of sample() in a direction of unit length, per steradian. Asked for a sampled direction it may be
     /// that of the next square, for a direction is rounded.
@@ -43,7 +44,7 @@ class DirectionTree {
         std::array<std::uint32_t, 4> child{};  // of the quarters that are divided; 0 of those that are not
     };
 
-    std::uint32_t divide(double light_of_all, std::span<Arrival> arrivals, glm::vec2 corner, int depth);
+    std::uint32_t divide(double amount_of_all, std::span<Light> lights, glm::vec2 corner, int depth);
 
     std::vector<Node> nodes_;
 };

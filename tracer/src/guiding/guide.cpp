@@ -3,29 +3,37 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
+
+#include "phasetree/math/float_mode.hpp"
 
 namespace phasetree::tracer {
 
 namespace {
 
-// A part of space with more findings than this is divided.
-constexpr std::size_t findings_a_part = 2048;
-// One with fewer than this knows nothing: a handful of findings is luck.
+// A region with more findings than this is divided.
+constexpr std::size_t findings_a_region = 2048;
+// Of a region with fewer than this nothing is known, because a handful of findings is luck.
 constexpr std::size_t fewest_findings = 64;
-// A finding counts as so many times the mean of its part at most, where the mean is of what counts. Few paths find very
-// much, by luck, and what they found tells less of where light comes from than of luck: without this a room behind a
-// door had 1.2 × the variance.
-constexpr double most_of_mean = 4;
+// A finding is clamped to so many times the mean of its region, the mean being taken after clamping. Few paths find
+// very much light, by luck, and would send all others after it: without this a room behind a door had 1.2 × the
+// variance.
+constexpr double clamp_over_mean = 4;
+
+// 0, 1 or 2.
+int longest_axis(const glm::vec3& size) {
+    return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+}
 
 }  // namespace
 
 Facing facing_of(const glm::vec3& normal) {
-    const glm::vec3 size = glm::abs(normal);
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const int axis = longest_axis(glm::abs(normal));
     return static_cast<Facing>(2 * axis + (normal[axis] < 0.0f ? 1 : 0));
 }
 
@@ -33,27 +41,27 @@ struct Guide::Builder {
     using Numbers = std::span<std::uint32_t>;
     const std::vector<Finding>& findings;
     std::vector<Node>& nodes;
-    std::vector<Numbers>& parts;  // the findings of each tree
+    std::vector<Numbers>& findings_of_trees;
 
+    // Makes the node of the region that has the findings of these numbers. Returns its number.
     std::size_t divide(Numbers numbers) {
         const std::size_t node = nodes.size();
         nodes.emplace_back();
-        glm::vec3 low = findings[numbers[0]].position, high = low;
+        glm::vec3 low = findings[numbers[0]].point, high = low;
         for (const std::uint32_t number : numbers) {
-            low = glm::min(low, findings[number].position);
-            high = glm::max(high, findings[number].position);
+            low = glm::min(low, findings[number].point);
+            high = glm::max(high, findings[number].point);
         }
-        const glm::vec3 size = high - low;
-        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-        // In the middle: where findings are many they are divided again, and parts stay compact.
-        const float at = low[axis] + 0.5f * size[axis];
-        const auto is_low = [&](std::uint32_t number) { return findings[number].position[axis] < at; };
-        if (numbers.size() <= findings_a_part || !(low[axis] < at && at < high[axis])) {
+        const int axis = longest_axis(high - low);
+        // Regions are divided in the middle, so they stay compact; those with many findings are divided again.
+        const float at = low[axis] + 0.5f * (high[axis] - low[axis]);
+        if (numbers.size() <= findings_a_region || !(low[axis] < at && at < high[axis])) {
             if (numbers.size() < fewest_findings) return node;
-            nodes[node].tree = parts.size();
-            parts.push_back(numbers);
+            nodes[node].tree = findings_of_trees.size();
+            findings_of_trees.push_back(numbers);
             return node;
         }
+        const auto is_low = [&](std::uint32_t number) { return findings[number].point[axis] < at; };
         const auto middle = std::partition(numbers.begin(), numbers.end(), is_low);
         const std::size_t low_half = divide({numbers.begin(), middle}), high_half = divide({middle, numbers.end()});
         nodes[node] = {axis, at, low_half, high_half, std::nullopt};
@@ -63,44 +71,47 @@ struct Guide::Builder {
 
 namespace {
 
-float most_that_counts(const std::vector<Finding>& findings, std::span<const std::uint32_t> part) {
-    float most = std::numeric_limits<float>::max();
+// Clamping lowers the mean that it is taken from, so this is repeated until it settles.
+float clamp_of(const std::vector<Finding>& findings, std::span<const std::uint32_t> region) {
+    float clamp = std::numeric_limits<float>::max();
     for (int round = 0; round < 16; ++round) {
         double light = 0;
-        for (const std::uint32_t number : part) light += static_cast<double>(std::min(findings[number].light, most));
-        const float before = most;
-        most = static_cast<float>(most_of_mean * light / static_cast<double>(part.size()));
-        if (most > 0.9f * before) break;
+        for (const std::uint32_t number : region) light += static_cast<double>(std::min(findings[number].light, clamp));
+        const float before = clamp;
+        clamp = static_cast<float>(clamp_over_mean * light / static_cast<double>(region.size()));
+        if (clamp > 0.9f * before) break;
     }
-    return most;
+    return clamp;
 }
 
 }  // namespace
 
 Guide::Guide(const std::vector<Finding>& findings) {
+    const FlushSubnormals flush;
     std::array<std::vector<std::uint32_t>, facings> numbers;
     for (std::size_t i = 0; i < findings.size(); ++i)
         numbers[findings[i].facing].push_back(static_cast<std::uint32_t>(i));
-    std::vector<Builder::Numbers> parts;
+    std::vector<Builder::Numbers> findings_of_trees;
     for (std::size_t facing = 0; facing < facings; ++facing)
-        if (!numbers[facing].empty()) Builder{findings, parts_[facing], parts}.divide(numbers[facing]);
-    std::vector<std::optional<DirectionTree>> trees(parts.size());
-    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
-        std::vector<DirectionTree::Arrival> arrivals;
-        arrivals.reserve(parts[i].size());
-        const float most = most_that_counts(findings, parts[i]);
-        for (const std::uint32_t number : parts[i])
-            arrivals.push_back({sphere_to_square(findings[number].direction), std::min(findings[number].light, most)});
-        trees[i].emplace(arrivals);
+        if (!numbers[facing].empty()) Builder{findings, nodes_[facing], findings_of_trees}.divide(numbers[facing]);
+    std::vector<std::optional<DirectionTree>> trees(findings_of_trees.size());
+    tbb::parallel_for(std::size_t{0}, trees.size(), [&](std::size_t i) {
+        const FlushSubnormals flush_here;
+        std::vector<DirectionTree::Light> lights;
+        lights.reserve(findings_of_trees[i].size());
+        const float clamp = clamp_of(findings, findings_of_trees[i]);
+        for (const std::uint32_t number : findings_of_trees[i])
+            lights.push_back({sphere_to_square(findings[number].direction), std::min(findings[number].light, clamp)});
+        trees[i].emplace(lights);
     });
     for (std::optional<DirectionTree>& tree : trees) trees_.push_back(std::move(*tree));
 }
 
-const DirectionTree* Guide::at(const glm::vec3& position, Facing facing) const {
-    const std::vector<Node>& nodes = parts_[facing];
+const DirectionTree* Guide::at(const glm::vec3& point, Facing facing) const {
+    const std::vector<Node>& nodes = nodes_[facing];
     if (nodes.empty()) return nullptr;
     const Node* node = nodes.data();
-    while (node->axis != undivided) node = &nodes[position[node->axis] < node->at ? node->low : node->high];
+    while (node->axis != undivided) node = &nodes[point[node->axis] < node->at ? node->low : node->high];
     return node->tree ? &trees_[*node->tree] : nullptr;
 }
 

@@ -1,6 +1,8 @@
-// The directions in which a path goes on from a surface, chosen by its BSDF, or half by that and half by a guide
-// (guiding/guide.hpp). Both together are one density, the mean of the two, by which shadow rays, photons and directions
-// are weighted against each other as ever: a bad guide costs noise and never shifts the mean.
+// The directions in which a path goes on from a surface, chosen by its BSDF alone, or half by that and half by a guide
+// (guiding/guide.hpp). The two together have one density, the mean of theirs, which enters the weights of shadow rays,
+// photons and directions. So a bad guide costs noise and never shifts the mean.
+//
+// A guide knows nothing of smooth coats: where there is one, it leaves half as many directions for the coat's mirror.
 #pragma once
 
 #include <optional>
@@ -21,27 +23,27 @@ class GuidedBsdf {
     const Bsdf& bsdf() const { return bsdf_; }
     const Frame& frame() const { return frame_; }
     const glm::vec3& wo() const { return wo_; }
+    bool is_guided() const { return guide_ != nullptr; }
 
-    /// As Bsdf has them, for directions `wi` of the frame.
+    /// As Bsdf has it, for a direction of the frame.
     glm::vec3 evaluate(const glm::vec3& wi) const { return bsdf_.evaluate(wo_, wi); }
-    float reverse_pdf(const glm::vec3& wi) const { return bsdf_.reverse_pdf(wo_, wi); }
-    /// The density of sample(), delta lobes left out.
-    float pdf(const glm::vec3& wi) const { return mixed(bsdf_.pdf(wo_, wi), wi); }
+    /// The density of sample(), delta lobes left out. `world` is `wi` in world space.
+    float pdf(const glm::vec3& wi, const glm::vec3& world) const { return mixed(bsdf_.pdf(wo_, wi), world); }
 
     struct Sample : BsdfSample {
-        /// The density of `wi` over that with which the BSDF alone would choose it; 1 without a guide.
-        float over_unguided = 1;
+        /// The density of `wi` over that with which the BSDF alone would choose it: 1 without a guide, and never less
+        /// than a half.
+        float pdf_over_unguided = 1;
     };
     /// Nothing if the path ends here.
     std::optional<Sample> sample(float u_lobe, const glm::vec2& u) const {
         if (guide_ && u_lobe < guided_share) return sampled_by_guide(u);
         const auto next = sampled_by_bsdf(u_lobe, u);
         if (!next) return std::nullopt;
+        if (!guide_) return Sample{*next};
         // A guide never chooses the one direction of a delta lobe.
-        const float pdf = !guide_       ? next->pdf
-                          : next->delta ? (1.0f - guided_share) * next->pdf
-                                        : mixed(next->pdf, next->wi);
-        return as_chosen_with(pdf, *next);
+        return as_chosen_with(
+            next->delta ? (1.0f - guided_share) * next->pdf : mixed(next->pdf, frame_.to_world(next->wi)), *next);
     }
     /// What the BSDF alone would choose by the same numbers.
     std::optional<BsdfSample> unguided_sample(float u_lobe, const glm::vec2& u) const {
@@ -55,14 +57,14 @@ class GuidedBsdf {
     static float mean(float by_bsdf, float by_guide) {
         return (1.0f - guided_share) * by_bsdf + guided_share * by_guide;
     }
-    float mixed(float by_bsdf, const glm::vec3& wi) const {
-        return guide_ ? mean(by_bsdf, guide_->pdf(frame_.to_world(wi))) : by_bsdf;
+    float mixed(float by_bsdf, const glm::vec3& world) const {
+        return guide_ ? mean(by_bsdf, guide_->pdf(world)) : by_bsdf;
     }
     static Sample as_chosen_with(float pdf, BsdfSample next) {
-        const float over_unguided = pdf / next.pdf;
-        next.weight /= over_unguided;
+        const float pdf_over_unguided = pdf / next.pdf;
+        next.weight /= pdf_over_unguided;
         next.pdf = pdf;
-        return {next, over_unguided};
+        return {next, pdf_over_unguided};
     }
     std::optional<BsdfSample> sampled_by_bsdf(float u_lobe, const glm::vec2& u) const {
         return bsdf_.sample(wo_, guide_ ? (u_lobe - guided_share) / (1.0f - guided_share) : u_lobe, u);

@@ -6,25 +6,19 @@
 #include "caustics/photon_map.hpp"
 #include "caustics/photon_placement.hpp"
 #include "caustics/trace_photon.hpp"
-#include "guiding/guide.hpp"
-#include "guiding/lessons.hpp"
-#include "image/luminance.hpp"
-#include "integrator/guided.hpp"
 #include "integrator/light_proposal.hpp"
 #include "integrator/path_chain.hpp"
+#include "integrator/path_guiding.hpp"
 #include "integrator/path_recorder.hpp"
 #include "integrator/roulette.hpp"
 #include "integrator/shadow_ray.hpp"
+#include "integrator/technique_weight.hpp"
 #include "phasetree/math/bounds.hpp"
 #include "world/chain.hpp"
 
 namespace phasetree::tracer {
 
 namespace {
-
-// A guide is not asked any more by a path that it has led where BSDFs would have gone so many times as often, all
-// places together: a guide that is wrong at each place of a long path would double its weight each time.
-constexpr float least_over_unguided = 1.0f / 8;
 
 // Photons whose direction has a smaller cosine than this are dropped, because what they bring is divided by the cosine:
 // one would count a thousand times. The other techniques find such light instead, but for that of point lights.
@@ -38,8 +32,7 @@ class Path {
         : world_(world),
           scene_(scene),
           photons_(help.photons),
-          guide_(help.guide),
-          lessons_(help.lessons),
+          guiding_(help.guide, help.findings),
           sampler_(sampler),
           counters_(counters),
           ray_(ray),
@@ -124,7 +117,7 @@ class Path {
                    bool is_to_be_scattered) {
         const glm::vec3 radiance = is_dispersed_ ? found * hero_.response : found;
         radiance_ += radiance;
-        if (lessons_) lessons_->add_light(luminance(found));
+        guiding_.add_light(found);
         recorder_.add_light(radiance, source, direction, is_to_be_scattered);
     }
 
@@ -140,53 +133,43 @@ class Path {
                             throughput_ * weight * (from_camera * from_camera));
     }
 
-    // Whether a guide takes part in choosing directions: on a surface that gets light from nearly all directions.
-    // Elsewhere the BSDF knows better. In media many directions follow one another, and guided ones leave weights that
-    // differ more and more: of a body of jade the variance was seven times that without a guide.
-    static bool is_guided(const Surface& surface, const Bsdf& bsdf) { return !surface.far_side && bsdf.is_diffuse(); }
-    const DirectionTree* guide_at(const Surface& surface, const Bsdf& bsdf) const {
-        if (!guide_ || over_unguided_ < least_over_unguided || !is_guided(surface, bsdf)) return nullptr;
-        return guide_->at(surface.near_side.origin, facing_of(surface.normal));
-    }
-
     // Adds direct light and what photons bring, and samples the path's next ray. Returns whether there is one.
-    bool scatter_and_continue(const Surface& surface, const Bsdf& bsdf_there) {
+    bool scatter_and_continue(const Surface& surface, const Bsdf& unguided) {
         ++counters_.interactions;
         is_camera_ray_ = false;
         const Frame frame(surface.normal);
-        const GuidedBsdf bsdf(bsdf_there, frame, frame.to_local(-ray_.direction), guide_at(surface, bsdf_there));
+        const GuidedBsdf bsdf(unguided, frame, frame.to_local(-ray_.direction), guiding_.at(surface, unguided));
         LightProposal proposal;
-        const auto photon_factor_of = [&](const glm::vec3& wi) {
-            return surface.far_side && chain_.photons_count_earlier() ? factor_beyond(surface, bsdf, wi)
-                                                                      : factor_at(surface, bsdf_there, wi);
+        const auto per_line_density_of = [&](const glm::vec3& wi) {
+            return surface.far_side && chain_.photons_count_earlier() ? per_line_density_beyond(surface, bsdf, wi)
+                                                                      : per_line_density_at(surface, unguided, wi);
         };
-        if (!bsdf_there.is_delta()) {
+        if (!unguided.is_delta()) {
             // A rough interface gets light from both sides, so none is preferred and no bending is guessed.
             proposal = surface.far_side ? LightProposal(surface.near_side.origin)
                                         : LightProposal::at(surface, world_, scene_, counters_);
-            add_direct_light(surface, bsdf, proposal, photon_factor_of);
+            add_direct_light(surface, bsdf, proposal, per_line_density_of);
             add_caustics(surface, bsdf, proposal);
         }
         const float lobe = sampler_.next();
         const glm::vec2 u = sampler_.next2();
         const auto next = bsdf.sample(lobe, u);
-        // What the surface looks like is told without the guide, whose weights are noise.
-        if (recorder_.is_asked()) record(surface, bsdf_there, bsdf.unguided_sample(lobe, u));
+        // The recorded albedo is by the BSDF's own choice, because the weights of guided directions are noisier.
+        if (recorder_.is_asked())
+            record(surface, unguided,
+                   bsdf.is_guided() ? bsdf.unguided_sample(lobe, u) : std::optional<BsdfSample>(next));
         if (!next) return false;
         throughput_ *= for_light(next->weight, single());
-        over_unguided_ *= next->over_unguided;
         ray_ = continued(surface, frame, *next);
         if (surface.far_side) entered_ = next->transmitted ? surface.normal : -surface.normal;
-        if (lessons_ && !next->delta && is_guided(surface, bsdf_there))
-            lessons_->leave(surface.near_side.origin, facing_of(surface.normal), ray_.direction, next->wi.z / next->pdf,
-                            luminance(throughput_));
+        guiding_.leave(surface, unguided, *next, ray_.direction, throughput_);
         if (!next->delta)
             chain_ = {.pdf = next->pdf,
                       .proposal = proposal,
                       .direction = ray_.direction,
-                      .by_photons = {photon_factor_of(next->wi)},
+                      .by_photons = {per_line_density_of(next->wi)},
                       .interfaces_before = interfaces_before(surface)};
-        else if (is_link(bsdf_there, surface))
+        else if (is_link(unguided, surface))
             ++chain_.length;
         else
             chain_ = {};  // a delta lobe that shadow rays cannot follow: that of a mirror or of a smooth coat
@@ -199,7 +182,7 @@ class Path {
         const HenyeyGreenstein& phase = point.phase_function;
         const auto proposal = LightProposal::at(point, entered_, world_, scene_);
         const auto placement = photons_ ? PhotonPlacement::in(medium(), photons_.map->half_length()) : std::nullopt;
-        const PhotonDensity by_photons{placement ? factor_across(point.phase) : 0.0f, placement};
+        const PhotonDensity by_photons{placement ? per_line_density_across(point.phase) : 0.0f, placement};
         if (const auto light = sampled_light(proposal)) {
             const float f = phase.evaluate(glm::dot(ray_.direction, light->wi));
             add_direct_light(*light, glm::vec3(f), f, by_photons, point.leaving(light->wi), 0);
@@ -212,16 +195,16 @@ class Path {
     }
 
     // Next-event estimation: what arrives from the lights by a shadow ray, and is scattered into the path.
-    template <class PhotonFactor>
+    template <class PerLineDensity>
     void add_direct_light(const Surface& surface, const GuidedBsdf& bsdf, const LightProposal& proposal,
-                          PhotonFactor&& photon_factor_of) {
+                          PerLineDensity&& per_line_density_of) {
         const auto light = sampled_light(proposal);
         if (!light) return;
         const glm::vec3 wi = bsdf.frame().to_local(light->wi);
         const glm::vec3 f = for_light(bsdf.evaluate(wi), single());
         if (f == glm::vec3(0.0f)) return;
-        const float photon_factor = photon_factor_of(wi);
-        add_direct_light(*light, f, bsdf.pdf(wi), {photon_factor},
+        const float per_line_density = per_line_density_of(wi);
+        add_direct_light(*light, f, bsdf.pdf(wi, light->wi), {per_line_density},
                          wi.z < 0 ? surface.transmitted(light->wi) : surface.reflected(light->wi),
                          interfaces_before(surface));
     }
@@ -261,21 +244,21 @@ class Path {
     }
     // PhotonDensity::per_line_density of a direction that leads on from a rough interface, if photons count at an
     // earlier place.
-    float factor_beyond(const Surface& surface, const GuidedBsdf& bsdf, const glm::vec3& wi) const {
+    float per_line_density_beyond(const Surface& surface, const GuidedBsdf& bsdf, const glm::vec3& wi) const {
         const Surface::Side& left_to = wi.z < 0 ? *surface.far_side : surface.near_side;
         return chain_.by_photons.per_line_density / *chain_.pdf *
-               rough_factor(bsdf.reverse_pdf(wi), clear_at(scene_, left_to.phase).ior, wi.z,
+               rough_factor(bsdf.bsdf().reverse_pdf(bsdf.wo(), wi), clear_at(scene_, left_to.phase).ior, wi.z,
                             clear_at(scene_, surface.near_side.phase).ior, bsdf.wo().z);
     }
     // PhotonDensity::per_line_density of a direction at a surface on which photons count; 0 if they do not count in it.
-    float factor_at(const Surface& surface, const Bsdf& bsdf, const glm::vec3& wi) const {
+    float per_line_density_at(const Surface& surface, const Bsdf& bsdf, const glm::vec3& wi) const {
         const float cosine = surface.far_side ? std::abs(wi.z) : wi.z;
         if (!photons_ || !(cosine > least_photon_cosine) || bsdf.is_delta()) return 0.0f;
-        return factor_across(wi.z < 0.0f ? surface.far_side->phase : surface.near_side.phase) * cosine;
+        return per_line_density_across(wi.z < 0.0f ? surface.far_side->phase : surface.near_side.phase) * cosine;
     }
     // N π r² n². Where a phase disperses, n is that of the d line: all techniques weigh by the same, so their weights
     // still sum to 1.
-    float factor_across(Phase phase) const {
+    float per_line_density_across(Phase phase) const {
         const float ior = clear_at(scene_, phase).ior;
         return photons_.map->expected() * ior * ior;
     }
@@ -305,11 +288,11 @@ class Path {
             const bool is_from_near = photon.phase == near;
             if (!is_from_near && !(surface.far_side && photon.phase == surface.far_side->phase)) return;
             if (is_from_near != (wi.z > 0.0f)) return;
-            const float by_photons = factor_at(surface, bsdf.bsdf(), wi) * photon.line_density;
+            const float by_photons = per_line_density_at(surface, bsdf.bsdf(), wi) * photon.line_density;
             if (!(by_photons > 0.0f)) return;
             // Photons are counted by area of the surface, and so have the cosine already that evaluate() multiplies by.
             const glm::vec3 f = for_light(bsdf.evaluate(wi), single()) / std::abs(wi.z);
-            add_photon(photon, photon.power, f, by_photons, bsdf.pdf(wi), proposal);
+            add_photon(photon, photon.power, f, by_photons, bsdf.pdf(wi, photon.direction), proposal);
         };
         if (!surface.far_side)
             photons_.map->near(surface.near_side.origin, surface.normal, add);
@@ -320,7 +303,7 @@ class Path {
     // Adds what photons bring whose places in a medium are near the point.
     void add_caustics(const MediumPoint& point, const PhotonPlacement& placement, const LightProposal& proposal) {
         if (scene_.settings.techniques != Techniques::all) return;
-        const float across = factor_across(point.phase);
+        const float across = per_line_density_across(point.phase);
         photons_.map->near_in_medium(point.position, point.phase, [&](const Photon& photon, float depth) {
             const float coverage = placement.coverage(depth);
             const float by_photons = across * photon.line_density * coverage;
@@ -344,7 +327,7 @@ class Path {
         const float ior = clear_at(scene_, ray_.phase).ior / camera_ior_;
         const float worth = std::max({throughput_.x, throughput_.y, throughput_.z}) * ior * ior;
         if (!(worth > 0)) return false;
-        const float survival = roulette_survival(std::max(over_unguided_, 1.0f) * worth, depth);
+        const float survival = roulette_survival(std::max(guiding_.pdf_over_unguided(), 1.0f) * worth, depth);
         if (survival < 1.0f) {
             if (sampler_.next() >= survival) return false;
             throughput_ /= survival;
@@ -355,17 +338,15 @@ class Path {
     const World& world_;
     const Scene& scene_;
     const Photons& photons_;
-    const Guide* guide_;
-    PathLessons* lessons_;
+    PathGuiding guiding_;
     Sampler& sampler_;
     PathCounters& counters_;
     Ray ray_;
     float camera_ior_;
     glm::vec3 radiance_{0.0f}, throughput_{1.0f};
-    float over_unguided_ = 1;  // the product of GuidedBsdf::Sample::over_unguided
     PathChain chain_;
-    std::optional<glm::vec3>
-        entered_;  // the outward normal of the clear boundary that the path met last in this medium
+    // The outward normal of the clear boundary that the path met last in this medium.
+    std::optional<glm::vec3> entered_;
     bool is_camera_ray_ = true;
     Wavelength hero_;  // the path's wavelength from where it is dispersed
     bool is_dispersed_ = false;

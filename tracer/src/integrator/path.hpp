@@ -9,7 +9,7 @@
 namespace phasetree::tracer {
 
 class Guide;
-class PathLessons;
+class PathFindings;
 class PhotonEmission;
 class PhotonMap;
 
@@ -20,11 +20,11 @@ struct Photons {
     explicit operator bool() const { return map != nullptr; }
 };
 
-/// What a path knows beforehand of where light is, and what takes down what it finds out; null where it is not there.
+/// What helps a path, and what it reports to. Each may be left out.
 struct PathHelp {
     Photons photons{};
-    const Guide* guide = nullptr;    ///< where light on surfaces comes from: paths go on there (integrator/guided.hpp)
-    PathLessons* lessons = nullptr;  ///< for the next guide; who traces the path calls finish()
+    const Guide* guide = nullptr;      ///< in which directions paths are to go on from surfaces (path_guiding.hpp)
+    PathFindings* findings = nullptr;  ///< collects what the path finds, for the next guide
 };
 
 /// An estimate of the radiance that arrives along a ray, unbiased but for the light that is lost where paths end
@@ -71,6 +71,9 @@ struct PathHelp {
 /// Dispersion. Where a path, a shadow ray or a photon meets an interface that disperses, one wavelength is chosen for
 /// all of them (spectrum/wavelength.hpp), so that the techniques still estimate the same: the integral over directions
 /// and wavelengths. The density of wavelengths is the same of all three, and cancels in their weights.
+///
+/// Guiding. Where a guide chooses some of the directions from a surface (guided.hpp), the density of the BSDF in all of
+/// this is that of both together.
 ///
 /// With a record it also fills that in. Neither the radiance nor the random numbers that are drawn depend on it.
 glm::vec3 trace_path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters,

@@ -1,11 +1,12 @@
-// Russian roulette: with which probability a path survives that can still bring a share of what it began with.
+// Russian roulette: the probability with which a path survives, by how much light it can still bring.
 #pragma once
 
 #include <algorithm>
 
 namespace phasetree::tracer {
 
-/// The probability; 1 if no number is to be drawn. `worth` is the share, and `depth` how many surfaces and places in
+/// The probability; 1 if no number is to be drawn. `worth` is the share of what
+/// it began with that the path can still bring, and `depth` how many surfaces and places in
 /// media the path has met.
 ///
 /// Roulette spares the first three of them: with a wall of glass in front, that is as far as what is seen behind it.

@@ -2,12 +2,13 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <atomic>
 #include <bit>
 #include <mutex>
 #include <vector>
 
-#include "guiding/lessons.hpp"
+#include "guiding/path_findings.hpp"
 #include "integrator/path.hpp"
 #include "phasetree/math/float_mode.hpp"
 #include "sampling/shutter_time.hpp"
@@ -17,37 +18,39 @@ namespace phasetree::tracer {
 namespace {
 
 constexpr std::size_t paths_a_task = 1024;
-constexpr std::size_t first_round = std::size_t{1} << 14;
-// How many the last round has at least and at most. Of a room behind a door a quarter of a million paths in all leave
-// 1.4 × the variance that a million leave.
-constexpr std::size_t fewest = std::size_t{1} << 17, most = std::size_t{1} << 19;
+constexpr std::size_t paths_of_first_round = std::size_t{1} << 14;
+// Of a room behind a door a quarter of a million paths in all rounds leave 1.4 × the variance that a million leave.
+constexpr std::size_t least_paths_of_last_round = std::size_t{1} << 17, most_paths_of_last_round = std::size_t{1} << 19;
 
-// These paths have a pixel of their own, so that their random numbers are neither those of the picture's nor those of
-// photons.
+// These paths have a pixel of their own, so that their random numbers differ from those of the picture and of photons
+// (caustics/caustics.cpp has the two columns before this one).
 constexpr std::uint32_t column_of_training = 0x80000002u;
 
-std::size_t last_round(const Scene& scene) {
-    return std::clamp(std::bit_floor(2 * scene.film.whole().size()), fewest, most);
+std::size_t paths_of_last_round(const Scene& scene) {
+    return std::clamp(std::bit_floor(2 * scene.film.whole().size()), least_paths_of_last_round,
+                      most_paths_of_last_round);
 }
 
 class Training {
   public:
-    explicit Training(const GuideTraining& about)
-        : about_(about), film_(about.scene.film.resolution()), last_(last_round(about.scene)) {}
+    explicit Training(const GuideTraining& training)
+        : training_(training),
+          film_(training.scene.film.resolution()),
+          paths_of_last_round_(paths_of_last_round(training.scene)) {}
 
     std::optional<Guide> run() {
         std::optional<Guide> guide;
-        for (std::size_t paths = first_round; paths <= last_; paths *= 2, ++round_) {
-            if (about_.caustics) {
+        for (std::size_t paths = paths_of_first_round; paths <= paths_of_last_round_; paths *= 2, ++round_) {
+            if (training_.caustics) {
                 PathCounters uncounted;
-                photons_ = about_.caustics->photons(round_, uncounted, about_.cancelled);
+                photons_ = training_.caustics->photons(round_, uncounted, training_.cancelled);
                 if (!photons_) return std::nullopt;
             }
             const auto findings = found_by(paths, guide ? &*guide : nullptr);
             if (!findings) return std::nullopt;
             guide.emplace(*findings);
         }
-        about_.learned(1);
+        training_.learned(1);
         return guide;
     }
 
@@ -58,12 +61,12 @@ class Training {
         std::vector<std::vector<Finding>> parts(tasks);
         std::atomic<bool> stopped{false};
         tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
-            if (stopped || about_.cancelled()) {
+            if (stopped || training_.cancelled()) {
                 stopped = true;
                 return;
             }
             parts[task] = traced(task, guide);
-            tell(paths_a_task);
+            report(paths_a_task);
         });
         if (stopped) return std::nullopt;
         std::size_t count = 0;
@@ -79,41 +82,43 @@ class Training {
 
     std::vector<Finding> traced(std::size_t task, const Guide* guide) const {
         const FlushSubnormals flush;
-        const std::uint32_t seed = about_.scene.settings.seed;
+        const std::uint32_t seed = training_.scene.settings.seed;
         const auto row = static_cast<std::uint32_t>(round_);
-        PathLessons lessons;
-        PathHelp help{.guide = guide, .lessons = &lessons};
-        if (photons_) help.photons = {&about_.caustics->emission(), &*photons_};
+        PathFindings of_path;
+        PathHelp help{.guide = guide, .findings = &of_path};
+        if (photons_) help.photons = {&training_.caustics->emission(), &*photons_};
         PathCounters uncounted;
         std::vector<Finding> findings;
         for (std::size_t i = 0; i < paths_a_task; ++i) {
             const auto number = static_cast<std::uint32_t>(task * paths_a_task + i);
             Sampler sampler(column_of_training, row, number, seed);
             const glm::dvec2 on_film = glm::dvec2(sampler.next2()) * film_;
-            const Ray ray = about_.cameras.first_ray(on_film, time_of(row, number), sampler);
-            trace_path(about_.world, about_.scene, ray, sampler, uncounted, nullptr, help);
-            lessons.finish(findings);
+            const Ray ray = training_.cameras.first_ray(on_film, time_of(row, number), sampler);
+            trace_path(training_.world, training_.scene, ray, sampler, uncounted, nullptr, help);
+            of_path.take(findings);
         }
         return findings;
     }
-    // Photons and the paths that they help meet the world at the same time; rounds have those of the first passes.
+    // Photons and the paths that they help meet the world at the same moment.
     float time_of(std::uint32_t row, std::uint32_t number) const {
-        if (!about_.scene.moves()) return 0.0f;
-        if (about_.caustics) return about_.caustics->time(round_);
-        return shutter_time(column_of_training, row, number, about_.scene.settings.seed);
+        if (!training_.scene.moves()) return 0.0f;
+        if (training_.caustics) return training_.caustics->time(round_);
+        return shutter_time(column_of_training, row, number, training_.scene.settings.seed);
     }
 
-    void tell(std::size_t paths) {
-        const std::lock_guard lock(telling_);
+    // The last hundredth is left for making the last guide.
+    void report(std::size_t paths) {
+        const std::lock_guard lock(reporting_);
         done_ += paths;
-        about_.learned(0.99 * static_cast<double>(done_) / static_cast<double>(2 * last_ - first_round));
+        const std::size_t in_all = 2 * paths_of_last_round_ - paths_of_first_round;
+        training_.learned(0.99 * static_cast<double>(done_) / static_cast<double>(in_all));
     }
 
-    const GuideTraining& about_;
+    const GuideTraining& training_;
     glm::dvec2 film_;
     std::optional<PhotonMap> photons_;
-    std::mutex telling_;
-    std::size_t last_, done_ = 0;
+    std::mutex reporting_;
+    std::size_t paths_of_last_round_, done_ = 0;
     int round_ = 0;
 };
 

@@ -22,9 +22,9 @@ using namespace phasetree::tracer;
 namespace {
 
 // Light from two sides, one of them narrow, and a little from everywhere.
-std::vector<DirectionTree::Arrival> arrivals(int count, std::uint32_t seed) {
+std::vector<DirectionTree::Light> lights(int count, std::uint32_t seed) {
     Uniform random(seed);
-    std::vector<DirectionTree::Arrival> result;
+    std::vector<DirectionTree::Light> result;
     for (int i = 0; i < count; ++i) {
         const glm::vec2 u = random.two();
         const float kind = random();
@@ -65,7 +65,7 @@ TEST_CASE("the map of the sphere to the square is the same in both directions, a
 }
 
 TEST_CASE("directions are sampled with the density that the tree tells") {
-    std::vector<DirectionTree::Arrival> light = arrivals(4000, 2);
+    std::vector<DirectionTree::Light> light = lights(4000, 2);
     const DirectionTree tree(light);
     constexpr int cells = 16;
     std::vector<double> expected(cells * cells), observed(cells * cells), defective(cells * cells);
@@ -100,7 +100,7 @@ TEST_CASE("at all corners of the square there is a direction, with the density t
     const float corners[] = {0.0f, 0x1p-24f, 0.5f, 1 - 0x1p-24f};
     for (int round = 0; round < 2000; ++round) {
         // Whole columns, rows and squares without light, and light of all strengths, down to nothing beside the rest.
-        std::vector<DirectionTree::Arrival> light;
+        std::vector<DirectionTree::Light> light;
         const float strength = 30 * random(), wide = random() * random();
         const glm::vec2 corner = random.two();
         for (int i = 0; i < 300; ++i)
@@ -127,14 +127,14 @@ TEST_CASE("at all corners of the square there is a direction, with the density t
 }
 
 TEST_CASE("the density is what of the light comes from a square") {
-    std::vector<DirectionTree::Arrival> light = arrivals(20000, 4);
+    std::vector<DirectionTree::Light> light = lights(20000, 4);
     double narrow = 0, all = 0;
     const auto is_narrow = [](const glm::vec2& p) {  // a square of the tree: the eighth from 0.25 and from 0.625 on
         return p.x >= 0.25f && p.x < 0.375f && p.y >= 0.625f && p.y < 0.75f;
     };
-    for (const auto& arrival : light) {
-        all += static_cast<double>(arrival.light);
-        if (is_narrow(arrival.on_square)) narrow += static_cast<double>(arrival.light);
+    for (const auto& one : light) {
+        all += static_cast<double>(one.amount);
+        if (is_narrow(one.on_square)) narrow += static_cast<double>(one.amount);
     }
     const DirectionTree tree(light);
     Uniform random(5);
@@ -145,7 +145,7 @@ TEST_CASE("the density is what of the light comes from a square") {
     // Where 40 % of the light comes from a thousandth of the sphere, the density is hundreds of times the mean.
     CHECK(tree.pdf(square_to_sphere({0.315f, 0.715f})) * 4.0f * pi > 100.0f);
     // Few arrivals tell only roughly where they are from, however bright they are.
-    std::vector<DirectionTree::Arrival> few(10, {{0.3f, 0.3f}, 1e6f});
+    std::vector<DirectionTree::Light> few(10, {{0.3f, 0.3f}, 1e6f});
     CHECK(DirectionTree(few).pdf(square_to_sphere({0.3f, 0.3f})) * 4.0f * pi == doctest::Approx(4.0f));
 }
 
