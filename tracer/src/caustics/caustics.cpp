@@ -112,7 +112,8 @@ void Caustics::learn() {
         }
     });
     // Added up in their order, whatever thread found them.
-    std::vector<std::vector<double>> worth(emission_.lights(), std::vector<double>(PhotonTarget::cells, 0.0));
+    std::vector<std::vector<double>> worth;
+    for (std::size_t i = 0; i < emission_.lights(); ++i) worth.emplace_back(emission_.cells(i), 0.0);
     for (const Worth& w : found) worth[w.light][w.cell] += w.worth;
     emission_.learn(std::move(worth));
 }

@@ -6,15 +6,20 @@
 #include <numeric>
 #include <utility>
 
+#include "caustics/glowing_lines.hpp"
+#include "sampling/warps.hpp"
+#include "shading/frame.hpp"
+
 namespace phasetree::tracer {
 
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// How much of the plane through the object a target covers, in radii of the object. Lines from a near light may pass
-// through the object and yet meet the plane outside of its silhouette.
-constexpr float target_of_infinite = 1.0f, target_of_area = 1.3f;
+// With more parts of glowing surfaces than this, none sends photons: each has cells of its own.
+constexpr std::size_t most_glowing = 4096;
+// Of such a part, whose lines are not those of one point, cells tell less than of a lamp.
+constexpr int cells_a_side_of_glowing = 16;
 
 // This part of the photons is spread evenly whatever was learnt, because what was learnt is an estimate.
 constexpr double even_part = 0.1;
@@ -22,6 +27,10 @@ constexpr double even_part = 0.1;
 bool bends_light(const Material& material) {
     const Clear* clear = std::get_if<Clear>(&material);
     return clear && clear->ior != 1.0f;
+}
+
+glm::vec3 position_of(const AnyPointLight& any) {
+    return std::visit([](const auto& light) { return glm::vec3(light.position()); }, any);
 }
 
 float squared_ior(const Scene& scene, Phase phase) {
@@ -38,28 +47,29 @@ PhotonEmission::PhotonEmission(const World& world, const Scene& scene) : world_(
     radius_ = 0.5005f * bounds.diagonal();
     for (const InfiniteLight& infinite : scene.lights.infinite())
         for (const Cap& part : std::visit([](const auto& light) { return light.bright_parts(); }, infinite))
-            sources_.push_back({part, {}, {}, 1.0, {centre_, -part.axis(), target_of_infinite * radius_}});
-    const auto target_from = [&](const glm::vec3& light) {
-        const glm::vec3 towards = centre_ - light;
-        const float distance = glm::length(towards);
-        const glm::vec3 normal = distance > 0.0f ? towards / distance : glm::vec3(0.0f, 0.0f, 1.0f);
-        return PhotonTarget(centre_, normal, target_of_area * radius_);
-    };
+            sources_.push_back(OfCap{part, {centre_, -part.axis(), radius_}});
+    const auto aim_of = [&](const glm::vec3& lamp) { return PhotonAim(lamp, centre_, radius_); };
     first_area_ = sources_.size();
-    const std::span<const AreaLight> area = scene.lights.area();
-    for (std::size_t i = 0; i < area.size(); ++i)
-        sources_.push_back(
-            {{}, i, {}, 1.0, target_from(std::visit([](const auto& light) { return light.centre(); }, area[i]))});
+    for (const AreaLight& any : scene.lights.area())
+        sources_.push_back(OfArea{sources_.size() - first_area_,
+                                  aim_of(std::visit([](const auto& light) { return light.centre(); }, any))});
     first_point_ = sources_.size();
-    const std::span<const AnyPointLight> points = scene.lights.points();
-    for (std::size_t i = 0; i < points.size(); ++i)
-        sources_.push_back(
-            {{},
-             {},
-             i,
-             1.0,
-             target_from(std::visit([](const auto& light) { return glm::vec3(light.position()); }, points[i]))});
-    for (Source& source : sources_) source.share = 1.0 / static_cast<double>(sources_.size());
+    for (const AnyPointLight& any : scene.lights.points())
+        sources_.push_back(OfPoint{sources_.size() - first_point_, aim_of(position_of(any))});
+    first_glowing_ = sources_.size();
+    const std::span<const GlowingPart> glowing = scene.lights.glowing();
+    if (std::ranges::count_if(glowing, &GlowingPart::is_of_surface) <= std::ptrdiff_t(most_glowing))
+        for (const GlowingPart& part : glowing) {
+            source_of_glowing_.emplace_back();
+            if (!part.is_of_surface()) continue;
+            source_of_glowing_.back() = sources_.size();
+            sources_.push_back(OfGlowing{part.bounding_sphere(), PhotonDirections(cells_a_side_of_glowing)});
+        }
+    if (!sources_.empty()) choice_ = CellChoice(sources_.size());
+}
+
+std::size_t PhotonEmission::cells(std::size_t light) const {
+    return std::visit([](const auto& source) { return source.aim.cells(); }, sources_[light]);
 }
 
 void PhotonEmission::learn(std::vector<std::vector<double>> worth) {
@@ -69,15 +79,17 @@ void PhotonEmission::learn(std::vector<std::vector<double>> worth) {
     double total = 0;
     for (const std::vector<double>& cells : worth) total += sum_of(cells);
     if (!(total > 0)) return;
+    std::vector<double> shares;
     for (std::size_t i = 0; i < sources_.size(); ++i) {
         std::vector<double>& cells = worth[i];
         const double sum = sum_of(cells);
-        sources_[i].share = even_part / static_cast<double>(sources_.size()) + (1 - even_part) * sum / total;
+        shares.push_back(even_part / static_cast<double>(sources_.size()) + (1 - even_part) * sum / total);
         if (!(sum > 0)) continue;
         const double even = even_part / (1 - even_part) * sum / static_cast<double>(cells.size());
         for (double& cell : cells) cell += even;
-        sources_[i].target.set_weights(cells);
+        std::visit([&](auto& source) { source.aim.set_weights(cells); }, sources_[i]);
     }
+    choice_.set_weights(shares);
 }
 
 glm::vec3 PhotonEmission::outside_of_object(const glm::vec3& point, const glm::vec3& direction) const {
@@ -88,103 +100,159 @@ glm::vec3 PhotonEmission::outside_of_object(const glm::vec3& point, const glm::v
 }
 
 std::optional<EmittedPhoton> PhotonEmission::sample(Sampler& sampler, float time) const {
-    double left = static_cast<double>(sampler.next());
-    std::size_t number = 0;
-    while (number + 1 < sources_.size() && left >= sources_[number].share) left -= sources_[number++].share;
-    const Source& source = sources_[number];
+    const std::size_t number = choice_.sample(static_cast<double>(sampler.next()));
+    return std::visit(
+        [&](const auto& source) -> std::optional<EmittedPhoton> {
+            const std::optional<Line> on = line(source, sampler);
+            if (!on) return std::nullopt;
+            if constexpr (requires { started(source, *on, number, time); })
+                return started(source, *on, number, time);
+            else
+                return started(*on, number, time);
+        },
+        sources_[number]);
+}
+
+std::optional<PhotonEmission::Line> PhotonEmission::line(const OfCap& source, Sampler& sampler) const {
     const glm::vec2 u_light = sampler.next2();
     const float u_cell = sampler.next();
-    const PhotonTarget::Aim aim = source.target.sample(u_cell, sampler.next2());
-    if (source.point) return of_point_light(number, aim, time);
-
-    glm::vec3 direction;
-    float back = infinity;  // from the target to the light
-    if (source.cap) {
-        direction = -source.cap->sample(u_light);
-    } else {
-        const SurfacePoint from = std::visit([&](const auto& light) { return light.surface_point(u_light); },
-                                             scene_.lights.area()[*source.area]);
-        back = glm::length(aim.point - from.position);
-        if (!(back > 0.0f)) return std::nullopt;
-        direction = (aim.point - from.position) / back;
-        if (!(glm::dot(direction, from.normal) > 0.0f)) return std::nullopt;
-    }
-    const std::optional<Ray> ray = start(aim.point, direction, back, time);
-    if (!ray) return std::nullopt;
-    const float density = line_density(ray->origin, -direction, ray->phase);
-    const auto seen = scene_.lights.seen(ray->origin, -direction, infinity, false);
-    if (!(density > 0.0f) || !seen) return std::nullopt;
-    const float line = density * squared_ior(scene_, ray->phase);
-    return EmittedPhoton{*ray, *seen, seen->radiance / line, density, number, aim.cell};
+    const PhotonTarget::Aim aim = source.aim.sample(u_cell, sampler.next2());
+    return Line{aim.point, -source.cap.sample(u_light), infinity, aim.cell};
 }
 
-std::optional<Ray> PhotonEmission::start(const glm::vec3& target, const glm::vec3& direction, float back,
-                                         float time) const {
-    glm::vec3 origin = outside_of_object(target, direction);
+std::optional<PhotonEmission::Line> PhotonEmission::line(const OfArea& source, Sampler& sampler) const {
+    const glm::vec2 u_light = sampler.next2();
+    const float u_cell = sampler.next();
+    const SurfacePoint from = std::visit([&](const auto& light) { return light.surface_point(u_light); },
+                                         scene_.lights.area()[source.number]);
+    const auto aimed = source.aim.sample(from.position, u_cell, sampler.next2());
+    if (!aimed || !(glm::dot(aimed->direction, from.normal) > 0.0f)) return std::nullopt;
+    return Line{from.position + aimed->distance * aimed->direction, aimed->direction, aimed->distance, aimed->cell};
+}
+
+std::optional<PhotonEmission::Line> PhotonEmission::line(const OfPoint& source, Sampler& sampler) const {
+    sampler.next2();  // a light with an extent has a place there
+    const float u_cell = sampler.next();
+    const glm::vec3 from = position_of(scene_.lights.points()[source.number]);
+    const auto aimed = source.aim.sample(from, u_cell, sampler.next2());
+    if (!aimed) return std::nullopt;
+    return Line{from + aimed->distance * aimed->direction, aimed->direction, aimed->distance, aimed->cell};
+}
+
+std::optional<PhotonEmission::Line> PhotonEmission::line(const OfGlowing& source, Sampler& sampler) const {
+    const glm::vec2 across = square_to_uniform_disk(sampler.next2()) * source.ball.radius;
+    const float u_cell = sampler.next();
+    const auto [direction, cell] = source.aim.sample(u_cell, sampler.next2());
+    return Line{source.ball.centre + Frame(direction).to_world({across, 0.0f}), direction, 0.0f, cell};
+}
+
+std::optional<EmittedPhoton> PhotonEmission::started(const Line& line, std::size_t source, float time) const {
+    const std::optional<Ray> ray = start(line, time);
+    if (!ray) return std::nullopt;
+    const float density = line_density(ray->origin, -line.direction, ray->phase);
+    const auto seen = scene_.lights.seen(ray->origin, -line.direction, infinity, false);
+    if (!(density > 0.0f) || !seen) return std::nullopt;
+    const float line_measure = density * squared_ior(scene_, ray->phase);
+    return EmittedPhoton{*ray, *seen, seen->radiance / line_measure, density, source, line.cell};
+}
+
+std::optional<EmittedPhoton> PhotonEmission::started(const OfPoint& point, const Line& line, std::size_t source,
+                                                     float time) const {
+    const AnyPointLight& light = scene_.lights.points()[point.number];
+    const glm::vec3 intensity = std::visit([&](const auto& any) { return any.intensity(line.direction); }, light);
+    const float density = direction_density(point.number, line.direction);
+    const std::optional<Ray> ray = start(line, time);
+    if (!ray || !(density > 0.0f) || intensity == glm::vec3(0.0f)) return std::nullopt;
+    const Lights::Emission emission{glm::length(ray->origin - position_of(light)), intensity,
+                                    OfPointLight{static_cast<std::uint32_t>(point.number)}};
+    return EmittedPhoton{*ray, emission, intensity / density, density, source, line.cell};
+}
+
+std::optional<EmittedPhoton> PhotonEmission::started(const OfGlowing& glowing, const Line& line, std::size_t source,
+                                                     float time) const {
+    const auto surface = last_surface_in(glowing.ball, world_, scene_, line.through, line.direction, time);
+    const auto emitted = surface ? surface->emitted() : std::nullopt;
+    if (!emitted) return std::nullopt;
+    const float density = line_density(*surface, -line.direction, 0.0f);
+    if (!(density > 0.0f)) return std::nullopt;
+    const Ray ray = surface->reflected(line.direction);
+    return EmittedPhoton{ray,
+                         {0.0f, emitted->radiance, OfGlowingSurface{emitted->group}},
+                         emitted->radiance / (density * squared_ior(scene_, ray.phase)),
+                         density,
+                         source,
+                         line.cell};
+}
+
+std::optional<Ray> PhotonEmission::start(const Line& line, float time) const {
+    glm::vec3 origin = outside_of_object(line.through, line.direction);
     // A light within the sphere about the object: the photon starts at the light, but for a hair.
-    if (glm::dot(target - origin, direction) > back) origin = target - direction * (back * (1 - 1e-5f));
+    if (glm::dot(line.through - origin, line.direction) > line.back)
+        origin = line.through - line.direction * (line.back * (1 - 1e-5f));
     const TracedGeometry::Inside inside = world_.geometry().inside(origin, time);
     if (!is_clear(scene_.materials[inside.phase.index])) return std::nullopt;
-    return Ray{origin, direction, inside.phase, {}, inside.in};
-}
-
-std::optional<EmittedPhoton> PhotonEmission::of_point_light(std::size_t number, const PhotonTarget::Aim& aim,
-                                                            float time) const {
-    const Source& source = sources_[number];
-    const auto& light = scene_.lights.points()[*source.point];
-    const glm::vec3 from = std::visit([](const auto& any) { return glm::vec3(any.position()); }, light);
-    const float back = glm::length(aim.point - from);
-    if (!(back > 0.0f)) return std::nullopt;
-    const glm::vec3 direction = (aim.point - from) / back;
-    const glm::vec3 intensity = std::visit([&](const auto& any) { return any.intensity(direction); }, light);
-    const float density = direction_density(source, direction);
-    const std::optional<Ray> ray = start(aim.point, direction, back, time);
-    if (!ray || !(density > 0.0f) || intensity == glm::vec3(0.0f)) return std::nullopt;
-    const Lights::Emission emission{glm::length(ray->origin - from), intensity,
-                                    OfPointLight{static_cast<std::uint32_t>(*source.point)}};
-    return EmittedPhoton{*ray, emission, intensity / density, density, number, aim.cell};
+    return Ray{origin, line.direction, inside.phase, {}, inside.in};
 }
 
 float PhotonEmission::direction_density(std::size_t point_light, const glm::vec3& from_light) const {
     const std::size_t source = first_point_ + point_light;
-    return source < sources_.size() ? direction_density(sources_[source], from_light) : 0.0f;
-}
-
-float PhotonEmission::direction_density(const Source& source, const glm::vec3& from_light) const {
-    const glm::vec3 at =
-        std::visit([](const auto& any) { return glm::vec3(any.position()); }, scene_.lights.points()[*source.point]);
-    const PhotonTarget::Crossing crossing = source.target.crossing(at, from_light);
-    if (!(crossing.density > 0.0f) || !(crossing.distance > 0.0f)) return 0.0f;
-    return static_cast<float>(source.share) * crossing.density * crossing.distance * crossing.distance;
+    if (source >= first_glowing_) return 0.0f;
+    return share(source) * std::get<OfPoint>(sources_[source])
+                               .aim.density(position_of(scene_.lights.points()[point_light]), from_light);
 }
 
 float PhotonEmission::line_density(const glm::vec3& origin, const glm::vec3& towards_light, Phase phase) const {
     float sum = 0;
-    const auto add = [&](const Source& source) {
-        sum += static_cast<float>(source.share) * density_of(source, origin, towards_light);
-    };
-    for (std::size_t i = 0; i < first_area_; ++i) add(sources_[i]);
+    for (std::size_t i = 0; i < first_area_; ++i)
+        sum += share(i) * density(std::get<OfCap>(sources_[i]), origin, towards_light);
     if (first_area_ < first_point_)
-        scene_.lights.for_each_area_light_near(origin, towards_light,
-                                               [&](std::uint32_t number) { add(sources_[first_area_ + number]); });
+        scene_.lights.for_each_area_light_near(origin, towards_light, [&](std::uint32_t number) {
+            const std::size_t i = first_area_ + number;
+            sum += share(i) * density(std::get<OfArea>(sources_[i]), origin, towards_light);
+        });
     return sum / squared_ior(scene_, phase);
 }
 
-float PhotonEmission::density_of(const Source& source, const glm::vec3& origin, const glm::vec3& towards_light) const {
-    const PhotonTarget::Crossing crossing = source.target.crossing(origin, -towards_light);
-    if (!(crossing.density > 0.0f)) return 0.0f;
-    if (source.cap) return crossing.density * source.cap->pdf(towards_light);
+float PhotonEmission::line_density(const Surface& glowing, const glm::vec3& towards_light, float known_free) const {
+    if (first_glowing_ == sources_.size()) return 0.0f;
+    const glm::vec3& origin = glowing.near_side.origin;
+    const glm::vec3 direction = -towards_light;
+    // How far the line is free is looked up only where a ball reaches farther than is known.
+    float free = known_free;
+    bool is_searched = false;
+    float sum = 0;
+    scene_.lights.for_each_glowing_part_near(origin, direction, [&](std::uint32_t number) {
+        const std::optional<std::size_t> i = source_of_glowing_[number];
+        if (!i) return;
+        const OfGlowing& source = std::get<OfGlowing>(sources_[*i]);
+        const std::optional<float> leaves = distance_to_leave(source.ball, origin, direction);
+        if (!leaves) return;
+        if (*leaves > free && !is_searched) {
+            free = std::max(free, free_distance(glowing, direction, world_, scene_));
+            is_searched = true;
+        }
+        if (*leaves > free) return;
+        sum += share(*i) * source.aim.density(direction) / (pi * source.ball.radius * source.ball.radius);
+    });
+    return sum / squared_ior(scene_, glowing.near_side.phase);
+}
+
+float PhotonEmission::density(const OfCap& source, const glm::vec3& origin, const glm::vec3& towards_light) const {
+    const float among_parallel = source.aim.crossing(origin, -towards_light).density;
+    return among_parallel > 0.0f ? among_parallel * source.cap.pdf(towards_light) : 0.0f;
+}
+
+float PhotonEmission::density(const OfArea& source, const glm::vec3& origin, const glm::vec3& towards_light) const {
     return std::visit(
         [&](const auto& light) {
             const std::optional<float> distance = light.intersect(origin, towards_light);
             if (!distance) return 0.0f;
             const glm::vec3 point = origin + *distance * towards_light;
             const float cosine = -glm::dot(towards_light, light.normal_at(point));
-            const float to_target = crossing.distance + *distance;
-            if (!(cosine > 0.0f) || !(to_target > 0.0f)) return 0.0f;
-            return crossing.density * to_target * to_target / (light.area() * cosine);
+            if (!(cosine > 0.0f)) return 0.0f;
+            return source.aim.density(point, -towards_light) / (light.area() * cosine);
         },
-        scene_.lights.area()[*source.area]);
+        scene_.lights.area()[source.number]);
 }
 
 }  // namespace phasetree::tracer

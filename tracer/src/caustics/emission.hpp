@@ -3,22 +3,30 @@
 // A photon starts on a line. Lines are measured by area and solid angle, dG = dA cos θ dω, which is the same at every
 // point of the line; where light is refracted n² dG is kept (the étendue). The density of lines is a mixture of the
 // lights' own, as that of directions is (lights/lights.hpp),
-//     p(line) = Σᵢ cᵢ pᵢ(line),   pᵢ = t/Ω  of an infinite light,   pᵢ = t d²/(A cos θ)  of an area light,
-// with the density t of the line in the light's target (target.hpp), the light's area A, the angle θ at its surface and
-// the distance d from there to the target. Of an infinite light, lines come evenly from a cap of directions of the
-// solid angle Ω: the sun's disk, or a bright part of an image (lights/bright_parts.hpp), each of which is a source of
-// its own. What a photon carries is what is seen along its line, whichever light proposed it. Lights that are all
-// around send none, and lines that no light proposes are left to the other techniques of path.hpp.
+//     p(line) = Σᵢ cᵢ pᵢ(line),   pᵢ = t/Ω  of an infinite light,   pᵢ = q/(A cos θ)  of an area light,
+//                                 pᵢ = q/(π r²)  of a ball around a part of a surface that glows,
+// with the density t of the line among parallel ones in the light's target (target.hpp), the density q per steradian of
+// its direction as seen from where it leaves the light (aim.hpp), the light's area A, the angle θ at its surface, and
+// the ball's radius r. Of an infinite light, lines come evenly from a cap of directions of the solid angle Ω: the sun's
+// disk, or a bright part of an image (lights/bright_parts.hpp), each of which is a source of its own. What a photon
+// carries is what is seen along its line, whichever light proposed it. Lights that are all around send none, nor do
+// media that shine, and lines that no light proposes are left to the other techniques of path.hpp.
 //
-// The lines of a point light all pass through it, and have no such density. They have one of directions, cᵢ t d², and
-// with the intensity I of the light in place of a radiance a photon carries I/(cᵢ t d²). No other technique finds what
+// The lines that glowing surfaces send are a mixture by themselves, of the balls from which a photon could have
+// started on the line at the same place (glowing_lines.hpp).
+//
+// The lines of a point light all pass through it, and have no such density. They have one of directions, cᵢ q, and with
+// the intensity I of the light in place of a radiance a photon carries I/(cᵢ q). No other technique finds what
 // interfaces bent of it before anything scattered it.
 #pragma once
 
 #include <cstddef>
 #include <optional>
+#include <variant>
 #include <vector>
 
+#include "caustics/aim.hpp"
+#include "caustics/cell_choice.hpp"
 #include "caustics/target.hpp"
 #include "lights/cap.hpp"
 #include "sampling/sobol.hpp"
@@ -31,9 +39,9 @@ struct EmittedPhoton {
     Ray ray;                    ///< its origin is outside of the object, or at the light if that is nearer
     Lights::Emission emission;  ///< what is seen from the origin backwards if nothing is in the way
     glm::vec3 power;            ///< radiance of the light over p(line)
-    float line_density;  ///< p(line) over the square of the refractive index at the origin; of a point, cᵢ t d²
-    std::size_t light;   ///< the number of the light that proposed it: less than PhotonEmission::lights()
-    std::size_t cell;    ///< of that light's target
+    float line_density;         ///< p(line) over the square of the refractive index at the origin; of a point, cᵢ q
+    std::size_t light;          ///< the number of the light that proposed it: less than PhotonEmission::lights()
+    std::size_t cell;           ///< of those in which it is aimed
 };
 
 class PhotonEmission {
@@ -41,12 +49,18 @@ class PhotonEmission {
     /// Refers to the world and the scene, which must outlive it. All lights have equal shares at first.
     PhotonEmission(const World& world, const Scene& scene);
 
-    /// How many lights send photons, and bright parts of lights: none if nothing clear bends light.
+    /// How many lights, bright parts of lights, and parts of glowing surfaces send photons: none if nothing clear
+    /// bends light.
     std::size_t lights() const { return sources_.size(); }
+    /// In how many cells a light, by its number among those, aims its photons.
+    std::size_t cells(std::size_t light) const;
     /// One that flies at a share of the time in which the shutter is open. Nothing if the line leads nowhere.
     std::optional<EmittedPhoton> sample(Sampler& sampler, float time) const;
     /// As EmittedPhoton::line_density, for a line that leads from a point in this phase towards a light.
     float line_density(const glm::vec3& origin, const glm::vec3& towards_light, Phase phase) const;
+    /// The same of a line that leads to a surface that glows. The surface was met by a ray from there, at that
+    /// distance; to where the ray started the line is known to be free.
+    float line_density(const Surface& glowing, const glm::vec3& towards_light, float known_free) const;
     /// The same of a point light, by its number among those, for a direction from it: per steradian.
     float direction_density(std::size_t point_light, const glm::vec3& from_light) const;
 
@@ -54,29 +68,59 @@ class PhotonEmission {
     void learn(std::vector<std::vector<double>> worth);
 
   private:
-    struct Source {
-        std::optional<Cap> cap;  ///< of an infinite light
-        std::optional<std::size_t> area,
-            point;     ///< the light's number among those of its sort; one of the three is there
-        double share;  ///< cᵢ
-        PhotonTarget target;
+    struct OfCap {
+        Cap cap;  ///< of an infinite light
+        PhotonTarget aim;
     };
+    /// Of lights with a place, by the light's number among those of its sort.
+    struct OfArea {
+        std::size_t number;
+        PhotonAim aim;
+    };
+    struct OfPoint {
+        std::size_t number;
+        PhotonAim aim;
+    };
+    struct OfGlowing {
+        BoundingSphere ball;
+        PhotonDirections aim;
+    };
+    using Source = std::variant<OfCap, OfArea, OfPoint, OfGlowing>;
+
+    /// Where photons fly, before it is known what sends them.
+    struct Line {
+        glm::vec3 through;  ///< a point of the line
+        glm::vec3 direction;
+        float back;  ///< from that point to the light; infinity of an infinite light
+        std::size_t cell;
+    };
+    std::optional<Line> line(const OfCap&, Sampler&) const;
+    std::optional<Line> line(const OfArea&, Sampler&) const;
+    std::optional<Line> line(const OfPoint&, Sampler&) const;
+    std::optional<Line> line(const OfGlowing&, Sampler&) const;
+    /// The photon that starts on a line; nothing if there is nothing that could.
+    std::optional<EmittedPhoton> started(const Line&, std::size_t source, float time) const;
+    std::optional<EmittedPhoton> started(const OfPoint&, const Line&, std::size_t source, float time) const;
+    std::optional<EmittedPhoton> started(const OfGlowing&, const Line&, std::size_t source, float time) const;
+
     /// A point of a line that is sure to be before everything that it meets of the object.
     glm::vec3 outside_of_object(const glm::vec3& point, const glm::vec3& direction) const;
-    float density_of(const Source& source, const glm::vec3& origin, const glm::vec3& towards_light) const;
-    /// cᵢ t d² of a point light.
-    float direction_density(const Source& source, const glm::vec3& from_light) const;
-    /// Where a photon starts that flies to this point of a target in this direction, and comes from this far behind it;
-    /// none in an opaque phase.
-    std::optional<Ray> start(const glm::vec3& target, const glm::vec3& direction, float back, float time) const;
-    std::optional<EmittedPhoton> of_point_light(std::size_t number, const PhotonTarget::Aim& aim, float time) const;
+    /// Where a photon starts on a line; none in an opaque phase.
+    std::optional<Ray> start(const Line&, float time) const;
+
+    float share(std::size_t source) const { return static_cast<float>(choice_.probability(source)); }
+    float density(const OfCap&, const glm::vec3& origin, const glm::vec3& towards_light) const;
+    float density(const OfArea&, const glm::vec3& origin, const glm::vec3& towards_light) const;
 
     const World& world_;
     const Scene& scene_;
     glm::vec3 centre_{0};
-    float radius_ = 0;                              ///< of the sphere about the object
-    std::vector<Source> sources_;                   ///< caps first, then area lights in their order, then point lights
-    std::size_t first_area_ = 0, first_point_ = 0;  ///< of the sources
+    float radius_ = 0;  ///< of the sphere about the object
+    /// First those of infinite lights, then area lights in their order, then point lights, then what glows.
+    std::vector<Source> sources_;
+    std::size_t first_area_ = 0, first_point_ = 0, first_glowing_ = 0;
+    CellChoice choice_{1};                                       ///< of a source: cᵢ
+    std::vector<std::optional<std::size_t>> source_of_glowing_;  ///< by the number of a part among all that glow
 };
 
 }  // namespace phasetree::tracer

@@ -1,6 +1,5 @@
 #include "caustics/target.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace phasetree::tracer {
@@ -13,20 +12,10 @@ constexpr float least_cosine = 0.05f;
 }  // namespace
 
 PhotonTarget::PhotonTarget(const glm::vec3& centre, const glm::vec3& normal, float half_side)
-    : centre_(centre), frame_(normal), half_side_(half_side) {
-    set_weights(std::vector<double>(static_cast<std::size_t>(cells), 1.0));
-}
-
-void PhotonTarget::set_weights(const std::vector<double>& weights) {
-    cumulative_.assign(1, 0.0);
-    for (const double weight : weights) cumulative_.push_back(cumulative_.back() + weight);
-    const double sum = cumulative_.back();
-    for (double& c : cumulative_) c /= sum;
-}
+    : centre_(centre), frame_(normal), half_side_(half_side), choice_(cells_a_side * cells_a_side) {}
 
 PhotonTarget::Aim PhotonTarget::sample(float u_cell, const glm::vec2& u) const {
-    const auto above = std::upper_bound(cumulative_.begin() + 1, cumulative_.end() - 1, static_cast<double>(u_cell));
-    const auto cell = static_cast<std::size_t>(above - cumulative_.begin()) - 1;
+    const std::size_t cell = choice_.sample(static_cast<double>(u_cell));
     const auto column = static_cast<float>(cell % cells_a_side), row = static_cast<float>(cell / cells_a_side);
     const float scale = 2.0f * half_side_ / static_cast<float>(cells_a_side);
     const glm::vec3 local((column + u.x) * scale - half_side_, (row + u.y) * scale - half_side_, 0.0f);
@@ -43,7 +32,7 @@ PhotonTarget::Crossing PhotonTarget::crossing(const glm::vec3& origin, const glm
     constexpr auto end = static_cast<float>(cells_a_side);
     if (!(x >= 0.0f && x < end && y >= 0.0f && y < end)) return {0.0f, distance};
     const auto cell = static_cast<std::size_t>(static_cast<int>(y) * cells_a_side + static_cast<int>(x));
-    const auto share = static_cast<float>(cumulative_[cell + 1] - cumulative_[cell]);
+    const auto share = static_cast<float>(choice_.probability(cell));
     return {share * (scale * scale) / std::abs(cosine), distance};
 }
 

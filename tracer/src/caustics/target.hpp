@@ -1,28 +1,29 @@
-// Where the photons of one light are aimed: a square in a plane through the middle of the object, divided into cells
-// with a probability each. Photons pass through it on straight lines, and what counts of a line is how densely it was
-// chosen among parallel ones: per area perpendicular to it,
+// Where the photons of a light far away are aimed: a square in a plane through the middle of the object, divided into
+// cells with a probability each. Photons pass through it on straight lines, and what counts of a line is how densely it
+// was chosen among parallel ones: per area perpendicular to it,
 //     p = p(cell)/(area of a cell · |cos θ|),   θ between the line and the plane's normal.
 // Lines that do not pass through the square have the density 0: no photon goes there.
 #pragma once
 
 #include <cstddef>
 #include <glm/glm.hpp>
-#include <optional>
-#include <vector>
+#include <span>
 
+#include "caustics/cell_choice.hpp"
 #include "shading/frame.hpp"
 
 namespace phasetree::tracer {
 
 class PhotonTarget {
   public:
-    static constexpr int cells_a_side = 32, cells = cells_a_side * cells_a_side;
+    static constexpr int cells_a_side = 32;
 
     /// A square of this half side, all of whose cells are equally likely. The normal is of unit length.
     PhotonTarget(const glm::vec3& centre, const glm::vec3& normal, float half_side);
 
-    /// From now on cells are chosen in proportion to these numbers, one for each, not negative, not all 0.
-    void set_weights(const std::vector<double>& weights);
+    std::size_t cells() const { return choice_.size(); }
+    /// As CellChoice has it.
+    void set_weights(std::span<const double> weights) { choice_.set_weights(weights); }
 
     struct Aim {
         glm::vec3 point;
@@ -41,7 +42,7 @@ class PhotonTarget {
     glm::vec3 centre_;
     Frame frame_;
     float half_side_;
-    std::vector<double> cumulative_;  ///< probability of all cells before a cell, and 1 at the end
+    CellChoice choice_;
 };
 
 }  // namespace phasetree::tracer

@@ -24,6 +24,8 @@ class PhotonFlight {
           wavelength_(wavelength),
           ray_(emitted.ray),
           power_(emitted.power) {
+        // A photon of a glowing surface starts at that surface.
+        if (std::holds_alternative<OfGlowingSurface>(emitted.emission.source)) came_from_light_ = true;
         // No direction meets a point, and no shadow ray does through what bends.
         if (emitted.emission.is_of_point_light()) quotients_ = {.by_directions = 0, .by_shadow_rays = 0.0f};
     }

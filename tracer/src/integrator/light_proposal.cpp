@@ -131,6 +131,12 @@ float LightProposal::pdf(const Lights& lights, const glm::vec3& direction) const
     return pdf(lights, direction, lights.pdf(at_, direction));
 }
 
+float LightProposal::pdf_from(const Lights& lights, const glm::vec3& place, const glm::vec3& direction) const {
+    LightProposal there = *this;
+    there.at_.p = place;
+    return there.pdf(lights, direction);
+}
+
 float LightProposal::pdf(const Lights& lights, const glm::vec3& direction, float straight) const {
     float sum = straight;
     for (int i = 0; i < planes_; ++i)

@@ -46,6 +46,8 @@ class LightProposal {
     std::optional<LightSample> sample(const Lights& lights, glm::vec2 u) const;
     /// The density of sample(), per steradian.
     float pdf(const Lights& lights, const glm::vec3& direction) const;
+    /// The density that sample() would have at another place nearby, through the same planes.
+    float pdf_from(const Lights& lights, const glm::vec3& place, const glm::vec3& direction) const;
 
   private:
     /// Adds the flat boundaries that a light above them shines through onto the place.

@@ -73,7 +73,8 @@ class Path {
             recorder_.travelled(ray_.phase, distance);
             ++depth;
             if (const auto emitted = surface->emitted())
-                add_light(throughput_ * chain_.weight_without_photons(scene_) * for_light(emitted->radiance, single()),
+                add_light(throughput_ * chain_.weight(scene_, photons_, ray_, *surface) *
+                              for_light(emitted->radiance, single()),
                           OfGlowingSurface{emitted->group}, ray_.direction, false);
             if (surface->optics.get().disperses()) is_dispersed_ = true;
             const Bsdf bsdf = surface->bsdf(single());
@@ -263,13 +264,18 @@ class Path {
         return photons_.map->expected() * ior * ior;
     }
 
-    // Adds what one photon brings to a point. `f` is the BSDF or the phase function for its direction, and `power` what
-    // is left there of the photon's power. Photons find the direction with the density `by_photons`, and the path
-    // itself would go on in it with the density `pdf`. It is called only if all techniques are used.
+    // Adds what one photon brings to the point `at`. `f` is the BSDF or the phase function for its direction, and
+    // `power` what is left there of the photon's power. Photons find the direction with the density `by_photons`, and
+    // the path itself would go on in it with the density `pdf`. It is called only if all techniques are used.
     void add_photon(const Photon& photon, const glm::vec3& power, const glm::vec3& f, float by_photons, float pdf,
-                    const LightProposal& proposal) {
-        const float weight =
-            photon.weight(by_photons, pdf, [&] { return proposal.pdf(scene_.lights, photon.direction); });
+                    const LightProposal& proposal, const glm::vec3& at) {
+        const float weight = photon.weight(by_photons, pdf, [&] {
+            // A small lamp is seen in the photon's direction from the photon's line, and perhaps from nowhere else near
+            // the point. What shadow rays would propose is therefore asked at the place of that line which is nearest
+            // to the point: there their weight for the same light is what is left of this one.
+            const float along = glm::dot(at - photon.position, photon.direction);
+            return proposal.pdf_from(scene_.lights, photon.position + along * photon.direction, photon.direction);
+        });
         glm::vec3 fluence = power / photons_.map->expected();
         if (!photon.of_one_wavelength)
             fluence = for_light(fluence, single());
@@ -292,7 +298,8 @@ class Path {
             if (!(by_photons > 0.0f)) return;
             // Photons are counted by area of the surface, and so have the cosine already that evaluate() multiplies by.
             const glm::vec3 f = for_light(bsdf.evaluate(wi), single()) / std::abs(wi.z);
-            add_photon(photon, photon.power, f, by_photons, bsdf.pdf(wi, photon.direction), proposal);
+            add_photon(photon, photon.power, f, by_photons, bsdf.pdf(wi, photon.direction), proposal,
+                       surface.near_side.origin);
         };
         if (!surface.far_side)
             photons_.map->near(surface.near_side.origin, surface.normal, add);
@@ -314,7 +321,7 @@ class Path {
             const glm::vec3 left = transmittance(
                 medium(), {point.position, photon.direction, std::max(depth, 0.0f), wavelength}, sampler_);
             const float f = point.phase_function.get().evaluate(glm::dot(ray_.direction, photon.direction));
-            add_photon(photon, photon.power * left / coverage, glm::vec3(f), by_photons, f, proposal);
+            add_photon(photon, photon.power * left / coverage, glm::vec3(f), by_photons, f, proposal, point.position);
         });
     }
 

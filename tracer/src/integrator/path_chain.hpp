@@ -56,7 +56,13 @@ struct PathChain {
         const float line = per_line > 0.0f && photons_follow(interfaces()) ? line_density(photons, ray) : 0.0f;
         return weight(scene, per_line * line);
     }
-    /// The same of what a surface sends that the ray met, or a medium on the ray. Photons bring none of it.
+    /// The same of what a surface sends that the ray met.
+    float weight(const Scene& scene, const Photons& photons, const Ray& ray, const Surface& glowing) const {
+        const float per_line = by_photons.per_line_density;
+        const bool is_found = per_line > 0.0f && photons_follow(interfaces());
+        return weight(scene, is_found ? per_line * line_density(photons, ray, glowing) : 0.0f);
+    }
+    /// The same of what a medium on the ray sends. Photons bring none of it.
     float weight_without_photons(const Scene& scene) const { return weight(scene, 0.0f); }
 
   private:

@@ -13,6 +13,10 @@ float line_density(const Photons& photons, const Ray& ray) {
     return photons ? photons.emission->line_density(ray.origin, ray.direction, ray.phase) : 0.0f;
 }
 
+float line_density(const Photons& photons, const Ray& ray, const Surface& glowing) {
+    return photons ? photons.emission->line_density(glowing, ray.direction, glowing.distance) : 0.0f;
+}
+
 namespace {
 
 // This is Arrival::line_density of a point light, which is seen straight ahead.
@@ -27,8 +31,9 @@ float point_density(const ShadowRayContext& context, const Ray& ray, const Light
 
 Arrival trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSample& sampled,
                          const PathWavelength& wavelength, int interfaces_before) {
-    const auto density_at_end = [&](int length, const LightSource& seen) {
-        if (std::holds_alternative<OfGlowingSurface>(seen) || !photons_follow(interfaces_before + length)) return 0.0f;
+    const auto density_at_end = [&](int length, const Surface* glowing) {
+        if (!photons_follow(interfaces_before + length)) return 0.0f;
+        if (glowing) return line_density(context.photons, ray, *glowing);
         const auto* point = std::get_if<OfPointLight>(&sampled.source);
         return point ? point_density(context, ray, sampled, *point) : line_density(context.photons, ray);
     };
@@ -49,14 +54,16 @@ Arrival trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSa
         const float distance = surface ? surface->distance : blocked ? blocked->distance : Bounds::infinity;
         if (segment == 0) to_boundary = distance;
         const Medium& medium = clear_at(context.scene, ray.phase).interior;
-        const bool is_glowing = blocked && blocked->emitted && !sampled.is_of_point_light();
+        const Surface* glowing =
+            blocked && blocked->glowing && !sampled.is_of_point_light() ? &*blocked->glowing : nullptr;
         std::optional<Lights::Emission> light;
         if (!is_straight)
             light = context.scene.lights.seen(ray.origin, ray.direction, distance, false);
         else if (escaped)
             light = Lights::Emission{to_sampled, sampled.radiance, sampled.source};
-        if (!light && is_glowing)
-            light = Lights::Emission{distance, blocked->emitted->radiance, OfGlowingSurface{blocked->emitted->group}};
+        if (light) glowing = nullptr;  // a lamp is before it
+        if (const auto emitted = glowing ? glowing->emitted() : std::nullopt)
+            light = Lights::Emission{distance, emitted->radiance, OfGlowingSurface{emitted->group}};
         const bool brings_emission = shines(medium) && !sampled.is_of_point_light();
         const bool is_dark = light ? light->radiance == glm::vec3(0.0f) : !surface;
         if (is_dark && !brings_emission) return arrival;
@@ -69,7 +76,7 @@ Arrival trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSa
         if (light) {
             throughput *= response;
             arrival.light = Arrival::FromLight{throughput * for_light(light->radiance, single), light->source,
-                                               ray.direction, density_at_end(length, light->source), to_boundary};
+                                               ray.direction, density_at_end(length, glowing), to_boundary};
             return arrival;
         }
         if (phase_function(medium) && !chain_survives(throughput, context.sampler)) return arrival;

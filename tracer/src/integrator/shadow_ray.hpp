@@ -58,5 +58,7 @@ Arrival trace_shadow_ray(const ShadowRayContext&, Ray ray, const LightSample& sa
 /// With which density photons start on the line on which a ray leads to a light (EmittedPhoton::line_density); 0 if
 /// there are none.
 float line_density(const Photons&, const Ray&);
+/// The same of a ray that leads to a surface that glows.
+float line_density(const Photons&, const Ray&, const Surface& glowing);
 
 }  // namespace phasetree::tracer

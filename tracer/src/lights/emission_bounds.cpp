@@ -9,8 +9,6 @@ namespace phasetree::tracer {
 
 namespace {
 
-using std::numbers::pi;
-
 // Axes that differ by less than this angle are one, and a point that is this much, relatively, outside of a sphere is
 // within.
 constexpr double axis_slack = 1e-6, distance_slack = 1e-6;
@@ -50,7 +48,7 @@ EmissionCone::EmissionCone(const glm::dvec3& axis, double normal_angle, double e
       cos_emission_(std::cos(emission_angle)) {}
 
 EmissionCone EmissionCone::of_plane(const glm::dvec3& normal) {
-    return {normal, 0.0, pi / 2};
+    return {normal, 0.0, std::numbers::pi / 2};
 }
 
 EmissionCone merged(const EmissionCone& a, const EmissionCone& b) {
@@ -66,7 +64,7 @@ EmissionCone merged(const EmissionCone& a, const EmissionCone& b) {
     const glm::dvec3 aside = narrow.axis_ - glm::dot(wide.axis_, narrow.axis_) * wide.axis_;
     const double length = glm::length(aside), turn = angle - wide_angle;
     // Opposite axes do not say which way to turn, so all directions count.
-    if (angle >= pi || !(length > axis_slack)) {
+    if (angle >= std::numbers::pi || !(length > axis_slack)) {
         both.cos_normals_ = -1.0;
         both.sin_normals_ = 0.0;
         return both;
@@ -87,9 +85,10 @@ double EmissionCone::greatest_cosine(const glm::dvec3& towards, double cosine, d
 
 double EmissionCone::measure() const {
     // 2π ∫ sin θ over the normals, and the rest up to θo + θe weighted by cosines, as the source has it.
-    const double normals = angle_of(cos_normals_), all = std::min(normals + angle_of(cos_emission_), pi);
-    return 2 * pi * (1 - cos_normals_) +
-           pi / 2 * (2 * all * sin_normals_ - std::cos(normals - 2 * all) - 2 * normals * sin_normals_ + cos_normals_);
+    const double normals = angle_of(cos_normals_), all = std::min(normals + angle_of(cos_emission_), std::numbers::pi);
+    return 2 * std::numbers::pi * (1 - cos_normals_) +
+           std::numbers::pi / 2 *
+               (2 * all * sin_normals_ - std::cos(normals - 2 * all) - 2 * normals * sin_normals_ + cos_normals_);
 }
 
 double EmissionBounds::received(const LightReceiver& at) const {

@@ -4,7 +4,8 @@
 //
 // Directions are uniform in the cone that the ball fills, as towards a ball light. Where little of the
 // ball is filled many of them miss it, which makes noise and nothing else. What shines outside all balls is found by
-// the paths' directions, and by shadow rays that something else proposed.
+// the paths' directions, and by shadow rays that something else proposed. A ball around a part of a surface sends
+// photons, too (caustics/emission.hpp).
 #pragma once
 
 #include <glm/glm.hpp>
@@ -18,8 +19,13 @@ namespace phasetree::tracer {
 
 class GlowingPart {
   public:
+    /// What shines in the ball.
+    enum class Of { surface, medium };
     /// `luminance` is roughly that of the radiance which comes from there. Both numbers are positive.
-    GlowingPart(const BoundingSphere& ball, float luminance) : ball_(ball.centre, ball.radius, glm::vec3(luminance)) {}
+    GlowingPart(const BoundingSphere& ball, float luminance, Of of = Of::surface)
+        : ball_(ball.centre, ball.radius, glm::vec3(luminance)), of_(of) {}
+
+    bool is_of_surface() const { return of_ == Of::surface; }
 
     BoundingSphere bounding_sphere() const { return ball_.bounding_sphere(); }
     EmissionBounds emission_bounds() const { return ball_.emission_bounds(); }
@@ -37,6 +43,7 @@ class GlowingPart {
 
   private:
     SphereLight ball_;
+    Of of_;
 };
 
 }  // namespace phasetree::tracer

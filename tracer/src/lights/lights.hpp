@@ -147,6 +147,16 @@ class Lights {
             });
     }
 
+    /// The same of the parts of what glows, by their numbers in glowing().
+    template <class Use>
+    void for_each_glowing_part_near(const glm::vec3& origin, const glm::vec3& direction, const Use& use) const {
+        tree_.for_each_maybe_hit(
+            origin, direction, [] { return std::numeric_limits<float>::infinity(); },
+            [&](const LightNode& lamp) {
+                if (lamp.kind == LightNode::Kind::glowing) use(lamp.number);
+            });
+    }
+
     /// The nearest area light that a ray meets before geometry at that distance.
     std::optional<Emission> area_light_seen(const glm::vec3& origin, const glm::vec3& direction, float geometry,
                                             bool camera_ray) const;

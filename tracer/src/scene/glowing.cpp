@@ -43,18 +43,20 @@ std::optional<BoundingSphere> around(const BoundingSphere& ball, const Places& p
 
 void add(std::span<const ShiningPart> parts, const Places& places, Lights& lights) {
     for (const ShiningPart& part : parts)
-        if (const auto ball = around(part.ball, places)) lights.add(GlowingPart(*ball, part.luminance));
+        if (const auto ball = around(part.ball, places)) lights.add(GlowingPart(*ball, part.luminance, part.of));
 }
 
 // One ball around all of them.
 ShiningPart merged(std::span<const ShiningPart> parts) {
     Bounds box;
     float sum = 0;
-    for (const auto& [ball, luminance] : parts) {
-        box = unite(box, {ball.centre - ball.radius, ball.centre + ball.radius});
-        sum += luminance;
+    auto of = GlowingPart::Of::medium;
+    for (const ShiningPart& part : parts) {
+        box = unite(box, {part.ball.centre - part.ball.radius, part.ball.centre + part.ball.radius});
+        sum += part.luminance;
+        if (part.of == GlowingPart::Of::surface) of = part.of;
     }
-    return part_in(box, sum / static_cast<float>(parts.size()));
+    return part_in(box, sum / static_cast<float>(parts.size()), of);
 }
 
 // What of an object shines, and where its copies are, by their numbers.

@@ -187,7 +187,8 @@ std::vector<ShiningPart> parts_of_phases(const Phased& tree, std::span<const Mat
         const Counts counts = glows(materials[i]) ? Counts::surface_alone : Counts::inside_too;
         const Brightness brightness(*finder, phase, materials[i]);
         for (const Bounds& box : finder->boxes_of(phase, bounds_of_light(materials[i]), counts))
-            parts.push_back(part_in(box, brightness(box)));
+            parts.push_back(part_in(box, brightness(box),
+                                    glows(materials[i]) ? GlowingPart::Of::surface : GlowingPart::Of::medium));
     }
     return parts;
 }

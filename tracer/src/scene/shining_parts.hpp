@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "lights/bounding_sphere.hpp"
+#include "lights/glowing_part.hpp"
 #include "phasetree/math/bounds.hpp"
 #include "phasetree/model/handle.hpp"
 #include "shading/material.hpp"
@@ -24,6 +25,7 @@ struct Mesh;
 struct ShiningPart {
     BoundingSphere ball;
     float luminance;  ///< roughly that of the radiance which comes from there
+    GlowingPart::Of of = GlowingPart::Of::surface;
 };
 
 /// A part is never rated below this share of the most that it could send, however little shines at the places that are
@@ -31,9 +33,9 @@ struct ShiningPart {
 inline constexpr float least_brightness = 1.0f / 32;
 
 /// A ball around a box, of something with this luminance.
-inline ShiningPart part_in(const Bounds& box, float luminance) {
+inline ShiningPart part_in(const Bounds& box, float luminance, GlowingPart::Of of = GlowingPart::Of::surface) {
     constexpr float most = 1e30f;  // products with it stay within single precision
-    return {{box.centre(), 0.5f * box.diagonal()}, luminance < most ? luminance : most};
+    return {{box.centre(), 0.5f * box.diagonal()}, luminance < most ? luminance : most, of};
 }
 
 /// Of the phases whose materials, by phase, shine. Throws ModelError for a tree that cannot be traced.

@@ -68,7 +68,7 @@ struct MediumPoint {
 /// The ray met something that light does not pass: a mesh or an opaque phase.
 struct Blocked {
     float distance;
-    std::optional<Interface::Emitted> emitted{};  ///< what it sends by itself towards the ray's origin
+    std::optional<Surface> glowing{};  ///< if it sends light by itself
 };
 
 /// What stands between a point and a light: nothing, something opaque, or an interface of two clear phases, beyond

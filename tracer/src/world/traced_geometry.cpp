@@ -15,6 +15,10 @@ namespace phasetree::tracer {
 
 namespace {
 
+Blocked blocked_by(const Surface& surface) {
+    return {surface.distance, surface.emitted() ? std::optional(surface) : std::nullopt};
+}
+
 // How often boxes are divided for a first look: such cells are there at once, also where a tree is so slow that good
 // ones take seconds.
 constexpr int divisions_for_first_look = 5;
@@ -155,7 +159,7 @@ Visibility TracedGeometry::visibility(const Ray& ray, float far, PathCounters& c
         const Hit hit = intersect_several(ray, far, counters);
         const Surface* surface = std::get_if<Surface>(&hit);
         if (!surface) return Escaped{};
-        if (!surface->far_side) return Blocked{surface->distance, surface->emitted()};
+        if (!surface->far_side) return blocked_by(*surface);
         return *surface;
     }
     embree::Query query;
@@ -167,7 +171,7 @@ Visibility TracedGeometry::visibility(const Ray& ray, float far, PathCounters& c
     if (!is_clear(met) && !glows(met)) return Blocked{is_mesh ? hit.ray.tfar : query.crossing.t_in};
     const Surface surface = is_mesh ? surface_of_mesh(ray, hit) : surface_of_object(ray, query, hit);
     if (surface.far_side) return surface;
-    return Blocked{surface.distance, surface.emitted()};
+    return blocked_by(surface);
 }
 
 Surface TracedGeometry::surface_of_object(const Ray& ray, const embree::Query& query, const RTCRayHit& hit) const {

@@ -1,0 +1,31 @@
+#include "caustics/directions.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sampling/warps.hpp"
+
+namespace phasetree::tracer {
+
+PhotonDirections::Chosen PhotonDirections::sample(float u_cell, const glm::vec2& u) const {
+    const std::size_t cell = choice_.sample(static_cast<double>(u_cell));
+    const auto side = static_cast<std::size_t>(cells_a_side_);
+    const auto column = static_cast<float>(cell % side), row = static_cast<float>(cell / side);
+    const float scale = 1.0f / static_cast<float>(cells_a_side_);
+    const float z = 1.0f - 2.0f * (row + u.y) * scale;
+    const float sine = std::sqrt(std::max(0.0f, 1.0f - z * z));
+    const float azimuth = 2.0f * pi * (column + u.x) * scale;
+    return {glm::normalize(glm::vec3(sine * std::cos(azimuth), sine * std::sin(azimuth), z)), cell};
+}
+
+float PhotonDirections::density(const glm::vec3& direction) const {
+    const auto side = static_cast<float>(cells_a_side_);
+    float turns = std::atan2(direction.y, direction.x) / (2.0f * pi);
+    if (turns < 0.0f) turns += 1.0f;
+    const auto cell_of = [&](float share) { return std::clamp(static_cast<int>(share * side), 0, cells_a_side_ - 1); };
+    const int row = cell_of(0.5f * (1.0f - direction.z)), column = cell_of(turns);
+    const auto cell = static_cast<std::size_t>(row * cells_a_side_ + column);
+    return static_cast<float>(choice_.probability(cell) * static_cast<double>(cells())) / (4.0f * pi);
+}
+
+}  // namespace phasetree::tracer

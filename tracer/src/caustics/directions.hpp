@@ -1,0 +1,38 @@
+// In which directions the photons of a light fly that is within the object or close to it: all that there are, divided
+// into cells of equal solid angle, with a probability each. With z = cos θ and the azimuth φ a cell is a rectangle of
+// (z, φ), and the density of directions in it
+//     p(ω) = p(cell) · (number of cells)/(4π).
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+
+#include "caustics/cell_choice.hpp"
+
+namespace phasetree::tracer {
+
+class PhotonDirections {
+  public:
+    /// The square of this many cells, all of which are equally likely.
+    explicit PhotonDirections(int cells_a_side)
+        : cells_a_side_(cells_a_side), choice_(static_cast<std::size_t>(cells_a_side) * cells_a_side) {}
+
+    std::size_t cells() const { return choice_.size(); }
+    /// As CellChoice has it.
+    void set_weights(std::span<const double> weights) { choice_.set_weights(weights); }
+
+    struct Chosen {
+        glm::vec3 direction;  ///< of unit length
+        std::size_t cell;
+    };
+    /// u_cell in [0, 1) chooses the cell, u in [0, 1)² the place in it.
+    Chosen sample(float u_cell, const glm::vec2& u) const;
+    /// The density of sample() per steradian.
+    float density(const glm::vec3& direction) const;
+
+  private:
+    int cells_a_side_;
+    CellChoice choice_;
+};
+
+}  // namespace phasetree::tracer
