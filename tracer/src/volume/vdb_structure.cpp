@@ -211,9 +211,10 @@ class TreeWalk {
         if (bytes == 0 && stored_bytes_ != value_bytes_) return;
         if ((compression_ & (zip | blosc)) == 0) return file_.skip(bytes);
         const auto packed = file_.number<std::int64_t>();
-        // A number below zero says that the bytes are there as they are.
-        if (packed <= 0 && static_cast<std::uint64_t>(-packed) != bytes) Bytes::cut_off();
-        file_.skip(static_cast<std::uint64_t>(packed <= 0 ? -packed : packed));
+        if (packed > 0) return file_.skip(static_cast<std::uint64_t>(packed));
+        // A number that is not above zero says that the bytes are there as they are, and minus how many.
+        if (0 - static_cast<std::uint64_t>(packed) != bytes) Bytes::cut_off();
+        file_.skip(bytes);
     }
     void pay(std::uint64_t bytes) {
         paid_ += bytes;
