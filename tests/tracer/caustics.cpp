@@ -319,7 +319,7 @@ TEST_CASE("a lamp hides the sun from the photons") {
 
 TEST_CASE("a target's lines are as dense as it says") {
     PhotonTarget target({1, 2, 3}, glm::normalize(glm::vec3(1, 1, 2)), 0.7f);
-    std::vector<double> weights(PhotonTarget::cells);
+    std::vector<double> weights(target.cells());
     std::mt19937 random(2);
     std::uniform_real_distribution<float> unit(0, 1);
     for (double& weight : weights) weight = static_cast<double>(unit(random)) + 0.01;

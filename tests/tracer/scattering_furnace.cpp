@@ -82,6 +82,33 @@ TEST_CASE("furnace: paths through what scatters and absorbs nothing are worth 1,
     CHECK(farthest_from_1(cases[0], R"(, "absorption": [0.003, 0.003, 0.003])") > 0.001);
 }
 
+TEST_CASE("furnace: so are paths through two objects of one such phase that touch") {
+    const phasetree::FlushSubnormals flush;
+    const auto farthest_from_1 = [](const std::string& medium) {
+        const std::string box = R"("of": {"box": {"size": [1, 1, 1]}}}}}})";
+        Scene scene = read_scene(phasetree::Document::from_text(
+            R"({"version": 1, "phases": {"m": {"clear": {)" + medium + R"(}}}, "objects": [
+                {"name": "a", "tree": {"set": {"phase": "m", "of": {"translate": {"by": [-0.5, 0, 0], )" +
+                box + R"(},
+                {"name": "b", "tree": {"set": {"phase": "m", "of": {"translate": {"by": [0.5, 0, 0], )" +
+                box + "}], " + white_environment + R"(, "camera": {"position": [0, -5, 0], "look_at": [0, 0, 0]}})",
+            "test.json"));
+        scene.settings.techniques = Techniques::directions_alone;
+        const World world(scene);
+        const Ray ray{from, glm::normalize(towards), phasetree::vacuum, {}};
+        PathCounters counters;
+        double farthest = 0;
+        for (std::uint32_t i = 0; i < 4000; ++i) {
+            Sampler sampler(i, 0, 0, 1);
+            const glm::dvec3 radiance(trace_path(world, scene, ray, sampler, counters));
+            farthest = std::max(farthest, std::abs((radiance.x + radiance.y + radiance.z) / 3 - 1));
+        }
+        return farthest;
+    };
+    CHECK(farthest_from_1(R"("ior": 1, "scattering": [1, 1, 1])") < 0.001);
+    CHECK(farthest_from_1(R"("ior": 1.5, "scattering": [2, 2, 2])") < 0.001);
+}
+
 TEST_CASE("furnace: with shadow rays, and with colours, the mean is 1") {
     const double significance = sidak(1e-4, 3 * std::size(cases));
     for (const Case& c : cases) {

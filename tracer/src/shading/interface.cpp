@@ -87,7 +87,9 @@ Bsdf dispersive_bsdf(const Interface::ClearOptics::Dispersive& sides, float wave
 
 Bsdf bsdf_of(const Interface::ClearOptics& optics, const TexturePoint& p) {
     const float thickness = number_at(optics.thickness, p.position);
-    if (optics.surface->is_none()) return SmoothDielectricBsdf(*optics.surface, thickness);
+    // Between equal indices there is at most a film. What passes it goes straight on, however rough it is, and there is
+    // no microfacet that would send it there.
+    if (optics.surface->eta() == 1.0f) return SmoothDielectricBsdf(*optics.surface, thickness);
     const float roughness = std::max(number_at(optics.from, p.position), number_at(optics.to, p.position));
     if (is_smooth(roughness)) return SmoothDielectricBsdf(*optics.surface, thickness);
     return RoughDielectricBsdf(*optics.surface, std::min(roughness, 1.0f));

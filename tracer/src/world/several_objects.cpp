@@ -14,6 +14,7 @@
 #include <cmath>
 #include <limits>
 #include <new>
+#include <utility>
 
 #include "world/traced_geometry.hpp"
 
@@ -123,11 +124,12 @@ Surface TracedGeometry::surface_of_several(const Ray& ray, const Met& met, doubl
     // The object that the ray enters is the one that it meets; its beginning may be found before the end of the other.
     // If the ray enters none, it meets the one that it leaves.
     const CrossingInScene& shown = met.joined && met.joined->crossing.to != phasetree::vacuum ? *met.joined : first;
+    const auto [outside, inside] = from == to ? std::pair(phasetree::vacuum, phasetree::vacuum) : std::pair(from, to);
     Surface surface{.distance = static_cast<float>(distance),
                     .normal = first.normal,
                     .near_side = {first.p_in, from, ray.in, std::nullopt},
                     .far_side = std::nullopt,
-                    .optics = interfaces_.between(from.index, to.index),
+                    .optics = interfaces_.between(outside.index, inside.index),
                     .hint = {},
                     .object = shown.copy.object,
                     .entered = to,
@@ -158,7 +160,11 @@ Hit TracedGeometry::intersect_several(const Ray& ray, float far, PathCounters& c
             return surface;
         }
         const Met met = with_what_touches(rest, std::get<CrossingInScene>(next), counters);
-        if (rest.in.phase() != met.behind.phase()) return surface_of_several(rest, met, travelled + met.first.distance);
+        // A path that is scattered goes on in the objects that its ray is in. So within a phase that scatters it is
+        // told where the ray comes from one object into another, which is a surface that does nothing.
+        const Phase from = rest.in.phase(), to = met.behind.phase();
+        if (from != to || phase_function(std::get<Clear>(scene_.materials[from.index]).interior))
+            return surface_of_several(rest, met, travelled + met.first.distance);
         const Ray on = behind(rest, met);
         travelled += glm::dot(glm::dvec3(on.origin) - glm::dvec3(rest.origin), glm::dvec3(ray.direction));
         rest = on;
