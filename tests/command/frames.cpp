@@ -54,6 +54,21 @@ TEST_CASE("frames are the same rendered together, one by one, and by their time"
     CHECK(shell.run({"merge", "s0.3.part", "s2.4.part", "-o", "m.exr"}).code == 2);
 }
 
+TEST_CASE("--skip-existing leaves out frames of which the file of each plane is there") {
+    const InShell shell;
+    const auto run = [&] {
+        return shell.run({"render", "scene.json", "--frames", "0:2", "-o", "a.#.{plane}.exr", "--planes", "depth",
+                          "--skip-existing", "--spp", "1"});
+    };
+    CHECK(run().code == 0);
+    // A run that was ended before the picture of frame 1 was written.
+    std::filesystem::remove(shell.directory / "a.1.beauty.exr");
+    const Outcome again = run();
+    CHECK(again.code == 0);
+    CHECK(again.err.find("1 of 2 frames were there already") != std::string::npos);
+    CHECK(shell.has("a.1.beauty.exr"));
+}
+
 TEST_CASE("--skip-existing leaves out frames that are there") {
     const InShell shell;
     write_text(shell.directory / "a.1.png", "kept");

@@ -78,6 +78,7 @@ TEST_CASE("check and render name objects that overlap, and a point of both") {
         const Outcome bad = shell.run({command, "bad.json"});
         CHECK(bad.code == 0);
         CHECK(bad.err.find("\"cube\" (copy 0) and \"wet\" (copy 1) overlap, at [0.6249") != std::string::npos);
+        CHECK(bad.err.find("for example; \"cube\" (copy 0) is there") != std::string::npos);
         CHECK(bad.err.find("bad.json:3:") != std::string::npos);
     }
 }

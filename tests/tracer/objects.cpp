@@ -276,6 +276,15 @@ TEST_CASE("overlaps are found, and touching is none") {
         CHECK(std::abs(o.at.z - 0.5f) <= 1.5f);
         CHECK(o.at.x > 2.8f);
     }
+    // Cubes in a heap do not hide what else overlaps.
+    const auto heap = find_overlaps(scene_of(R"("objects": [{"name": "cube", "tree": {"set": {"phase": "glass",
+        "of": {"box": {"size": [2, 2, 2]}}}}}, {"name": "lone", "transform": {"translate": {"by": [6, 0, 0]}},
+        "tree": {"set": {"phase": "red", "of": "round"}}}], "instances": [{"of": "cube", "transforms":
+        [[0, 0, 0], [1, 0, 0], [2, 0, 0], [3, 0, 0], [4, 0, 0], [5, 0, 0]]}])")
+                                        .placed);
+    CHECK(heap.has_more);
+    CHECK(!few.has_more);
+    CHECK(std::ranges::any_of(heap.found, [](const Overlap& o) { return o.first.object != o.second.object; }));
     // Balls whose boxes overlap and which do not.
     const auto balls = [&](float x) {
         return find_overlaps(

@@ -4,22 +4,26 @@ namespace phasetree::tracer {
 
 namespace {
 
-// A lamp that is nearer than so many radii of the object to its middle sends photons in all directions. From so far,
-// all lines that meet the object's sphere pass a plane through its middle within 1.6/√(1.6² − 1) = 1.28 radii.
+// A lamp that is nearer than so many radii of the object to its middle is close by. From so far, all lines that meet
+// the object's sphere pass a plane through its middle within 1.6/√(1.6² − 1) = 1.28 radii.
 constexpr float near_in_radii = 1.6f;
 constexpr float target_in_radii = 1.3f;
+// A lamp is small if its radius is less than this share of the object's.
+constexpr float small_in_radii = 0.125f;
 
-std::variant<PhotonTarget, PhotonDirections> target_from(const glm::vec3& lamp, const glm::vec3& object, float radius) {
-    const glm::vec3 towards = object - lamp;
+std::variant<PhotonTarget, PhotonDirections> target_from(const BoundingSphere& lamp, const BoundingSphere& object) {
+    const glm::vec3 towards = object.centre - lamp.centre;
     const float distance = glm::length(towards);
-    if (!(distance > near_in_radii * radius)) return PhotonDirections(PhotonTarget::cells_a_side);
-    return PhotonTarget(object, towards / distance, target_in_radii * radius);
+    if (!(distance > near_in_radii * object.radius) && lamp.radius < small_in_radii * object.radius)
+        return PhotonDirections(PhotonTarget::cells_a_side);
+    const glm::vec3 normal = distance > 0.0f ? towards / distance : glm::vec3(0.0f, 0.0f, 1.0f);
+    return PhotonTarget(object.centre, normal, target_in_radii * object.radius);
 }
 
 }  // namespace
 
-PhotonAim::PhotonAim(const glm::vec3& lamp, const glm::vec3& object, float object_radius)
-    : to_(target_from(lamp, object, object_radius)), beyond_(2.0f * object_radius) {}
+PhotonAim::PhotonAim(const BoundingSphere& lamp, const BoundingSphere& object)
+    : to_(target_from(lamp, object)), beyond_(2.0f * object.radius) {}
 
 std::size_t PhotonAim::cells() const {
     return std::visit([](const auto& to) { return to.cells(); }, to_);

@@ -1,5 +1,7 @@
-// Where the photons of a lamp fly, which has a place: to the cells of a square through the object if the lamp is far
-// from it, and else in all directions, because of a lamp close by no such square is met by all that lead to the object.
+// Where the photons of a lamp fly, which has a place: to the cells of a square through the object, or, if the lamp is
+// small and within the object or close to it, in all directions. Of a lamp close by no square is met by all lines that
+// lead to the object. Of a large one those that miss the square are left to the other techniques of path.hpp: cells of
+// directions say little of where its lines lead.
 #pragma once
 
 #include <optional>
@@ -8,13 +10,14 @@
 
 #include "caustics/directions.hpp"
 #include "caustics/target.hpp"
+#include "lights/bounding_sphere.hpp"
 
 namespace phasetree::tracer {
 
 class PhotonAim {
   public:
-    /// Of a lamp at that point, for an object within a sphere.
-    PhotonAim(const glm::vec3& lamp, const glm::vec3& object, float object_radius);
+    /// For an object within a sphere.
+    PhotonAim(const BoundingSphere& lamp, const BoundingSphere& object);
 
     std::size_t cells() const;
     /// As CellChoice has it.

@@ -48,14 +48,15 @@ PhotonEmission::PhotonEmission(const World& world, const Scene& scene) : world_(
     for (const InfiniteLight& infinite : scene.lights.infinite())
         for (const Cap& part : std::visit([](const auto& light) { return light.bright_parts(); }, infinite))
             sources_.push_back(OfCap{part, {centre_, -part.axis(), radius_}});
-    const auto aim_of = [&](const glm::vec3& lamp) { return PhotonAim(lamp, centre_, radius_); };
+    const auto aim_of = [&](const BoundingSphere& lamp) { return PhotonAim(lamp, {centre_, radius_}); };
     first_area_ = sources_.size();
     for (const AreaLight& any : scene.lights.area())
-        sources_.push_back(OfArea{sources_.size() - first_area_,
-                                  aim_of(std::visit([](const auto& light) { return light.centre(); }, any))});
+        sources_.push_back(OfArea{
+            sources_.size() - first_area_,
+            aim_of(std::visit([](const auto& light) -> BoundingSphere { return light.bounding_sphere(); }, any))});
     first_point_ = sources_.size();
     for (const AnyPointLight& any : scene.lights.points())
-        sources_.push_back(OfPoint{sources_.size() - first_point_, aim_of(position_of(any))});
+        sources_.push_back(OfPoint{sources_.size() - first_point_, aim_of({position_of(any), 0.0f})});
     first_glowing_ = sources_.size();
     const std::span<const GlowingPart> glowing = scene.lights.glowing();
     if (std::ranges::count_if(glowing, &GlowingPart::is_of_surface) <= std::ptrdiff_t(most_glowing))

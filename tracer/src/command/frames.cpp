@@ -7,6 +7,7 @@
 
 #include "command/streams.hpp"
 #include "output/error.hpp"
+#include "output/layers.hpp"
 #include "phasetree/io/read_kind.hpp"
 #include "scene/image_parameters.hpp"
 
@@ -52,10 +53,11 @@ RenderOptions options_of_frame(const RenderOptions& options, int frame, bool is_
     return one;
 }
 
+// Of a file for each plane the picture's is the last that is written.
 bool are_all_there(const RenderOptions& options) {
     return std::ranges::all_of(options.outputs, [](const std::string& output) {
         std::error_code problem;
-        return std::filesystem::is_regular_file(output, problem);
+        return std::filesystem::is_regular_file(file_of_plane(output, layer_of_picture), problem);
     });
 }
 

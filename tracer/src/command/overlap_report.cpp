@@ -25,8 +25,9 @@ void warn_of_overlaps(const Document& document, const PlacedObjects& placed) {
         say("{}\n", document.error(model_in(document), "warning: " + what).what());
     };
     for (const Overlap& o : overlaps.found)
-        warn(fmt::format("{} and {} overlap, at [{}, {}, {}] for example; the first of them is there",
-                         named(placed, o.first), named(placed, o.second), o.at.x, o.at.y, o.at.z));
+        warn(fmt::format("{} and {} overlap, at [{}, {}, {}] for example; {} is there", named(placed, o.first),
+                         named(placed, o.second), o.at.x, o.at.y, o.at.z, named(placed, o.first)));
+    if (overlaps.has_more) warn("further copies of these may overlap, too: they were not looked at");
     if (overlaps.is_cut_short)
         warn("there are too many objects to look at all that are near each other; others may overlap");
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "output/file.hpp"
@@ -26,7 +27,10 @@ void write_encoded(const std::filesystem::path& path, Encoding&& encoding) {
 // Files are written though another cannot be.
 void write_layers(const Image& image, const std::filesystem::path& path, const Metadata& metadata) {
     std::optional<OutputError> first_error;
-    for (const Layer& layer : layers_of(image)) try {
+    std::vector<Layer> layers = layers_of(image);
+    // The picture comes first there. Here it is written last, so that where its file is the others are, too.
+    std::ranges::rotate(layers, layers.begin() + 1);
+    for (const Layer& layer : layers) try {
             write_encoded(file_of_plane(path, layer.name), [&] { return encode_layer(image, layer, metadata); });
         } catch (const OutputError& error) {
             if (!first_error) first_error = error;

@@ -12,6 +12,7 @@ namespace phasetree::tracer {
 struct FileParts {
     static constexpr KindInfo info{"scene", "The keys of a scene file."};
 
+    std::optional<Value> schema{};
     std::optional<Value> version{};
     std::optional<Value> phases{};
     std::optional<Value> shapes{};
@@ -28,6 +29,12 @@ struct FileParts {
     template <class V>
     static void parameters(V&& v) {
         using P = FileParts;
+        v(&P::schema, PartParameter{{"$schema", "",
+                                     "For editors: where the schema is by which they complete and check the file, "
+                                     "such as \"scene.schema.json\". It says nothing about the scene.",
+                                     limits::any, true},
+                                    "name of a file",
+                                    R"({"type": "string"})"});
         v(&P::version, PartParameter{{"version", "", "The version of this format."}, "1", R"({"const": 1})"});
         v(&P::phases,
           PartParameter{{"phases", "", "The phases by their names, and the material of each.", limits::any, true},

@@ -21,7 +21,8 @@ struct ObjectParameters {
     static constexpr KindInfo info{
         "objects",
         "An object of the scene, in a list. Objects must not overlap; where they do, the "
-        "one that comes first is there. Where one begins within a few resolutions of "
+        "first copy is there: first come objects that no instance names, in the order of this list, and then the "
+        "copies of instances in theirs. Where one begins within a few resolutions of "
         "where another ends, a ray goes from the one to the other without anything between."};
 
     std::string name{};

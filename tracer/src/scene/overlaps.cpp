@@ -14,7 +14,9 @@ namespace phasetree::tracer {
 
 namespace {
 
-constexpr std::size_t most_found = 5, most_pairs = 200'000, most_evaluations_of_pair = 4096;
+// A few of each pair of objects, so that those of one pair do not hide another pair.
+constexpr std::size_t most_found = 12, most_found_of_objects = 3;
+constexpr std::size_t most_pairs = 200'000, most_evaluations_of_pair = 4096;
 constexpr std::size_t most_evaluations = 4'000'000;
 // Copies beyond these are not looked at.
 constexpr std::uint32_t most_looked_at = 2'000'000;
@@ -79,7 +81,10 @@ class Search {
 
   private:
     bool is_over() {
-        if (result_.found.size() == most_found) return true;
+        if (result_.found.size() == most_found) {
+            result_.has_more = true;
+            return true;
+        }
         if (pairs_ < most_pairs && evaluations_ < most_evaluations) return false;
         result_.is_cut_short = true;
         return true;
@@ -128,6 +133,14 @@ class Search {
     // Looks for a point that is deep enough in both by branch and bound: since a component changes by no more than the
     // distance, no point of a box is deeper than its centre plus half of its diagonal.
     void look_at(const CopyInBox& a, const CopyInBox& b) {
+        const auto objects = std::minmax(a.copy.object, b.copy.object);
+        const auto is_of_these = [&](const Overlap& o) {
+            return std::minmax(o.first.object, o.second.object) == objects;
+        };
+        if (std::ranges::count_if(result_.found, is_of_these) == std::ptrdiff_t(most_found_of_objects)) {
+            result_.has_more = true;
+            return;
+        }
         ++pairs_;
         const double wanted =
             depth_that_counts * static_cast<double>(std::min(a.bounds.diagonal(), b.bounds.diagonal()));

@@ -19,7 +19,8 @@ struct Overlap {
 };
 
 struct Overlaps {
-    std::vector<Overlap> found;  ///< at most a few
+    std::vector<Overlap> found;  ///< at most a few, and fewer of each pair of objects
+    bool has_more = false;       ///< whether other copies were not looked at because enough was found
     bool is_cut_short = false;   ///< whether not all pairs whose boxes meet could be looked at
 };
 
