@@ -149,4 +149,9 @@ def written(value, what):
 
 def file_name(value):
     """A file as it is found from any folder."""
-    return os.path.abspath(os.fspath(value))
+    name = os.path.abspath(os.fsdecode(value))
+    try:
+        name.encode()
+    except UnicodeEncodeError:
+        raise Error(f"scenes are UTF-8, in which no file can be named {os.fsencode(name)!r}") from None
+    return name
