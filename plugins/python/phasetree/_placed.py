@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from phasetree import _phasetree
+from phasetree import _phasetree, _reference
 from phasetree._errors import Error
 from phasetree._phases import vacuum
 from phasetree._trees import Object
@@ -14,6 +14,7 @@ _IDENTITY = np.hstack([np.eye(3), np.zeros((3, 1))]).astype(np.float32)
 
 def _maps(transforms, what):
     """float32 (N, 3, 4) from maps of any of the shapes that `places` takes."""
+    _reference.check_still(transforms, what)
     array = np.asarray(transforms, dtype=np.float32)
     if array.shape[-1:] == (3,) and array.ndim <= 2:
         positions = array.reshape(-1, 3)

@@ -5,10 +5,11 @@ from __future__ import annotations
 import json
 import os
 import sys
+import warnings
 
 import numpy as np
 
-from phasetree import _parts, _phasetree, _placed
+from phasetree import _parts, _phasetree, _placed, _reference
 from phasetree._errors import Error
 from phasetree._parts import Part
 from phasetree._phases import Phase, vacuum
@@ -91,8 +92,10 @@ class Scene:
         self.camera = None if camera is None else _part(camera, "Cameras", "a camera")
         self.lights = _several(lights, "Lights", "a light")
         self.meshes = _several(meshes, "Meshes", "a mesh")
-        self.background = None if background is None else background
-        if background is not None and not isinstance(background, str):
+        self.background = background
+        if isinstance(background, dict):  # of keys, as it changes with time
+            self.background = _reference.written(background, "the background")
+        elif background is not None and not isinstance(background, str):
             self.background = tuple(float(c) for c in background)
         if background is not None:
             _phasetree.check_part("lights", json.dumps({"background": self.background}))
@@ -257,6 +260,25 @@ def _object_with_names(entry, raw, path):
     return Object(made._handle, (vacuum, *phases))
 
 
+def _fields_of_materials(value):
+    """What textures follow, and densities, which become handles when they are read."""
+    if isinstance(value, dict):
+        field = "of" if "ramp" in value else "density" if "density_depth" in value else None
+        own = [value[field]] if field in value else []
+        return own + [field for one in value.values() for field in _fields_of_materials(one)]
+    return [field for one in value for field in _fields_of_materials(one)] if isinstance(value, list) else []
+
+
+def _warn_of_what_stands_still(raw, path):
+    shown = [raw.get(part) for part in ("tree", "shapes", "groups", "instances")]
+    shown += [{**entry, "phases": None} for entry in raw.get("objects", ())]
+    if _reference.moves([shown, _fields_of_materials(raw)]):
+        warnings.warn(
+            f"{path}: trees, and where objects stand, move with time, and are as at the time 0 from here on",
+            stacklevel=3,
+        )
+
+
 def _load_objects(path):
     folder = os.path.dirname(os.path.abspath(path))
     maps, groups, places = _phasetree.placed_in_file(path)
@@ -276,16 +298,19 @@ def _load_objects(path):
 def load(path):
     """Reads a scene file. Raises SceneError with file, line and column. Comments and names of shapes are not kept.
 
-    What an object takes from another scene file is read from there, and is the scene's own from then on. Objects, and
-    where they stand, are as at the time 0.
+    What an object takes from another scene file is read from there, and is the scene's own from then on. Trees, and
+    where objects stand, are as at the time 0, with a warning if they move; all else keeps its keys.
     """
     path = os.fspath(path)
-    if "objects" in _phasetree.value_of(_phasetree.text_of_file(path)):
+    text = _phasetree.text_of_file(path)
+    raw = _phasetree.value_of(text)
+    if "objects" in raw:
         parts, shown = _load_objects(path)
+        _warn_of_what_stands_still(raw, path)
         return _scene_of(parts, path, **shown)
     handle, parts = _phasetree.read_file(path)
+    _warn_of_what_stands_still(raw, path)
     folder = os.path.dirname(os.path.abspath(path))
-    text = _phasetree.text_of_file(path)
     absolute = _phasetree.with_files(text, path, lambda file: os.path.join(folder, file))
     if absolute != text:
         handle, parts = _phasetree.read_text(absolute, path)
