@@ -31,14 +31,20 @@ def _several(values, chapter, what):
 class Image:
     """A picture: linear Rec.709 radiance, and further planes beside it.
 
-    pixels: float32 (height, width, 3), the top row first. planes: float32 (height, width) by their names in EXR files.
+    pixels: float32 (height, width, 3), the top row first. planes: float32 (height, width) by the names of their channels in
+    EXR files, such as "depth.Z", "normal.X". crop: (x0, y0, width, height), where the pixels lie in a whole picture of that
+    size, or None. attributes: what EXR files say beside it, such as the names in a Cryptomatte.
     """
 
-    def __init__(self, pixels, planes=None, exposure=0.0, view=None, samples=0, seconds=0.0, scene="", seed=0):
+    def __init__(
+        self, pixels, planes=None, exposure=0.0, view=None, samples=0, seconds=0.0, scene="", seed=0, crop=None,
+        attributes=None,
+    ):  # fmt: skip
         self.pixels = np.ascontiguousarray(pixels, dtype=np.float32)
         self.planes = dict(planes or {})
         self.exposure, self.view = exposure, view
         self.samples, self.seconds, self.scene, self.seed = samples, seconds, scene, seed
+        self.crop, self.attributes = crop, dict(attributes or {})
 
     def __array__(self, dtype=None, copy=None):
         return np.array(self.pixels, dtype=dtype) if copy else np.asarray(self.pixels, dtype=dtype)
@@ -48,11 +54,12 @@ class Image:
         return _phasetree.png(self.pixels, self.exposure if exposure is None else exposure, view or self.view)
 
     def save(self, path, exposure=None, view=None):
-        """Writes .exr (linear, with all planes), .png, .jpg or .tif."""
+        """Writes .exr (linear, with all planes), .png, .jpg or .tif. "{plane}" in the name of a .exr makes a file for each."""
         exposure = self.exposure if exposure is None else exposure
         _phasetree.save_image(
-            os.fspath(path), self.pixels, self.planes, exposure, view or self.view, self.scene, self.samples, self.seed
-        )
+            os.fspath(path), self.pixels, self.planes, list(self.attributes.items()), self.crop, exposure,
+            view or self.view, self.scene, self.samples, self.seed,
+        )  # fmt: skip
 
     def _repr_png_(self):
         return self.png()
@@ -169,37 +176,40 @@ class Scene:
                 os.remove(temporary)
             raise
 
-    def render(self, *, progress=None, threads=0, crop=None, quality="medium", most_bytes=0, **image):
+    def render(
+        self, *, progress=None, threads=0, crop=None, quality="medium", most_bytes=0, planes=(), denoise=False,
+        time_limit=None, at=0.0, **image,
+    ):  # fmt: skip
         """Path-traces the scene: an Image. The same scene gives the same image, whatever the number of threads.
 
         image: settings in place of the scene's own, such as samples=16, width=400. crop: (x0, y0, x1, y1) in pixels.
         progress: True for a line on standard error, or a function of a stage and a share in [0, 1]. Ctrl-C ends it.
+        planes: names such as ["depth", "normal"], or "all": what Image.planes has, as --planes of the command. denoise: True,
+        "regression", which gives the same bits everywhere, or "oidn"; Image.planes then has the picture as it was as
+        "noisy.R", "noisy.G" and "noisy.B". time_limit: seconds within which the last whole pass ends; without samples=… no
+        number of samples ends it. at: the time in seconds of what has keys.
         """
         if self.camera is None:
             raise Error("the scene has no camera: Scene(…, camera=pt.camera(position, look_at))")
         for p in self.phases[1:]:
             if p.material is None:
                 raise Error(f'the phase "{p.name}" has no material: pt.phase("{p.name}", pt.clear(ior=1.5))')
-        if quality not in ("low", "medium"):
-            raise Error(f'the quality must be "low" or "medium", but is {quality!r}')
         settings = _parts.image(**{**(self.image.parameters() if self.image else {}), **image}).parameters()
-        text = self.to_json(**image)
+        wishes = _wishes(quality, denoise, time_limit, [planes] if isinstance(planes, str) else planes)
+        wishes.crop, wishes.threads, wishes.most_bytes = crop, threads, most_bytes
+        wishes.samples = None if image.get("samples") is None else int(image["samples"])
+        wishes.seconds_at = at
         tell = _line if progress is True else progress or None
         try:
-            made = _phasetree.render(text, self.name, crop, threads, quality == "low", most_bytes, tell)
+            made = _phasetree.render(self.to_json(**image), self.name, wishes, tell)
         finally:
             if progress is True:
                 print(file=sys.stderr)
-        return Image(
-            made["pixels"],
-            made["planes"],
-            exposure=settings.get("exposure", 0.0),
-            view=settings.get("view"),
-            samples=made["samples"],
-            seconds=made["seconds"],
-            scene=self.name,
-            seed=settings.get("seed", 0),
-        )
+        if made["is_noisy_because"]:
+            warnings.warn(f"the image is not denoised: {made['is_noisy_because']}", stacklevel=2)
+        parts = {name: made[name] for name in ("pixels", "planes", "attributes", "crop", "samples", "seconds")}
+        exposure, view, seed = settings.get("exposure", 0.0), settings.get("view"), settings.get("seed", 0)
+        return Image(**parts, exposure=exposure, view=view, scene=self.name, seed=seed)
 
     def _repr_png_(self):
         """A small and quick picture, for notebooks."""
@@ -219,6 +229,22 @@ class Scene:
     def __repr__(self):
         shown = repr(self.object) if self.object is not None else f"{len(self.objects)} objects"
         return f"<Scene of {shown}, {len(self.lights)} lights, {len(self.meshes)} meshes>"
+
+
+def _wishes(quality, denoise, time_limit, planes):
+    """What render() is asked for, as the extension module has it."""
+    if quality not in ("low", "medium"):
+        raise Error(f'the quality must be "low" or "medium", but is {quality!r}')
+    if not isinstance(denoise, (bool, str)) and denoise is not None:
+        raise Error(f'denoise must be True, "regression" or "oidn", but is {denoise!r}')
+    if time_limit is not None and not 0 < time_limit <= 366 * 24 * 3600:
+        raise Error(f"time_limit must be seconds, more than 0 and no more than a year, but is {time_limit!r}")
+    wishes = _phasetree.Wishes()
+    wishes.is_quick = quality == "low"
+    wishes.denoise = "best" if denoise is True else denoise or None
+    wishes.time_seconds = time_limit or 0
+    wishes.planes = list(planes or ())
+    return wishes
 
 
 def _line(stage, share):
