@@ -101,7 +101,7 @@ class Planes(unittest.TestCase):
         self.assertEqual(enough.samples, 4)
         np.testing.assert_array_equal(enough.pixels, scene.render(samples=4).pixels)
         shares = []
-        told = scene.render(time_limit=1, progress=lambda stage, share: shares.append(share))
+        told = scene.render(time_limit=3, progress=lambda stage, share: shares.append(share))
         self.assertGreater(told.samples, 8)
         self.assertLess(told.seconds, 60)
         self.assertTrue(all(0 <= share <= 1 for share in shares))

@@ -119,9 +119,10 @@ def written(objects):
     """The "shapes" and "objects" of a scene file. Shapes that several places of a tree share have the object's name."""
     shapes, placed = {}, []
     for name, (one, matrix) in objects.items():
-        names = [p.name for p in one.phases[1:]]
-        scene = _phasetree.value_of(one._handle.text(names, ["null"] * len(names)))
-        renamed = {shape: f"{name}: {shape}" for shape in scene.get("shapes", {})}
+        # A phase may be called as the writer calls a shape, so phases have other names until shapes have theirs.
+        phases = {f"{name}: phase {i}": p.name for i, p in enumerate(one.phases[1:], 1)}
+        scene = _phasetree.value_of(one._handle.text(list(phases), ["null"] * len(phases)))
+        renamed = phases | {shape: f"{name}: {shape}" for shape in scene.get("shapes", {})}
 
         def with_names(value, renamed=renamed):
             if isinstance(value, str):
