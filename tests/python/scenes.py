@@ -77,6 +77,13 @@ class ManyObjects(unittest.TestCase):
         self.assertEqual(own.splitlines(), files.splitlines())
         self.assertGreater(len(own.splitlines()), 5)
 
+    def test_a_phase_may_be_called_as_a_shape(self):
+        ball = pt.sphere(1)
+        twice = pt.phase("shape 1", pt.diffuse("#808080"))(ball | ball.translate((0, 0, 0.1)))
+        scene = pt.Scene(objects={"a": twice, "b": (twice, (3, 0, 0))})
+        scene.save(self.folder / "shapes.json")
+        self.assertEqual(pt.load(self.folder / "shapes.json"), scene)
+
     def test_an_object_may_have_materials_of_its_own(self):
         text = """{"version": 1, "phases": {"wood": {"diffuse": {"color": [0.5, 0.3, 0.1]}}},
             "shapes": {"ball": {"set": {"phase": "wood", "of": {"sphere": {"radius": 1}}}}},

@@ -963,13 +963,15 @@ tolerance: by which share the distance may be more than the least."""
 class Image:
     r"""A picture: linear Rec.709 radiance, and further planes beside it.
 
-    pixels: float32 (height, width, 3), the top row first. planes: float32 (height, width) by their names in EXR files."""
-    def __init__(self, pixels, planes=..., exposure=..., view=..., samples=..., seconds=..., scene=..., seed=...):
+    pixels: float32 (height, width, 3), the top row first. planes: float32 (height, width) by the names of their channels in
+    EXR files, such as "depth.Z", "normal.X". crop: (x0, y0, width, height), where the pixels lie in a whole picture of that
+    size, or None. attributes: what EXR files say beside it, such as the names in a Cryptomatte."""
+    def __init__(self, pixels, planes=..., exposure=..., view=..., samples=..., seconds=..., scene=..., seed=..., crop=..., attributes=...):
         r"""Initialize self.  See help(type(self)) for accurate signature."""
     def png(self, exposure=..., view=...):
         r"""The picture as a PNG file's bytes, through the display transform; exposure in stops."""
     def save(self, path, exposure=..., view=...):
-        r"""Writes .exr (linear, with all planes), .png, .jpg or .tif."""
+        r"""Writes .exr (linear, with all planes), .png, .jpg or .tif. "{plane}" in the name of a .exr makes a file for each."""
 
 class Scene:
     r"""An object or several, and what a picture of them needs. Immutable; `with_` makes another one with some parts replaced.
@@ -987,11 +989,15 @@ class Scene:
         r"""The scene as a file says it; image: settings that are replaced."""
     def save(self, path):
         r"""Writes a scene file, from which load() makes an equal scene. Files beside it are named relative to it."""
-    def render(self, *, progress=..., threads=..., crop=..., quality=..., most_bytes=..., **image):
+    def render(self, *, progress=..., threads=..., crop=..., quality=..., most_bytes=..., planes=..., denoise=..., time_limit=..., at=..., **image):
         r"""Path-traces the scene: an Image. The same scene gives the same image, whatever the number of threads.
 
 image: settings in place of the scene's own, such as samples=16, width=400. crop: (x0, y0, x1, y1) in pixels.
-progress: True for a line on standard error, or a function of a stage and a share in [0, 1]. Ctrl-C ends it."""
+progress: True for a line on standard error, or a function of a stage and a share in [0, 1]. Ctrl-C ends it.
+planes: names such as ["depth", "normal"], or "all": what Image.planes has, as --planes of the command. denoise: True,
+"regression", which gives the same bits everywhere, or "oidn"; Image.planes then has the picture as it was as
+"noisy.R", "noisy.G" and "noisy.B". time_limit: seconds within which the last whole pass ends; without samples=… no
+number of samples ends it. at: the time in seconds of what has keys."""
 
 class Places:
     of: str

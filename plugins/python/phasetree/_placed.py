@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from phasetree import _phasetree
+from phasetree import _phasetree, _reference
 from phasetree._errors import Error
 from phasetree._phases import vacuum
 from phasetree._trees import Object
@@ -14,6 +14,7 @@ _IDENTITY = np.hstack([np.eye(3), np.zeros((3, 1))]).astype(np.float32)
 
 def _maps(transforms, what):
     """float32 (N, 3, 4) from maps of any of the shapes that `places` takes."""
+    _reference.check_still(transforms, what)
     array = np.asarray(transforms, dtype=np.float32)
     if array.shape[-1:] == (3,) and array.ndim <= 2:
         positions = array.reshape(-1, 3)
@@ -118,9 +119,10 @@ def written(objects):
     """The "shapes" and "objects" of a scene file. Shapes that several places of a tree share have the object's name."""
     shapes, placed = {}, []
     for name, (one, matrix) in objects.items():
-        names = [p.name for p in one.phases[1:]]
-        scene = _phasetree.value_of(one._handle.text(names, ["null"] * len(names)))
-        renamed = {shape: f"{name}: {shape}" for shape in scene.get("shapes", {})}
+        # A phase may be called as the writer calls a shape, so phases have other names until shapes have theirs.
+        phases = {f"{name}: phase {i}": p.name for i, p in enumerate(one.phases[1:], 1)}
+        scene = _phasetree.value_of(one._handle.text(list(phases), ["null"] * len(phases)))
+        renamed = phases | {shape: f"{name}: {shape}" for shape in scene.get("shapes", {})}
 
         def with_names(value, renamed=renamed):
             if isinstance(value, str):

@@ -7,6 +7,7 @@ import inspect
 import json
 import keyword
 import math
+import numbers
 import os
 
 from phasetree import _phasetree
@@ -88,11 +89,20 @@ class Kind:
             arguments.append(inspect.Parameter(p.python_name, how, default=default))
         return inspect.Signature(arguments)
 
+    def _unnamed(self, arguments):
+        """The parameters that these arguments are, up to what there may be any number of."""
+        first = self.parameters[: self.parameters.index(self.many)] if self.many else self.parameters
+        return zip(first, arguments)
+
     def bound(self, signature, arguments, named):
         """What was passed, by the names of the list."""
         if self.many and self.many.python_name in named:
             raise Error(f'{self.name}: what it is made of comes first and unnamed: {self.name}(a, b, …)')
-        known = [p.python_name for p in self.parameters]
+        known = {p.python_name: p for p in self.parameters}
+        for p, value in (*self._unnamed(arguments), *((known.get(name), value) for name, value in named.items())):
+            # Who writes translate(1, 2, 3) is not to hear of the parameters that 2 and 3 would be.
+            if p and p.type.startswith("[") and isinstance(value, numbers.Real):
+                raise Error(f'{self.name}: "{p.name}" must be {p.type} as one list or tuple, but is {value!r}')
         for name in named:
             if name not in known:
                 close = difflib.get_close_matches(name, known, 1)
@@ -147,6 +157,27 @@ def written(value, what):
     return [written(item, what) for item in items]
 
 
+def moves(value):
+    """Whether something changes with time in what JSON has: {"keys": [[seconds, value], …]}."""
+    if isinstance(value, dict):
+        return isinstance(value.get("keys"), list) or any(moves(v) for v in value.values())
+    return isinstance(value, list) and any(moves(v) for v in value)
+
+
+def check_still(value, what):
+    """Refuses keys where they would be lost: trees are of nodes that the library has read at one time."""
+    if moves(value):
+        raise Error(
+            f"{what} has keys, and what is made in Python stands still. Make one scene for each time, or write the scene "
+            "file by hand: the command renders it with --at and --frames"
+        )
+
+
 def file_name(value):
     """A file as it is found from any folder."""
-    return os.path.abspath(os.fspath(value))
+    name = os.path.abspath(os.fsdecode(value))
+    try:
+        name.encode()
+    except UnicodeEncodeError:
+        raise Error(f"scenes are UTF-8, in which no file can be named {os.fsencode(name)!r}") from None
+    return name

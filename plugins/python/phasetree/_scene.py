@@ -5,10 +5,11 @@ from __future__ import annotations
 import json
 import os
 import sys
+import warnings
 
 import numpy as np
 
-from phasetree import _parts, _phasetree, _placed
+from phasetree import _parts, _phasetree, _placed, _reference
 from phasetree._errors import Error
 from phasetree._parts import Part
 from phasetree._phases import Phase, vacuum
@@ -30,14 +31,20 @@ def _several(values, chapter, what):
 class Image:
     """A picture: linear Rec.709 radiance, and further planes beside it.
 
-    pixels: float32 (height, width, 3), the top row first. planes: float32 (height, width) by their names in EXR files.
+    pixels: float32 (height, width, 3), the top row first. planes: float32 (height, width) by the names of their channels in
+    EXR files, such as "depth.Z", "normal.X". crop: (x0, y0, width, height), where the pixels lie in a whole picture of that
+    size, or None. attributes: what EXR files say beside it, such as the names in a Cryptomatte.
     """
 
-    def __init__(self, pixels, planes=None, exposure=0.0, view=None, samples=0, seconds=0.0, scene="", seed=0):
+    def __init__(
+        self, pixels, planes=None, exposure=0.0, view=None, samples=0, seconds=0.0, scene="", seed=0, crop=None,
+        attributes=None,
+    ):  # fmt: skip
         self.pixels = np.ascontiguousarray(pixels, dtype=np.float32)
         self.planes = dict(planes or {})
         self.exposure, self.view = exposure, view
         self.samples, self.seconds, self.scene, self.seed = samples, seconds, scene, seed
+        self.crop, self.attributes = crop, dict(attributes or {})
 
     def __array__(self, dtype=None, copy=None):
         return np.array(self.pixels, dtype=dtype) if copy else np.asarray(self.pixels, dtype=dtype)
@@ -47,11 +54,12 @@ class Image:
         return _phasetree.png(self.pixels, self.exposure if exposure is None else exposure, view or self.view)
 
     def save(self, path, exposure=None, view=None):
-        """Writes .exr (linear, with all planes), .png, .jpg or .tif."""
+        """Writes .exr (linear, with all planes), .png, .jpg or .tif. "{plane}" in the name of a .exr makes a file for each."""
         exposure = self.exposure if exposure is None else exposure
         _phasetree.save_image(
-            os.fspath(path), self.pixels, self.planes, exposure, view or self.view, self.scene, self.samples, self.seed
-        )
+            os.fspath(path), self.pixels, self.planes, list(self.attributes.items()), self.crop, exposure,
+            view or self.view, self.scene, self.samples, self.seed,
+        )  # fmt: skip
 
     def _repr_png_(self):
         return self.png()
@@ -91,8 +99,10 @@ class Scene:
         self.camera = None if camera is None else _part(camera, "Cameras", "a camera")
         self.lights = _several(lights, "Lights", "a light")
         self.meshes = _several(meshes, "Meshes", "a mesh")
-        self.background = None if background is None else background
-        if background is not None and not isinstance(background, str):
+        self.background = background
+        if isinstance(background, dict):  # of keys, as it changes with time
+            self.background = _reference.written(background, "the background")
+        elif background is not None and not isinstance(background, str):
             self.background = tuple(float(c) for c in background)
         if background is not None:
             _phasetree.check_part("lights", json.dumps({"background": self.background}))
@@ -166,37 +176,40 @@ class Scene:
                 os.remove(temporary)
             raise
 
-    def render(self, *, progress=None, threads=0, crop=None, quality="medium", most_bytes=0, **image):
+    def render(
+        self, *, progress=None, threads=0, crop=None, quality="medium", most_bytes=0, planes=(), denoise=False,
+        time_limit=None, at=0.0, **image,
+    ):  # fmt: skip
         """Path-traces the scene: an Image. The same scene gives the same image, whatever the number of threads.
 
         image: settings in place of the scene's own, such as samples=16, width=400. crop: (x0, y0, x1, y1) in pixels.
         progress: True for a line on standard error, or a function of a stage and a share in [0, 1]. Ctrl-C ends it.
+        planes: names such as ["depth", "normal"], or "all": what Image.planes has, as --planes of the command. denoise: True,
+        "regression", which gives the same bits everywhere, or "oidn"; Image.planes then has the picture as it was as
+        "noisy.R", "noisy.G" and "noisy.B". time_limit: seconds within which the last whole pass ends; without samples=… no
+        number of samples ends it. at: the time in seconds of what has keys.
         """
         if self.camera is None:
             raise Error("the scene has no camera: Scene(…, camera=pt.camera(position, look_at))")
         for p in self.phases[1:]:
             if p.material is None:
                 raise Error(f'the phase "{p.name}" has no material: pt.phase("{p.name}", pt.clear(ior=1.5))')
-        if quality not in ("low", "medium"):
-            raise Error(f'the quality must be "low" or "medium", but is {quality!r}')
         settings = _parts.image(**{**(self.image.parameters() if self.image else {}), **image}).parameters()
-        text = self.to_json(**image)
+        wishes = _wishes(quality, denoise, time_limit, [planes] if isinstance(planes, str) else planes)
+        wishes.crop, wishes.threads, wishes.most_bytes = crop, threads, most_bytes
+        wishes.samples = None if image.get("samples") is None else int(image["samples"])
+        wishes.seconds_at = at
         tell = _line if progress is True else progress or None
         try:
-            made = _phasetree.render(text, self.name, crop, threads, quality == "low", most_bytes, tell)
+            made = _phasetree.render(self.to_json(**image), self.name, wishes, tell)
         finally:
             if progress is True:
                 print(file=sys.stderr)
-        return Image(
-            made["pixels"],
-            made["planes"],
-            exposure=settings.get("exposure", 0.0),
-            view=settings.get("view"),
-            samples=made["samples"],
-            seconds=made["seconds"],
-            scene=self.name,
-            seed=settings.get("seed", 0),
-        )
+        if made["is_noisy_because"]:
+            warnings.warn(f"the image is not denoised: {made['is_noisy_because']}", stacklevel=2)
+        parts = {name: made[name] for name in ("pixels", "planes", "attributes", "crop", "samples", "seconds")}
+        exposure, view, seed = settings.get("exposure", 0.0), settings.get("view"), settings.get("seed", 0)
+        return Image(**parts, exposure=exposure, view=view, scene=self.name, seed=seed)
 
     def _repr_png_(self):
         """A small and quick picture, for notebooks."""
@@ -216,6 +229,22 @@ class Scene:
     def __repr__(self):
         shown = repr(self.object) if self.object is not None else f"{len(self.objects)} objects"
         return f"<Scene of {shown}, {len(self.lights)} lights, {len(self.meshes)} meshes>"
+
+
+def _wishes(quality, denoise, time_limit, planes):
+    """What render() is asked for, as the extension module has it."""
+    if quality not in ("low", "medium"):
+        raise Error(f'the quality must be "low" or "medium", but is {quality!r}')
+    if not isinstance(denoise, (bool, str)) and denoise is not None:
+        raise Error(f'denoise must be True, "regression" or "oidn", but is {denoise!r}')
+    if time_limit is not None and not 0 < time_limit <= 366 * 24 * 3600:
+        raise Error(f"time_limit must be seconds, more than 0 and no more than a year, but is {time_limit!r}")
+    wishes = _phasetree.Wishes()
+    wishes.is_quick = quality == "low"
+    wishes.denoise = "best" if denoise is True else denoise or None
+    wishes.time_seconds = time_limit or 0
+    wishes.planes = list(planes or ())
+    return wishes
 
 
 def _line(stage, share):
@@ -257,6 +286,25 @@ def _object_with_names(entry, raw, path):
     return Object(made._handle, (vacuum, *phases))
 
 
+def _fields_of_materials(value):
+    """What textures follow, and densities, which become handles when they are read."""
+    if isinstance(value, dict):
+        field = "of" if "ramp" in value else "density" if "density_depth" in value else None
+        own = [value[field]] if field in value else []
+        return own + [field for one in value.values() for field in _fields_of_materials(one)]
+    return [field for one in value for field in _fields_of_materials(one)] if isinstance(value, list) else []
+
+
+def _warn_of_what_stands_still(raw, path):
+    shown = [raw.get(part) for part in ("tree", "shapes", "groups", "instances")]
+    shown += [{**entry, "phases": None} for entry in raw.get("objects", ())]
+    if _reference.moves([shown, _fields_of_materials(raw)]):
+        warnings.warn(
+            f"{path}: trees, and where objects stand, move with time, and are as at the time 0 from here on",
+            stacklevel=3,
+        )
+
+
 def _load_objects(path):
     folder = os.path.dirname(os.path.abspath(path))
     maps, groups, places = _phasetree.placed_in_file(path)
@@ -276,16 +324,19 @@ def _load_objects(path):
 def load(path):
     """Reads a scene file. Raises SceneError with file, line and column. Comments and names of shapes are not kept.
 
-    What an object takes from another scene file is read from there, and is the scene's own from then on. Objects, and
-    where they stand, are as at the time 0.
+    What an object takes from another scene file is read from there, and is the scene's own from then on. Trees, and
+    where objects stand, are as at the time 0, with a warning if they move; all else keeps its keys.
     """
     path = os.fspath(path)
-    if "objects" in _phasetree.value_of(_phasetree.text_of_file(path)):
+    text = _phasetree.text_of_file(path)
+    raw = _phasetree.value_of(text)
+    if "objects" in raw:
         parts, shown = _load_objects(path)
+        _warn_of_what_stands_still(raw, path)
         return _scene_of(parts, path, **shown)
     handle, parts = _phasetree.read_file(path)
+    _warn_of_what_stands_still(raw, path)
     folder = os.path.dirname(os.path.abspath(path))
-    text = _phasetree.text_of_file(path)
     absolute = _phasetree.with_files(text, path, lambda file: os.path.join(folder, file))
     if absolute != text:
         handle, parts = _phasetree.read_text(absolute, path)

@@ -437,7 +437,9 @@ def _text_of(value, what):
         return value.name
     if isinstance(value, (list, tuple)) and any(isinstance(v, Phase) for v in value):
         return [_text_of(v, what) for v in value]
-    return _reference.written(value, what)
+    text = _reference.written(value, what)
+    _reference.check_still(text, what)
+    return text
 
 
 def _function(name, of_field, of_object):

@@ -3,10 +3,15 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <atomic>
+#include <chrono>
 
 #include "arrays.hpp"
 #include "command/load.hpp"
+#include "command/render_options.hpp"
+#include "denoise/as_asked.hpp"
+#include "film/chosen_planes.hpp"
 #include "module.hpp"
 #include "output/encode.hpp"
 #include "output/write.hpp"
@@ -21,11 +26,23 @@ namespace {
 
 using namespace phasetree::tracer;
 
+using Clock = std::chrono::steady_clock;
+
 struct Wishes {
     std::optional<std::array<int, 4>> crop;
     int threads = 0;
     bool is_quick = false;
     std::size_t most_bytes = 0;
+    std::vector<std::string> planes;
+    std::optional<std::string> denoise;
+    double seconds_at = 0;    // the time of what moves
+    double time_seconds = 0;  // which it may take; 0 for as long as it takes
+    std::optional<int> samples;
+};
+
+struct Rendered {
+    Rendering rendering;
+    std::optional<std::string> is_noisy_because;
 };
 
 PixelRange pixels_of(const Scene& scene, const Wishes& wishes) {
@@ -54,8 +71,39 @@ py::dict planes_of(const Image& image) {
     return planes;
 }
 
-Rendering rendered(const Scene& scene, const Wishes& wishes, const std::function<bool()>& cancelled,
-                   const Progress& progress) {
+// What of a picture stands in the header of its file.
+py::dict attributes_of(const Image& image) {
+    py::dict attributes;
+    for (const auto& [name, text] : image.attributes) attributes[py::str(name)] = text;
+    return attributes;
+}
+
+py::object crop_of(const Image& image) {
+    if (!image.crop) return py::none();
+    const Crop& c = *image.crop;
+    return py::make_tuple(c.x0, c.y0, c.display_width, c.display_height);
+}
+
+// Sets what is wished, as the command sets what its options say, and makes sure that it can be had.
+void apply(const Wishes& wishes, Scene& scene) {
+    RenderOptions options;
+    options.time_seconds = wishes.time_seconds;
+    options.samples_in_all = wishes.samples;
+    apply(options, scene);
+    try {
+        scene.film.planes = chosen_planes(wishes.planes);
+        if (!wishes.denoise) return;
+        (void)denoiser_named(*wishes.denoise);
+        check_samples_to_denoise(scene.settings.samples);
+    } catch (const std::invalid_argument& e) {
+        throw ModelError(fmt::format("planes: {}", e.what()));
+    } catch (const DenoiseError& e) {
+        throw ModelError(fmt::format("denoise: {}", e.what()));
+    }
+}
+
+Rendering sampled(const Scene& scene, const Wishes& wishes, const std::optional<Clock::time_point>& deadline,
+                  const std::function<bool()>& cancelled, const Progress& progress) {
     const AvailableThreads threads(wishes.threads);
     const World world(scene, WorldOptions{.quality = wishes.is_quick ? BuildQuality::low : BuildQuality::medium,
                                           .cancelled = cancelled,
@@ -64,27 +112,61 @@ Rendering rendered(const Scene& scene, const Wishes& wishes, const std::function
     RenderJob job;
     job.pixels = pixels_of(scene, wishes);
     job.threads = threads.count();
+    job.deadline = deadline;
     job.cancelled = cancelled;
     const double all = static_cast<double>(job.pixels.width()) * job.pixels.height() * scene.settings.samples;
     std::atomic<std::uint64_t> done = 0;
+    job.learned = [&](double share) { progress("learning where light comes from", static_cast<float>(share)); };
     job.advance = [&](std::uint64_t n) {
-        progress("rendering", static_cast<float>(static_cast<double>(done += n) / all));
+        const double of_samples = static_cast<double>(done += n) / all;
+        const std::chrono::duration<double> left = deadline ? *deadline - Clock::now() : Clock::duration();
+        const double of_time = deadline ? std::clamp(1 - left.count() / wishes.time_seconds, 0.0, 1.0) : 0.0;
+        progress("rendering", static_cast<float>(std::max(of_samples, of_time)));
     };
     return render(world, scene, job);
 }
 
+Rendered rendered(Scene scene, const Wishes& wishes, const std::optional<Clock::time_point>& deadline,
+                  const std::function<bool()>& cancelled, const Progress& progress) {
+    apply(wishes, scene);
+    const Planes::Choice wanted = film_settings(scene).planes;
+    if (wishes.denoise) scene.film.planes |= denoising_planes();
+    Rendered result{sampled(scene, wishes, deadline, cancelled, progress), std::nullopt};
+    if (!wishes.denoise || cancelled()) return result;
+    try {
+        DenoiseJob job;
+        job.by = denoiser_named(*wishes.denoise);
+        job.threads = result.rendering.threads;
+        job.progress = [&](double share) { progress("denoising", static_cast<float>(share)); };
+        job.cancelled = cancelled;
+        denoise_in_place(result.rendering.image, job);
+    } catch (const DenoiseError& e) {  // of a picture that is worth having all the same
+        result.is_noisy_because = e.what();
+    }
+    leave_out(result.rendering.image, film_settings(scene).planes, wanted, subjects_of(scene));
+    return result;
+}
+
 // The scene is read from its text as a file is, with all of the command's checks.
 py::dict render_text(const std::string& text, const std::string& name, const Wishes& wishes, const py::object& tell) {
-    Rendering result;
+    std::optional<Clock::time_point> deadline;
+    if (wishes.time_seconds > 0)
+        deadline = Clock::now() +
+                   std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(wishes.time_seconds));
+    Rendered result;
     run_beside(tell, [&](const std::function<bool()>& cancelled, const Progress& progress) {
-        const Document document = Document::from_text(text, name);
-        result = rendered(load_scene(document), wishes, cancelled, progress);
+        const Document document = Document::from_text(text, name).at(wishes.seconds_at);
+        result = rendered(load_scene(document), wishes, deadline, cancelled, progress);
     });
+    const Image& image = result.rendering.image;
     py::dict d;
-    d["pixels"] = as_array(result.image);
-    d["planes"] = planes_of(result.image);
-    d["samples"] = result.samples;
-    d["seconds"] = result.seconds;
+    d["pixels"] = as_array(image);
+    d["planes"] = planes_of(image);
+    d["attributes"] = attributes_of(image);
+    d["crop"] = crop_of(image);
+    d["samples"] = result.rendering.samples;
+    d["seconds"] = result.rendering.seconds;
+    d["is_noisy_because"] = result.is_noisy_because;
     return d;
 }
 
@@ -116,27 +198,48 @@ py::bytes png(const Pixels& pixels, float exposure, const std::optional<std::str
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-void save(const std::string& path, const Pixels& pixels, const py::dict& planes, float exposure,
-          const std::optional<std::string>& view, const std::string& scene, int samples, std::uint64_t seed) {
-    const Image image = image_of(pixels, planes);
+void save(const std::string& path, const Pixels& pixels, const py::dict& planes,
+          const std::vector<std::pair<std::string, std::string>>& attributes,
+          const std::optional<std::array<int, 4>>& crop, float exposure, const std::optional<std::string>& view,
+          const Metadata& metadata) {
+    Image image = image_of(pixels, planes);
+    image.attributes = attributes;
+    if (crop) {
+        const auto [x0, y0, width, height] = *crop;
+        if (x0 < 0 || y0 < 0 || x0 > width - image.width || y0 > height - image.height)
+            throw std::invalid_argument("crop must be x0, y0, and the size of a picture that the pixels are a part of");
+        image.crop = Crop{x0, y0, width, height};
+    }
     const py::gil_scoped_release unlocked;
-    write_image(image, path, {scene, samples, seed}, DisplayTransform({}, view, exposure));
+    write_image(image, path, metadata, DisplayTransform({}, view, exposure));
 }
 
 }  // namespace
 
 void add_rendering(py::module_& module) {
-    module.def(
-        "render",
-        [](const std::string& text, const std::string& name, std::optional<std::array<int, 4>> crop, int threads,
-           bool is_quick, std::size_t most_bytes, const py::object& tell) {
-            return render_text(text, name, {crop, threads, is_quick, most_bytes}, tell);
-        },
-        py::arg("text"), py::arg("name"), py::arg("crop"), py::arg("threads"), py::arg("is_quick"),
-        py::arg("most_bytes"), py::arg("tell"));
+    py::class_<Wishes>(module, "Wishes")
+        .def(py::init())
+        .def_readwrite("crop", &Wishes::crop)
+        .def_readwrite("threads", &Wishes::threads)
+        .def_readwrite("is_quick", &Wishes::is_quick)
+        .def_readwrite("most_bytes", &Wishes::most_bytes)
+        .def_readwrite("planes", &Wishes::planes)
+        .def_readwrite("denoise", &Wishes::denoise)
+        .def_readwrite("seconds_at", &Wishes::seconds_at)
+        .def_readwrite("time_seconds", &Wishes::time_seconds)
+        .def_readwrite("samples", &Wishes::samples);
+    module.def("render", &render_text, py::arg("text"), py::arg("name"), py::arg("wishes"), py::arg("tell"));
     module.def("png", &png, py::arg("pixels").noconvert(), py::arg("exposure"), py::arg("view"));
-    module.def("save_image", &save, py::arg("path"), py::arg("pixels").noconvert(), py::arg("planes"),
-               py::arg("exposure"), py::arg("view"), py::arg("scene"), py::arg("samples"), py::arg("seed"));
+    module.def(
+        "save_image",
+        [](const std::string& path, const Pixels& pixels, const py::dict& planes,
+           const std::vector<std::pair<std::string, std::string>>& attributes,
+           const std::optional<std::array<int, 4>>& crop, float exposure, const std::optional<std::string>& view,
+           const std::string& scene, int samples, std::uint64_t seed) {
+            save(path, pixels, planes, attributes, crop, exposure, view, {scene, samples, seed});
+        },
+        py::arg("path"), py::arg("pixels").noconvert(), py::arg("planes"), py::arg("attributes"), py::arg("crop"),
+        py::arg("exposure"), py::arg("view"), py::arg("scene"), py::arg("samples"), py::arg("seed"));
 }
 
 }  // namespace phasetree::python

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <span>
 
 #include "module.hpp"
@@ -117,14 +118,15 @@ py::tuple placed_in(const Document& document) {
     return py::make_tuple(objects, groups, places_of(all, all.places));
 }
 
-// The names of kinds that read a file, each with the name of that parameter: of all that a scene file can say.
-std::vector<std::pair<std::string, std::string>> kinds_with_files() {
-    std::vector<std::pair<std::string, std::string>> all;
+// The names of kinds that read a file, each with the name of that parameter: of all that a scene file can say. A set,
+// because chapters share names: `image` is a texture and a light.
+std::set<std::pair<std::string, std::string>> kinds_with_files() {
+    std::set<std::pair<std::string, std::string>> all;
     const std::string type = ParameterType<std::filesystem::path>::describe({}).name;
     for (const Chapter& chapter : tracer::scene_chapters())
         for (const KindPage& page : chapter.pages)
             for (const ParameterPage& p : page.parameters)
-                if (p.type == type) all.emplace_back(page.name, p.name);
+                if (p.type == type) all.emplace(page.name, p.name);
     return all;
 }
 

@@ -3,12 +3,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <array>
 
 #include "command/streams.hpp"
-#include "denoise/denoise.hpp"
-#include "denoise/open_image_denoise.hpp"
 #include "output/error.hpp"
 #include "output/interrupt.hpp"
 #include "output/late_progress.hpp"
@@ -17,13 +13,13 @@ namespace phasetree::tracer {
 
 namespace {
 
-void keep_noisy(Image& image) {
-    constexpr std::array names{"noisy.R", "noisy.G", "noisy.B"};
-    for (int c = 0; c < 3; ++c) {
-        Channel channel{names[static_cast<std::size_t>(c)], {}};
-        channel.values.reserve(image.pixels.size());
-        for (const glm::vec3& pixel : image.pixels) channel.values.push_back(pixel[c]);
-        image.further.push_back(std::move(channel));
+// What is wrong with what was asked for, by the option's name.
+template <class F>
+auto as_option(F&& f) {
+    try {
+        return f();
+    } catch (const DenoiseError& e) {
+        throw OutputError(fmt::format("--denoise: {}", e.what()));
     }
 }
 
@@ -38,18 +34,12 @@ void add_denoise(CLI::App& command, std::optional<std::string>& denoise) {
 }
 
 Denoiser denoiser_of(const std::string& text) {
-    if (text == "best") return Denoiser::best;
-    if (text == "regression") return Denoiser::regression;
-    if (text != "oidn") throw OutputError(fmt::format("--denoise: \"regression\" or \"oidn\", not \"{}\"", text));
-    if (!has_open_image_denoise()) throw OutputError("--denoise=oidn: phasetree was built without Open Image Denoise");
-    return Denoiser::network;
+    return as_option([&] { return denoiser_named(text); });
 }
 
 void check_denoising(const std::string& denoise, int samples) {
     (void)denoiser_of(denoise);
-    if (samples < fewest_samples_to_denoise)
-        throw OutputError(fmt::format("--denoise needs {} samples a pixel at least, and the picture is to have {}",
-                                      fewest_samples_to_denoise, samples));
+    as_option([&] { check_samples_to_denoise(samples); });
 }
 
 void check_denoising(const Planes::Choice& kept, bool has_pictures) {
@@ -70,24 +60,10 @@ void denoise_picture(Image& image, const Denoising& how) {
     job.progress = [&](double done) { progress.tell(done); };
     job.cancelled = [] { return interrupted(); };
     try {
-        std::optional<std::vector<glm::vec3>> pixels = denoise(image, job);
-        if (!pixels) {
-            say("phasetree: interrupted; the image is not denoised\n");
-            return;
-        }
-        keep_noisy(image);
-        image.pixels = std::move(*pixels);
+        if (!denoise_in_place(image, job)) say("phasetree: interrupted; the image is not denoised\n");
     } catch (const DenoiseError& e) {
         say("phasetree: the image is not denoised: {}\n", e.what());
     }
-}
-
-void leave_out(Image& image, const Planes::Choice& kept, const Planes::Choice& wanted, const PlaneSubjects& subjects) {
-    const std::vector<std::string> all = Planes::Sums(kept, subjects, 0).channels();
-    const std::vector<std::string> some = Planes::Sums(wanted, subjects, 0).channels();
-    std::erase_if(image.further, [&](const Channel& channel) {
-        return std::ranges::count(all, channel.name) > 0 && std::ranges::count(some, channel.name) == 0;
-    });
 }
 
 }  // namespace phasetree::tracer

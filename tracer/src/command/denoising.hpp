@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "denoise/denoise.hpp"
+#include "denoise/as_asked.hpp"
 #include "film/image.hpp"
 #include "film/planes.hpp"
 
@@ -35,8 +35,5 @@ struct Denoising {
 // Denoises a picture, which has the channels of denoising_planes(), and keeps in the further channels noisy.R, .G and
 // .B what it was. Where that cannot be done, or a signal stops it, says so and leaves the picture as it is.
 void denoise_picture(Image& image, const Denoising& how);
-
-// Takes out the further channels that the planes of `kept` have and those of `wanted` do not.
-void leave_out(Image& image, const Planes::Choice& kept, const Planes::Choice& wanted, const PlaneSubjects& subjects);
 
 }  // namespace phasetree::tracer

@@ -1,16 +1,17 @@
 #include "command/render_options.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <stdexcept>
 
 #include "command/build_quality.hpp"
 #include "command/denoising.hpp"
 #include "command/duration.hpp"
 #include "command/max_memory.hpp"
+#include "film/chosen_planes.hpp"
 #include "output/error.hpp"
 
 namespace phasetree::tracer {
@@ -37,19 +38,17 @@ namespace {
 constexpr int most_samples = 1 << 24;
 
 Planes::Choice planes_of(const std::string& list) {
-    if (list == "all") return Planes::all();
-    Planes::Choice choice = Planes::by_default();
+    std::vector<std::string> names;
     for (std::size_t from = 0; from <= list.size();) {
         const std::size_t to = std::min(list.find(',', from), list.size());
-        const std::string_view name = std::string_view(list).substr(from, to - from);
-        const auto found = std::ranges::find(Planes::names, name);
-        if (found == Planes::names.end())
-            throw OutputError(fmt::format("--planes: there is no plane \"{}\"; the planes are {}, and \"all\"", name,
-                                          fmt::join(Planes::names, ", ")));
-        choice[static_cast<std::size_t>(found - Planes::names.begin())] = true;
+        names.push_back(list.substr(from, to - from));
         from = to + 1;
     }
-    return choice;
+    try {
+        return chosen_planes(names);
+    } catch (const std::invalid_argument& e) {
+        throw OutputError(fmt::format("--planes: {}", e.what()));
+    }
 }
 
 }  // namespace
