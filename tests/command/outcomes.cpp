@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <grp.h>
 
+#include <filesystem>
 #include <regex>
 
 #include "command.hpp"
@@ -203,8 +204,18 @@ TEST_CASE("an object of which nothing is left is worth a sentence") {
                tree_of(R"({"offset": {"distance": -2, "of": {"sphere": {"radius": 1}}}})"));
     CHECK(shell.run({"info", "scene.json"}).out.find("nothing of the object is left") != std::string::npos);
     const Outcome none = shell.run({"check", "scene.json"});
-    CHECK(none.code == 2);
-    CHECK(none.err.find("the object is empty") != std::string::npos);
+    CHECK(none.code == 3);  // it has no camera
+    CHECK(none.err.find("warning: the object is empty") != std::string::npos);
+    // With a camera it is rendered, as a film may begin with nothing.
+    scene.tree = R"({"set": {"phase": "glass", "of": {"offset": {"distance": -2, "of": {"sphere": {"radius": 1}}}}}})";
+    write_text(shell.directory / "scene.json", scene.text());
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"check", "scene.json"}, {"render", "scene.json", "-o", "b.exr", "--quiet"}}) {
+        const Outcome o = shell.run(words);
+        CHECK(o.code == 0);
+        CHECK(o.err.find("warning: the object is empty") != std::string::npos);
+    }
+    CHECK(std::filesystem::exists(shell.directory / "b.exr"));
 }
 
 }  // namespace test_outcomes

@@ -30,9 +30,9 @@ int check_without_camera(const Document& document, const std::string& shown) {
     const Evaluator evaluator(record_tree(document, tree.object));
     std::string rays = "eval, info, trace and programs that trace rays";
     const Bounds b = bounds(tree.object);
-    if (b.empty() || b.finite())
+    if (!b.empty() && b.finite())
         print_warning(shown, made_of_tree(document, [&] { return prepare_to_trace(tree.object); }).warning);
-    else
+    else if (!b.empty())
         rays = "eval and info; it is unbounded, so rays cannot be traced";
     if (is_empty(tree.object, evaluator)) say("{}\n", empty_object_warning(document));
     put("{}: the tree is sound, for {}; the scene has no \"camera\", so it cannot be rendered\n", shown, rays);

@@ -12,6 +12,7 @@
 #include "phasetree/io/suggest.hpp"
 #include "phasetree/model/renumber.hpp"
 #include "phasetree/trace/tracer.hpp"
+#include "scene/nothing_left.hpp"
 #include "scene/object_kinds.hpp"
 #include "scene/placed.hpp"
 #include "scene/read_parts.hpp"
@@ -173,6 +174,7 @@ class ObjectsReader {
         try {
             if (is_changed)
                 found.object.tree = with_numbers(found.object.tree, std::span(numbers).first(found.names.names.size()));
+            found.object.tree = with_bounds(found.object.tree);
             (void)prepare_to_trace(found.object.tree);  // This only asks whether the tree can be traced.
         } catch (const ModelError& e) {
             throw document_.error(found.at, fmt::format("\"{}\": {}", found.object.name, e.what()));

@@ -6,6 +6,7 @@
 #include "scene/file_parts.hpp"
 #include "scene/glowing.hpp"
 #include "scene/image_parameters.hpp"
+#include "scene/nothing_left.hpp"
 #include "scene/read_parts.hpp"
 
 namespace phasetree::tracer {
@@ -90,7 +91,7 @@ void read_model_into(const Document& document, const FileParts& parts, const Shu
     refuse_places_of_nothing(document);
     SceneTree tree = read_tree(document, file_readers(), places);
     scene.phases = std::move(tree.phases);
-    scene.object = std::move(tree.object);
+    scene.object = with_bounds(tree.object);
     for (const Value phase : *parts.phases) scene.materials.push_back(read_phase_material(document, phase));
 }
 
