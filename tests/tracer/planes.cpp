@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "film/channel_name.hpp"
 #include "film/cryptomatte.hpp"
@@ -209,6 +210,36 @@ TEST_CASE("parts of the light add up to the picture, and planes change none of i
     CHECK(alone.further.empty());
     CHECK(alone.attributes.empty());
     CHECK(alone.pixels == image.pixels);
+}
+
+TEST_CASE("alpha: glass, lamps and what scatters cover the background, and what bends nothing does not") {
+    // A ball of radius 1 in a picture of 4 by 4, so that it covers π/16 of it.
+    const auto covered = [](const std::string& material, const std::string& lights) {
+        Scene scene = scene_of(R"("m": )" + material, R"({"set": {"phase": "m", "of": {"sphere": {"radius": 1}}}})",
+                               R"("lights": [{"constant": {}})" + lights + R"(], "background": [0, 0, 0],
+            "camera": {"orthographic": {"position": [0, -5, 0], "look_at": [0, 0, 0], "height": 4, "filter": "box"}},
+            "render": {"width": 48, "height": 48, "samples": 64})");
+        scene.film.planes[Planes::place<AlphaPlane>()] = true;
+        const Image image = image_of(World(scene), scene);
+        const std::vector<float>& alpha = channel(image, "A");
+        double sum = 0;
+        for (const float a : alpha) {
+            REQUIRE((a >= 0 && a <= 1));
+            sum += static_cast<double>(a);
+        }
+        CHECK(alpha.front() == 0);
+        return sum / static_cast<double>(alpha.size());
+    };
+    constexpr double ball_alone = std::numbers::pi / 16;
+    CHECK(covered(R"({"diffuse": {"color": [0.5, 0.5, 0.5]}})", "") == doctest::Approx(ball_alone).epsilon(0.003));
+    CHECK(covered(R"({"clear": {"ior": 1.5}})", "") == doctest::Approx(ball_alone).epsilon(0.003));
+    CHECK(covered(R"({"clear": {"ior": 1}})", "") == 0);
+    // Nearly all rays through the dense middle are scattered.
+    const double milk = covered(R"({"clear": {"ior": 1, "scattering": [9, 9, 9]}})", "");
+    CHECK(milk > 0.9 * ball_alone);
+    CHECK(milk < 0.999 * ball_alone);
+    CHECK(covered(R"({"clear": {"ior": 1}})", R"(, {"sphere": {"centre": [0, 2, 0], "radius": 0.5}})") ==
+          doctest::Approx(ball_alone / 4).epsilon(0.003));
 }
 
 TEST_CASE("Cryptomatte, as a file's reader sees it") {

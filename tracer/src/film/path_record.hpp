@@ -41,6 +41,8 @@ struct PathRecord {
     glm::vec3 indirect{0};
     /// The part of each group of lights (Lights::groups). They add up to the radiance, but for the rounding of sums.
     std::vector<glm::vec3> groups;
+    /// Whether the camera ray left the scene and saw the lights at infinity, or the background in their place.
+    bool shows_background = false;
     /// The first surface.
     std::optional<RecordedSurface> first;
     /// The first surface that is not perfectly smooth. Its albedo is what is left of white light on the way there and

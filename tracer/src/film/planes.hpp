@@ -1,6 +1,7 @@
 // The list of all planes of the film.
 #pragma once
 
+#include "film/alpha_plane.hpp"
 #include "film/cryptomatte_planes.hpp"
 #include "film/half_plane.hpp"
 #include "film/length_plane.hpp"
@@ -16,7 +17,7 @@ namespace phasetree::tracer {
 /// Every plane, the picture first. Of its order depend only the order of channels in files, and of bytes in those that
 /// films are kept in.
 using Planes =
-    PlaneList<RadiancePlane, DepthPlane, PositionPlane, NormalPlane, AlbedoPlane, DepthBehindPlane, PositionBehindPlane,
+    PlaneList<RadiancePlane, AlphaPlane, DepthPlane, PositionPlane, NormalPlane, AlbedoPlane, DepthBehindPlane, PositionBehindPlane,
               NormalBehindPlane, AlbedoBehindPlane, PhaseLeftPlane, PhaseEnteredPlane, ObjectPlane, InstancePlane,
               LengthPlane, DirectPlane, IndirectPlane, LightGroupsPlane, VariancePlane, NoisePlane, SamplesPlane,
               HalfPlane, CryptoPhasePlane, CryptoObjectPlane, CryptoMaterialPlane>;

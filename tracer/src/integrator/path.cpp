@@ -55,6 +55,7 @@ class Path {
             const Flight flight = through_medium(light ? light->distance : distance);
             add_emission_of_medium(flight.emitted);
             if (light && !flight.scattered_at) {
+                if (is_camera_ray_ && light->distance == Bounds::infinity) recorder_.shows_background();
                 add_light(throughput_ * chain_.weight(scene_, photons_, ray_) * flight.weight *
                               for_light(light->radiance, single()),
                           light->source, ray_.direction, false);

@@ -28,6 +28,11 @@ class PathRecorder {
     void scattered(const Surface& surface, bool is_delta, bool is_link, const glm::vec3& weight,
                    const glm::vec3& throughput);
 
+    /// The camera ray met nothing and saw what is behind the scene.
+    void shows_background() {
+        if (record_) record_->shows_background = true;
+    }
+
     /// The path was scattered in a medium.
     void scattered_in_medium() {
         if (record_) ++scatterings_;

@@ -38,6 +38,10 @@ std::vector<Layer> layers_of(const Image& image) {
     const auto mattes = cryptomattes_of(image);
     std::vector<Layer> layers{{.name = layer_of_picture, .has_picture = true}};
     for (const Channel& channel : image.further) {
+        if (channel.name == "A") {  // as files with an alpha channel have it beside R, G and B
+            layers.front().channels.push_back(&channel);
+            continue;
+        }
         std::string name = channel.name.substr(0, channel.name.find('.'));
         const auto matte = std::ranges::find_if(mattes, [&](const auto& m) { return is_rank_of(name, m.first); });
         if (matte != mattes.end()) name = matte->first;

@@ -28,9 +28,10 @@ struct Layer {
 /// All that an image has, as one layer.
 Layer whole(const Image& image);
 
-/// The picture, "beauty", and the image's further channels by what stands before the point in their names: "depth.Z" is
-/// of "depth". The ranks of a Cryptomatte, CryptoPhase00, 01, …, are one layer with its manifest, as its specification
-/// wants them. The channels keep their names, so that a compositor finds the same in many files as in one.
+/// The picture, "beauty", with its alpha, A, and the image's further channels by what stands before the point in their
+/// names: "depth.Z" is of "depth". The ranks of a Cryptomatte, CryptoPhase00, 01, …, are one layer with its manifest,
+/// as its specification wants them. The channels keep their names, so that a compositor finds the same in many files as
+/// in one.
 std::vector<Layer> layers_of(const Image& image);
 
 /// Whether a name asks for a file for each plane.

@@ -41,9 +41,9 @@ struct ImageParameters : RenderSettings {
                                  "several times, as in a room that is lit through a door from the next one.",
                                  limits::any, true});
         v(&P::caustics, Parameter{"caustics", "",
-                                  "Whether photons look for the light that lamps, the sun and the bright parts of "
-                                  "environment images throw through clear surfaces, curved or rough, onto other "
-                                  "surfaces and into media that scatter and are alike throughout. "
+                                  "Whether photons look for the light that lamps, surfaces that glow, the sun and the "
+                                  "bright parts of environment images throw through clear surfaces, curved or rough, "
+                                  "onto other surfaces and into media that scatter. "
                                   "They blur it by a pixel or two, less with more samples.",
                                   limits::any, true});
         v(&P::photons, Parameter{"photons", "", "For caustics: photons for each pixel and sample.",
