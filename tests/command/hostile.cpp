@@ -157,8 +157,6 @@ class WrongScenes {
         tree("unbounded", "unbounded", R"({"set": {"phase": "glass", "of": {"plane": {}}}})");
         tree("a twist of an unbounded object", "",
              R"({"set": {"phase": "glass", "of": {"twist": {"rate": 10, "of": {"plane": {}}}}}})");
-        tree("empty object", "empty",
-             R"({"set": {"phase": "glass", "of": {"offset": {"distance": -2, "of": "ball"}}}})");
     }
     // Trees that have no end, or none that can be waited for.
     void add_trees_without_end() {
