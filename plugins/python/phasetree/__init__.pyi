@@ -2936,7 +2936,7 @@ def image(width: int | None = ..., height: int | None = ..., frames_per_second: 
     seed: Another whole number gives other noise. (whole number; zero or more; default 0)
     max_depth: The most surfaces that a path meets. One between equal indices counts, too. (whole number; at least 1 and at most 1048576; default 65536)
     guiding: Whether paths learn where light comes from before the first sample, so that half of them go there from diffuse surfaces. It pays where most light has been scattered several times, as in a room that is lit through a door from the next one. (true or false; default false)
-    caustics: Whether photons look for the light that lamps, the sun and the bright parts of environment images throw through clear surfaces, curved or rough, onto other surfaces and into media that scatter and are alike throughout. They blur it by a pixel or two, less with more samples. (true or false; default false)
+    caustics: Whether photons look for the light that lamps, surfaces that glow, the sun and the bright parts of environment images throw through clear surfaces, curved or rough, onto other surfaces and into media that scatter. They blur it by a pixel or two, less with more samples. (true or false; default false)
     photons: For caustics: photons for each pixel and sample. (number; at least 0 and at most 64; default 1)
     photon_radius: For caustics: how far around a point photons count as light on it, in the first pass. (number in pixels; at least 0.01 and at most 100; default 2)
     exposure: Brightness of pictures; one more is twice as bright. (number in EV; at least -50 and at most 50; default 0)
