@@ -17,9 +17,9 @@ namespace phasetree::tracer {
 /// Every plane, the picture first. Of its order depend only the order of channels in files, and of bytes in those that
 /// films are kept in.
 using Planes =
-    PlaneList<RadiancePlane, AlphaPlane, DepthPlane, PositionPlane, NormalPlane, AlbedoPlane, DepthBehindPlane, PositionBehindPlane,
-              NormalBehindPlane, AlbedoBehindPlane, PhaseLeftPlane, PhaseEnteredPlane, ObjectPlane, InstancePlane,
-              LengthPlane, DirectPlane, IndirectPlane, LightGroupsPlane, VariancePlane, NoisePlane, SamplesPlane,
-              HalfPlane, CryptoPhasePlane, CryptoObjectPlane, CryptoMaterialPlane>;
+    PlaneList<RadiancePlane, AlphaPlane, DepthPlane, PositionPlane, NormalPlane, AlbedoPlane, DepthBehindPlane,
+              PositionBehindPlane, NormalBehindPlane, AlbedoBehindPlane, PhaseLeftPlane, PhaseEnteredPlane, ObjectPlane,
+              InstancePlane, LengthPlane, DirectPlane, IndirectPlane, LightGroupsPlane, VariancePlane, NoisePlane,
+              SamplesPlane, HalfPlane, CryptoPhasePlane, CryptoObjectPlane, CryptoMaterialPlane>;
 
 }  // namespace phasetree::tracer
