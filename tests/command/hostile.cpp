@@ -108,6 +108,7 @@ class WrongScenes {
         cases_.push_back({"a quote too few", R"({"version: 1})", ""});
         cases_.push_back({"no version", "{}", "version"});
         cases_.push_back({"another version", R"({"version": 2})", "version 1"});
+        cases_.push_back({"a schema without a name", R"({"$schema": 3, "version": 1})", "$schema"});
     }
     // Keys, kinds and numbers.
     void add_keys_and_numbers() {

@@ -31,6 +31,11 @@ Value needed(ObjectReader& root, std::optional<Value> FileParts::*wanted) {
     return root.required_value(name);
 }
 
+// Where the schema is does not matter here, but it must be a name, as the schema itself says.
+void check_schema(const Document& document, const FileParts& parts) {
+    if (parts.schema) (void)as<std::string>(document, *parts.schema, "\"$schema\"");
+}
+
 void check_version(const Document& document, Value version) {
     if (as<int>(document, version, "\"version\"") != 1)
         throw document.error(version, "this program reads scenes of version 1");
@@ -126,6 +131,7 @@ SceneModel read_scene_model(const Document& document) {
 Scene read_scene(const Document& document, NodePlaces* places) {
     ObjectReader root(document, document.root(), "the scene");
     const FileParts parts = parts_of(root);
+    check_schema(document, parts);
     check_version(document, needed(root, &FileParts::version));
 
     Scene scene;
@@ -153,6 +159,7 @@ Scene read_scene(const Document& document, NodePlaces* places) {
 SceneModel read_scene_without_camera(const Document& document) {
     ObjectReader root(document, document.root(), "the scene");
     const FileParts parts = parts_of(root);
+    check_schema(document, parts);
     if (parts.version) check_version(document, *parts.version);
     SceneModel model = read_scene_model(document);
     (void)opaque_phases(document);
