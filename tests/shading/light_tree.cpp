@@ -109,7 +109,8 @@ TEST_CASE("clustered lamps: each that shines on a receiver is chosen with a prob
             LightReceiver at = receiver(random);
             if (i % 2 == 0) {
                 const auto& lamp = one_by_one.area()[static_cast<std::size_t>(i) % one_by_one.area().size()];
-                at.p = std::visit([](const auto& light) { return light.centre(); }, lamp) +
+                at.p = std::visit([](const auto& light) -> BoundingSphere { return light.bounding_sphere(); }, lamp)
+                           .centre +
                        std::pow(10.0f, -3 * random()) * square_to_uniform_sphere(random.two());
             }
             for (std::size_t k = 0; k < lights.points().size(); ++k) {

@@ -1,6 +1,6 @@
-// In which directions the photons of a light fly that is within the object or close to it: all that there are, divided
-// into cells of equal solid angle, with a probability each. With z = cos θ and the azimuth φ a cell is a rectangle of
-// (z, φ), and the density of directions in it
+// The photons of a small lamp within the object or close to it, and those of a part of a surface that glows, fly in all
+// directions. The sphere of directions is divided into cells of equal solid angle, and each cell has a probability.
+// With z = cos θ and the azimuth φ a cell is a rectangle of (z, φ), and the density of directions in it
 //     p(ω) = p(cell) · (number of cells)/(4π).
 #pragma once
 
@@ -13,7 +13,7 @@ namespace phasetree::tracer {
 
 class PhotonDirections {
   public:
-    /// The square of this many cells, all of which are equally likely.
+    /// There are cells_a_side² cells, which are all equally likely.
     explicit PhotonDirections(int cells_a_side)
         : cells_a_side_(cells_a_side), choice_(static_cast<std::size_t>(cells_a_side) * cells_a_side) {}
 

@@ -207,7 +207,7 @@ float PhotonEmission::line_density(const glm::vec3& origin, const glm::vec3& tow
     for (std::size_t i = 0; i < first_area_; ++i)
         sum += share(i) * density(std::get<OfCap>(sources_[i]), origin, towards_light);
     if (first_area_ < first_point_)
-        scene_.lights.for_each_area_light_near(origin, towards_light, [&](std::uint32_t number) {
+        scene_.lights.for_each_lamp_near(LightNode::Kind::area, origin, towards_light, [&](std::uint32_t number) {
             const std::size_t i = first_area_ + number;
             sum += share(i) * density(std::get<OfArea>(sources_[i]), origin, towards_light);
         });
@@ -222,7 +222,7 @@ float PhotonEmission::line_density(const Surface& glowing, const glm::vec3& towa
     float free = known_free;
     bool is_searched = false;
     float sum = 0;
-    scene_.lights.for_each_glowing_part_near(origin, direction, [&](std::uint32_t number) {
+    scene_.lights.for_each_lamp_near(LightNode::Kind::glowing, origin, direction, [&](std::uint32_t number) {
         const std::optional<std::size_t> i = source_of_glowing_[number];
         if (!i) return;
         const OfGlowing& source = std::get<OfGlowing>(sources_[*i]);

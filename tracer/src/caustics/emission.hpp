@@ -36,7 +36,9 @@ namespace phasetree::tracer {
 
 /// A photon that is about to start.
 struct EmittedPhoton {
-    Ray ray;                    ///< its origin is outside of the object, or at the light if that is nearer
+    /// It starts where its line enters the sphere about the object, or at its light if that is farther along the line,
+    /// or on the surface that glows.
+    Ray ray;
     Lights::Emission emission;  ///< what is seen from the origin backwards if nothing is in the way
     glm::vec3 power;            ///< radiance of the light over p(line)
     float line_density;         ///< p(line) over the square of the refractive index at the origin; of a point, cᵢ q
@@ -54,17 +56,19 @@ class PhotonEmission {
     std::size_t lights() const { return sources_.size(); }
     /// In how many cells a light, by its number among those, aims its photons.
     std::size_t cells(std::size_t light) const;
-    /// One that flies at a share of the time in which the shutter is open. Nothing if the line leads nowhere.
+    /// Samples a photon that flies at a share of the time in which the shutter is open. Nothing if its line leads
+    /// nowhere.
     std::optional<EmittedPhoton> sample(Sampler& sampler, float time) const;
     /// As EmittedPhoton::line_density, for a line that leads from a point in this phase towards a light.
     float line_density(const glm::vec3& origin, const glm::vec3& towards_light, Phase phase) const;
-    /// The same of a line that leads to a surface that glows. The surface was met by a ray from there, at that
-    /// distance; to where the ray started the line is known to be free.
+    /// The same of a line that leads to a surface that glows. `known_free` is the distance from the surface, against
+    /// towards_light, over which the line is known to be free.
     float line_density(const Surface& glowing, const glm::vec3& towards_light, float known_free) const;
     /// The same of a point light, by its number among those, for a direction from it: per steradian.
     float direction_density(std::size_t point_light, const glm::vec3& from_light) const;
 
-    /// Chooses lights and cells of their targets in proportion to these numbers from now on: worth[light][cell].
+    /// From now on lights and cells are chosen nearly in proportion to these numbers, worth[light][cell]; a tenth of
+    /// the photons stays spread evenly. If all are 0 nothing changes.
     void learn(std::vector<std::vector<double>> worth);
 
   private:

@@ -10,7 +10,7 @@ namespace phasetree::tracer {
 namespace {
 
 // Follows a straight line through clear boundaries to the first opaque surface before the distance `far`. Nothing if
-// there is none, or if a lamp is before it. What it has come by is added to `passed`.
+// there is none, or if a lamp is before it. The length that it has followed is added to `passed`.
 std::optional<Surface> first_opaque(Ray ray, float far, const World& world, const Scene& scene, float& passed) {
     const glm::vec3 direction = ray.direction;
     PathCounters uncounted;

@@ -1,9 +1,9 @@
 // Where a line through a ball around a glowing part (lights/glowing_part.hpp) leaves a glowing surface.
 //
 // A photon that such a ball sends flies on a line through the ball, and starts where that line leaves a surface. Where
-// it leaves several, the photon starts at the last of them, so it gets out of the ball: a surface sends it only if
-// nothing opaque is on the line between the surface and the end of the line in the ball, nor a lamp. Clear boundaries
-// may be there. They will bend the photon, but the line that it is sampled on goes straight through them.
+// it leaves several, the photon starts at the last of them. So a surface sends it only if neither an opaque surface nor
+// a lamp is between there and the end of the line in the ball. Clear boundaries may be there. They will bend the
+// photon, but the line that it is sampled on goes straight through them.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -16,7 +16,8 @@
 namespace phasetree::tracer {
 
 /// The surface from which a ball sends a photon on the line through a point in a direction of unit length, at a share
-/// of the time in which the shutter is open. It may be one that does not glow; nothing if the line meets none.
+/// of the time in which the shutter is open. It may be one that does not glow. Nothing if nothing opaque is on the line
+/// in the ball, if a lamp is before it, or if the line leaves the ball in an opaque phase.
 std::optional<Surface> last_surface_in(const BoundingSphere& ball, const World& world, const Scene& scene,
                                        const glm::vec3& point, const glm::vec3& direction, float time);
 

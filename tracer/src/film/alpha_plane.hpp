@@ -1,5 +1,6 @@
-// How much of a pixel is covered: the share of the samples in which the camera ray meets something, be it a surface, a
-// lamp that it sees, or a place in a medium where it is scattered. Glass covers what is behind it, because it bends it.
+// Alpha is the share of a pixel's samples whose camera ray is scattered, reflected or refracted, or ends at a surface
+// or at a lamp that the camera sees. So smooth glass counts as covering, because it bends what is seen through it. The
+// picture is premultiplied by alpha only if the background is black.
 #pragma once
 
 #include "film/recorded_plane.hpp"

@@ -48,7 +48,6 @@ concept InfiniteLightKind = std::copyable<L> && requires(const L& light, const g
 /// * sample(p, u): a direction from p towards the light; asked only where approximate_solid_angle(p) is not 0.
 /// * pdf_at(p, w, d): the density of sample(), for a direction w in which the light is met at the distance d.
 /// * intersect(p, w): the distance at which a ray from p first meets the light's emitting side, if it does.
-/// * centre(): a point in the middle of the light.
 /// * surface_point(u): a point of its surface, uniformly by area, with the normal on its emitting side.
 /// * normal_at(q): that normal at a point of the surface.
 /// * area(): of the surface that emits.
@@ -63,7 +62,6 @@ concept AreaLightKind = std::copyable<L> &&
     { light.sample(p, u) } -> std::same_as<DirectionSample>;
     { light.pdf_at(p, w, d) } -> std::same_as<float>;
     { light.intersect(p, w) } -> std::same_as<std::optional<float>>;
-    { light.centre() } -> std::same_as<glm::vec3>;
     { light.surface_point(u) } -> std::same_as<SurfacePoint>;
     { light.normal_at(p) } -> std::same_as<glm::vec3>;
     { light.area() } -> std::same_as<float>;

@@ -136,24 +136,15 @@ class Lights {
     std::optional<Emission> seen(const glm::vec3& origin, const glm::vec3& direction, float geometry,
                                  bool camera_ray) const;
 
-    /// Calls use(number) for each area light that a ray from the origin in a unit direction may meet, and for some
-    /// others. Without clusters all area lights come, in their order.
+    /// Calls use(number) for each lamp of one kind, area lights or parts of what glows, that a ray from the origin in a
+    /// unit direction may meet, and for some others. Without clusters all of the kind come, in their order.
     template <class Use>
-    void for_each_area_light_near(const glm::vec3& origin, const glm::vec3& direction, const Use& use) const {
+    void for_each_lamp_near(LightNode::Kind kind, const glm::vec3& origin, const glm::vec3& direction,
+                            const Use& use) const {
         tree_.for_each_maybe_hit(
             origin, direction, [] { return std::numeric_limits<float>::infinity(); },
             [&](const LightNode& lamp) {
-                if (lamp.kind == LightNode::Kind::area) use(lamp.number);
-            });
-    }
-
-    /// The same of the parts of what glows, by their numbers in glowing().
-    template <class Use>
-    void for_each_glowing_part_near(const glm::vec3& origin, const glm::vec3& direction, const Use& use) const {
-        tree_.for_each_maybe_hit(
-            origin, direction, [] { return std::numeric_limits<float>::infinity(); },
-            [&](const LightNode& lamp) {
-                if (lamp.kind == LightNode::Kind::glowing) use(lamp.number);
+                if (lamp.kind == kind) use(lamp.number);
             });
     }
 

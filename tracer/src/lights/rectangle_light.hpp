@@ -50,7 +50,6 @@ class RectangleLight {
     std::optional<float> intersect(const glm::vec3& origin, const glm::vec3& direction) const;
 
     // As AreaLightKind has them.
-    glm::vec3 centre() const { return centre_; }
     SurfacePoint surface_point(const glm::vec2& u) const;
     glm::vec3 normal_at(const glm::vec3& /*point*/) const { return normal(); }
     float area() const { return static_cast<float>(area_); }
