@@ -151,8 +151,9 @@ std::optional<EmittedPhoton> PhotonEmission::started(const Line& line, std::size
     const std::optional<Ray> ray = start(line, time);
     if (!ray) return std::nullopt;
     const float density = line_density(ray->origin, -line.direction, ray->phase);
+    if (!(density > 0.0f)) return std::nullopt;
     const auto seen = scene_.lights.seen(ray->origin, -line.direction, infinity, false);
-    if (!(density > 0.0f) || !seen) return std::nullopt;
+    if (!seen || seen->radiance == glm::vec3(0.0f)) return std::nullopt;
     const float line_measure = density * squared_ior(scene_, ray->phase);
     return EmittedPhoton{*ray, *seen, seen->radiance / line_measure, density, source, line.cell};
 }
@@ -162,8 +163,9 @@ std::optional<EmittedPhoton> PhotonEmission::started(const OfPoint& point, const
     const AnyPointLight& light = scene_.lights.points()[point.number];
     const glm::vec3 intensity = std::visit([&](const auto& any) { return any.intensity(line.direction); }, light);
     const float density = direction_density(point.number, line.direction);
+    if (!(density > 0.0f) || intensity == glm::vec3(0.0f)) return std::nullopt;
     const std::optional<Ray> ray = start(line, time);
-    if (!ray || !(density > 0.0f) || intensity == glm::vec3(0.0f)) return std::nullopt;
+    if (!ray) return std::nullopt;
     const Lights::Emission emission{glm::length(ray->origin - position_of(light)), intensity,
                                     OfPointLight{static_cast<std::uint32_t>(point.number)}};
     return EmittedPhoton{*ray, emission, intensity / density, density, source, line.cell};
@@ -171,10 +173,11 @@ std::optional<EmittedPhoton> PhotonEmission::started(const OfPoint& point, const
 
 std::optional<EmittedPhoton> PhotonEmission::started(const OfGlowing& glowing, const Line& line, std::size_t source,
                                                      float time) const {
-    const auto surface = last_surface_in(glowing.ball, world_, scene_, line.through, line.direction, time);
+    const auto [surface, free] = last_surface_in(glowing.ball, world_, scene_, line.through, line.direction, time);
     const auto emitted = surface ? surface->emitted() : std::nullopt;
     if (!emitted) return std::nullopt;
-    const float density = line_density(*surface, -line.direction, 0.0f);
+    // Known but for rounding, so that the ball that sends the photon counts.
+    const float density = line_density(*surface, -line.direction, free * (1 + 1e-5f));
     if (!(density > 0.0f)) return std::nullopt;
     const Ray ray = surface->reflected(line.direction);
     return EmittedPhoton{ray,
@@ -203,14 +206,25 @@ float PhotonEmission::direction_density(std::size_t point_light, const glm::vec3
 }
 
 float PhotonEmission::line_density(const glm::vec3& origin, const glm::vec3& towards_light, Phase phase) const {
-    float sum = 0;
-    for (std::size_t i = 0; i < first_area_; ++i)
-        sum += share(i) * density(std::get<OfCap>(sources_[i]), origin, towards_light);
+    float sum = 0, of_nearest = 0, nearest = infinity;
     if (first_area_ < first_point_)
         scene_.lights.for_each_lamp_near(LightNode::Kind::area, origin, towards_light, [&](std::uint32_t number) {
             const std::size_t i = first_area_ + number;
-            sum += share(i) * density(std::get<OfArea>(sources_[i]), origin, towards_light);
+            const auto [density, distance] = met(std::get<OfArea>(sources_[i]), origin, towards_light);
+            sum += share(i) * density;
+            if (distance < nearest) {
+                nearest = distance;
+                of_nearest = share(i) * density;
+            }
         });
+    // The photons of a lamp within the sphere about the object start there, and those of what is behind it end there.
+    if (nearest < infinity) {
+        const glm::vec3 lamp = origin + nearest * towards_light;
+        if (glm::dot(outside_of_object(lamp, -towards_light) - lamp, towards_light) > 0.0f)
+            return of_nearest / squared_ior(scene_, phase);
+    }
+    for (std::size_t i = 0; i < first_area_; ++i)
+        sum += share(i) * density(std::get<OfCap>(sources_[i]), origin, towards_light);
     return sum / squared_ior(scene_, phase);
 }
 
@@ -239,19 +253,20 @@ float PhotonEmission::line_density(const Surface& glowing, const glm::vec3& towa
 }
 
 float PhotonEmission::density(const OfCap& source, const glm::vec3& origin, const glm::vec3& towards_light) const {
-    const float among_parallel = source.aim.crossing(origin, -towards_light).density;
-    return among_parallel > 0.0f ? among_parallel * source.cap.pdf(towards_light) : 0.0f;
+    const float of_direction = source.cap.pdf(towards_light);
+    return of_direction > 0.0f ? source.aim.crossing(origin, -towards_light).density * of_direction : 0.0f;
 }
 
-float PhotonEmission::density(const OfArea& source, const glm::vec3& origin, const glm::vec3& towards_light) const {
+PhotonEmission::LampOnLine PhotonEmission::met(const OfArea& source, const glm::vec3& origin,
+                                               const glm::vec3& towards_light) const {
     return std::visit(
-        [&](const auto& light) {
+        [&](const auto& light) -> LampOnLine {
             const std::optional<float> distance = light.intersect(origin, towards_light);
-            if (!distance) return 0.0f;
+            if (!distance) return {0.0f, infinity};
             const glm::vec3 point = origin + *distance * towards_light;
             const float cosine = -glm::dot(towards_light, light.normal_at(point));
-            if (!(cosine > 0.0f)) return 0.0f;
-            return source.aim.density(point, -towards_light) / (light.area() * cosine);
+            if (!(cosine > 0.0f)) return {0.0f, *distance};
+            return {source.aim.density(point, -towards_light) / (light.area() * cosine), *distance};
         },
         scene_.lights.area()[source.number]);
 }

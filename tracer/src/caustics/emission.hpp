@@ -9,7 +9,8 @@
 // its direction as seen from where it leaves the light (aim.hpp), the light's area A, the angle θ at its surface, and
 // the ball's radius r. Of an infinite light, lines come evenly from a cap of directions of the solid angle Ω: the sun's
 // disk, or a bright part of an image (lights/bright_parts.hpp), each of which is a source of its own. What a photon
-// carries is what is seen along its line, whichever light proposed it. Lights that are all around send none, nor do
+// carries is what is seen along its line, whichever light proposed it. Of a lamp within the sphere about the object
+// that is the lamp alone: the photons of what is behind it end there. Lights that are all around send none, nor do
 // media that shine, and lines that no light proposes are left to the other techniques of path.hpp.
 //
 // The lines that glowing surfaces send are a mixture by themselves, of the balls from which a photon could have
@@ -114,7 +115,11 @@ class PhotonEmission {
 
     float share(std::size_t source) const { return static_cast<float>(choice_.probability(source)); }
     float density(const OfCap&, const glm::vec3& origin, const glm::vec3& towards_light) const;
-    float density(const OfArea&, const glm::vec3& origin, const glm::vec3& towards_light) const;
+    /// How densely a lamp's lines are on this one, and how far it is; infinity if it is not there.
+    struct LampOnLine {
+        float density, distance;
+    };
+    LampOnLine met(const OfArea&, const glm::vec3& origin, const glm::vec3& towards_light) const;
 
     const World& world_;
     const Scene& scene_;

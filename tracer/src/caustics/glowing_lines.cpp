@@ -9,25 +9,31 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Follows a straight line through clear boundaries to the first opaque surface before the distance `far`. Nothing if
-// there is none, or if a lamp is before it. The length that it has followed is added to `passed`.
-std::optional<Surface> first_opaque(Ray ray, float far, const World& world, const Scene& scene, float& passed) {
+enum class Heading { towards_the_light, with_the_light };
+
+// Follows a straight line through clear boundaries to the first opaque surface before the distance `far`, if no lamp is
+// before it. A rectangle hides from one side alone, so it matters which way the light goes.
+FreeLine followed(Ray ray, float far, Heading heading, const World& world, const Scene& scene) {
     const glm::vec3 direction = ray.direction;
     PathCounters uncounted;
+    const auto lamp_before = [&](float distance) -> std::optional<float> {
+        if (heading == Heading::with_the_light)
+            return scene.lights.area_light_in_the_way(ray.origin, direction, distance, LightSource{});
+        const auto seen = scene.lights.area_light_seen(ray.origin, direction, distance, false);
+        return seen ? std::optional(seen->distance) : std::nullopt;
+    };
+    float free = 0;
     for (int boundary = 0; boundary < longest_chain; ++boundary) {
         const Hit hit = world.geometry().intersect(ray, uncounted);
         const Surface* surface = std::get_if<Surface>(&hit);
         const float distance = surface ? surface->distance : far;
-        if (const auto lamp = scene.lights.area_light_seen(ray.origin, direction, distance, false)) {
-            passed += lamp->distance;
-            return std::nullopt;
-        }
-        passed += distance;
-        if (!surface || passed > far) return std::nullopt;
-        if (!surface->far_side) return *surface;
+        if (const auto lamp = lamp_before(distance)) return {std::nullopt, free + *lamp};
+        free += distance;
+        if (!surface || free > far) return {std::nullopt, free};
+        if (!surface->far_side) return {*surface, free};
         ray = surface->transmitted(direction);
     }
-    return std::nullopt;
+    return {std::nullopt, free};
 }
 
 // The distances along a line at which it enters and leaves a ball.
@@ -45,22 +51,19 @@ std::optional<Chord> chord(const BoundingSphere& ball, const glm::vec3& origin, 
 
 }  // namespace
 
-std::optional<Surface> last_surface_in(const BoundingSphere& ball, const World& world, const Scene& scene,
-                                       const glm::vec3& point, const glm::vec3& direction, float time) {
+FreeLine last_surface_in(const BoundingSphere& ball, const World& world, const Scene& scene, const glm::vec3& point,
+                         const glm::vec3& direction, float time) {
     const std::optional<Chord> within = chord(ball, point, direction);
-    if (!within) return std::nullopt;
+    if (!within) return {};
     const glm::vec3 end = point + within->leaves * direction;
     const TracedGeometry::Inside inside = world.geometry().inside(end, time);
-    if (!is_clear(scene.materials[inside.phase.index])) return std::nullopt;
-    float passed = 0;
-    return first_opaque({end, -direction, inside.phase, {}, inside.in}, within->leaves - within->enters, world, scene,
-                        passed);
+    if (!is_clear(scene.materials[inside.phase.index])) return {};
+    return followed({end, -direction, inside.phase, {}, inside.in}, within->leaves - within->enters,
+                    Heading::towards_the_light, world, scene);
 }
 
 float free_distance(const Surface& from, const glm::vec3& direction, const World& world, const Scene& scene) {
-    float passed = 0;
-    first_opaque(from.reflected(direction), Bounds::infinity, world, scene, passed);
-    return passed;
+    return followed(from.reflected(direction), Bounds::infinity, Heading::with_the_light, world, scene).free;
 }
 
 std::optional<float> distance_to_leave(const BoundingSphere& ball, const glm::vec3& origin,

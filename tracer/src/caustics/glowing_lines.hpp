@@ -15,11 +15,18 @@
 
 namespace phasetree::tracer {
 
+/// What a straight line meets that goes through clear boundaries.
+struct FreeLine {
+    std::optional<Surface> opaque{};  ///< the first opaque surface, if no lamp is before it
+    float free = 0;                   ///< the distance to there, or to the lamp
+};
+
 /// The surface from which a ball sends a photon on the line through a point in a direction of unit length, at a share
-/// of the time in which the shutter is open. It may be one that does not glow. Nothing if nothing opaque is on the line
-/// in the ball, if a lamp is before it, or if the line leaves the ball in an opaque phase.
-std::optional<Surface> last_surface_in(const BoundingSphere& ball, const World& world, const Scene& scene,
-                                       const glm::vec3& point, const glm::vec3& direction, float time);
+/// of the time in which the shutter is open, and how far it is from the end of the line in the ball. The surface may be
+/// one that does not glow. There is none if nothing opaque is on the line in the ball, if a lamp is before it, or if
+/// the line leaves the ball in an opaque phase.
+FreeLine last_surface_in(const BoundingSphere& ball, const World& world, const Scene& scene, const glm::vec3& point,
+                         const glm::vec3& direction, float time);
 
 /// How far the line that leaves a surface in a direction, of unit length and on the side from which the surface was
 /// met, is free of lamps and of all that is opaque; infinity if it is all free.

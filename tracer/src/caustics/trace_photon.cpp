@@ -35,10 +35,12 @@ class PhotonFlight {
             const Hit hit = world_.geometry().intersect(ray_, counters_);
             const Surface* surface = std::get_if<Surface>(&hit);
             float distance = surface ? surface->distance : std::numeric_limits<float>::infinity();
-            // Lamps with an extent hide what is behind them.
-            if (const auto lamp = scene_.lights.area_light_seen(ray_.origin, ray_.direction, distance, false)) {
+            // Lamps with an extent hide what is behind them. The photon's own can do so once something has bent its
+            // way.
+            const LightSource own = interfaces_ == 0 ? emitted_.emission.source : LightSource{};
+            if (const auto lamp = scene_.lights.area_light_in_the_way(ray_.origin, ray_.direction, distance, own)) {
                 surface = nullptr;
-                distance = lamp->distance;
+                distance = *lamp;
             }
             // A photon is kept with the power with which it came into the medium. The point that gathers it knows how
             // much of that is left there.

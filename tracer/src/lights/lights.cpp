@@ -380,6 +380,26 @@ std::optional<Lights::Emission> Lights::area_light_seen(const glm::vec3& origin,
     return nearest;
 }
 
+std::optional<float> Lights::area_light_in_the_way(const glm::vec3& origin, const glm::vec3& direction, float far,
+                                                   const LightSource& own) const {
+    const auto* left_out = std::get_if<OfAreaLight>(&own);
+    std::optional<float> nearest;
+    for_each_lamp_near(LightNode::Kind::area, origin, direction, [&](std::uint32_t number) {
+        if (left_out && left_out->index == number) return;
+        std::visit(
+            [&](const auto& light) {
+                const BoundingSphere ball = light.bounding_sphere();
+                const float behind = glm::dot(ball.centre - origin, direction) + 1.01f * ball.radius;
+                const float end = std::min(far, behind);
+                if (!(end > 0.0f)) return;
+                const auto back = light.intersect(origin + end * direction, -direction);
+                if (back && *back < end && (!nearest || end - *back < *nearest)) nearest = end - *back;
+            },
+            area_[number]);
+    });
+    return nearest;
+}
+
 std::optional<Lights::Emission> Lights::seen(const glm::vec3& origin, const glm::vec3& direction, float geometry,
                                              bool camera_ray) const {
     const std::optional<Emission> nearest = area_light_seen(origin, direction, geometry, camera_ray);

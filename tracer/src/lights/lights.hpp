@@ -152,6 +152,12 @@ class Lights {
     std::optional<Emission> area_light_seen(const glm::vec3& origin, const glm::vec3& direction, float geometry,
                                             bool camera_ray) const;
 
+    /// How far light on its way from an origin in a unit direction gets before an area light takes it: one that hides
+    /// the origin from who looks back. Nothing if there is none before the distance `far`. The light that comes from
+    /// `own` starts there, so that one is left out.
+    std::optional<float> area_light_in_the_way(const glm::vec3& origin, const glm::vec3& direction, float far,
+                                               const LightSource& own) const;
+
     /// The density of sample() there, per steradian.
     float pdf(const LightReceiver& at, const glm::vec3& direction) const;
 
