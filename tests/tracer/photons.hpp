@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -82,6 +83,34 @@ inline void check_against_paths(const Scene& scene, const glm::vec3& origin, con
     CAPTURE(photons.standard_error() / photons.mean());
     CHECK(p_value(1) > significance);
     CHECK(p_value(planted) < significance);
+}
+
+// That a picture is as bright in the mean with photons as without: `made` gives the scene with "caustics" as it is
+// told, and `planted` is a factor of the brightness that is found. How far photons blur a picture does not matter to
+// its mean.
+template <class Made>
+void check_pictures(Made&& made, double planted_factor, double significance) {
+    std::array<Moments, 2> by_paths_and_photons;
+    for (const bool caustics : {false, true}) {
+        Scene scene = made(caustics);
+        const World world(scene);
+        for (std::uint32_t seed = 1; seed <= 8; ++seed) {
+            scene.settings.seed = seed;
+            double sum = 0;
+            const Image image = image_of(world, scene);
+            for (const glm::vec3& pixel : image.pixels) sum += static_cast<double>(pixel.x);
+            by_paths_and_photons[caustics].add(sum / static_cast<double>(image.pixels.size()));
+        }
+    }
+    const auto& [paths, photons] = by_paths_and_photons;
+    const double error = std::hypot(paths.standard_error(), photons.standard_error());
+    const auto p_value = [&](double factor) {
+        return phasetree::tests::normal_two_sided((factor * photons.mean() - paths.mean()) / error);
+    };
+    CAPTURE(photons.mean() / paths.mean());
+    CAPTURE(error / paths.mean());
+    CHECK(p_value(1) > significance);
+    CHECK(p_value(planted_factor) < significance);
 }
 
 }  // namespace phasetree::tracer::tests

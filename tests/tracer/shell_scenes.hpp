@@ -26,4 +26,18 @@ inline void check_floor(const std::string& phases, const std::string& tree, cons
                         passes_of_photons, significance);
 }
 
+// That a picture of the floor is.
+inline void check_picture_of_floor(const std::string& phases, const std::string& tree, const std::string& lights,
+                                   double planted_factor) {
+    const auto made = [&](bool caustics) {
+        return scene_of(
+            phases, tree,
+            R"("meshes": [{"floor": {"height": -2.5, "material": {"diffuse": {"color": [0.02, 0.02, 0.02]}}}}],
+                "camera": {"position": [2.4, 0, -1], "look_at": [1.2, 0.1, -2.5], "fov": 60},
+                "render": {"width": 40, "height": 30, "samples": 128, "caustics": )" +
+                std::string(caustics ? "true" : "false") + R"(}, "lights": )" + lights);
+    };
+    check_pictures(made, planted_factor, 1e-4);
+}
+
 }  // namespace phasetree::tracer::tests
