@@ -226,7 +226,7 @@ TEST_CASE("the bright parts of an image, through a ball of glass: as bright as b
         R"("meshes": [{"floor": {"material": {"diffuse": {"color": [0.6, 0.6, 0.6]}}}}], "lights": [],
            "render": {"width": 64, "height": 64, "photons": 3, "photon_radius": 2})");
     scene.lights.add(ImageEnvironment(width, height, pixels, 40.0f));
-    CHECK(PhotonEmission(World(scene), scene).lights() == 2);
+    CHECK(PhotonEmission(World(scene), scene).sources() == 2);
     check_against_paths(scene, 3 * passes, 1e-4);
 }
 
@@ -265,7 +265,7 @@ TEST_CASE("no photons where nothing bends light or no light has a middle") {
             scene_of(R"("glass": {"clear": {"ior": )" + ior + "}}",
                      R"({"set": {"phase": "glass", "of": {"sphere": {"radius": 1}}}})", R"("lights": [)" + light + "]");
         const World world(scene);
-        return PhotonEmission(world, scene).lights();
+        return PhotonEmission(world, scene).sources();
     };
     CHECK(lights("1.5", sun_at_60_degrees) == 1);
     CHECK(lights("1", sun_at_60_degrees) == 0);

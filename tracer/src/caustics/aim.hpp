@@ -1,7 +1,7 @@
-// Where the photons of a lamp fly, which has a place: to the cells of a square through the object, or, if the lamp is
-// small and within the object or close to it, in all directions. Of a lamp close by no square is met by all lines that
-// lead to the object. Of a large one those that miss the square are left to the other techniques of path.hpp: cells of
-// directions say little of where its lines lead.
+// This chooses the direction of a photon of a lamp, that is of a light with a place. If the lamp is small and within
+// the object or close to it the photon flies in any direction; else to a cell of a square through the object. Of a lamp
+// close by no square is met by all lines that lead to the object. Of a large lamp some lines miss the square, and are
+// left to the other techniques of path.hpp: the direction alone says little of where a large lamp's line leads.
 #pragma once
 
 #include <optional>
@@ -25,7 +25,7 @@ class PhotonAim {
 
     struct Aimed {
         glm::vec3 direction;  ///< of unit length
-        float distance;       ///< to a point in that direction near the object
+        float distance;       ///< to a point on the line that is beyond the lamp, in the square if there is one
         std::size_t cell;
     };
     /// A direction from a point of the lamp: u_cell in [0, 1) chooses the cell, u in [0, 1)² the place in it. Nothing

@@ -20,8 +20,8 @@ namespace {
 
 constexpr std::size_t photons_a_task = 4096;
 
-// What is learnt before the first pass is of so many photons for each light, and of so many in all at most.
-constexpr std::size_t learnt_a_light = 1 << 15, most_learnt = 1 << 18;
+// What is learnt before the first pass is of so many photons for each source, and of so many in all at most.
+constexpr std::size_t learnt_a_source = 1 << 15, most_learnt = 1 << 18;
 
 // Photons have pixels of their own, so that their random numbers are not those of the picture's.
 constexpr std::uint32_t column_of_passes = 0x80000000u, column_of_learning = 0x80000001u;
@@ -49,7 +49,7 @@ Caustics::Caustics(const World& world, const Scene& scene)
       emission_(world, scene),
       photons_a_pass_(static_cast<std::size_t>(scene.settings.photons * static_cast<float>(scene.film.whole().size()))),
       first_radius_(scene.settings.photon_radius * pixel_size(scene, distance_to_object(world, scene))) {
-    if (emission_.lights() > 0 && photons_a_pass_ > 0) learn();
+    if (emission_.sources() > 0 && photons_a_pass_ > 0) learn();
 }
 
 float Caustics::radius(int pass) const {
@@ -79,9 +79,9 @@ double Caustics::worth_of(const Photon& photon, float expected, float pdf) const
 }
 
 void Caustics::learn() {
-    const std::size_t count = std::min(most_learnt, learnt_a_light * emission_.lights());
+    const std::size_t count = std::min(most_learnt, learnt_a_source * emission_.sources());
     struct Worth {
-        std::size_t light = 0, cell = 0;
+        std::size_t source = 0, cell = 0;
         double worth = 0;
     };
     std::vector<Worth> found(count);
@@ -108,13 +108,13 @@ void Caustics::learn() {
                 worth += worth_of(photon, expected * 0.5f, cosine_hemisphere_pdf(0.5f));
             for (const MediumPhoton& medium : traced.in_media)
                 worth += worth_of(medium.photon, expected, HenyeyGreenstein().evaluate(0.0f));
-            found[i] = {emitted->light, emitted->cell, worth};
+            found[i] = {emitted->source, emitted->cell, worth};
         }
     });
     // Added up in their order, whatever thread found them.
     std::vector<std::vector<double>> worth;
-    for (std::size_t i = 0; i < emission_.lights(); ++i) worth.emplace_back(emission_.cells(i), 0.0);
-    for (const Worth& w : found) worth[w.light][w.cell] += w.worth;
+    for (std::size_t i = 0; i < emission_.sources(); ++i) worth.emplace_back(emission_.cells(i), 0.0);
+    for (const Worth& w : found) worth[w.source][w.cell] += w.worth;
     emission_.learn(std::move(worth));
 }
 
@@ -133,7 +133,7 @@ TracedPhotons Caustics::traced(std::uint32_t pass, std::size_t from, std::size_t
 
 std::optional<PhotonMap> Caustics::photons(int pass, PathCounters& counters,
                                            const std::function<bool()>& cancelled) const {
-    const std::size_t count = emission_.lights() > 0 ? photons_a_pass_ : 0;
+    const std::size_t count = emission_.sources() > 0 ? photons_a_pass_ : 0;
     const std::size_t tasks = (count + photons_a_task - 1) / photons_a_task;
     std::vector<TracedPhotons> parts(tasks);
     std::vector<PathCounters> costs(tasks);

@@ -16,9 +16,10 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// With more parts of glowing surfaces than this, none sends photons: each has cells of its own.
+// With more parts of glowing surfaces than this, none sends photons, because the cells of each take memory and must be
+// learnt.
 constexpr std::size_t most_glowing = 4096;
-// Of such a part, whose lines are not those of one point, cells tell less than of a lamp.
+// Lines of one direction start all over the ball around such a part, so fine cells tell little.
 constexpr int cells_a_side_of_glowing = 16;
 
 // This part of the photons is spread evenly whatever was learnt, because what was learnt is an estimate.
@@ -69,8 +70,8 @@ PhotonEmission::PhotonEmission(const World& world, const Scene& scene) : world_(
     if (!sources_.empty()) choice_ = CellChoice(sources_.size());
 }
 
-std::size_t PhotonEmission::cells(std::size_t light) const {
-    return std::visit([](const auto& source) { return source.aim.cells(); }, sources_[light]);
+std::size_t PhotonEmission::cells(std::size_t source) const {
+    return std::visit([](const auto& any) { return any.aim.cells(); }, sources_[source]);
 }
 
 void PhotonEmission::learn(std::vector<std::vector<double>> worth) {
@@ -104,24 +105,20 @@ std::optional<EmittedPhoton> PhotonEmission::sample(Sampler& sampler, float time
     const std::size_t number = choice_.sample(static_cast<double>(sampler.next()));
     return std::visit(
         [&](const auto& source) -> std::optional<EmittedPhoton> {
-            const std::optional<Line> on = line(source, sampler);
-            if (!on) return std::nullopt;
-            if constexpr (requires { started(source, *on, number, time); })
-                return started(source, *on, number, time);
-            else
-                return started(*on, number, time);
+            const std::optional<Line> line = sampled_line(source, sampler);
+            return line ? photon_on(*line, source, number, time) : std::nullopt;
         },
         sources_[number]);
 }
 
-std::optional<PhotonEmission::Line> PhotonEmission::line(const OfCap& source, Sampler& sampler) const {
+std::optional<PhotonEmission::Line> PhotonEmission::sampled_line(const OfCap& source, Sampler& sampler) const {
     const glm::vec2 u_light = sampler.next2();
     const float u_cell = sampler.next();
     const PhotonTarget::Aim aim = source.aim.sample(u_cell, sampler.next2());
     return Line{aim.point, -source.cap.sample(u_light), infinity, aim.cell};
 }
 
-std::optional<PhotonEmission::Line> PhotonEmission::line(const OfArea& source, Sampler& sampler) const {
+std::optional<PhotonEmission::Line> PhotonEmission::sampled_line(const OfArea& source, Sampler& sampler) const {
     const glm::vec2 u_light = sampler.next2();
     const float u_cell = sampler.next();
     const SurfacePoint from = std::visit([&](const auto& light) { return light.surface_point(u_light); },
@@ -131,8 +128,8 @@ std::optional<PhotonEmission::Line> PhotonEmission::line(const OfArea& source, S
     return Line{from.position + aimed->distance * aimed->direction, aimed->direction, aimed->distance, aimed->cell};
 }
 
-std::optional<PhotonEmission::Line> PhotonEmission::line(const OfPoint& source, Sampler& sampler) const {
-    sampler.next2();  // a light with an extent has a place there
+std::optional<PhotonEmission::Line> PhotonEmission::sampled_line(const OfPoint& source, Sampler& sampler) const {
+    sampler.next2();  // the two numbers that choose a place on other lights, so that all use the same dimensions
     const float u_cell = sampler.next();
     const glm::vec3 from = position_of(scene_.lights.points()[source.number]);
     const auto aimed = source.aim.sample(from, u_cell, sampler.next2());
@@ -140,15 +137,15 @@ std::optional<PhotonEmission::Line> PhotonEmission::line(const OfPoint& source, 
     return Line{from + aimed->distance * aimed->direction, aimed->direction, aimed->distance, aimed->cell};
 }
 
-std::optional<PhotonEmission::Line> PhotonEmission::line(const OfGlowing& source, Sampler& sampler) const {
+std::optional<PhotonEmission::Line> PhotonEmission::sampled_line(const OfGlowing& source, Sampler& sampler) const {
     const glm::vec2 across = square_to_uniform_disk(sampler.next2()) * source.ball.radius;
     const float u_cell = sampler.next();
     const auto [direction, cell] = source.aim.sample(u_cell, sampler.next2());
     return Line{source.ball.centre + Frame(direction).to_world({across, 0.0f}), direction, 0.0f, cell};
 }
 
-std::optional<EmittedPhoton> PhotonEmission::started(const Line& line, std::size_t source, float time) const {
-    const std::optional<Ray> ray = start(line, time);
+std::optional<EmittedPhoton> PhotonEmission::photon_of_seen(const Line& line, std::size_t source, float time) const {
+    const std::optional<Ray> ray = ray_on(line, time);
     if (!ray) return std::nullopt;
     const float density = line_density(ray->origin, -line.direction, ray->phase);
     if (!(density > 0.0f)) return std::nullopt;
@@ -158,21 +155,21 @@ std::optional<EmittedPhoton> PhotonEmission::started(const Line& line, std::size
     return EmittedPhoton{*ray, *seen, seen->radiance / line_measure, density, source, line.cell};
 }
 
-std::optional<EmittedPhoton> PhotonEmission::started(const OfPoint& point, const Line& line, std::size_t source,
-                                                     float time) const {
+std::optional<EmittedPhoton> PhotonEmission::photon_on(const Line& line, const OfPoint& point, std::size_t source,
+                                                       float time) const {
     const AnyPointLight& light = scene_.lights.points()[point.number];
     const glm::vec3 intensity = std::visit([&](const auto& any) { return any.intensity(line.direction); }, light);
     const float density = direction_density(point.number, line.direction);
     if (!(density > 0.0f) || intensity == glm::vec3(0.0f)) return std::nullopt;
-    const std::optional<Ray> ray = start(line, time);
+    const std::optional<Ray> ray = ray_on(line, time);
     if (!ray) return std::nullopt;
     const Lights::Emission emission{glm::length(ray->origin - position_of(light)), intensity,
                                     OfPointLight{static_cast<std::uint32_t>(point.number)}};
     return EmittedPhoton{*ray, emission, intensity / density, density, source, line.cell};
 }
 
-std::optional<EmittedPhoton> PhotonEmission::started(const OfGlowing& glowing, const Line& line, std::size_t source,
-                                                     float time) const {
+std::optional<EmittedPhoton> PhotonEmission::photon_on(const Line& line, const OfGlowing& glowing, std::size_t source,
+                                                       float time) const {
     const auto [surface, free] = last_surface_in(glowing.ball, world_, scene_, line.through, line.direction, time);
     const auto emitted = surface ? surface->emitted() : std::nullopt;
     if (!emitted) return std::nullopt;
@@ -188,9 +185,9 @@ std::optional<EmittedPhoton> PhotonEmission::started(const OfGlowing& glowing, c
                          line.cell};
 }
 
-std::optional<Ray> PhotonEmission::start(const Line& line, float time) const {
+std::optional<Ray> PhotonEmission::ray_on(const Line& line, float time) const {
     glm::vec3 origin = outside_of_object(line.through, line.direction);
-    // A light within the sphere about the object: the photon starts at the light, but for a hair.
+    // If the light is within the sphere about the object the photon starts just in front of the light.
     if (glm::dot(line.through - origin, line.direction) > line.back)
         origin = line.through - line.direction * (line.back * (1 - 1e-5f));
     const TracedGeometry::Inside inside = world_.geometry().inside(origin, time);
@@ -232,7 +229,7 @@ float PhotonEmission::line_density(const Surface& glowing, const glm::vec3& towa
     if (first_glowing_ == sources_.size()) return 0.0f;
     const glm::vec3& origin = glowing.near_side.origin;
     const glm::vec3 direction = -towards_light;
-    // How far the line is free is looked up only where a ball reaches farther than is known.
+    // The free distance is searched only if a ball reaches beyond what is known.
     float free = known_free;
     bool is_searched = false;
     float sum = 0;

@@ -1,24 +1,25 @@
 // How photons leave the lights: from which light, where and in which direction, and how densely.
 //
 // A photon starts on a line. Lines are measured by area and solid angle, dG = dA cos θ dω, which is the same at every
-// point of the line; where light is refracted n² dG is kept (the étendue). The density of lines is a mixture of the
-// lights' own, as that of directions is (lights/lights.hpp),
-//     p(line) = Σᵢ cᵢ pᵢ(line),   pᵢ = t/Ω  of an infinite light,   pᵢ = q/(A cos θ)  of an area light,
-//                                 pᵢ = q/(π r²)  of a ball around a part of a surface that glows,
-// with the density t of the line among parallel ones in the light's target (target.hpp), the density q per steradian of
-// its direction as seen from where it leaves the light (aim.hpp), the light's area A, the angle θ at its surface, and
-// the ball's radius r. Of an infinite light, lines come evenly from a cap of directions of the solid angle Ω: the sun's
-// disk, or a bright part of an image (lights/bright_parts.hpp), each of which is a source of its own. What a photon
-// carries is what is seen along its line, whichever light proposed it. Of a lamp within the sphere about the object
-// that is the lamp alone: the photons of what is behind it end there. Lights that are all around send none, nor do
-// media that shine, and lines that no light proposes are left to the other techniques of path.hpp.
+// point of the line; where light is refracted n² dG is kept (the étendue). There are three kinds of sources, and the
+// densities of each kind are a mixture by themselves, with the share cᵢ of each source.
 //
-// The lines that glowing surfaces send are a mixture by themselves, of the balls from which a photon could have
-// started on the line at the same place (glowing_lines.hpp).
+// *Infinite lights and area lights:*
+//     p(line) = Σᵢ cᵢ pᵢ(line),   pᵢ = t/Ω  of an infinite light,   pᵢ = q/(A cos θ)  of an area light.
+// Of an infinite light lines come evenly from a cap of directions of the solid angle Ω: the sun's disk, or a bright
+// part of an image (lights/bright_parts.hpp), each of which is a source. t is the density, per area across, with which
+// the light's target chooses the line among parallel ones (target.hpp). Of an area light, A is its area, θ the angle at
+// its surface, and q the density per steradian of the line's direction as seen from there (aim.hpp). A photon carries
+// what is seen along its line, whichever light proposed it. If that is a lamp within the sphere about the object,
+// p(line) is of that lamp alone, because the photons of what is behind it end at it. The rest of a light that comes
+// from all around sends no photons. Lines that nothing proposes are left to the other techniques of path.hpp.
 //
-// The lines of a point light all pass through it, and have no such density. They have one of directions, cᵢ q, and with
-// the intensity I of the light in place of a radiance a photon carries I/(cᵢ q). No other technique finds what
-// interfaces bent of it before anything scattered it.
+// *Balls around parts of surfaces that glow:* pᵢ = q/(π r²), with the ball's radius r. The sum is over those balls that
+// would start a photon on this line at this same place (glowing_lines.hpp). Media that shine send no photons.
+//
+// *Point lights:* all lines of one pass through it, and have no density by area. They have one of directions, cᵢ q, and
+// a photon carries the light's intensity over that. No other technique finds light of it that smooth interfaces bent
+// before anything scattered it.
 #pragma once
 
 #include <cstddef>
@@ -41,22 +42,22 @@ struct EmittedPhoton {
     /// or on the surface that glows.
     Ray ray;
     Lights::Emission emission;  ///< what is seen from the origin backwards if nothing is in the way
-    glm::vec3 power;            ///< radiance of the light over p(line)
+    glm::vec3 power;            ///< radiance of the light over p(line); of a point light, intensity over cᵢ q
     float line_density;         ///< p(line) over the square of the refractive index at the origin; of a point, cᵢ q
-    std::size_t light;          ///< the number of the light that proposed it: less than PhotonEmission::lights()
-    std::size_t cell;           ///< of those in which it is aimed
+    std::size_t source;         ///< the number of the source that proposed it: less than PhotonEmission::sources()
+    std::size_t cell;           ///< that cell of the source in which it is aimed
 };
 
 class PhotonEmission {
   public:
-    /// Refers to the world and the scene, which must outlive it. All lights have equal shares at first.
+    /// Refers to the world and the scene, which must outlive it. All sources have equal shares at first.
     PhotonEmission(const World& world, const Scene& scene);
 
-    /// How many lights, bright parts of lights, and parts of glowing surfaces send photons: none if nothing clear
-    /// bends light.
-    std::size_t lights() const { return sources_.size(); }
-    /// In how many cells a light, by its number among those, aims its photons.
-    std::size_t cells(std::size_t light) const;
+    /// How many sources send photons: lights, bright parts of lights, and parts of glowing surfaces. There are none if
+    /// nothing clear bends light, or if the object has no finite bounds.
+    std::size_t sources() const { return sources_.size(); }
+    /// In how many cells a source aims its photons.
+    std::size_t cells(std::size_t source) const;
     /// Samples a photon that flies at a share of the time in which the shutter is open. Nothing if its line leads
     /// nowhere.
     std::optional<EmittedPhoton> sample(Sampler& sampler, float time) const;
@@ -65,10 +66,10 @@ class PhotonEmission {
     /// The same of a line that leads to a surface that glows. `known_free` is the distance from the surface, against
     /// towards_light, over which the line is known to be free.
     float line_density(const Surface& glowing, const glm::vec3& towards_light, float known_free) const;
-    /// The same of a point light, by its number among those, for a direction from it: per steradian.
+    /// The same of a point light, by its number in Lights::points(), for a direction from it: per steradian.
     float direction_density(std::size_t point_light, const glm::vec3& from_light) const;
 
-    /// From now on lights and cells are chosen nearly in proportion to these numbers, worth[light][cell]; a tenth of
+    /// From now on sources and cells are chosen nearly in proportion to these numbers, worth[source][cell]; a tenth of
     /// the photons stays spread evenly. If all are 0 nothing changes.
     void learn(std::vector<std::vector<double>> worth);
 
@@ -99,19 +100,27 @@ class PhotonEmission {
         float back;  ///< from that point to the light; infinity of an infinite light
         std::size_t cell;
     };
-    std::optional<Line> line(const OfCap&, Sampler&) const;
-    std::optional<Line> line(const OfArea&, Sampler&) const;
-    std::optional<Line> line(const OfPoint&, Sampler&) const;
-    std::optional<Line> line(const OfGlowing&, Sampler&) const;
-    /// The photon that starts on a line; nothing if there is nothing that could.
-    std::optional<EmittedPhoton> started(const Line&, std::size_t source, float time) const;
-    std::optional<EmittedPhoton> started(const OfPoint&, const Line&, std::size_t source, float time) const;
-    std::optional<EmittedPhoton> started(const OfGlowing&, const Line&, std::size_t source, float time) const;
+    std::optional<Line> sampled_line(const OfCap&, Sampler&) const;
+    std::optional<Line> sampled_line(const OfArea&, Sampler&) const;
+    std::optional<Line> sampled_line(const OfPoint&, Sampler&) const;
+    std::optional<Line> sampled_line(const OfGlowing&, Sampler&) const;
+    /// The photon that starts on a line, which the source of this number proposed. Nothing if no photon can start
+    /// there.
+    std::optional<EmittedPhoton> photon_on(const Line& line, const OfCap&, std::size_t source, float time) const {
+        return photon_of_seen(line, source, time);
+    }
+    std::optional<EmittedPhoton> photon_on(const Line& line, const OfArea&, std::size_t source, float time) const {
+        return photon_of_seen(line, source, time);
+    }
+    std::optional<EmittedPhoton> photon_on(const Line&, const OfPoint&, std::size_t source, float time) const;
+    std::optional<EmittedPhoton> photon_on(const Line&, const OfGlowing&, std::size_t source, float time) const;
+    /// The same, of whatever light is seen along the line.
+    std::optional<EmittedPhoton> photon_of_seen(const Line&, std::size_t source, float time) const;
 
     /// A point of a line that is sure to be before everything that it meets of the object.
     glm::vec3 outside_of_object(const glm::vec3& point, const glm::vec3& direction) const;
     /// Where a photon starts on a line; none in an opaque phase.
-    std::optional<Ray> start(const Line&, float time) const;
+    std::optional<Ray> ray_on(const Line&, float time) const;
 
     float share(std::size_t source) const { return static_cast<float>(choice_.probability(source)); }
     float density(const OfCap&, const glm::vec3& origin, const glm::vec3& towards_light) const;
