@@ -39,7 +39,7 @@ static_assert(CameraKind<ThinLens> && CameraKind<Orthographic> && !CameraKind<Ca
 }  // namespace
 
 TEST_CASE("a medium by its kind and by any kind lets the same through") {
-    const AbsorbingMedium medium{{0.5f, 0, 3}};
+    const AbsorbingMedium medium{glm::vec3(0.5f, 0, 3)};
     const Way way{glm::vec3(0), glm::vec3(0, 0, 1), 0.7f};
     const Way endless{glm::vec3(0), glm::vec3(0, 0, 1), std::numeric_limits<float>::infinity()};
     Sampler sampler(0, 0, 0, 0);

@@ -25,14 +25,14 @@ glm::dvec3 mean_over_wavelengths(F&& f) {
     glm::dvec3 sum(0.0);
     for (int i = 0; i < count; ++i) {
         const Wavelength wavelength = sampled_wavelength((static_cast<float>(i) + 0.5f) / count);
-        sum += glm::dvec3(wavelength.response) * static_cast<double>(f(wavelength));
+        sum += glm::dvec3(wavelength.response) * static_cast<double>(f(Wavelengths::of_dispersed_colours(wavelength)));
     }
     return sum / static_cast<double>(count);
 }
 
 // By how much two refractions turn the ray that goes into a prism: traced through the world.
 double deviation(const World& world, const Scene& scene, const glm::vec3& origin, const glm::vec3& direction,
-                 const Wavelength& only) {
+                 const Wavelengths& only) {
     PathCounters counters;
     Ray ray{origin, direction, world.geometry().label(origin), {}};
     for (int face = 0; face < 2; ++face) {
@@ -57,7 +57,7 @@ TEST_CASE("wavelengths: every colour is the mean of its own at single ones, and 
                                     glm::vec3(0.8f, 0.3f, 0.1f)}) {
         const auto with_error = [&](float error) {
             const glm::dvec3 mean =
-                mean_over_wavelengths([&](const Wavelength& only) { return error * for_light(colour, &only).x; });
+                mean_over_wavelengths([&](const Wavelengths& only) { return error * for_light(colour, &only).x; });
             return glm::length(mean - glm::dvec3(colour));
         };
         CHECK(with_error(1.0f) < 1e-3);
@@ -111,8 +111,8 @@ TEST_CASE("a prism: the least deviation is that of Sellmeier's index, at every w
     CHECK(world.disperses());
     constexpr double half = std::numbers::pi / 6;
     for (const float u : {0.02f, 0.2f, 0.4f, 0.6f, 0.8f, 0.98f}) {
-        const Wavelength only = sampled_wavelength(u);
-        const double index = static_cast<double>(find_glass("sf11").value().dispersion.index(only.nanometres));
+        const Wavelengths only = Wavelengths::of_dispersed_colours(sampled_wavelength(u));
+        const double index = static_cast<double>(find_glass("sf11").value().dispersion.index(only.hero()));
         const auto least = [&](double n) { return 2 * std::asin(n * std::sin(half)) - 2 * half; };
         // In symmetry the ray goes level inside, so outside it rises by half of the deviation.
         const double rise = 0.5 * least(index);
@@ -123,7 +123,7 @@ TEST_CASE("a prism: the least deviation is that of Sellmeier's index, at every w
             const glm::vec3 at(-0.5f, 0.1f, 0.288675f);
             traced = std::min(traced, deviation(world, scene, at - 2.0f * direction, direction, only));
         }
-        CAPTURE(only.nanometres);
+        CAPTURE(only.hero());
         CHECK(std::abs(traced - least(index)) < 1e-4);
         CHECK(std::abs(traced - least(1 + 1.01 * (index - 1))) > 1e-4);
     }
@@ -166,7 +166,7 @@ TEST_CASE("photons of one wavelength: the ground of a pool of flint glass under 
     const World world(scene);
     const Caustics caustics(world, scene);
     // Straight below a point at the height 1 over glass of the depth 1 it shines as from 1 + 1/n.
-    const glm::dvec3 expected = mean_over_wavelengths([&](const Wavelength& only) {
+    const glm::dvec3 expected = mean_over_wavelengths([&](const Wavelengths& only) {
         const double n = static_cast<double>(clear_at(scene, phasetree::Phase{1}).ior_for(&only));
         const double r = (n - 1) * (n - 1) / ((n + 1) * (n + 1));
         return 20 * (1 - r) / ((1 + 1 / n) * (1 + 1 / n)) * 0.001 / std::numbers::pi;

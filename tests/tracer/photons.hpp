@@ -24,7 +24,7 @@ inline const double planted = long_form ? 1.03 : 1.1;
 // Calls use(emitted, photon) for what falls on surfaces of so many photons. Each batch has others.
 template <class Use>
 void for_each_photon(const World& world, const Scene& scene, const PhotonEmission& emission, std::uint32_t count,
-                     Use&& use, const std::optional<Wavelength>& wavelength = {}, std::uint32_t batch = 0) {
+                     Use&& use, const std::optional<Wavelengths>& wavelength = {}, std::uint32_t batch = 0) {
     PathCounters counters;
     for (std::uint32_t i = 0; i < count; ++i) {
         Sampler sampler(i, batch, 0, 5);
@@ -52,7 +52,7 @@ inline Moments with_photons(const Scene& scene, const glm::vec3& origin, const g
         if (!are_gathered) {
             const double a_photon = std::numbers::pi * caustics.radius(pass) * caustics.radius(pass);
             const auto emitted = static_cast<std::size_t>(std::lround(map->expected() / a_photon));
-            map.emplace(TracedPhotons{}, emitted, caustics.radius(pass), map->wavelength());
+            map.emplace(TracedPhotons{}, emitted, caustics.radius(pass), map->wavelengths());
         }
         // Paths of one pass see the same photons, so their mean is one independent number.
         double sum = 0;
@@ -86,10 +86,13 @@ inline void check_against_paths(const Scene& scene, const glm::vec3& origin, con
 }
 
 // That a picture is as bright in the mean with photons as without: `made` gives the scene with "caustics" as it is
-// told, and `planted` is a factor of the brightness that is found. How far photons blur a picture does not matter to
-// its mean.
-template <class Made>
-void check_pictures(Made&& made, double planted_factor, double significance) {
+// told, and `planted` is a factor of the brightness that is found. Pictures of grey scenes are compared by one channel.
+// How far photons blur a picture does not matter to its mean.
+inline float red(const glm::vec3& pixel) {
+    return pixel.x;
+}
+template <class Made, class Brightness = decltype(&red)>
+void check_pictures(Made&& made, double planted_factor, double significance, Brightness brightness = red) {
     std::array<Moments, 2> by_paths_and_photons;
     for (const bool caustics : {false, true}) {
         Scene scene = made(caustics);
@@ -98,7 +101,7 @@ void check_pictures(Made&& made, double planted_factor, double significance) {
             scene.settings.seed = seed;
             double sum = 0;
             const Image image = image_of(world, scene);
-            for (const glm::vec3& pixel : image.pixels) sum += static_cast<double>(pixel.x);
+            for (const glm::vec3& pixel : image.pixels) sum += static_cast<double>(brightness(pixel));
             by_paths_and_photons[caustics].add(sum / static_cast<double>(image.pixels.size()));
         }
     }

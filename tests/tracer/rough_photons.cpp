@@ -65,7 +65,7 @@ TEST_CASE("a rough interface scales the power of photons of one wavelength by th
     const PhotonEmission emission(world, scene);
     for (const float u : {0.02f, 0.98f}) {
         CAPTURE(u);
-        const Wavelength wavelength = sampled_wavelength(u);
+        const Wavelengths wavelength = Wavelengths::of_dispersed_colours(sampled_wavelength(u));
         std::vector<float> left;
         for_each_photon(
             world, scene, emission, 3000,
@@ -109,9 +109,8 @@ TEST_CASE("a photon and a path that comes along its way backwards know the same 
                          scene.lights.pdf(end->shadow.origin, end->shadow.direction), seen->source};
             }
             Sampler sampler(0, 0, 0, 0);
-            const Wavelength hero;
-            const auto arrival = trace_shadow_ray({world, scene, {&emission, &map}, sampler, counters}, end->shadow,
-                                                  light, {.hero = hero, .single = nullptr}, 1);
+            const auto arrival =
+                trace_shadow_ray({world, scene, {&emission, &map}, sampler, counters}, end->shadow, light, {}, 1);
             REQUIRE(arrival.light);
             // Of a point light the line density that a shadow ray knows is q/(n'² d²), and the photon's is q.
             const float lamp_ior = c.in_oil ? ior_of_oil : 1;

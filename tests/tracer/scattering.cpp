@@ -47,7 +47,7 @@ double depth_to(double t) {
     return sum;
 }
 
-const ScatteringCoefficients coloured{.absorption = {0.1f, 0.4f, 0.2f},
+const ScatteringCoefficients coloured{.absorption = glm::vec3(0.1f, 0.4f, 0.2f),
                                       .scattering = {1.9f, 0.6f, 3.8f},
                                       .emission = {0.5f, 0.2f, 0.1f},
                                       .phase_function = HenyeyGreenstein(0.3f)};

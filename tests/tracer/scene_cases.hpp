@@ -127,6 +127,7 @@ inline void tell(std::vector<float>& told, const tracer::Material& material) {
             if constexpr (requires { m.light; }) {
                 tell(told, m.light);
                 told.push_back(m.radiance);
+                tell(told, m.spectrum ? m.spectrum->colour() : glm::vec3(0));
                 for (const char letter : m.group) told.push_back(static_cast<float>(letter));
             }
             if constexpr (requires { m.eta; }) {
@@ -204,7 +205,7 @@ inline void tell_settings(const Document& document, std::vector<float>& told) {
     for (const int i : {film.width, film.height, s.samples, s.max_depth}) told.push_back(static_cast<float>(i));
     told.push_back(static_cast<float>(s.seed));
     told.insert(told.end(), {s.exposure_ev, s.caustics ? 1.0f : 0.0f, s.photons, s.photon_radius});
-    told.insert(told.end(), {s.noise, s.guiding ? 1.0f : 0.0f});
+    told.insert(told.end(), {s.noise, s.guiding ? 1.0f : 0.0f, s.spectral ? 1.0f : 0.0f});
     told.insert(told.end(), {s.shutter.x, s.shutter.y});
     told.push_back(static_cast<float>(s.view ? s.view->size() : 0));
 }
@@ -227,6 +228,7 @@ inline std::vector<Case> cases() {
               {"scale", measured},
               {"anisotropy", R"("ior": 1.5, "scattering": [1, 1, 1])"},
               {"emission", R"("ior": 1.5, "absorption": [1, 1, 1])"},
+              {"emission_spectrum", R"("ior": 1.5, "absorption": [1, 1, 1], "emission": [1, 1, 1])"},
               {"density", dense},
               {"density_depth", dense},
               {"film_ior", R"("ior": 1.5, "film_thickness": 300)"},
@@ -247,6 +249,7 @@ inline std::vector<Case> cases() {
                        tell_material_of_scene});
     };
     texture("field", R"("of": {"sphere": {"radius": 1}}, "ramp": [[0, [0, 0, 0]], [1, [1, 1, 1]]])");
+    texture("measured", R"("reflectance": [[450, 0.1], [600, 0.8]])");
     texture("image", R"("file": "sky.hdr")");
     texture("mesh_image", R"("file": "sky.hdr")");
     all.push_back({"Numbers", "field", R"("of": {"sphere": {"radius": 1}}, "ramp": [[-2, 0], [2, 0.5]])",

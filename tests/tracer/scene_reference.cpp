@@ -185,6 +185,11 @@ TEST_CASE("every key changes what is read") {
                                                     {"glass", "\"sf11\""},
                                                     {"abbe_number", "40"},
                                                     {"density", R"({"sphere": {"radius": 0.5}})"},
+                                                    {"spectral", "true"},
+                                                    {"spectrum", R"({"blackbody": 3000})"},
+                                                    {"emission_spectrum", R"({"blackbody": 3000})"},
+                                                    {"absorption_spectrum", "[[450, 0], [650, 3]]"},
+                                                    {"reflectance", "[[500, 0.25]]"},
                                                     {"caustics", "true"},
                                                     {"guiding", "true"}};
     for (const Case& c : cases()) {

@@ -46,8 +46,8 @@ TEST_CASE("a clear phase's colour is what is left of light after half the diagon
     REQUIRE(medium);
     // The box is a cube of side 4.
     const float half = 2 * std::sqrt(3.0f);
-    CHECK(std::exp(-medium->absorption.x * half) == doctest::Approx(0.5).epsilon(1e-4));
-    CHECK(std::exp(-medium->absorption.z * half) == doctest::Approx(0.9).epsilon(1e-4));
+    CHECK(std::exp(-medium->absorption.rgb().x * half) == doctest::Approx(0.5).epsilon(1e-4));
+    CHECK(std::exp(-medium->absorption.rgb().z * half) == doctest::Approx(0.9).epsilon(1e-4));
 }
 
 TEST_CASE("every kind of material tells its name and what of it can be changed") {

@@ -2484,7 +2484,7 @@ def distort(of: Object, amplitude: float, scale: float, octaves: float | None = 
 
 class materials:
     @staticmethod
-    def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused_silica", "sapphire", "sf11", "water"] | None = ..., abbe_number: float | None = ..., absorption: Sequence[float] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., emission: Sequence[float] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
+    def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused_silica", "sapphire", "sf11", "water"] | None = ..., abbe_number: float | None = ..., absorption: Sequence[float] | np.ndarray | None = ..., absorption_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., emission: Sequence[float] | np.ndarray | None = ..., emission_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
         r"""Vacuum, air, water, glass, milk, wax, fog: light travels inside, and may be absorbed and scattered there.
 
             exp(−(a + s) d)
@@ -2493,6 +2493,7 @@ class materials:
         glass: In place of the index: a measured substance whose index changes with the wavelength, so that white light is split into its colours. (`"bk7"`, `"diamond"`, `"f2"`, `"fused_silica"`, `"sapphire"`, `"sf11"`, `"water"`; default none)
         abbe_number: Abbe's number of a glass of one's own, which splits white light the more the smaller it is: crown glass has 60, flint glass 30. Without it the index is that of all colours. (number; at least 10 and at most 1000; default none)
         absorption: Absorption of red, green and blue, a; nothing is absorbed without it. ([r, g, b] in 1/m; zero or more; default none)
+        absorption_spectrum: In place of the absorption: wavelengths and the absorption at each. Without "spectral" it is red, green and blue that are absorbed so in thin layers. (list of [nm, number] in nm, 1/m; zero or more; default none)
         color: In place of the absorption: what is left of white light after a distance. (colour; more than 0 and at most 1; default none)
         color_distance: The distance after which the colour is left. (number in m; positive; default 1)
         roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
@@ -2503,6 +2504,7 @@ class materials:
         scale: With a measured medium: how long the scene's unit of length is. (number in mm; positive; default none)
         anisotropy: The mean cosine g of Henyey and Greenstein's phase function: positive goes on forwards. Measured media scatter as much more as makes their reduced scattering, (1 − g) s, what was measured. 0 without it. (number; at least -0.99 and at most 0.99; default none)
         emission: Radiance that the medium itself adds along a ray. ([r, g, b] in 1/m; zero or more; default none)
+        emission_spectrum: How the emission is spread over the wavelengths, as "spectrum" of lights. Of the emission only the brightness counts then. (list of [nm, number], or {"blackbody": kelvin}; default none)
         density: Where the medium is how dense: not at all at the field's surface and outside, and rising evenly to all of absorption, scattering and emission inside. (field; default none)
         density_depth: How deep inside of the density's field the medium is as dense as it gets. (number in m; positive; default none)
         film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
@@ -2536,16 +2538,17 @@ class materials:
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
         """
     @staticmethod
-    def glowing(light: Sequence[float] | str | Texture | None = ..., radiance: float | None = ..., color: Sequence[float] | str | Texture | None = ..., group: str | Expression | None = ...) -> Material:
+    def glowing(light: Sequence[float] | str | Texture | None = ..., radiance: float | None = ..., color: Sequence[float] | str | Texture | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., group: str | Expression | None = ...) -> Material:
         r"""Embers, lava, a filament, a screen: shines alike in all directions.
 
         light: Colour of its light; white without it. (colour or texture; default none)
         radiance: Radiance of its surface where the colour of its light is 1; n² times that against a material of index n. (number; more than 0 and at most 1e12; default 1)
         color: Reflectance; black without it. (colour or texture; default none)
+        spectrum: How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the light's own colour only the brightness counts then. Without "spectral" it is the colour of that spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
         """
 
-def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused_silica", "sapphire", "sf11", "water"] | None = ..., abbe_number: float | None = ..., absorption: Sequence[float] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., emission: Sequence[float] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
+def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused_silica", "sapphire", "sf11", "water"] | None = ..., abbe_number: float | None = ..., absorption: Sequence[float] | np.ndarray | None = ..., absorption_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., emission: Sequence[float] | np.ndarray | None = ..., emission_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
     r"""Vacuum, air, water, glass, milk, wax, fog: light travels inside, and may be absorbed and scattered there.
 
         exp(−(a + s) d)
@@ -2554,6 +2557,7 @@ def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused
     glass: In place of the index: a measured substance whose index changes with the wavelength, so that white light is split into its colours. (`"bk7"`, `"diamond"`, `"f2"`, `"fused_silica"`, `"sapphire"`, `"sf11"`, `"water"`; default none)
     abbe_number: Abbe's number of a glass of one's own, which splits white light the more the smaller it is: crown glass has 60, flint glass 30. Without it the index is that of all colours. (number; at least 10 and at most 1000; default none)
     absorption: Absorption of red, green and blue, a; nothing is absorbed without it. ([r, g, b] in 1/m; zero or more; default none)
+    absorption_spectrum: In place of the absorption: wavelengths and the absorption at each. Without "spectral" it is red, green and blue that are absorbed so in thin layers. (list of [nm, number] in nm, 1/m; zero or more; default none)
     color: In place of the absorption: what is left of white light after a distance. (colour; more than 0 and at most 1; default none)
     color_distance: The distance after which the colour is left. (number in m; positive; default 1)
     roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
@@ -2564,6 +2568,7 @@ def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused
     scale: With a measured medium: how long the scene's unit of length is. (number in mm; positive; default none)
     anisotropy: The mean cosine g of Henyey and Greenstein's phase function: positive goes on forwards. Measured media scatter as much more as makes their reduced scattering, (1 − g) s, what was measured. 0 without it. (number; at least -0.99 and at most 0.99; default none)
     emission: Radiance that the medium itself adds along a ray. ([r, g, b] in 1/m; zero or more; default none)
+    emission_spectrum: How the emission is spread over the wavelengths, as "spectrum" of lights. Of the emission only the brightness counts then. (list of [nm, number], or {"blackbody": kelvin}; default none)
     density: Where the medium is how dense: not at all at the field's surface and outside, and rising evenly to all of absorption, scattering and emission inside. (field; default none)
     density_depth: How deep inside of the density's field the medium is as dense as it gets. (number in m; positive; default none)
     film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
@@ -2597,12 +2602,13 @@ def coated(color: Sequence[float] | str | Texture, ior: float | None = ..., roug
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
     """
 
-def glowing(light: Sequence[float] | str | Texture | None = ..., radiance: float | None = ..., color: Sequence[float] | str | Texture | None = ..., group: str | Expression | None = ...) -> Material:
+def glowing(light: Sequence[float] | str | Texture | None = ..., radiance: float | None = ..., color: Sequence[float] | str | Texture | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., group: str | Expression | None = ...) -> Material:
     r"""Embers, lava, a filament, a screen: shines alike in all directions.
 
     light: Colour of its light; white without it. (colour or texture; default none)
     radiance: Radiance of its surface where the colour of its light is 1; n² times that against a material of index n. (number; more than 0 and at most 1e12; default 1)
     color: Reflectance; black without it. (colour or texture; default none)
+    spectrum: How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the light's own colour only the brightness counts then. Without "spectral" it is the colour of that spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
     group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
     """
 
@@ -2669,6 +2675,12 @@ class textures:
         file: An image of any format that OpenImageIO reads, at most 4096 × 4096 pixels. (name of a file)
         repeat: How often the image stands side by side, and one above the other. ([x, y]; default [1, 1])
         """
+    @staticmethod
+    def measured(reflectance: Sequence[Sequence[float]] | np.ndarray) -> Texture:
+        r"""A colour by its spectrum, as it was measured.
+
+        reflectance: Wavelengths and the share of light that is reflected at each. (list of [nm, number] in nm; at least 0 and at most 1)
+        """
 
 class numbers:
     @staticmethod
@@ -2681,15 +2693,16 @@ class numbers:
 
 class lights:
     @staticmethod
-    def constant(radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | Expression | None = ...) -> Light:
+    def constant(radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
         r"""The same radiance from everywhere.
 
         radiance: Radiance from every direction. (colour; zero or more; default [1, 1, 1])
         intensity: A factor of the radiance. (number; zero or more; default 1)
         group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
+        spectrum: How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the light's own colour only the brightness counts then. Without "spectral" it is the colour of that spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
-    def gradient(zenith: Sequence[float] | str, horizon: Sequence[float] | str, ground: Sequence[float] | str, intensity: float | None = ..., softness: float | None = ..., group: str | Expression | None = ...) -> Light:
+    def gradient(zenith: Sequence[float] | str, horizon: Sequence[float] | str, ground: Sequence[float] | str, intensity: float | None = ..., softness: float | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
         r"""Three colours that run smoothly into each other with the height.
 
             mix(horizon, zenith or ground, S(min(|z|/softness, 1))),  S(t) = t² (3 − 2t)
@@ -2700,18 +2713,20 @@ class lights:
         intensity: A factor of the three radiances. (number; zero or more; default 1)
         softness: Sine of the elevation at which the zenith's or the ground's colour is reached. (number; more than 0 and at most 1; default 1)
         group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
+        spectrum: How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the light's own colour only the brightness counts then. Without "spectral" it is the colour of that spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
-    def image(file: str | PathLike[str], rotation: float | None = ..., intensity: float | None = ..., group: str | Expression | None = ...) -> Light:
+    def image(file: str | PathLike[str], rotation: float | None = ..., intensity: float | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
         r"""An environment from a lat-long image, which is twice as wide as high.
 
         file: An image that OpenImageIO reads row by row (OpenEXR, Radiance, TIFF, PNG, JPEG …), at most 16384 × 8192 pixels. (name of a file)
         rotation: Angle by which it is turned, clockwise as seen from above. (number in degrees; default 0)
         intensity: A factor of the image. (number; zero or more; default 1)
         group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
+        spectrum: How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the light's own colour only the brightness counts then. Without "spectral" it is the colour of that spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
-    def sky(sun_elevation: float | None = ..., sun_azimuth: float | None = ..., sun_diameter: float | None = ..., turbidity: float | None = ..., ground: Sequence[float] | str | None = ..., intensity: float | None = ..., sun: bool | None = ..., group: str | Expression | None = ...) -> Light:
+    def sky(sun_elevation: float | None = ..., sun_azimuth: float | None = ..., sun_diameter: float | None = ..., turbidity: float | None = ..., ground: Sequence[float] | str | None = ..., intensity: float | None = ..., sun: bool | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
         r"""A clear sky, its sun, and the ground below, by a model of the atmosphere. White level ground has the luminance 1 under a sun 45° high at turbidity 3.
 
         sun_elevation: Height of the sun above the horizon; down to −8 there is twilight. (number in degrees; at least -90 and at most 90; default 45)
@@ -2722,9 +2737,10 @@ class lights:
         intensity: A factor of all of it. (number; at least 0 and at most 1e30; default 1)
         sun: Whether the sun itself shines, too. (true or false; default true)
         group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
+        spectrum: How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the light's own colour only the brightness counts then. Without "spectral" it is the colour of that spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
-    def sun(direction: Sequence[float] | np.ndarray, irradiance: Sequence[float] | str | None = ..., diameter: float | None = ..., group: str | Expression | None = ...) -> Light:
+    def sun(direction: Sequence[float] | np.ndarray, irradiance: Sequence[float] | str | None = ..., diameter: float | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
         r"""A disk of constant radiance infinitely far away.
 
             L = E/(π sin²(δ/2))
@@ -2733,9 +2749,10 @@ class lights:
         irradiance: What a surface receives that faces the sun, E. (colour; zero or more; default [1, 1, 1])
         diameter: Angular diameter, δ. A larger sun makes softer shadows of the same brightness. (number in degrees; more than 0 and at most 90; default 0.53)
         group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
+        spectrum: How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the light's own colour only the brightness counts then. Without "spectral" it is the colour of that spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
-    def rectangle(centre: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, width: float, height: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | Expression | None = ...) -> Light:
+    def rectangle(centre: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, width: float, height: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
         r"""A rectangle that shines to one side and is not there from behind.
 
         centre: Its centre. ([x, y, z] in m; at least -1e15 and at most 1e15)
@@ -2746,9 +2763,10 @@ class lights:
         intensity: A factor of the radiance. (number; zero or more; default 1)
         visible_to_camera: Whether the camera sees it by itself. (true or false; default true)
         group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
+        spectrum: How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the light's own colour only the brightness counts then. Without "spectral" it is the colour of that spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
-    def sphere(centre: Sequence[float] | np.ndarray, radius: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | Expression | None = ...) -> Light:
+    def sphere(centre: Sequence[float] | np.ndarray, radius: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
         r"""A ball that shines.
 
         centre: Its centre. ([x, y, z] in m; at least -1e15 and at most 1e15)
@@ -2757,9 +2775,10 @@ class lights:
         intensity: A factor of the radiance. (number; zero or more; default 1)
         visible_to_camera: Whether the camera sees the light by itself. (true or false; default true)
         group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
+        spectrum: How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the light's own colour only the brightness counts then. Without "spectral" it is the colour of that spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
-    def spheres(centres: Sequence[Sequence[float]] | np.ndarray, radius: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | Expression | None = ...) -> Light:
+    def spheres(centres: Sequence[Sequence[float]] | np.ndarray, radius: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
         r"""Many equal balls that shine. Each is a sphere light.
 
         centres: Their centres. (list of [x, y, z]s in m; at least -1e15 and at most 1e15)
@@ -2768,18 +2787,20 @@ class lights:
         intensity: A factor of the radiance. (number; zero or more; default 1)
         visible_to_camera: Whether the camera sees the light by itself. (true or false; default true)
         group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
+        spectrum: How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the light's own colour only the brightness counts then. Without "spectral" it is the colour of that spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
-    def point(position: Sequence[float] | np.ndarray, color: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | Expression | None = ...) -> Light:
+    def point(position: Sequence[float] | np.ndarray, color: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
         r"""A point that shines alike in all directions. It is never seen itself, and through glass or water its light is found by photons alone: without "caustics" it stays dark behind them. A small sphere has neither fault.
 
         position: Where it is. ([x, y, z] in m; at least -1e15 and at most 1e15)
         color: A factor of the intensity of each colour. (colour; zero or more; default [1, 1, 1])
         intensity: Radiant intensity, in the unit of radiance times m²: a surface that faces the light at the distance d gets the irradiance intensity/d². (number; zero or more; default 1)
         group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
+        spectrum: How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the light's own colour only the brightness counts then. Without "spectral" it is the colour of that spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
-    def spot(position: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, cone: float | None = ..., edge: float | None = ..., color: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | Expression | None = ...) -> Light:
+    def spot(position: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, cone: float | None = ..., edge: float | None = ..., color: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
         r"""A point that shines into a cone with a smooth edge. It is a point light else.
 
         position: Where it is. ([x, y, z] in m; at least -1e15 and at most 1e15)
@@ -2789,9 +2810,10 @@ class lights:
         color: A factor of the intensity of each colour. (colour; zero or more; default [1, 1, 1])
         intensity: Radiant intensity, in the unit of radiance times m²: a surface that faces the light at the distance d gets the irradiance intensity/d². (number; zero or more; default 1)
         group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
+        spectrum: How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the light's own colour only the brightness counts then. Without "spectral" it is the colour of that spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
-    def ies(file: str | PathLike[str], position: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, turn: float | None = ..., color: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | Expression | None = ...) -> Light:
+    def ies(file: str | PathLike[str], position: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, turn: float | None = ..., color: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
         r"""A point that shines as a photometric file of the IES tells it (LM-63, type C). It is a point light else.
 
         file: The file, of at most 1 MiB. (name of a file)
@@ -2801,6 +2823,7 @@ class lights:
         color: A factor of the intensity of each colour. (colour; zero or more; default [1, 1, 1])
         intensity: Radiant intensity where the file has the most candelas; see the point light. (number; zero or more; default 1)
         group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
+        spectrum: How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the light's own colour only the brightness counts then. Without "spectral" it is the colour of that spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
     def portal(centre: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, width: float, height: float) -> Light:
@@ -2924,7 +2947,7 @@ def camera(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np
     focus_at: In place of the distance: a point of the plane of focus. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
     """
 
-def image(width: int | None = ..., height: int | None = ..., frames_per_second: float | None = ..., shutter: Sequence[float] | np.ndarray | None = ..., samples: int | None = ..., noise: float | None = ..., seed: int | None = ..., max_depth: int | None = ..., guiding: bool | None = ..., caustics: bool | None = ..., photons: float | None = ..., photon_radius: float | None = ..., exposure: float | None = ..., view: str | Expression | None = ...) -> ImageSettings:
+def image(width: int | None = ..., height: int | None = ..., frames_per_second: float | None = ..., shutter: Sequence[float] | np.ndarray | None = ..., samples: int | None = ..., noise: float | None = ..., seed: int | None = ..., max_depth: int | None = ..., spectral: bool | None = ..., guiding: bool | None = ..., caustics: bool | None = ..., photons: float | None = ..., photon_radius: float | None = ..., exposure: float | None = ..., view: str | Expression | None = ...) -> ImageSettings:
     r"""How large the image is, and how it is made.
 
     width: Width of the image. (whole number in pixels; at least 1 and at most 32768; default 1024)
@@ -2935,6 +2958,7 @@ def image(width: int | None = ..., height: int | None = ..., frames_per_second: 
     noise: Pixels stop before that where their relative error is estimated to be at most this, after 32 samples at the earliest; 0 if none is to stop. (number; at least 0 and at most 1; default 0)
     seed: Another whole number gives other noise. (whole number; zero or more; default 0)
     max_depth: The most surfaces that a path meets. One between equal indices counts, too. (whole number; at least 1 and at most 1048576; default 65536)
+    spectral: Whether light has wavelengths in place of red, green and blue, three on each path. Metals, thin films, absorption and light then are what they are at each wavelength; colours are spectra that look like them. (true or false; default false)
     guiding: Whether paths learn where light comes from before the first sample, so that half of them go there from diffuse surfaces. It pays where most light has been scattered several times, as in a room that is lit through a door from the next one. (true or false; default false)
     caustics: Whether photons look for the light that lamps, surfaces that glow, the sun and the bright parts of environment images throw through clear surfaces, curved or rough, onto other surfaces and into media that scatter. They blur it by a pixel or two, less with more samples. (true or false; default false)
     photons: For caustics: photons for each pixel and sample. (number; at least 0 and at most 64; default 1)

@@ -35,6 +35,11 @@ float pixel_size(const Scene& scene, float distance) {
     return glm::length((a.origin + distance * a.direction) - (b.origin + distance * b.direction));
 }
 
+// With which wavelengths photons start.
+const Wavelengths* spectral(const std::optional<Wavelengths>& wavelengths) {
+    return wavelengths && wavelengths->is_spectral ? &*wavelengths : nullptr;
+}
+
 float distance_to_object(const World& world, const Scene& scene) {
     const Camera camera(scene.camera, scene.film.resolution());
     const CameraRay ray = camera.generate(0.5 * glm::dvec2(scene.film.resolution()), glm::vec2(0.5f));
@@ -61,10 +66,10 @@ float Caustics::time(int pass) const {
                           : 0.0f;
 }
 
-std::optional<Wavelength> Caustics::wavelength(int pass) const {
-    if (!world_.disperses()) return std::nullopt;
+std::optional<Wavelengths> Caustics::wavelengths(int pass) const {
+    if (!world_.needs_wavelengths()) return std::nullopt;
     Sampler sampler(column_of_passes, 0, static_cast<std::uint32_t>(pass), scene_.settings.seed);
-    return sampled_wavelength(sampler.next());
+    return world_.wavelengths(sampler.next());
 }
 
 // What a photon is worth is its power times the weight that it has in the first pass against the other techniques: on a
@@ -75,7 +80,7 @@ double Caustics::worth_of(const Photon& photon, float expected, float pdf) const
     const float by_photons = expected * photon.line_density * ior * ior;
     const float weight =
         photon.weight(by_photons, pdf, [&] { return scene_.lights.pdf(photon.position, photon.direction); });
-    return static_cast<double>(luminance(photon.power) * weight);
+    return static_cast<double>(brightness(photon.power, scene_.settings.spectral) * weight);
 }
 
 void Caustics::learn() {
@@ -95,12 +100,12 @@ void Caustics::learn() {
             const float time = scene_.moves() ? shutter_time(column_of_learning, 0, static_cast<std::uint32_t>(i),
                                                              scene_.settings.seed)
                                               : 0.0f;
-            const std::optional<EmittedPhoton> emitted = emission_.sample(sampler, time);
+            std::optional<Wavelengths> wavelengths;
+            if (world_.needs_wavelengths()) wavelengths = world_.wavelengths(sampler.next());
+            const std::optional<EmittedPhoton> emitted = emission_.sample(sampler, time, spectral(wavelengths));
             if (!emitted) continue;
-            std::optional<Wavelength> wavelength;
-            if (world_.disperses()) wavelength = sampled_wavelength(sampler.next());
             TracedPhotons traced;
-            trace_photon(world_, scene_, *emitted, first_radius_, sampler, uncounted, traced, wavelength);
+            trace_photon(world_, scene_, *emitted, first_radius_, sampler, uncounted, traced, wavelengths);
             double worth = 0;
             for (const Photon& photon : traced.on_surfaces)
                 worth += worth_of(photon, expected * 0.5f, cosine_hemisphere_pdf(0.5f));
@@ -120,13 +125,14 @@ void Caustics::learn() {
 
 TracedPhotons Caustics::traced(std::uint32_t pass, std::size_t from, std::size_t to, PathCounters& counters) const {
     const FlushSubnormals flush;
-    const std::optional<Wavelength> one = wavelength(static_cast<int>(pass));
+    const std::optional<Wavelengths> of_pass = wavelengths(static_cast<int>(pass));
     const float gathered_within = radius(static_cast<int>(pass));
     TracedPhotons photons;
     for (std::size_t i = from; i < to; ++i) {
         Sampler sampler(column_of_passes, pass, static_cast<std::uint32_t>(i), scene_.settings.seed);
-        const std::optional<EmittedPhoton> emitted = emission_.sample(sampler, time(static_cast<int>(pass)));
-        if (emitted) trace_photon(world_, scene_, *emitted, gathered_within, sampler, counters, photons, one);
+        const std::optional<EmittedPhoton> emitted =
+            emission_.sample(sampler, time(static_cast<int>(pass)), spectral(of_pass));
+        if (emitted) trace_photon(world_, scene_, *emitted, gathered_within, sampler, counters, photons, of_pass);
     }
     return photons;
 }
@@ -156,7 +162,7 @@ std::optional<PhotonMap> Caustics::photons(int pass, PathCounters& counters,
         append(photons.in_media, parts[task].in_media);
         counters += costs[task];
     }
-    return PhotonMap(photons, count, radius(pass), wavelength(pass));
+    return PhotonMap(photons, count, radius(pass), wavelengths(pass));
 }
 
 }  // namespace phasetree::tracer

@@ -29,9 +29,9 @@ class Caustics {
     /// there at its own time, so the paths that gather those of a pass must be of that time, too. Passes are spread
     /// evenly over the time.
     float time(int pass) const;
-    /// That all light of a pass has after dispersion, so that paths find photons of their own wavelength: of passes
-    /// that follow each other they are spread evenly. None if nothing disperses.
-    std::optional<Wavelength> wavelength(int pass) const;
+    /// Those of all light of a pass, so that paths find photons of their own wavelengths: of passes that follow each
+    /// other they are spread evenly. None if the scene needs none.
+    std::optional<Wavelengths> wavelengths(int pass) const;
 
   private:
     TracedPhotons traced(std::uint32_t pass, std::size_t from, std::size_t to, PathCounters& counters) const;

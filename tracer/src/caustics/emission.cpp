@@ -101,12 +101,13 @@ glm::vec3 PhotonEmission::outside_of_object(const glm::vec3& point, const glm::v
     return nearest - direction * std::sqrt(std::max(squared, 0.0f));
 }
 
-std::optional<EmittedPhoton> PhotonEmission::sample(Sampler& sampler, float time) const {
+std::optional<EmittedPhoton> PhotonEmission::sample(Sampler& sampler, float time,
+                                                    const Wavelengths* wavelengths) const {
     const std::size_t number = choice_.sample(static_cast<double>(sampler.next()));
     return std::visit(
         [&](const auto& source) -> std::optional<EmittedPhoton> {
             const std::optional<Line> line = sampled_line(source, sampler);
-            return line ? photon_on(*line, source, number, time) : std::nullopt;
+            return line ? photon_on(*line, source, {number, time, wavelengths}) : std::nullopt;
         },
         sources_[number]);
 }
@@ -144,34 +145,35 @@ std::optional<PhotonEmission::Line> PhotonEmission::sampled_line(const OfGlowing
     return Line{source.ball.centre + Frame(direction).to_world({across, 0.0f}), direction, 0.0f, cell};
 }
 
-std::optional<EmittedPhoton> PhotonEmission::photon_of_seen(const Line& line, std::size_t source, float time) const {
-    const std::optional<Ray> ray = ray_on(line, time);
+std::optional<EmittedPhoton> PhotonEmission::photon_of_seen(const Line& line, const Start& start) const {
+    const std::optional<Ray> ray = ray_on(line, start.time);
     if (!ray) return std::nullopt;
     const float density = line_density(ray->origin, -line.direction, ray->phase);
     if (!(density > 0.0f)) return std::nullopt;
-    const auto seen = scene_.lights.seen(ray->origin, -line.direction, infinity, false);
+    const auto seen = scene_.lights.seen(ray->origin, -line.direction, infinity, false, start.wavelengths);
     if (!seen || seen->radiance == glm::vec3(0.0f)) return std::nullopt;
     const float line_measure = density * squared_ior(scene_, ray->phase);
-    return EmittedPhoton{*ray, *seen, seen->radiance / line_measure, density, source, line.cell};
+    return EmittedPhoton{*ray, *seen, seen->radiance / line_measure, density, start.source, line.cell};
 }
 
-std::optional<EmittedPhoton> PhotonEmission::photon_on(const Line& line, const OfPoint& point, std::size_t source,
-                                                       float time) const {
+std::optional<EmittedPhoton> PhotonEmission::photon_on(const Line& line, const OfPoint& point,
+                                                       const Start& start) const {
     const AnyPointLight& light = scene_.lights.points()[point.number];
-    const glm::vec3 intensity = std::visit([&](const auto& any) { return any.intensity(line.direction); }, light);
+    const glm::vec3 intensity = scene_.lights.intensity(point.number, line.direction, start.wavelengths);
     const float density = direction_density(point.number, line.direction);
     if (!(density > 0.0f) || intensity == glm::vec3(0.0f)) return std::nullopt;
-    const std::optional<Ray> ray = ray_on(line, time);
+    const std::optional<Ray> ray = ray_on(line, start.time);
     if (!ray) return std::nullopt;
     const Lights::Emission emission{glm::length(ray->origin - position_of(light)), intensity,
                                     OfPointLight{static_cast<std::uint32_t>(point.number)}};
-    return EmittedPhoton{*ray, emission, intensity / density, density, source, line.cell};
+    return EmittedPhoton{*ray, emission, intensity / density, density, start.source, line.cell};
 }
 
-std::optional<EmittedPhoton> PhotonEmission::photon_on(const Line& line, const OfGlowing& glowing, std::size_t source,
-                                                       float time) const {
-    const auto [surface, free] = last_surface_in(glowing.ball, world_, scene_, line.through, line.direction, time);
-    const auto emitted = surface ? surface->emitted() : std::nullopt;
+std::optional<EmittedPhoton> PhotonEmission::photon_on(const Line& line, const OfGlowing& glowing,
+                                                       const Start& start) const {
+    const auto [surface, free] =
+        last_surface_in(glowing.ball, world_, scene_, line.through, line.direction, start.time);
+    const auto emitted = surface ? surface->emitted(start.wavelengths) : std::nullopt;
     if (!emitted) return std::nullopt;
     // Known but for rounding, so that the ball that sends the photon counts.
     const float density = line_density(*surface, -line.direction, free * (1 + 1e-5f));
@@ -181,7 +183,7 @@ std::optional<EmittedPhoton> PhotonEmission::photon_on(const Line& line, const O
                          {0.0f, emitted->radiance, OfGlowingSurface{emitted->group}},
                          emitted->radiance / (density * squared_ior(scene_, ray.phase)),
                          density,
-                         source,
+                         start.source,
                          line.cell};
 }
 

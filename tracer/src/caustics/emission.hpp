@@ -58,9 +58,9 @@ class PhotonEmission {
     std::size_t sources() const { return sources_.size(); }
     /// In how many cells a source aims its photons.
     std::size_t cells(std::size_t source) const;
-    /// Samples a photon that flies at a share of the time in which the shutter is open. Nothing if its line leads
-    /// nowhere.
-    std::optional<EmittedPhoton> sample(Sampler& sampler, float time) const;
+    /// Samples a photon that flies at a share of the time in which the shutter is open, of light of wavelengths or,
+    /// without any, of red, green and blue. Nothing if its line leads nowhere.
+    std::optional<EmittedPhoton> sample(Sampler& sampler, float time, const Wavelengths* wavelengths = nullptr) const;
     /// As EmittedPhoton::line_density, for a line that leads from a point in this phase towards a light.
     float line_density(const glm::vec3& origin, const glm::vec3& towards_light, Phase phase) const;
     /// The same of a line that leads to a surface that glows. `known_free` is the distance from the surface, against
@@ -104,18 +104,23 @@ class PhotonEmission {
     std::optional<Line> sampled_line(const OfArea&, Sampler&) const;
     std::optional<Line> sampled_line(const OfPoint&, Sampler&) const;
     std::optional<Line> sampled_line(const OfGlowing&, Sampler&) const;
-    /// The photon that starts on a line, which the source of this number proposed. Nothing if no photon can start
-    /// there.
-    std::optional<EmittedPhoton> photon_on(const Line& line, const OfCap&, std::size_t source, float time) const {
-        return photon_of_seen(line, source, time);
+    /// What a photon is that starts on a line: the number of the source that proposed the line, and as sample() has it.
+    struct Start {
+        std::size_t source;
+        float time;
+        const Wavelengths* wavelengths;
+    };
+    /// The photon that starts on a line. Nothing if no photon can start there.
+    std::optional<EmittedPhoton> photon_on(const Line& line, const OfCap&, const Start& start) const {
+        return photon_of_seen(line, start);
     }
-    std::optional<EmittedPhoton> photon_on(const Line& line, const OfArea&, std::size_t source, float time) const {
-        return photon_of_seen(line, source, time);
+    std::optional<EmittedPhoton> photon_on(const Line& line, const OfArea&, const Start& start) const {
+        return photon_of_seen(line, start);
     }
-    std::optional<EmittedPhoton> photon_on(const Line&, const OfPoint&, std::size_t source, float time) const;
-    std::optional<EmittedPhoton> photon_on(const Line&, const OfGlowing&, std::size_t source, float time) const;
+    std::optional<EmittedPhoton> photon_on(const Line&, const OfPoint&, const Start&) const;
+    std::optional<EmittedPhoton> photon_on(const Line&, const OfGlowing&, const Start&) const;
     /// The same, of whatever light is seen along the line.
-    std::optional<EmittedPhoton> photon_of_seen(const Line&, std::size_t source, float time) const;
+    std::optional<EmittedPhoton> photon_of_seen(const Line&, const Start&) const;
 
     /// A point of a line that is sure to be before everything that it meets of the object.
     glm::vec3 outside_of_object(const glm::vec3& point, const glm::vec3& direction) const;

@@ -26,7 +26,7 @@ struct Photon {
     LightSource source;            ///< the light that is seen from where the photon started
     glm::vec3 towards_light;       ///< the direction in which it is seen from there
     DensityQuotients quotients{};  ///< of a chain in which rough interfaces are
-    /// It was dispersed: every component of `power` is that at the wavelength of the photon's map.
+    /// It was dispersed: every component of `power` is that at the hero of the wavelengths of the photon's map.
     bool of_one_wavelength = false;
 
     /// The weight of what the photon brings, by the power heuristic: photons find its direction with the density

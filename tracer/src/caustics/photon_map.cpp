@@ -7,8 +7,8 @@
 namespace phasetree::tracer {
 
 PhotonMap::PhotonMap(const TracedPhotons& photons, std::size_t emitted, float radius,
-                     const std::optional<Wavelength>& wavelength)
-    : wavelength_(wavelength),
+                     const std::optional<Wavelengths>& wavelengths)
+    : wavelengths_(wavelengths),
       radius_(radius),
       expected_(static_cast<float>(emitted) * pi * radius * radius),
       on_surfaces_(photons.on_surfaces, radius),

@@ -8,7 +8,7 @@
 
 #include "caustics/photon.hpp"
 #include "caustics/photon_grid.hpp"
-#include "spectrum/wavelength.hpp"
+#include "spectrum/wavelengths.hpp"
 
 namespace phasetree::tracer {
 
@@ -16,10 +16,10 @@ class PhotonMap {
   public:
     /// `emitted` counts all photons that started, those too that fell nowhere. Photons are given in their order.
     PhotonMap(const TracedPhotons& photons, std::size_t emitted, float radius,
-              const std::optional<Wavelength>& wavelength = {});
+              const std::optional<Wavelengths>& wavelengths = {});
 
     /// Of the photons that were dispersed, and so of the paths that gather them.
-    const std::optional<Wavelength>& wavelength() const { return wavelength_; }
+    const std::optional<Wavelengths>& wavelengths() const { return wavelengths_; }
 
     /// N π r², by which a density of lines, p(line), becomes the expected number of photons in the disc in which
     /// photons are gathered.
@@ -77,7 +77,7 @@ class PhotonMap {
         });
     }
 
-    std::optional<Wavelength> wavelength_;
+    std::optional<Wavelengths> wavelengths_;
     float radius_;
     float expected_;
     SurfacePhotons on_surfaces_, on_interfaces_;

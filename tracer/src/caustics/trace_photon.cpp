@@ -14,15 +14,16 @@ namespace {
 class PhotonFlight {
   public:
     PhotonFlight(const World& world, const Scene& scene, const EmittedPhoton& emitted, float radius, Sampler& sampler,
-                 PathCounters& counters, const std::optional<Wavelength>& wavelength)
+                 PathCounters& counters, const std::optional<Wavelengths>& wavelengths)
         : world_(world),
           scene_(scene),
           emitted_(emitted),
           half_length_(PhotonMap::half_length(radius)),
           sampler_(sampler),
           counters_(counters),
-          wavelength_(wavelength),
+          wavelengths_(wavelengths),
           ray_(emitted.ray),
+          now_(wavelengths && wavelengths->is_spectral ? &*wavelengths : nullptr),
           power_(emitted.power) {
         // A photon of a glowing surface starts at that surface.
         if (std::holds_alternative<OfGlowingSurface>(emitted.emission.source)) came_from_light_ = true;
@@ -46,14 +47,11 @@ class PhotonFlight {
             // much of that is left there.
             if (photons_follow(interfaces_)) keep_in_medium(distance, traced);
             if (!surface) return;
-            glm::vec3 left = transmittance(medium(), {ray_.origin, ray_.direction, distance, single_}, sampler_);
+            glm::vec3 left = transmittance(medium(), {ray_.origin, ray_.direction, distance, now_}, sampler_);
             if (phase_function(medium()) && !chain_survives(left, sampler_)) return;
             power_ *= left;
-            if (!single_ && surface->optics.get().disperses()) {
-                single_ = &wavelength_.value();
-                power_ = for_light(power_, single_);
-            }
-            const Bsdf bsdf = surface->bsdf(single_);
+            if (!is_dispersed_ && surface->optics.get().disperses()) disperse();
+            const Bsdf bsdf = surface->bsdf(now_);
             if (bsdf.passes_through()) {
                 ray_ = surface->transmitted(ray_.direction);
                 continue;
@@ -81,7 +79,15 @@ class PhotonFlight {
                 emitted_.emission.source,
                 -emitted_.ray.direction,
                 quotients_,
-                single_ != nullptr};
+                is_dispersed_};
+    }
+
+    // From here on all three of its numbers are of the hero.
+    void disperse() {
+        const Wavelengths& wavelengths = wavelengths_.value();
+        power_ = wavelengths.is_spectral ? glm::vec3(power_.x) : for_light(power_, &wavelengths);
+        now_ = &wavelengths;
+        is_dispersed_ = true;
     }
 
     void keep_in_medium(float distance, TracedPhotons& traced) {
@@ -117,10 +123,10 @@ class PhotonFlight {
         // The BSDF is sampled as if the photon were a path that comes from the camera, so its weight is of radiance
         // that arrives from `after` and leaves into `before`: a refraction scales it by (before/after)². Power is not
         // scaled. What does not disperse, a rough interface or one with a film, bends all light as that of the d line.
-        const Wavelength* bent_as = surface.optics.get().disperses() ? single_ : nullptr;
+        const Wavelengths* bent_as = surface.optics.get().disperses() ? now_ : nullptr;
         const float before = clear_at(scene_, from).ior_for(bent_as);
         const float after = clear_at(scene_, ray_.phase).ior_for(bent_as), ratio = after / before;
-        power_ *= for_light(next->weight, single_) * (ratio * ratio);
+        power_ *= next->weight * (ratio * ratio);
         return true;
     }
 
@@ -153,10 +159,11 @@ class PhotonFlight {
     float half_length_;
     Sampler& sampler_;
     PathCounters& counters_;
-    const std::optional<Wavelength>& wavelength_;
+    const std::optional<Wavelengths>& wavelengths_;
     Ray ray_;
+    const Wavelengths* now_;  // what its numbers are of; null if they are red, green and blue
     glm::vec3 power_;
-    const Wavelength* single_ = nullptr;  // the wavelength from the first interface that disperses on
+    bool is_dispersed_ = false;
     // How many interfaces it has met, the present one included, but for those that it passes straight.
     int interfaces_ = 0;
     DensityQuotients quotients_{};
@@ -166,8 +173,8 @@ class PhotonFlight {
 }  // namespace
 
 void trace_photon(const World& world, const Scene& scene, const EmittedPhoton& emitted, float radius, Sampler& sampler,
-                  PathCounters& counters, TracedPhotons& traced, const std::optional<Wavelength>& wavelength) {
-    PhotonFlight(world, scene, emitted, radius, sampler, counters, wavelength).trace(traced);
+                  PathCounters& counters, TracedPhotons& traced, const std::optional<Wavelengths>& wavelengths) {
+    PhotonFlight(world, scene, emitted, radius, sampler, counters, wavelengths).trace(traced);
 }
 
 }  // namespace phasetree::tracer

@@ -13,9 +13,10 @@ namespace phasetree::tracer {
 /// falls on a surface, and with a place in each scattering medium on its way there (photon_placement.hpp); but only
 /// after it has met an interface, only on surfaces and in media that photons light, and only if nothing is between
 /// where it started and the light. What is between may be the boundary of two phases of the same index: such light is
-/// left to the other techniques. From the first interface that disperses on the photon is of the given wavelength,
-/// without which it throws std::bad_optional_access there. Photons will be gathered within the radius.
+/// left to the other techniques. The photon is of the given wavelengths: if those are spectral it was emitted with
+/// them, else it is from the first interface that disperses; without any it throws std::bad_optional_access there.
+/// Photons will be gathered within the radius.
 void trace_photon(const World& world, const Scene& scene, const EmittedPhoton& emitted, float radius, Sampler& sampler,
-                  PathCounters& counters, TracedPhotons& traced, const std::optional<Wavelength>& wavelength = {});
+                  PathCounters& counters, TracedPhotons& traced, const std::optional<Wavelengths>& wavelengths = {});
 
 }  // namespace phasetree::tracer

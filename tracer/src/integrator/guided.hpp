@@ -23,7 +23,7 @@ class GuidedBsdf {
     const Bsdf& bsdf() const { return bsdf_; }
     const Frame& frame() const { return frame_; }
     const glm::vec3& wo() const { return wo_; }
-    bool is_guided() const { return guide_ != nullptr; }
+    const DirectionTree* guide() const { return guide_; }
 
     /// As Bsdf has it, for a direction of the frame.
     glm::vec3 evaluate(const glm::vec3& wi) const { return bsdf_.evaluate(wo_, wi); }

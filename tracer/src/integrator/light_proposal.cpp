@@ -101,11 +101,12 @@ void LightProposal::add_plane(const glm::vec3& outward) {
     ++planes_;
 }
 
-std::optional<LightSample> LightProposal::sample(const Lights& lights, glm::vec2 u) const {
+std::optional<LightSample> LightProposal::sample(const Lights& lights, glm::vec2 u,
+                                                 const Wavelengths* wavelengths) const {
     const float scaled = u.x * static_cast<float>(1 + planes_);
     const int by = std::min(static_cast<int>(scaled), planes_);  // straight, or by a plane
     u.x = std::min(scaled - static_cast<float>(by), 1 - 0x1p-24f);
-    std::optional<LightSample> sample = lights.sample(at_, u);
+    std::optional<LightSample> sample = lights.sample(at_, u, wavelengths);
     if (!sample) return std::nullopt;
     if (sample->is_of_point_light()) {
         // A direction to a point light, bent by a plane, does not lead to it, so only the straight part proposes it.
@@ -122,7 +123,7 @@ std::optional<LightSample> LightProposal::sample(const Lights& lights, glm::vec2
     // At the very rim of a light, bending the direction in and out again can put it just outside of the light, where
     // the density is that of the sky: far less than what was sampled. Such a sample would count far too much.
     if (!outside || !(lights.pdf(at_, outside->direction) > 0.5f * sample->pdf)) return std::nullopt;
-    const auto seen = lights.seen(at_.p, *inside, Bounds::infinity, false);
+    const auto seen = lights.seen(at_.p, *inside, Bounds::infinity, false, wavelengths);
     if (!seen) return std::nullopt;
     return LightSample{*inside, seen->distance, seen->radiance, pdf(lights, *inside), seen->source};
 }

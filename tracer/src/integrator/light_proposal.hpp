@@ -43,7 +43,8 @@ class LightProposal {
                             const Scene& scene);
 
     /// A direction from p, and the light that is seen in it; `u` is in [0, 1)².
-    std::optional<LightSample> sample(const Lights& lights, glm::vec2 u) const;
+    std::optional<LightSample> sample(const Lights& lights, glm::vec2 u,
+                                      const Wavelengths* wavelengths = nullptr) const;
     /// The density of sample(), per steradian.
     float pdf(const Lights& lights, const glm::vec3& direction) const;
     /// The density that sample() would have at another place nearby, through the same planes.

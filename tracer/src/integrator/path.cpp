@@ -32,18 +32,18 @@ class Path {
         : world_(world),
           scene_(scene),
           photons_(help.photons),
-          guiding_(help.guide, help.findings),
+          guiding_(help.guide, help.findings, scene.settings.spectral),
           sampler_(sampler),
           counters_(counters),
           ray_(ray),
           camera_ior_(clear_at(scene, ray.phase).ior),
           recorder_(record, scene) {
-        // Photons that were dispersed have a wavelength, and the paths that gather them have the same one. Without
-        // photons it is chosen by the first number that a path draws, which is spread the most evenly over the samples
-        // of a pixel.
-        if (world.disperses())
-            hero_ = photons_ && photons_.map->wavelength() ? *photons_.map->wavelength()
-                                                           : sampled_wavelength(sampler.next());
+        // Photons have wavelengths, and the paths that gather them have the same. Without photons they are chosen by
+        // the first number that a path draws, which is spread the most evenly over the samples of a pixel.
+        if (!world.needs_wavelengths()) return;
+        wavelengths_ =
+            photons_ && photons_.map->wavelengths() ? *photons_.map->wavelengths() : world.wavelengths(sampler.next());
+        if (wavelengths_->is_spectral) now_ = &*wavelengths_;
     }
 
     glm::vec3 trace() {
@@ -51,17 +51,17 @@ class Path {
             const Hit hit = world_.geometry().intersect(ray_, counters_);
             const Surface* surface = std::get_if<Surface>(&hit);
             const float distance = surface ? surface->distance : Bounds::infinity;
-            const auto light = scene_.lights.seen(ray_.origin, ray_.direction, distance, is_camera_ray_);
+            const auto light = scene_.lights.seen(ray_.origin, ray_.direction, distance, is_camera_ray_, now_);
             const Flight flight = through_medium(light ? light->distance : distance);
             add_emission_of_medium(flight.emitted);
             if (light && !flight.scattered_at) {
                 if (is_camera_ray_ && light->distance == Bounds::infinity) recorder_.shows_background();
-                add_light(throughput_ * chain_.weight(scene_, photons_, ray_) * flight.weight *
-                              for_light(light->radiance, single()),
+                add_light(throughput_ * chain_.weight(scene_, photons_, ray_) * flight.weight * light->radiance,
                           light->source, ray_.direction, false);
                 break;
             }
             throughput_ *= flight.weight;
+            if (now_) seen_through_ *= weight_of_colours(flight, distance);
             if (flight.scattered_at) {
                 recorder_.travelled(ray_.phase, *flight.scattered_at);
                 scatter_in_medium(*flight.scattered_at);
@@ -73,12 +73,11 @@ class Path {
             chain_.by_photons.reach_boundary(distance);
             recorder_.travelled(ray_.phase, distance);
             ++depth;
-            if (const auto emitted = surface->emitted())
-                add_light(throughput_ * chain_.weight(scene_, photons_, ray_, *surface) *
-                              for_light(emitted->radiance, single()),
+            if (const auto emitted = surface->emitted(now_))
+                add_light(throughput_ * chain_.weight(scene_, photons_, ray_, *surface) * emitted->radiance,
                           OfGlowingSurface{emitted->group}, ray_.direction, false);
-            if (surface->optics.get().disperses()) is_dispersed_ = true;
-            const Bsdf bsdf = surface->bsdf(single());
+            if (surface->optics.get().disperses()) disperse();
+            const Bsdf bsdf = surface->bsdf(now_);
             if (bsdf.passes_through()) {  // equal indices scatter nothing, but do count for max_depth
                 ray_ = surface->transmitted(ray_.direction);
                 entered_ = surface->normal;
@@ -92,11 +91,19 @@ class Path {
 
   private:
     const Medium& medium() const { return clear_at(scene_, ray_.phase).interior; }
-    // The wavelength of a path that was dispersed; null as long as it has all.
-    const Wavelength* single() const { return is_dispersed_ ? &hero_ : nullptr; }
+    // From here on the path is of its hero alone.
+    void disperse() {
+        if (is_dispersed_) return;
+        is_dispersed_ = true;
+        now_ = &wavelengths_.value();
+        if (now_->is_spectral)
+            throughput_ *= now_->of_hero_alone;
+        else
+            seen_through_ = throughput_;
+    }
 
     Flight through_medium(float distance) {
-        return fly(medium(), {ray_.origin, ray_.direction, distance, single()}, throughput_, sampler_);
+        return fly(medium(), {ray_.origin, ray_.direction, distance, now_}, throughput_, sampler_);
     }
 
     // The same as scatter_and_continue() of a surface, in the medium at that distance along the ray. There is always a
@@ -113,26 +120,44 @@ class Path {
         add_light(radiance, Background{}, ray_.direction, false);
     }
 
-    // Adds radiance that the path found, of a light that was seen in the direction. If the path has a single
-    // wavelength it is that at the wavelength, and becomes a colour here.
+    // Adds radiance that the path found, of a light that was seen in the direction. If the path has wavelengths it is
+    // that at these, and becomes a colour here.
     void add_light(const glm::vec3& found, const LightSource& source, const glm::vec3& direction,
                    bool is_to_be_scattered) {
-        const glm::vec3 radiance = is_dispersed_ ? found * hero_.response : found;
+        const glm::vec3 radiance = now_ ? now_->to_rgb * found : found;
         radiance_ += radiance;
         guiding_.add_light(found);
         recorder_.add_light(radiance, source, direction, is_to_be_scattered);
     }
 
-    // Tells the recorder of a surface before the path's ray leaves it.
-    void record(const Surface& surface, const Bsdf& bsdf, const std::optional<BsdfSample>& next) {
+    // What a flight past `distance` would leave of red, green and blue. Of a medium that scatters it is taken to be
+    // grey: a path's distances there are sampled for its wavelengths.
+    glm::vec3 weight_of_colours(const Flight& flight, float distance) {
+        if (const auto* absorbing = std::get_if<AbsorbingMedium>(&medium()))
+            return absorbing->transmittance({ray_.origin, ray_.direction, distance}, sampler_);
+        return glm::vec3((flight.weight.x + flight.weight.y + flight.weight.z) / 3.0f);
+    }
+
+    // Tells the recorder of a surface before the path's ray leaves it in the direction `next`.
+    void record(const Surface& surface, const GuidedBsdf& bsdf, float lobe, const glm::vec2& u,
+                const std::optional<GuidedBsdf::Sample>& next) {
+        if (!now_)
+            return record(surface, bsdf.bsdf(),
+                          bsdf.guide() ? bsdf.unguided_sample(lobe, u) : std::optional<BsdfSample>(next), throughput_);
+        // The albedo is in all colours though the path has wavelengths: it tells what a surface looks like.
+        const Bsdf in_colours = surface.bsdf();
+        const auto seen = GuidedBsdf(in_colours, bsdf.frame(), bsdf.wo(), bsdf.guide()).unguided_sample(lobe, u);
+        record(surface, in_colours, seen, seen_through_);
+        seen_through_ *= seen ? seen->weight : glm::vec3(0.0f);
+    }
+    void record(const Surface& surface, const Bsdf& bsdf, const std::optional<BsdfSample>& next,
+                const glm::vec3& throughput) {
         const auto ior = [&](Phase phase) { return clear_at(scene_, phase).ior; };
-        // The albedo is in all colours though the path may have a single wavelength: it tells what a surface looks
-        // like.
         const Phase after = next && next->transmitted ? surface.far_side->phase : ray_.phase;
         const glm::vec3 weight = next ? next->weight : glm::vec3(0.0f);
         const float bent = ior(after) / ior(ray_.phase), from_camera = ior(after) / camera_ior_;
         recorder_.scattered(surface, bsdf.is_delta(), is_link(bsdf, surface), weight * (bent * bent),
-                            throughput_ * weight * (from_camera * from_camera));
+                            throughput * weight * (from_camera * from_camera));
     }
 
     // Adds direct light and what photons bring, and samples the path's next ray. Returns whether there is one.
@@ -157,11 +182,9 @@ class Path {
         const glm::vec2 u = sampler_.next2();
         const auto next = bsdf.sample(lobe, u);
         // The recorded albedo is by the BSDF's own choice, because the weights of guided directions are noisier.
-        if (recorder_.is_asked())
-            record(surface, unguided,
-                   bsdf.is_guided() ? bsdf.unguided_sample(lobe, u) : std::optional<BsdfSample>(next));
+        if (recorder_.is_asked()) record(surface, bsdf, lobe, u, next);
         if (!next) return false;
-        throughput_ *= for_light(next->weight, single());
+        throughput_ *= next->weight;
         ray_ = continued(surface, frame, *next);
         if (surface.far_side) entered_ = next->transmitted ? surface.normal : -surface.normal;
         guiding_.leave(surface, unguided, *next, ray_.direction, throughput_);
@@ -203,7 +226,7 @@ class Path {
         const auto light = sampled_light(proposal);
         if (!light) return;
         const glm::vec3 wi = bsdf.frame().to_local(light->wi);
-        const glm::vec3 f = for_light(bsdf.evaluate(wi), single());
+        const glm::vec3 f = bsdf.evaluate(wi);
         if (f == glm::vec3(0.0f)) return;
         const float per_line_density = per_line_density_of(wi);
         add_direct_light(*light, f, bsdf.pdf(wi, light->wi), {per_line_density},
@@ -212,7 +235,7 @@ class Path {
     }
 
     std::optional<LightSample> sampled_light(const LightProposal& proposal) {
-        return proposal.sample(scene_.lights, sampler_.next2());
+        return proposal.sample(scene_.lights, sampler_.next2(), now_);
     }
 
     // f is what of the light is scattered into the path, the cosine included, and pdf the density with which the path
@@ -221,8 +244,9 @@ class Path {
                           const Ray& shadow, int interfaces_before) {
         if (scene_.settings.techniques == Techniques::directions_alone) return;
         const Photons photons = by_photons.per_line_density > 0.0f ? photons_ : Photons{};
-        const Arrival arrival = trace_shadow_ray({world_, scene_, photons, sampler_, counters_}, shadow, light,
-                                                 {.hero = hero_, .single = single()}, interfaces_before);
+        const Arrival arrival =
+            trace_shadow_ray({world_, scene_, photons, sampler_, counters_}, shadow, light,
+                             {wavelengths_ ? &*wavelengths_ : nullptr, is_dispersed_}, interfaces_before);
         // No direction that the path takes by itself meets a point.
         const float by_directions = light.is_of_point_light() ? 0.0f : pdf;
         const auto weight = [&](float density_of_photons) {
@@ -278,10 +302,11 @@ class Path {
             return proposal.pdf_from(scene_.lights, photon.position + along * photon.direction, photon.direction);
         });
         glm::vec3 fluence = power / photons_.map->expected();
-        if (!photon.of_one_wavelength)
-            fluence = for_light(fluence, single());
-        else if (!is_dispersed_)
-            fluence *= hero_.response;
+        if (photon.of_one_wavelength) {
+            if (!is_dispersed_) fluence *= wavelengths_->of_hero_alone;
+        } else if (now_ && !now_->is_spectral) {
+            fluence = for_light(fluence, now_);
+        }
         add_light(throughput_ * f * fluence * weight, photon.source, photon.towards_light, true);
     }
 
@@ -298,7 +323,7 @@ class Path {
             const float by_photons = per_line_density_at(surface, bsdf.bsdf(), wi) * photon.line_density;
             if (!(by_photons > 0.0f)) return;
             // Photons are counted by area of the surface, and so have the cosine already that evaluate() multiplies by.
-            const glm::vec3 f = for_light(bsdf.evaluate(wi), single()) / std::abs(wi.z);
+            const glm::vec3 f = bsdf.evaluate(wi) / std::abs(wi.z);
             add_photon(photon, photon.power, f, by_photons, bsdf.pdf(wi, photon.direction), proposal,
                        surface.near_side.origin);
         };
@@ -318,9 +343,9 @@ class Path {
             if (!(by_photons > 0.0f)) return;
             // What the medium leaves of the photon between the boundary and the point. A point before the boundary is
             // one at which nothing is lost yet.
-            const Wavelength* wavelength = photon.of_one_wavelength ? &hero_ : single();
-            const glm::vec3 left = transmittance(
-                medium(), {point.position, photon.direction, std::max(depth, 0.0f), wavelength}, sampler_);
+            const Wavelengths* of_photon = photon.of_one_wavelength ? &*wavelengths_ : now_;
+            const glm::vec3 left =
+                transmittance(medium(), {point.position, photon.direction, std::max(depth, 0.0f), of_photon}, sampler_);
             const float f = point.phase_function.get().evaluate(glm::dot(ray_.direction, photon.direction));
             add_photon(photon, photon.power * left / coverage, glm::vec3(f), by_photons, f, proposal, point.position);
         });
@@ -339,6 +364,7 @@ class Path {
         if (survival < 1.0f) {
             if (sampler_.next() >= survival) return false;
             throughput_ /= survival;
+            seen_through_ /= survival;
         }
         return true;
     }
@@ -356,8 +382,11 @@ class Path {
     // The outward normal of the clear boundary that the path met last in this medium.
     std::optional<glm::vec3> entered_;
     bool is_camera_ray_ = true;
-    Wavelength hero_;  // the path's wavelength from where it is dispersed
+    std::optional<Wavelengths> wavelengths_;  // none where the world needs none
+    const Wavelengths* now_ = nullptr;        // what the path's numbers are of; null if they are red, green and blue
     bool is_dispersed_ = false;
+    // What the way from the camera leaves of red, green and blue, for the record of a path that has wavelengths.
+    glm::vec3 seen_through_{1.0f};
     PathRecorder recorder_;
 };
 

@@ -13,7 +13,8 @@ namespace phasetree::tracer {
 class PathGuiding {
   public:
     /// Either may be null: then the path asks no guide, or reports nothing.
-    PathGuiding(const Guide* guide, PathFindings* findings) : guide_(guide), findings_(findings) {}
+    PathGuiding(const Guide* guide, PathFindings* findings, bool is_spectral)
+        : guide_(guide), findings_(findings), is_spectral_(is_spectral) {}
 
     /// The density of directions that takes part in the choice at a surface; null if only the BSDF chooses.
     const DirectionTree* at(const Surface& surface, const Bsdf& bsdf) const {
@@ -26,11 +27,11 @@ class PathGuiding {
         pdf_over_unguided_ *= next.pdf_over_unguided;
         if (findings_ && !next.delta && can_be_guided(surface, bsdf))
             findings_->leave(surface.near_side.origin, facing_of(surface.normal), direction, next.wi.z / next.pdf,
-                             luminance(throughput));
+                             brightness(throughput, is_spectral_));
     }
-    /// The path brings radiance, at its one wavelength if it has one, as the throughput is that leave() is told.
+    /// The path brings radiance, of its wavelengths if it has any, as the throughput is that leave() is told.
     void add_light(const glm::vec3& radiance) {
-        if (findings_) findings_->add_light(luminance(radiance));
+        if (findings_) findings_->add_light(brightness(radiance, is_spectral_));
     }
 
     /// The product of GuidedBsdf::Sample::pdf_over_unguided over the path: the throughput times this is what it would
@@ -51,6 +52,7 @@ class PathGuiding {
 
     const Guide* guide_;
     PathFindings* findings_;
+    bool is_spectral_;
     float pdf_over_unguided_ = 1;
 };
 

@@ -30,15 +30,18 @@ float point_density(const ShadowRayContext& context, const Ray& ray, const Light
 }  // namespace
 
 Arrival trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSample& sampled,
-                         const PathWavelength& wavelength, int interfaces_before) {
+                         const PathLight& path_light, int interfaces_before) {
     const auto density_at_end = [&](int length, const Surface* glowing) {
         if (!photons_follow(interfaces_before + length)) return 0.0f;
         if (glowing) return line_density(context.photons, ray, *glowing);
         const auto* point = std::get_if<OfPointLight>(&sampled.source);
         return point ? point_density(context, ray, sampled, *point) : line_density(context.photons, ray);
     };
-    const Wavelength* single = wavelength.single;
-    const bool was_dispersed = single != nullptr;
+    PathLight its_light = path_light;
+    // The light was sampled for the path. An interface of equal indices may have dispersed a ray of colours since.
+    const auto of_sampled = [&] {
+        return path_light.now() ? sampled.radiance : for_light(sampled.radiance, its_light.now());
+    };
     Arrival arrival;
     glm::vec3 throughput(1.0f);
     float to_boundary = 0;
@@ -58,30 +61,31 @@ Arrival trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSa
             blocked && blocked->glowing && !sampled.is_of_point_light() ? &*blocked->glowing : nullptr;
         std::optional<Lights::Emission> light;
         if (!is_straight)
-            light = context.scene.lights.seen(ray.origin, ray.direction, distance, false);
+            light = context.scene.lights.seen(ray.origin, ray.direction, distance, false, its_light.now());
         else if (escaped)
-            light = Lights::Emission{to_sampled, sampled.radiance, sampled.source};
+            light = Lights::Emission{to_sampled, of_sampled(), sampled.source};
         if (light) glowing = nullptr;  // a lamp is before it
-        if (const auto emitted = glowing ? glowing->emitted() : std::nullopt)
+        if (const auto emitted = glowing ? glowing->emitted(its_light.now()) : std::nullopt)
             light = Lights::Emission{distance, emitted->radiance, OfGlowingSurface{emitted->group}};
         const bool brings_emission = shines(medium) && !sampled.is_of_point_light();
         const bool is_dark = light ? light->radiance == glm::vec3(0.0f) : !surface;
         if (is_dark && !brings_emission) return arrival;
-        const Passage passage =
-            pass(medium, {ray.origin, ray.direction, light ? light->distance : distance, single}, context.sampler);
-        const glm::vec3 response = single && !was_dispersed ? single->response : glm::vec3(1.0f);
-        if (brings_emission) arrival.from_media += throughput * passage.emitted * response;
+        const Passage passage = pass(
+            medium, {ray.origin, ray.direction, light ? light->distance : distance, its_light.now()}, context.sampler);
+        const bool is_dispersed_here = its_light.is_dispersed && !path_light.is_dispersed;
+        const glm::vec3 of_path = is_dispersed_here ? its_light.wavelengths->of_hero_alone : glm::vec3(1.0f);
+        if (brings_emission) arrival.from_media += throughput * passage.emitted * of_path;
         throughput *= passage.left;
         if (is_dark || throughput == glm::vec3(0.0f)) return arrival;
         if (light) {
-            throughput *= response;
-            arrival.light = Arrival::FromLight{throughput * for_light(light->radiance, single), light->source,
-                                               ray.direction, density_at_end(length, glowing), to_boundary};
+            throughput *= of_path;
+            arrival.light = Arrival::FromLight{throughput * light->radiance, light->source, ray.direction,
+                                               density_at_end(length, glowing), to_boundary};
             return arrival;
         }
         if (phase_function(medium) && !chain_survives(throughput, context.sampler)) return arrival;
-        if (surface->optics.get().disperses()) single = &wavelength.hero;
-        const Bsdf bsdf = surface->bsdf(single);
+        if (surface->optics.get().disperses()) its_light.is_dispersed = true;
+        const Bsdf bsdf = surface->bsdf(its_light.now());
         if (bsdf.passes_through()) {
             to_sampled = std::max(to_sampled - distance, 0.0f);
             ray = surface->transmitted(ray.direction);
@@ -92,7 +96,7 @@ Arrival trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSa
         // A smooth interface has no lobe to choose a direction in, so the two numbers do not matter.
         const auto next = bsdf.sample(frame.to_local(-ray.direction), context.sampler.next(), glm::vec2(0.0f));
         if (!next) return arrival;
-        throughput *= for_light(next->weight, single);
+        throughput *= next->weight;
         ray = continued(*surface, frame, *next);
     }
 }

@@ -5,7 +5,7 @@
 
 #include "integrator/path.hpp"
 #include "lights/lights.hpp"
-#include "spectrum/wavelength.hpp"
+#include "spectrum/wavelengths.hpp"
 
 namespace phasetree::tracer {
 
@@ -18,10 +18,16 @@ struct ShadowRayContext {
     PathCounters& counters;
 };
 
-/// The wavelength of the path that a shadow ray belongs to.
-struct PathWavelength {
-    const Wavelength& hero;    ///< the wavelength that is taken where the shadow ray is dispersed
-    const Wavelength* single;  ///< that of the path; null as long as it is of all wavelengths
+/// Of which light the path is that a shadow ray belongs to.
+struct PathLight {
+    /// Those of a spectral path, or those that a path of colours has from where it is dispersed; null where nothing
+    /// disperses colours.
+    const Wavelengths* wavelengths = nullptr;
+    bool is_dispersed = false;  ///< whether the path has been dispersed already
+    /// What the path's numbers are of; null if they are red, green and blue.
+    const Wavelengths* now() const {
+        return wavelengths && (is_dispersed || wavelengths->is_spectral) ? wavelengths : nullptr;
+    }
 };
 
 /// What a shadow ray finds.
@@ -47,12 +53,12 @@ struct Arrival {
 /// each of which reflects or refracts the ray at random, times the transmittance of the media and the weights of the
 /// interfaces. Up to the first boundary that it meets the ray goes straight to the light that was sampled, which is
 /// known; after that it is asked what light it sees. Of a shadow ray that is dispersed on its way the radiance includes
-/// the response to its wavelength; a path that was dispersed before multiplies by that itself, as for all light that it
-/// finds. A point light is seen by the straight ray alone, through boundaries that bend nothing: what it sends through
-/// an interface that bends light is left to photons, because no direction that is sampled here leads through the
-/// interface to a point. The ray may start at a rough interface that photons pass on their way to a lit place:
-/// `interfaces_before` counts that interface and those from there to the lit place.
-Arrival trace_shadow_ray(const ShadowRayContext&, Ray ray, const LightSample& sampled, const PathWavelength&,
+/// Wavelengths::of_hero_alone, so that it is of the same light as the path's other numbers. A point light is seen by
+/// the straight ray alone, through boundaries that bend nothing: what it sends through an interface that bends light is
+/// left to photons, because no direction that is sampled here leads through the interface to a point. The ray may start
+/// at a rough interface that photons pass on their way to a lit place: `interfaces_before` counts that interface and
+/// those from there to the lit place.
+Arrival trace_shadow_ray(const ShadowRayContext&, Ray ray, const LightSample& sampled, const PathLight&,
                          int interfaces_before);
 
 /// With which density photons start on the line on which a ray leads to a light (EmittedPhoton::line_density); 0 if

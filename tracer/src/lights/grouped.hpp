@@ -24,14 +24,22 @@ inline const std::string& checked_group(const std::string& group) {
     return group;
 }
 
+inline constexpr Parameter spectrum_parameter{
+    "spectrum", "",
+    "How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the "
+    "light's own colour only the brightness counts then. Without \"spectral\" it is the colour of that spectrum.",
+    limits::any, true};
+
 template <class Kind>
 struct Grouped : Kind {
     std::string group{default_group};
+    SharedLightSpectrum spectrum{};
 
     template <class V>
     static void parameters(V&& v) {
         Kind::parameters(v);
         v(&Grouped::group, group_parameter);
+        v(&Grouped::spectrum, spectrum_parameter);
     }
 
     /// The group's name. Throws ParameterError for one that cannot be.

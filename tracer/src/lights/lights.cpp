@@ -62,19 +62,22 @@ std::size_t Lights::group_of(std::string_view name) {
     return static_cast<std::size_t>(std::ranges::find(groups_, name) - groups_.begin());
 }
 
-void Lights::add(InfiniteLight light, std::string_view group) {
+void Lights::add(InfiniteLight light, std::string_view group, SharedLightSpectrum spectrum) {
+    infinite_spectrum_.push_back(std::move(spectrum));
     irradiance_.emplace_back(light);
     infinite_.push_back(std::move(light));
     infinite_group_.push_back(group_of(group));
 }
 
-void Lights::add(AreaLight light, std::string_view group) {
+void Lights::add(AreaLight light, std::string_view group, SharedLightSpectrum spectrum) {
+    area_spectrum_.push_back(std::move(spectrum));
     area_.push_back(std::move(light));
     area_group_.push_back(group_of(group));
     tree_.add(LightNode::Kind::area);
 }
 
-void Lights::add(AnyPointLight light, std::string_view group) {
+void Lights::add(AnyPointLight light, std::string_view group, SharedLightSpectrum spectrum) {
+    point_spectrum_.push_back(std::move(spectrum));
     points_.push_back(std::move(light));
     point_group_.push_back(group_of(group));
     tree_.add(LightNode::Kind::point);
@@ -113,10 +116,9 @@ void Lights::add_to_groups(const glm::vec3& radiance, const LightSource& source,
     } else if (std::ranges::all_of(infinite_group_, is_like_first)) {
         groups[infinite_group_.front()] += radiance;
     } else {
-        const glm::vec3 all = infinite_radiance(direction);
+        const glm::vec3 all = infinite_radiance(direction, nullptr);
         for (std::size_t i = 0; i < infinite_.size(); ++i) {
-            const glm::vec3 part =
-                std::visit([&](const auto& light) { return light.radiance(direction); }, infinite_[i]);
+            const glm::vec3 part = radiance_of_infinite(i, direction, nullptr);
             for (int c = 0; c < 3; ++c)
                 if (all[c] > 0) groups[infinite_group_[i]][c] += radiance[c] * (part[c] / all[c]);
         }
@@ -251,7 +253,7 @@ float Lights::point_light_probability(const LightReceiver& at, std::size_t index
     return weights.values()[infinite_.size() + root] / total * probability;
 }
 
-std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u) const {
+std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u, const Wavelengths* wavelengths) const {
     const glm::vec3& p = at.p;
     Scratch scratch(weight_count());
     const float total = weigh(at, scratch);
@@ -287,7 +289,8 @@ std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u) 
         sampled = portals_[chosen.weight - first_portal()].sample(p, u);
     } else if (chosen.lamp->kind == LightNode::Kind::point) {
         const FromPoint from_point = seen_from(p, points_[chosen.lamp->number]);
-        return LightSample{from_point.direction, from_point.distance, from_point.irradiance, probability,
+        const glm::vec3 irradiance = light_of(from_point.irradiance, point_spectrum_[chosen.lamp->number], wavelengths);
+        return LightSample{from_point.direction, from_point.distance, irradiance, probability,
                            OfPointLight{chosen.lamp->number}};
     } else if (chosen.lamp->kind == LightNode::Kind::glowing) {
         sampled = glowing_[chosen.lamp->number].sample(p, u);
@@ -303,7 +306,7 @@ std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u) 
     const float density = with_others(probability * sampled->pdf, chosen, at, wi, weights, total,
                                       [&](std::uint32_t number, float distance) {
                                           if (!nearest_area_light || distance < nearest_area_light->distance)
-                                              nearest_area_light = emission_of(number, distance);
+                                              nearest_area_light = emission_of(number, distance, wavelengths);
                                           if (is_area_light && chosen.lamp->number == number)
                                               misses_chosen_area_light = false;
                                       });
@@ -312,7 +315,7 @@ std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u) 
     if (nearest_area_light)
         return LightSample{wi, nearest_area_light->distance, nearest_area_light->radiance, density,
                            nearest_area_light->source};
-    return LightSample{wi, infinity, infinite_radiance(wi), density, InfiniteLights{}};
+    return LightSample{wi, infinity, infinite_radiance(wi, wavelengths), density, InfiniteLights{}};
 }
 
 glm::vec3 Lights::direction_to(const LightNode& node, const glm::vec3& p) const {
@@ -357,13 +360,20 @@ std::optional<glm::vec3> Lights::towards_brightest(const glm::vec3& p, const glm
     return brightest;
 }
 
-Lights::Emission Lights::emission_of(std::uint32_t area_light, float distance) const {
-    return {distance, std::visit([](const auto& light) { return glm::vec3(light.radiance()); }, area_[area_light]),
-            OfAreaLight{area_light}};
+Lights::Emission Lights::emission_of(std::uint32_t area_light, float distance, const Wavelengths* wavelengths) const {
+    const glm::vec3 radiance =
+        std::visit([](const auto& light) { return glm::vec3(light.radiance()); }, area_[area_light]);
+    return {distance, light_of(radiance, area_spectrum_[area_light], wavelengths), OfAreaLight{area_light}};
+}
+
+glm::vec3 Lights::intensity(std::size_t index, const glm::vec3& away, const Wavelengths* wavelengths) const {
+    const glm::vec3 intensity = std::visit([&](const auto& light) { return light.intensity(away); }, points_[index]);
+    return light_of(intensity, point_spectrum_[index], wavelengths);
 }
 
 std::optional<Lights::Emission> Lights::area_light_seen(const glm::vec3& origin, const glm::vec3& direction,
-                                                        float geometry, bool camera_ray) const {
+                                                        float geometry, bool camera_ray,
+                                                        const Wavelengths* wavelengths) const {
     if (area_.empty()) return std::nullopt;
     std::optional<Emission> nearest;
     const auto farthest = [&] { return nearest ? nearest->distance : geometry; };
@@ -373,7 +383,7 @@ std::optional<Lights::Emission> Lights::area_light_seen(const glm::vec3& origin,
             [&](const auto& light) {
                 if (camera_ray && !light.visible_to_camera()) return;
                 const auto distance = light.intersect(origin, direction);
-                if (distance && *distance < farthest()) nearest = emission_of(lamp.number, *distance);
+                if (distance && *distance < farthest()) nearest = emission_of(lamp.number, *distance, wavelengths);
             },
             area_[lamp.number]);
     });
@@ -401,18 +411,23 @@ std::optional<float> Lights::area_light_in_the_way(const glm::vec3& origin, cons
 }
 
 std::optional<Lights::Emission> Lights::seen(const glm::vec3& origin, const glm::vec3& direction, float geometry,
-                                             bool camera_ray) const {
-    const std::optional<Emission> nearest = area_light_seen(origin, direction, geometry, camera_ray);
+                                             bool camera_ray, const Wavelengths* wavelengths) const {
+    const std::optional<Emission> nearest = area_light_seen(origin, direction, geometry, camera_ray, wavelengths);
     if (nearest || geometry < infinity) return nearest;
-    if (camera_ray && background_) return Emission{infinity, *background_, Background{}};
-    return Emission{infinity, infinite_radiance(direction), InfiniteLights{}};
+    if (camera_ray && background_) return Emission{infinity, for_light(*background_, wavelengths), Background{}};
+    return Emission{infinity, infinite_radiance(direction, wavelengths), InfiniteLights{}};
 }
 
-glm::vec3 Lights::infinite_radiance(const glm::vec3& direction) const {
+glm::vec3 Lights::radiance_of_infinite(std::size_t index, const glm::vec3& direction,
+                                       const Wavelengths* wavelengths) const {
+    const glm::vec3 radiance =
+        std::visit([&](const auto& light) { return light.radiance(direction); }, infinite_[index]);
+    return light_of(radiance, infinite_spectrum_[index], wavelengths);
+}
+
+glm::vec3 Lights::infinite_radiance(const glm::vec3& direction, const Wavelengths* wavelengths) const {
     glm::vec3 sum(0.0f);
-    for (const InfiniteLight& any : infinite_) {
-        sum += std::visit([&](const auto& light) { return light.radiance(direction); }, any);
-    }
+    for (std::size_t i = 0; i < infinite_.size(); ++i) sum += radiance_of_infinite(i, direction, wavelengths);
     return sum;
 }
 

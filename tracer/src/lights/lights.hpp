@@ -53,6 +53,7 @@
 #include "lights/light_receiver.hpp"
 #include "lights/light_tree.hpp"
 #include "lights/portal.hpp"
+#include "spectrum/light_spectrum.hpp"
 
 namespace phasetree::tracer {
 
@@ -97,9 +98,10 @@ class Lights {
 
     /// Lights belong to groups, whose shares of a picture can be recorded separately (add_to_groups). The background
     /// and lights that name no group are of the group `default_group`.
-    void add(InfiniteLight light, std::string_view group = default_group);
-    void add(AreaLight light, std::string_view group = default_group);
-    void add(AnyPointLight light, std::string_view group = default_group);
+    /// What a light sends is in its own colour or, with a spectrum, in that, and as bright.
+    void add(InfiniteLight light, std::string_view group = default_group, SharedLightSpectrum spectrum = {});
+    void add(AreaLight light, std::string_view group = default_group, SharedLightSpectrum spectrum = {});
+    void add(AnyPointLight light, std::string_view group = default_group, SharedLightSpectrum spectrum = {});
     void add(const GlowingPart& part);
     /// A portal is of no group: it has no light of its own.
     void add(const Portal& portal) { portals_.push_back(portal); }
@@ -129,12 +131,14 @@ class Lights {
     /// `u` in [0, 1)². Its x chooses the light, and what is left of it, stretched to [0, 1) again, is the x that the
     /// light's own sampling gets: points that are stratified in the square are so for each light. Nothing if no light
     /// reaches the place, if the cluster that is chosen gives nothing there, or if rounding misses the light.
-    std::optional<LightSample> sample(const LightReceiver& at, glm::vec2 u) const;
+    /// Its radiance is that at the wavelengths, if there are any, as in all that follows.
+    std::optional<LightSample> sample(const LightReceiver& at, glm::vec2 u,
+                                      const Wavelengths* wavelengths = nullptr) const;
 
     /// What a ray sees that meets geometry at that distance, infinity for none: the nearest area light before it or, if
     /// nothing is in the way, the infinite lights. Camera rays pass through lights that are not visible to the camera.
-    std::optional<Emission> seen(const glm::vec3& origin, const glm::vec3& direction, float geometry,
-                                 bool camera_ray) const;
+    std::optional<Emission> seen(const glm::vec3& origin, const glm::vec3& direction, float geometry, bool camera_ray,
+                                 const Wavelengths* wavelengths = nullptr) const;
 
     /// Calls use(number) for each lamp of one kind, area lights or parts of what glows, that a ray from the origin in a
     /// unit direction may meet, and for some others. Without clusters all of the kind come, in their order.
@@ -150,7 +154,10 @@ class Lights {
 
     /// The nearest area light that a ray meets before geometry at that distance.
     std::optional<Emission> area_light_seen(const glm::vec3& origin, const glm::vec3& direction, float geometry,
-                                            bool camera_ray) const;
+                                            bool camera_ray, const Wavelengths* wavelengths = nullptr) const;
+
+    /// What the point light of this number in points() sends in a direction away from it: its radiant intensity.
+    glm::vec3 intensity(std::size_t index, const glm::vec3& away, const Wavelengths* wavelengths = nullptr) const;
 
     /// How far light on its way from an origin in a unit direction gets before an area light takes it: one that hides
     /// the origin from who looks back. Nothing if there is none before the distance `far`. The light that comes from
@@ -189,8 +196,9 @@ class Lights {
     template <class Hit>
     float with_others(float density, const std::optional<Chosen>& chosen, const LightReceiver& at,
                       const glm::vec3& direction, std::span<const float> weights, float total, const Hit& hit) const;
-    Emission emission_of(std::uint32_t area_light, float distance) const;
-    glm::vec3 infinite_radiance(const glm::vec3& direction) const;
+    Emission emission_of(std::uint32_t area_light, float distance, const Wavelengths* wavelengths) const;
+    glm::vec3 radiance_of_infinite(std::size_t index, const glm::vec3& direction, const Wavelengths* wavelengths) const;
+    glm::vec3 infinite_radiance(const glm::vec3& direction, const Wavelengths* wavelengths) const;
 
     std::vector<InfiniteLight> infinite_;
     std::vector<DiffuseIrradiance> irradiance_;  ///< of each infinite light
@@ -200,7 +208,8 @@ class Lights {
     LightTree tree_;  ///< of the area and point lights, and of what glows
     std::vector<Portal> portals_;
     std::vector<std::string> groups_{std::string(default_group)};
-    std::vector<std::size_t> infinite_group_, area_group_, point_group_;  ///< the group of each light
+    std::vector<std::size_t> infinite_group_, area_group_, point_group_;                   ///< the group of each light
+    std::vector<SharedLightSpectrum> infinite_spectrum_, area_spectrum_, point_spectrum_;  ///< of each light
     std::optional<glm::vec3> background_;
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/vec3.hpp>
 
+#include "media/absorption.hpp"
 #include "media/contract.hpp"
 
 namespace phasetree::tracer {
@@ -17,10 +18,10 @@ inline glm::vec3 beer_lambert(const glm::vec3& coefficient, float distance) {
 }
 
 struct AbsorbingMedium {
-    glm::vec3 absorption{0.0f};  ///< a, per unit of length of the scene; not negative
+    Absorption absorption{};  ///< a, per unit of length of the scene
 
     glm::vec3 transmittance(const Way& way, Sampler&) const {
-        return beer_lambert(for_light(absorption, way.single), way.length);
+        return beer_lambert(absorption.for_light(way.wavelengths), way.length);
     }
 };
 

@@ -1,28 +1,40 @@
-// What a medium that scatters is made of, in each colour channel and per unit of length of the scene.
+// What a medium that scatters is made of, for each of the three numbers of light (spectrum/wavelengths.hpp) and per
+// unit of length of the scene.
 #pragma once
 
 #include <glm/vec3.hpp>
 
+#include "media/absorption.hpp"
 #include "media/henyey_greenstein.hpp"
-#include "spectrum/wavelength.hpp"
+#include "spectrum/light_spectrum.hpp"
 
 namespace phasetree::tracer {
 
 struct ScatteringCoefficients {
-    glm::vec3 absorption{0.0f};  ///< σa
+    Absorption absorption{};     ///< σa
     glm::vec3 scattering{0.0f};  ///< σs
     /// What it shines by itself: radiance per unit of length. It is 0 in channels that are neither absorbed nor
     /// scattered, where it would have no bound.
     glm::vec3 emission{0.0f};
+    SharedLightSpectrum emission_spectrum{};  ///< of that, if it is known
     HenyeyGreenstein phase_function{};
 
-    /// The same of one wavelength, or as they are for light of all.
-    ScatteringCoefficients for_light(const Wavelength* single) const {
-        return {tracer::for_light(absorption, single), tracer::for_light(scattering, single),
-                tracer::for_light(emission, single), phase_function};
-    }
-    glm::vec3 extinction() const { return absorption + scattering; }  ///< σt
+    glm::vec3 extinction() const { return absorption.rgb() + scattering; }  ///< σt of red, green and blue
+    /// At least σt at any wavelength.
+    float greatest_extinction() const { return absorption.greatest_with(scattering); }
     bool scatters() const { return scattering != glm::vec3(0.0f); }
+
+    /// All of it for one path.
+    struct ForLight {
+        glm::vec3 absorption, scattering, emission;
+        glm::vec3 extinction() const { return absorption + scattering; }  ///< σt
+        bool scatters() const { return scattering != glm::vec3(0.0f); }
+    };
+    /// At the wavelengths of light, or for red, green and blue.
+    ForLight for_light(const Wavelengths* wavelengths) const {
+        return {absorption.for_light(wavelengths), tracer::for_light(scattering, wavelengths),
+                light_of(emission, emission_spectrum, wavelengths)};
+    }
 };
 
 }  // namespace phasetree::tracer

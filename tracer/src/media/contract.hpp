@@ -13,7 +13,7 @@
 #include "media/coefficients.hpp"
 #include "media/henyey_greenstein.hpp"
 #include "sampling/sobol.hpp"
-#include "spectrum/wavelength.hpp"
+#include "spectrum/wavelengths.hpp"
 
 namespace phasetree::tracer {
 
@@ -22,7 +22,7 @@ struct Way {
     glm::vec3 origin;
     glm::vec3 direction;  ///< of unit length
     float length;
-    const Wavelength* single = nullptr;  ///< of the light, if it is of one wavelength
+    const Wavelengths* wavelengths = nullptr;  ///< of the light; none if its numbers are red, green and blue
 };
 
 /// What becomes of a path on its way. Every colour channel has a weight, which multiplies the path's throughput.

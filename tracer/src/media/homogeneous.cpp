@@ -10,7 +10,7 @@ namespace phasetree::tracer {
 namespace {
 
 // ∫₀ᵈ ε T dt, with what passes all of the way, T(d).
-glm::vec3 emitted_along(const ScatteringCoefficients& coefficients, const glm::vec3& passed) {
+glm::vec3 emitted_along(const ScatteringCoefficients::ForLight& coefficients, const glm::vec3& passed) {
     const glm::vec3 extinction = coefficients.extinction();
     glm::vec3 emitted(0.0f);
     for (int c = 0; c < 3; ++c)
@@ -21,16 +21,16 @@ glm::vec3 emitted_along(const ScatteringCoefficients& coefficients, const glm::v
 }  // namespace
 
 glm::vec3 HomogeneousMedium::transmittance(const Way& way, Sampler&) const {
-    return beer_lambert(coefficients_.for_light(way.single).extinction(), way.length);
+    return beer_lambert(coefficients_.for_light(way.wavelengths).extinction(), way.length);
 }
 
 Passage HomogeneousMedium::pass(const Way& way, Sampler& sampler) const {
     const glm::vec3 left = transmittance(way, sampler);
-    return {left, emitted_along(coefficients_.for_light(way.single), left)};
+    return {left, emitted_along(coefficients_.for_light(way.wavelengths), left)};
 }
 
 Flight HomogeneousMedium::fly(const Way& way, const glm::vec3& throughput, Sampler& sampler) const {
-    const ScatteringCoefficients coefficients = coefficients_.for_light(way.single);
+    const auto coefficients = coefficients_.for_light(way.wavelengths);
     const glm::vec3 extinction = coefficients.extinction();
     const glm::vec3 passed = beer_lambert(extinction, way.length);
     Flight flight;

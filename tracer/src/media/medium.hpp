@@ -42,7 +42,7 @@ inline Passage pass(const Medium& medium, const Way& way, Sampler& sampler) {
         medium);
 }
 
-/// What it shines by itself where it is densest, in radiance per unit of length.
+/// What it shines by itself where it is densest, in radiance per unit of length, in red, green and blue.
 inline glm::vec3 emission(const Medium& medium) {
     return std::visit(
         []<class Kind>(const Kind& kind) {
@@ -53,14 +53,14 @@ inline glm::vec3 emission(const Medium& medium) {
         },
         medium);
 }
-/// Its σt where it is densest.
+/// Its σt where it is densest, of red, green and blue.
 inline glm::vec3 extinction(const Medium& medium) {
     return std::visit(
         []<class Kind>(const Kind& kind) {
             if constexpr (ScatteringMediumKind<Kind>)
                 return kind.coefficients().extinction();
             else
-                return kind.absorption;
+                return kind.absorption.rgb();
         },
         medium);
 }

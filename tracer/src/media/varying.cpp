@@ -37,8 +37,7 @@ std::pair<float, float> within(const Bounds& box, const Way& way) {
 
 VaryingMedium::VaryingMedium(const ScatteringCoefficients& coefficients, const Density& density)
     : coefficients_(coefficients), density_(density) {
-    const glm::vec3 extinction = coefficients.extinction();
-    majorant_ = std::max({extinction.x, extinction.y, extinction.z});
+    majorant_ = coefficients.greatest_extinction();
 }
 
 // Calls visit(distance, density, rate) until it returns false. `rate` is that of collisions per unit of length: at
@@ -68,7 +67,7 @@ void VaryingMedium::for_each_tentative_collision(const Way& way, Sampler& sample
 }
 
 Passage VaryingMedium::pass(const Way& way, Sampler& sampler) const {
-    const ScatteringCoefficients coefficients = coefficients_.for_light(way.single);
+    const auto coefficients = coefficients_.for_light(way.wavelengths);
     const glm::vec3 extinction = coefficients.extinction();
     Passage passage;
     for_each_tentative_collision(way, sampler, collisions_of_passage, [&](float, float density, float rate) {
@@ -80,8 +79,7 @@ Passage VaryingMedium::pass(const Way& way, Sampler& sampler) const {
 }
 
 Flight VaryingMedium::fly(const Way& way, const glm::vec3& throughput, Sampler& sampler) const {
-    // No wavelength has more than the densest channel, so the majorant is one for each.
-    const ScatteringCoefficients coefficients = coefficients_.for_light(way.single);
+    const auto coefficients = coefficients_.for_light(way.wavelengths);
     Flight flight;
     for_each_tentative_collision(way, sampler, 0.0f, [&](float distance, float density, float) {
         const glm::vec3 scattering = coefficients.scattering * density;

@@ -28,6 +28,10 @@ void needs(bool has, bool other, const char* key, const char* wanted) {
 
 void check(const P& p) {
     either(p.color.has_value(), p.absorption.has_value(), "color", "absorption");
+    either(p.absorption_spectrum != nullptr, p.absorption.has_value(), "absorption_spectrum", "absorption");
+    either(p.absorption_spectrum != nullptr, p.color.has_value(), "absorption_spectrum", "color");
+    either(p.absorption_spectrum != nullptr, p.medium.has_value(), "absorption_spectrum", "medium");
+    either(p.absorption_spectrum != nullptr, p.albedo.has_value(), "absorption_spectrum", "albedo");
     either(p.medium.has_value(), p.absorption.has_value(), "medium", "absorption");
     either(p.medium.has_value(), p.color.has_value(), "medium", "color");
     either(p.medium.has_value(), p.scattering.has_value(), "medium", "scattering");
@@ -41,16 +45,17 @@ void check(const P& p) {
     needs(p.scale.has_value(), p.medium.has_value(), "scale", "medium");
     const bool is_scattering = p.scattering || p.albedo || p.medium;
     needs(p.anisotropy.has_value(), is_scattering, "anisotropy", "scattering");
-    needs(p.density.has_value(), is_scattering || p.absorption || p.color, "density", "scattering");
+    needs(p.density.has_value(), is_scattering || p.absorption || p.absorption_spectrum || p.color, "density",
+          "scattering");
+    needs(p.emission_spectrum != nullptr, p.emission.has_value(), "emission_spectrum", "emission");
     needs(p.density_depth.has_value(), p.density.has_value(), "density_depth", "density");
     needs(p.density.has_value(), p.density_depth.has_value(), "density", "density_depth");
 }
 
-glm::vec3 absorption_of(const P& p) {
-    glm::vec3 absorption = p.absorption.value_or(glm::vec3(0.0f));
-    if (p.color)
-        for (int i = 0; i < 3; ++i) absorption[i] = std::max(0.0f, -std::log((*p.color)[i]) / p.color_distance);
-    return absorption;
+Absorption absorption_of(const P& p) {
+    if (p.absorption_spectrum) return Absorption::of(p.absorption_spectrum);
+    if (p.color) return Absorption::left_after(*p.color, p.color_distance);
+    return p.absorption.value_or(glm::vec3(0.0f));
 }
 
 }  // namespace
@@ -60,6 +65,7 @@ Medium ClearParameters::interior() const {
     ScatteringCoefficients c{.absorption = absorption_of(*this),
                              .scattering = scattering.value_or(glm::vec3(0.0f)),
                              .emission = emission.value_or(glm::vec3(0.0f)),
+                             .emission_spectrum = emission_spectrum,
                              .phase_function = HenyeyGreenstein(anisotropy.value_or(0.0f))};
     if (albedo) {
         c.scattering = *albedo / *mean_free_path;

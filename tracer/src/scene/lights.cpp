@@ -8,18 +8,13 @@ namespace phasetree::tracer {
 
 namespace {
 
-void add(Lights& lights, InfiniteLight light, const std::string& group) {
-    lights.add(std::move(light), group);
+template <class Light, class Kind>
+void add(Lights& lights, Light light, const Kind& kind) {
+    lights.add(std::move(light), kind.checked_group(), kind.spectrum);
 }
-void add(Lights& lights, AreaLight light, const std::string& group) {
-    lights.add(std::move(light), group);
-}
-void add(Lights& lights, AnyPointLight light, const std::string& group) {
-    lights.add(std::move(light), group);
-}
-template <class Light>
-void add(Lights& lights, std::vector<Light> several, const std::string& group) {
-    for (Light& light : several) lights.add(std::move(light), group);
+template <class Light, class Kind>
+void add(Lights& lights, std::vector<Light> several, const Kind& kind) {
+    for (Light& light : several) add(lights, std::move(light), kind);
 }
 
 }  // namespace
@@ -36,7 +31,7 @@ Lights read_lights(const Document& document, Value root) {
                     if constexpr (std::is_same_v<Kind, PortalParameters>)
                         lights.add(kind.made());
                     else
-                        add(lights, made_light(kind, images), kind.checked_group());
+                        add(lights, made_light(kind, images), kind);
                     return true;
                 });
             });

@@ -56,7 +56,7 @@ Conductor ConductorParameters::made() const {
                              ParameterError::Place::key);
     if (metal) {
         const Metal found = find_metal(*metal).value();
-        return {found.eta, found.k, roughness, film()};
+        return {found.eta, found.k, roughness, film(), found.spectrum};
     }
     if (!eta) throw ParameterError("eta", "is missing");
     if (!k) throw ParameterError("k", "is missing");

@@ -61,6 +61,8 @@ struct ClearParameters : FilmParameters {
     std::optional<float> scale{};
     std::optional<float> anisotropy{};
     std::optional<glm::vec3> emission{};
+    SharedSpectrum absorption_spectrum{};
+    SharedLightSpectrum emission_spectrum{};
     std::optional<Field> density{};
     std::optional<float> density_depth{};
 
@@ -82,6 +84,11 @@ struct ClearParameters : FilmParameters {
         v(&P::absorption,
           RgbParameter{{"absorption", "1/m", "Absorption of red, green and blue, a; nothing is absorbed without it.",
                         limits::non_negative, true}});
+        v(&P::absorption_spectrum,
+          SpectrumParameter{{"absorption_spectrum", "nm, 1/m",
+                             "In place of the absorption: wavelengths and the absorption at each. Without "
+                             "\"spectral\" it is red, green and blue that are absorbed so in thin layers.",
+                             limits::non_negative, true}});
         v(&P::color,
           ColourParameter{{"color", "", "In place of the absorption: what is left of white light after a distance.",
                            Limits{.low = 0, .high = 1, .low_open = true}, true}});
@@ -111,6 +118,11 @@ struct ClearParameters : FilmParameters {
                                     Limits{.low = -0.99f, .high = 0.99f}, true});
         v(&P::emission, RgbParameter{{"emission", "1/m", "Radiance that the medium itself adds along a ray.",
                                       limits::non_negative, true}});
+        v(&P::emission_spectrum,
+          Parameter{"emission_spectrum", "",
+                    "How the emission is spread over the wavelengths, as \"spectrum\" of lights. Of the emission only "
+                    "the brightness counts then.",
+                    limits::any, true});
         v(&P::density,
           Parameter{"density", "",
                     "Where the medium is how dense: not at all at the field's surface and outside, and rising evenly "
@@ -187,6 +199,7 @@ struct GlowingParameters {
     Texture light = Glowing{}.light;
     float radiance = Glowing{}.radiance;
     Texture color = Glowing{}.color;
+    SharedLightSpectrum spectrum{};
     std::string group{default_group};
 
     template <class V>
@@ -198,9 +211,10 @@ struct GlowingParameters {
                                   "material of index n.",
                                   Limits{.low = 0, .high = 1e12f, .low_open = true}, true});
         v(&P::color, Parameter{"color", "", "Reflectance; black without it.", limits::any, true});
+        v(&P::spectrum, spectrum_parameter);
         v(&P::group, group_parameter);
     }
-    Glowing made() const { return {light, radiance, color, checked_group(group)}; }
+    Glowing made() const { return {light, radiance, color, spectrum, checked_group(group)}; }
 };
 
 using MaterialKinds =

@@ -83,6 +83,55 @@ ValueType TextureRampType::describe(const tracer::RampParameter&) {
     return {"list of [number, colour or texture]", schema_of_ramp(schema_reference("texture"))};
 }
 
+using SpectrumType = ParameterType<tracer::SharedSpectrum, tracer::SpectrumParameter>;
+
+tracer::SharedSpectrum SpectrumType::read(const Document& document, Value value, std::string_view what,
+                                          const tracer::SpectrumParameter& p) {
+    if (!value.is_array() || value.size() == 0)
+        throw document.error(value, fmt::format("{} must be a list of points, [[wavelength, value], …]", what));
+    std::vector<tracer::Spectrum::Point> points;
+    for (const Value point : value) {
+        if (!point.is_array() || point.size() != 2)
+            throw document.error(
+                point,
+                fmt::format("a point of {} must be a list of two: a wavelength in nanometres, and a value", what));
+        const float nanometres = as<float>(document, point[0], "the wavelength of a point", range_of(limits::positive));
+        if (!points.empty() && !(nanometres > points.back().nanometres))
+            throw document.error(point[0], fmt::format("the wavelengths of {} must rise, but {} follows {}", what,
+                                                       nanometres, points.back().nanometres));
+        points.push_back({nanometres, as<float>(document, point[1], "the value of a point", range_of(p.limits))});
+    }
+    return std::make_shared<const tracer::Spectrum>(std::move(points));
+}
+
+ValueType SpectrumType::describe(const tracer::SpectrumParameter&) {
+    return {"list of [nm, number]", schema_of_ramp(R"({"type": "number"})")};
+}
+
+using LightSpectrumType = ParameterType<tracer::SharedLightSpectrum, Parameter>;
+
+tracer::SharedLightSpectrum LightSpectrumType::read(const Document& document, Value value, std::string_view what,
+                                                    const Parameter& p) {
+    if (value.is_object())
+        return read_kind<tracer::BlackbodyParameters>(document, value, what, [](const auto& blackbody) {
+            return std::make_shared<const tracer::LightSpectrum>(
+                tracer::LightSpectrum::of_temperature(blackbody.temperature));
+        });
+    const tracer::SharedSpectrum power =
+        SpectrumType::read(document, value, what, tracer::SpectrumParameter{{p.name, "", "", limits::non_negative}});
+    auto spectrum = std::make_shared<const tracer::LightSpectrum>(*power);
+    if (!spectrum->visible())
+        throw document.error(value, fmt::format("{} is 0 everywhere from 380 to 780 nm, so nothing would shine", what));
+    return spectrum;
+}
+
+ValueType LightSpectrumType::describe(const Parameter&) {
+    return {"list of [nm, number], or {\"blackbody\": kelvin}",
+            schema_of_either(schema_of_ramp(R"({"type": "number"})"),
+                             R"({"type": "object", "required": ["blackbody"], "additionalProperties": false,
+                                 "properties": {"blackbody": {"type": "number", "minimum": 500, "maximum": 100000}}})")};
+}
+
 using NumberRampType = ParameterType<std::vector<tracer::NumberStop>, tracer::RampParameter>;
 
 std::vector<tracer::NumberStop> NumberRampType::read(const Document& document, Value value, std::string_view what,

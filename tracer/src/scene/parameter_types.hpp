@@ -13,6 +13,20 @@ struct PartParameter : Parameter {
     std::string_view schema;
 };
 
+// The light of what is hot, as a scene file says it.
+struct BlackbodyParameters {
+    static constexpr KindInfo info{"blackbody", "The spectrum of what shines because it is hot."};
+
+    float temperature = 6500.0f;
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&BlackbodyParameters::temperature,
+          Parameter{"blackbody", "K", "Its temperature: a candle has 1,900, a light bulb 2,700.",
+                    Limits{.low = 500, .high = 100000}});
+    }
+};
+
 }  // namespace phasetree::tracer
 
 namespace phasetree {
@@ -38,6 +52,22 @@ struct ParameterType<std::vector<tracer::NumberStop>, tracer::RampParameter> {
                                                 const tracer::RampParameter&);
     static ValueType describe(const tracer::RampParameter&);
     static std::string written(const std::vector<tracer::NumberStop>&) { return "none"; }
+};
+
+// The points of a spectrum.
+template <>
+struct ParameterType<tracer::SharedSpectrum, tracer::SpectrumParameter> {
+    static tracer::SharedSpectrum read(const Document&, Value, std::string_view what, const tracer::SpectrumParameter&);
+    static ValueType describe(const tracer::SpectrumParameter&);
+    static std::string written(const tracer::SharedSpectrum&) { return "none"; }
+};
+
+// The spectrum of a light: points, or {"blackbody": temperature}.
+template <>
+struct ParameterType<tracer::SharedLightSpectrum, Parameter> {
+    static tracer::SharedLightSpectrum read(const Document&, Value, std::string_view what, const Parameter&);
+    static ValueType describe(const Parameter&);
+    static std::string written(const tracer::SharedLightSpectrum&) { return "none"; }
 };
 
 // A number, or one that follows a field. The limits are those of each of its values.

@@ -44,6 +44,7 @@ struct RenderSettings {
     // Roulette ends paths long before where light is absorbed. In lossless glass a few in a million meet thousands of
     // surfaces, and to cut those off would lose light.
     int max_depth = 1 << 16;
+    bool spectral = false;    // whether paths carry wavelengths in place of colours (spectrum/wavelengths.hpp)
     bool guiding = false;     // whether paths learn where light comes from (guiding/guide.hpp)
     bool caustics = false;    // whether photons look for caustics (caustics/caustics.hpp)
     float photons = 1;        // of each pass, per pixel of the whole picture

@@ -52,8 +52,8 @@ Interface::Optics optics_of(const Clear& from, const Clear& to, SharedSurfaces& 
 
 Interface::Optics optics_of(const Clear& from, const Conductor& to, SharedSurfaces& shared) {
     return Interface::MetalOptics{
-        shared.conductor(from.ior, to.eta, to.k, rough_part(range_of(to.roughness)), film_of(to.film)), to.roughness,
-        thickness_of(to.film)};
+        shared.conductor(from.ior, to.eta, to.k, rough_part(range_of(to.roughness)), film_of(to.film), to.spectrum),
+        to.roughness, thickness_of(to.film)};
 }
 
 Interface::Optics optics_of(const Clear&, const Diffuse& to, SharedSurfaces&) {
@@ -72,49 +72,47 @@ Interface::Optics optics_of(const Clear& from, const Coated& to, SharedSurfaces&
 
 Interface::Optics optics_of(const Clear& from, const Glowing& to, SharedSurfaces&) {
     return Interface::GlowingOptics{std::make_shared<const Texture>(to.color),
-                                    std::make_shared<const Texture>(to.light), to.radiance * from.ior * from.ior,
-                                    to.group_number};
+                                    std::make_shared<const Texture>(to.light), to.spectrum,
+                                    to.radiance * from.ior * from.ior, to.group_number};
 }
 
-Bsdf dispersive_bsdf(const Interface::ClearOptics::Dispersive& sides, float wavelength) {
-    const auto index = [&](const std::optional<Dispersion>& side, float ior) {
-        return side ? side->index(wavelength) : ior;
-    };
+Bsdf dispersive_bsdf(const Interface::ClearOptics::Dispersive& sides, float hero) {
+    const auto index = [&](const std::optional<Dispersion>& side, float ior) { return side ? side->index(hero) : ior; };
     return SmoothDielectricBsdf(index(sides.from, sides.from_ior), index(sides.to, sides.to_ior));
 }
 
-// bsdf_of() gives the BSDF of each kind of optics at a place.
+// bsdf_of() gives the BSDF of each kind of optics at a place, for light of wavelengths or, without any, of colours.
 
-Bsdf bsdf_of(const Interface::ClearOptics& optics, const TexturePoint& p) {
+Bsdf bsdf_of(const Interface::ClearOptics& optics, const TexturePoint& p, const Wavelengths* wavelengths) {
     const float thickness = number_at(optics.thickness, p.position);
     // Between equal indices there is at most a film. What passes it goes straight on, however rough it is, and there is
     // no microfacet that would send it there.
-    if (optics.surface->eta() == 1.0f) return SmoothDielectricBsdf(*optics.surface, thickness);
+    if (optics.surface->eta() == 1.0f) return SmoothDielectricBsdf(*optics.surface, thickness, wavelengths);
     const float roughness = std::max(number_at(optics.from, p.position), number_at(optics.to, p.position));
-    if (is_smooth(roughness)) return SmoothDielectricBsdf(*optics.surface, thickness);
-    return RoughDielectricBsdf(*optics.surface, std::min(roughness, 1.0f));
+    if (is_smooth(roughness)) return SmoothDielectricBsdf(*optics.surface, thickness, wavelengths);
+    return RoughDielectricBsdf(*optics.surface, std::min(roughness, 1.0f), wavelengths);
 }
 
-Bsdf bsdf_of(const Interface::MetalOptics& optics, const TexturePoint& p) {
+Bsdf bsdf_of(const Interface::MetalOptics& optics, const TexturePoint& p, const Wavelengths* wavelengths) {
     const float thickness = number_at(optics.thickness, p.position);
     const float roughness = number_at(optics.roughness, p.position);
-    if (is_smooth(roughness)) return SmoothConductorBsdf(*optics.surface, thickness);
-    return RoughConductorBsdf(*optics.surface, std::min(roughness, 1.0f), thickness);
+    if (is_smooth(roughness)) return SmoothConductorBsdf(*optics.surface, thickness, wavelengths);
+    return RoughConductorBsdf(*optics.surface, std::min(roughness, 1.0f), thickness, wavelengths);
 }
 
-Bsdf bsdf_of(const Interface::DiffuseOptics& optics, const TexturePoint& p) {
-    return DiffuseBsdf(color_at(*optics.color, p));
+Bsdf bsdf_of(const Interface::DiffuseOptics& optics, const TexturePoint& p, const Wavelengths* wavelengths) {
+    return DiffuseBsdf(color_at(*optics.color, p, wavelengths));
 }
 
-Bsdf bsdf_of(const Interface::CoatedOptics& optics, const TexturePoint& p) {
+Bsdf bsdf_of(const Interface::CoatedOptics& optics, const TexturePoint& p, const Wavelengths* wavelengths) {
     const float roughness = number_at(optics.roughness, p.position);
     return CoatedDiffuseBsdf(optics.coating->at(is_smooth(roughness) ? 0.0f : std::min(roughness, 1.0f),
-                                                number_at(optics.thickness, p.position)),
-                             color_at(*optics.color, p));
+                                                number_at(optics.thickness, p.position), wavelengths),
+                             color_at(*optics.color, p, wavelengths));
 }
 
-Bsdf bsdf_of(const Interface::GlowingOptics& optics, const TexturePoint& p) {
-    return DiffuseBsdf(color_at(*optics.color, p));
+Bsdf bsdf_of(const Interface::GlowingOptics& optics, const TexturePoint& p, const Wavelengths* wavelengths) {
+    return DiffuseBsdf(color_at(*optics.color, p, wavelengths));
 }
 
 }  // namespace
@@ -131,15 +129,18 @@ bool Interface::disperses() const {
     return clear && clear->dispersive;
 }
 
-std::optional<Interface::Emitted> Interface::emitted(const TexturePoint& point) const {
+std::optional<Interface::Emitted> Interface::emitted(const TexturePoint& point, const Wavelengths* wavelengths) const {
     const GlowingOptics* glowing = std::get_if<GlowingOptics>(&optics_);
     if (!glowing) return std::nullopt;
-    return Emitted{glowing->radiance * color_at(*glowing->light, point), glowing->group};
+    const glm::vec3 light = glowing->spectrum ? glowing->spectrum->light(color_at(*glowing->light, point), wavelengths)
+                                              : color_at(*glowing->light, point, wavelengths);
+    return Emitted{glowing->radiance * light, glowing->group};
 }
 
-Bsdf Interface::at(const TexturePoint& point, const Wavelength* single) const& {
-    if (single && disperses()) return dispersive_bsdf(*std::get<ClearOptics>(optics_).dispersive, single->nanometres);
-    return std::visit([&](const auto& optics) { return bsdf_of(optics, point); }, optics_);
+Bsdf Interface::at(const TexturePoint& point, const Wavelengths* wavelengths) const& {
+    if (wavelengths && disperses())
+        return dispersive_bsdf(*std::get<ClearOptics>(optics_).dispersive, wavelengths->hero());
+    return std::visit([&](const auto& optics) { return bsdf_of(optics, point, wavelengths); }, optics_);
 }
 
 InterfaceTable::InterfaceTable(std::span<const Material> materials, SharedSurfaces& shared) : count_(materials.size()) {

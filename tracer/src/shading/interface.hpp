@@ -29,11 +29,12 @@ class Interface {
     /// `from` is the material the ray is in, `to` the one it meets. What surfaces share is made only once.
     static Interface between(const Material& from, const Material& to, SharedSurfaces& shared);
 
-    /// The BSDF at a place, which is in the space textures are defined in, for light of one wavelength or of all: that
-    /// of all is refracted as light of the line d. It refers to data of this interface and must
-    /// not outlive it.
-    Bsdf at(const TexturePoint& point, const Wavelength* single = nullptr) const&;
-    Bsdf at(const TexturePoint& point, const Wavelength* single = nullptr) && = delete;
+    /// The BSDF at a place, which is in the space textures are defined in, for light of these wavelengths or, without
+    /// any, for red, green and blue. Where the interface disperses it refracts light of wavelengths as the hero, and
+    /// that of colours as the line d. It refers to data of this interface and to the wavelengths, and must not outlive
+    /// them.
+    Bsdf at(const TexturePoint& point, const Wavelengths* wavelengths = nullptr) const&;
+    Bsdf at(const TexturePoint& point, const Wavelengths* wavelengths = nullptr) && = delete;
     /// Whether it refracts light of different wavelengths differently.
     bool disperses() const;
 
@@ -42,8 +43,8 @@ class Interface {
         glm::vec3 radiance;
         std::uint32_t group;  ///< Glowing::group_number
     };
-    /// None if the surface does not glow.
-    std::optional<Emitted> emitted(const TexturePoint& point) const;
+    /// In light of wavelengths or, without any, in red, green and blue. None if the surface does not glow.
+    std::optional<Emitted> emitted(const TexturePoint& point, const Wavelengths* wavelengths = nullptr) const;
 
     struct ClearOptics {
         /// Both sides of an interface that disperses light: one that is smooth and has no film, of its own or of the
@@ -73,6 +74,7 @@ class Interface {
     };
     struct GlowingOptics {
         std::shared_ptr<const Texture> color, light;
+        SharedLightSpectrum spectrum;
         float radiance;  ///< where `light` is 1, in the index of the side it is seen from
         std::uint32_t group;
     };

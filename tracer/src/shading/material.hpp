@@ -8,13 +8,16 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 
 #include "media/medium.hpp"
+#include "shading/metals.hpp"
 #include "shading/texture/number.hpp"
 #include "shading/texture/texture.hpp"
 #include "spectrum/dispersion.hpp"
+#include "spectrum/light_spectrum.hpp"
 
 namespace phasetree::tracer {
 
@@ -33,8 +36,8 @@ struct Clear {
     /// How the index changes with the wavelength, and then `ior` is that at the line d; not at all without it.
     std::optional<Dispersion> dispersion{};
 
-    float ior_for(const Wavelength* single) const {
-        return single && dispersion ? dispersion->index(single->nanometres) : ior;
+    float ior_for(const Wavelengths* wavelengths) const {
+        return wavelengths && dispersion ? dispersion->index(wavelengths->hero()) : ior;
     }
 };
 
@@ -48,6 +51,7 @@ struct Conductor {
     glm::vec3 k{0.0f};
     Number roughness = 0.0f;
     std::optional<SurfaceFilm> film{};
+    std::span<const MetalPoint> spectrum{};  ///< of a measured one, for light of wavelengths; it stays where it is
 };
 
 /// A diffuse base under a clear coat: varnished or glazed.
@@ -66,6 +70,7 @@ struct Glowing {
     Texture light = ConstantTexture{glm::vec3(1.0f)};
     float radiance = 1;
     Texture color = ConstantTexture{glm::vec3(0.0f)};
+    SharedLightSpectrum spectrum{};  ///< of the light, if it is known; then only the brightness of `light` counts
     std::string group{};             ///< of lights
     std::uint32_t group_number = 0;  ///< in Lights::groups()
 };

@@ -1,7 +1,7 @@
 // Measured complex refractive indices η + ik of metals, by name.
 //
-// Each is the measurement at three wavelengths, 650, 550 and 450 nm for red, green and blue, interpolated linearly
-// between the neighbouring points of the published table (as collected by refractiveindex.info, CC0).
+// They are published as tables over the wavelength (as collected by refractiveindex.info, CC0), between whose points
+// they are interpolated linearly. For red, green and blue they are taken at 650, 550 and 450 nm.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -11,11 +11,18 @@
 
 namespace phasetree::tracer {
 
+struct MetalPoint {
+    float nanometres, eta, k;
+};
+
 struct Metal {
     std::string_view name;
-    glm::vec3 eta;
-    glm::vec3 k;
+    glm::vec3 eta, k;                      ///< for red, green and blue
+    std::span<const MetalPoint> spectrum;  ///< by wavelength, from 380 nm or less to 780 nm or more
 };
+
+/// The index at a wavelength; beyond the table that at its end.
+MetalPoint index_at(std::span<const MetalPoint> spectrum, float nanometres);
 
 /// All of them, in alphabetical order.
 std::span<const Metal> metals();

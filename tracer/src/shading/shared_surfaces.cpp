@@ -32,9 +32,11 @@ std::shared_ptr<const DielectricSurface> SharedSurfaces::dielectric(float ior_fr
 
 std::shared_ptr<const ConductorSurface> SharedSurfaces::conductor(float ior, const glm::vec3& eta, const glm::vec3& k,
                                                                   const std::optional<ValueRange>& roughness,
-                                                                  const std::optional<FilmOfSurface>& film) {
-    return found_or_made(conductors_, Conductor{ior, eta, k, roughness, film},
-                         [&] { return std::make_shared<const ConductorSurface>(ior, eta, k, roughness, film); });
+                                                                  const std::optional<FilmOfSurface>& film,
+                                                                  std::span<const MetalPoint> spectrum) {
+    return found_or_made(conductors_, Conductor{ior, eta, k, roughness, film, spectrum.data()}, [&] {
+        return std::make_shared<const ConductorSurface>(ior, eta, k, roughness, film, spectrum);
+    });
 }
 
 std::shared_ptr<const CoatingAlbedo> SharedSurfaces::coating(float ior_from, float ior_coat,

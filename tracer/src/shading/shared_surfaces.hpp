@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -24,7 +25,8 @@ class SharedSurfaces {
                                                         const std::optional<FilmOfSurface>& film);
     std::shared_ptr<const ConductorSurface> conductor(float ior, const glm::vec3& eta, const glm::vec3& k,
                                                       const std::optional<ValueRange>& roughness,
-                                                      const std::optional<FilmOfSurface>& film);
+                                                      const std::optional<FilmOfSurface>& film,
+                                                      std::span<const MetalPoint> spectrum);
     std::shared_ptr<const CoatingAlbedo> coating(float ior_from, float ior_coat, const ValueRange& roughness,
                                                  const std::optional<FilmOfSurface>& film);
 
@@ -41,6 +43,7 @@ class SharedSurfaces {
         glm::vec3 eta, k;
         std::optional<ValueRange> roughness;
         std::optional<FilmOfSurface> film;
+        const MetalPoint* spectrum;
         bool operator==(const Conductor&) const = default;
     };
     struct Coating {

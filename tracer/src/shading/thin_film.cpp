@@ -92,7 +92,8 @@ double thin_film_reflectance(double outside, double film, double behind_eta, dou
     return Faces(outside, film, Complex(behind_eta, behind_k), cos_theta).reflectance(thickness, wavelength);
 }
 
-ThinFilm::ThinFilm(const Layers& layers, float least_thickness, float greatest_thickness) : least_(least_thickness) {
+ThinFilm::ThinFilm(const Layers& layers, float least_thickness, float greatest_thickness)
+    : layers_(layers), least_(least_thickness) {
     // R swings once in λ/(2 n₂), some 150 nm; linear interpolation over this step is off by less than a thousandth.
     constexpr float widest_step = 4.0f;
     const float range = greatest_thickness - least_thickness;
@@ -119,6 +120,26 @@ std::size_t ThinFilm::row_of(float thickness, float& part) const {
     const std::size_t row = std::min(static_cast<std::size_t>(position), averages_.size() - 2);
     part = position - static_cast<float>(row);
     return row;
+}
+
+glm::vec3 ThinFilm::reflectance_at(const glm::vec3& nanometres, const glm::vec3& eta, const glm::vec3& k,
+                                   float cos_theta, float thickness) const {
+    if (!(cos_theta > 0.0f)) return glm::vec3(1.0f);
+    const auto faces_before = [&](int i) {
+        return Faces(static_cast<double>(layers_.outside), static_cast<double>(layers_.film),
+                     Complex(static_cast<double>(eta[i]), static_cast<double>(k[i])),
+                     static_cast<double>(std::min(cos_theta, 1.0f)));
+    };
+    const bool is_alike = eta == glm::vec3(eta.x) && k == glm::vec3(k.x);
+    Faces faces = faces_before(0);
+    glm::vec3 reflectance;
+    for (int i = 0; i < 3; ++i) {
+        if (i > 0 && !is_alike) faces = faces_before(i);
+        const double nm = static_cast<double>(nanometres[i]), thick = static_cast<double>(thickness);
+        reflectance[i] =
+            static_cast<float>(faces.is_real() ? faces.real_reflectance(thick, nm) : faces.reflectance(thick, nm));
+    }
+    return reflectance;
 }
 
 glm::vec3 ThinFilm::reflectance(float cos_theta, float thickness) const {

@@ -11,7 +11,8 @@
 // it would without it. Indices do not change with the wavelength, but for a metal's, which are those of each colour.
 // Colours beyond what red, green and blue can show are clipped to [0, 1].
 //
-// R is tabulated over cos θ in the medium outside and, if the thickness varies, over the thickness.
+// The colours of R are tabulated over cos θ in the medium outside and, if the thickness varies, over the thickness.
+// Light of wavelengths has R(λ) itself.
 //
 // References: Born & Wolf, Principles of Optics, 7th ed., 1.6.4; Belcour & Barla, A Practical Extension to Microfacet
 // Theory for the Modeling of Varying Iridescence, SIGGRAPH 2017 (why the spectrum must be integrated).
@@ -38,6 +39,13 @@ class ThinFilm {
 
     /// R, for light that arrives outside at an angle of that cosine.
     glm::vec3 reflectance(float cos_theta, float thickness) const;
+    /// R at three wavelengths in nanometres, exactly, before a substance of these indices at each of them.
+    glm::vec3 reflectance_at(const glm::vec3& nanometres, const glm::vec3& eta, const glm::vec3& k, float cos_theta,
+                             float thickness) const;
+    /// The same before what was given as `Layers`, if that is alike for all colours.
+    glm::vec3 reflectance_at(const glm::vec3& nanometres, float cos_theta, float thickness) const {
+        return reflectance_at(nanometres, layers_.eta, layers_.k, cos_theta, thickness);
+    }
     /// 2 ∫ R μ dμ, the same under uniform light from outside.
     glm::vec3 average(float thickness) const;
 
@@ -46,6 +54,7 @@ class ThinFilm {
 
     std::size_t row_of(float thickness, float& part) const;
 
+    Layers layers_;
     float least_, step_ = 1.0f;
     std::vector<glm::vec3> table_;     ///< rows of `cosines` from cos θ = 0 to 1, one a thickness
     std::vector<glm::vec3> averages_;  ///< one a thickness

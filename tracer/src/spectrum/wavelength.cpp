@@ -112,6 +112,16 @@ class Cells {
         return {static_cast<float>(wavelength), primaries_at(wavelength), response_[cell]};
     }
 
+    glm::dvec3 mean(const std::function<double(double)>& f) const {
+        glm::dvec3 sum(0.0);
+        double before = 0.0;
+        for (std::size_t i = 0; i < count; ++i) {
+            sum += f(first + static_cast<double>(i) + 0.5) * (cumulative_[i] - before) * glm::dvec3(response_[i]);
+            before = cumulative_[i];
+        }
+        return sum;
+    }
+
   private:
     static double size_of(const glm::dvec3& w) { return std::abs(w.x) + std::abs(w.y) + std::abs(w.z); }
 
@@ -119,11 +129,19 @@ class Cells {
     std::array<glm::vec3, count> response_;
 };
 
+const Cells& cells() {
+    static const Cells all;
+    return all;
+}
+
 }  // namespace
 
+glm::dvec3 colour_of(const std::function<double(double)>& f) {
+    return cells().mean(f);
+}
+
 Wavelength sampled_wavelength(float u) {
-    static const Cells cells;
-    return cells.sample(u);
+    return cells().sample(u);
 }
 
 glm::vec3 primaries_at(double wavelength) {

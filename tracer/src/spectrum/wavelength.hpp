@@ -1,13 +1,6 @@
-// Light of one wavelength, and of all of them.
+// One wavelength of light, chosen at random, and how much it counts for red, green and blue.
 //
-// A path carries three numbers, red, green and blue. They stand for what the whole spectrum brings until the path is
-// refracted by something that bends colours differently. There one wavelength is chosen for it, and from then on all
-// that it meets is what it is at this wavelength. This is hero wavelength sampling (Wilkie, Nawaz, Droske, Weidlich &
-// Hanika, Hero Wavelength Spectral Sampling, EGSR 2014) whose other wavelengths end at dispersion, but for one thing:
-// before dispersion there is no need to choose any, so a picture without dispersion has no noise in its colours, and is
-// the same to the bit.
-//
-// With the wavelength λ chosen by the density p, and the light L(λ) found there, the path brings to each of the three
+// With the wavelength λ chosen by the density p, and the light L(λ) found there, a path brings to each of the three
 //     L(λ) w(λ)/p(λ),   ∫ w dλ = 1,
 // where w is how much a wavelength counts for red, green or blue: CIE's colour matching functions, as Rec.709 has them,
 // times the white of its screens, CIE's illuminant D65. So L is relative to D65. What is given as red, green and blue
@@ -17,7 +10,7 @@
 // colour reflects more than all light, and the mean over wavelengths of every colour is that colour.
 #pragma once
 
-#include <glm/geometric.hpp>
+#include <functional>
 #include <glm/vec3.hpp>
 
 namespace phasetree::tracer {
@@ -37,13 +30,10 @@ Wavelength sampled_wavelength(float u);
 /// ρ of red, green and blue at a wavelength in nanometres.
 glm::vec3 primaries_at(double wavelength);
 
+/// ∫ w f dλ: the colour of D65 times f, which is asked at each nanometre between 380 and 780.
+glm::dvec3 colour_of(const std::function<double(double)>& f);
+
 /// D65, in proportion to power per nanometre: 100 at 560 nm.
 double daylight_at(double wavelength);
-
-/// What is given as red, green and blue, as a path takes it: its value at the wavelength, in all three; or as it is,
-/// for light of all wavelengths, which has no `single`.
-inline glm::vec3 for_light(const glm::vec3& rgb, const Wavelength* single) {
-    return single ? glm::vec3(glm::dot(rgb, single->primaries)) : rgb;
-}
 
 }  // namespace phasetree::tracer

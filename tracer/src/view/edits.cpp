@@ -30,13 +30,11 @@ std::optional<glm::vec3> constant(const Texture& texture) {
 // What a clear phase shows of its inside: in milk nothing is left to be told as a colour.
 std::optional<glm::vec3> color_of(const Medium& medium, float depth) {
     const auto* absorbing = std::get_if<AbsorbingMedium>(&medium);
-    return absorbing ? std::optional<glm::vec3>(beer_lambert(absorbing->absorption, depth)) : std::nullopt;
+    return absorbing ? std::optional<glm::vec3>(beer_lambert(absorbing->absorption.rgb(), depth)) : std::nullopt;
 }
 
 Medium medium_of(const glm::vec3& color, float depth) {
-    glm::vec3 absorption;
-    for (int i = 0; i < 3; ++i) absorption[i] = -std::log(std::clamp(color[i], darkest, 1.0f)) / depth;
-    return AbsorbingMedium{absorption};
+    return AbsorbingMedium{Absorption::left_after(glm::clamp(color, darkest, 1.0f), depth)};
 }
 
 Clear made_clear(const Optics& optics) {

@@ -37,10 +37,12 @@ struct Surface {
     TexturePoint place;                              ///< in the space of what was met
     std::uint32_t copy = 0;                          ///< of the object (scene/placed.hpp); 0 of one that is there once
 
-    /// For light of one wavelength, or of all.
-    Bsdf bsdf(const Wavelength* single = nullptr) const { return optics.get().at(place, single); }
+    /// For light of these wavelengths, or for red, green and blue; it must not outlive the wavelengths.
+    Bsdf bsdf(const Wavelengths* wavelengths = nullptr) const { return optics.get().at(place, wavelengths); }
     /// What it sends by itself to the near side.
-    std::optional<Interface::Emitted> emitted() const { return optics.get().emitted(place); }
+    std::optional<Interface::Emitted> emitted(const Wavelengths* wavelengths = nullptr) const {
+        return optics.get().emitted(place, wavelengths);
+    }
     /// A ray that leaves the surface to the side from which it was met.
     Ray reflected(const glm::vec3& direction) const { return leaving(near_side, direction); }
     /// A ray that leaves the surface to its far side. Throws std::bad_optional_access if light does not travel there.

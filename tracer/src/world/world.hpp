@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "spectrum/wavelengths.hpp"
 #include "world/flat_boundaries.hpp"
 #include "world/traced_geometry.hpp"
 
@@ -17,10 +18,12 @@ class World {
         : geometry_(scene, options),
           flat_boundaries_(!options.is_first_look ? tracer::flat_boundaries(geometry_, scene)
                                                   : std::vector<FlatBoundary>{}),
-          disperses_(std::ranges::any_of(scene.materials, [](const Material& material) {
-              const Clear* clear = std::get_if<Clear>(&material);
-              return clear && clear->dispersion;
-          })) {}
+          disperses_(std::ranges::any_of(scene.materials,
+                                         [](const Material& material) {
+                                             const Clear* clear = std::get_if<Clear>(&material);
+                                             return clear && clear->dispersion;
+                                         })),
+          is_spectral_(scene.settings.spectral) {}
     World(const World&) = delete;
     World& operator=(const World&) = delete;
 
@@ -29,11 +32,18 @@ class World {
     const std::vector<FlatBoundary>& flat_boundaries() const { return flat_boundaries_; }
     /// Whether anything in it refracts light of different wavelengths differently.
     bool disperses() const { return disperses_; }
+    /// Whether paths have wavelengths, from the beginning on or from where they are dispersed.
+    bool needs_wavelengths() const { return disperses_ || is_spectral_; }
+    /// Those of a path, which u in [0, 1) chooses.
+    Wavelengths wavelengths(float u) const {
+        return is_spectral_ ? Wavelengths::three(u) : Wavelengths::of_dispersed_colours(sampled_wavelength(u));
+    }
 
   private:
     TracedGeometry geometry_;
     std::vector<FlatBoundary> flat_boundaries_;
     bool disperses_;
+    bool is_spectral_;
 };
 
 }  // namespace phasetree::tracer

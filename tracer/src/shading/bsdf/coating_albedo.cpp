@@ -82,8 +82,8 @@ glm::vec3 CoatingAlbedo::in_table(const Table& table, float cos_theta) {
     return glm::mix(table.directional[below], table.directional[below + 1], position - static_cast<float>(below));
 }
 
-CoatingAlbedo::At::At(const CoatingAlbedo& albedo, float roughness, float thickness)
-    : albedo_(&albedo), roughness_(roughness), thickness_(thickness) {
+CoatingAlbedo::At::At(const CoatingAlbedo& albedo, float roughness, float thickness, const Wavelengths* wavelengths)
+    : albedo_(&albedo), roughness_(roughness), thickness_(thickness), wavelengths_(wavelengths) {
     if (roughness_ > 0.0f) {
         thickness_ = albedo.middle_thickness_;
         const RoughnessNodes::Place place = albedo.roughnesses_.place(roughness);
@@ -108,12 +108,13 @@ glm::vec3 CoatingAlbedo::At::directional(float cos_theta) const {
     if (albedo_->surface_.is_none()) return glm::vec3(0.0f);
     if (!(roughness_ > 0.0f)) return fresnel(mu);
     const glm::vec3 below = in_table(albedo_->tables_[below_], mu);
-    return part_ > 0.0f ? glm::mix(below, in_table(albedo_->tables_[below_ + 1], mu), part_) : below;
+    return for_light(part_ > 0.0f ? glm::mix(below, in_table(albedo_->tables_[below_ + 1], mu), part_) : below,
+                     wavelengths_);
 }
 
 glm::vec3 CoatingAlbedo::At::internal() const {
     const float eta = albedo_->surface_.eta();
-    return glm::clamp(1.0f - (1.0f - average_) / (eta * eta), 0.0f, 1.0f);
+    return glm::clamp(1.0f - (1.0f - average()) / (eta * eta), 0.0f, 1.0f);
 }
 
 }  // namespace phasetree::tracer

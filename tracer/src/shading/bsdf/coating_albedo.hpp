@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "shading/bsdf/dielectric_surface.hpp"
+#include "spectrum/wavelengths.hpp"
 
 namespace phasetree::tracer {
 
@@ -37,24 +38,28 @@ class CoatingAlbedo {
       public:
         float roughness() const { return roughness_; }
         glm::vec3 fresnel(float cos_theta) const {
-            return albedo_->surface_.fresnel(cos_theta, thickness_).reflectance;
+            return for_light(albedo_->surface_.fresnel(cos_theta, thickness_).reflectance, wavelengths_);
         }
         glm::vec3 directional(float cos_theta) const;  ///< E(μ)
-        glm::vec3 average() const { return average_; }
+        glm::vec3 average() const { return for_light(average_, wavelengths_); }
         glm::vec3 internal() const;
 
       private:
         friend class CoatingAlbedo;
-        At(const CoatingAlbedo& albedo, float roughness, float thickness);
+        At(const CoatingAlbedo& albedo, float roughness, float thickness, const Wavelengths* wavelengths);
 
         const CoatingAlbedo* albedo_;
         float roughness_, thickness_;
+        const Wavelengths* wavelengths_;
         std::size_t below_ =
             0;  ///< the table of the next lower roughness; part_ is the way to the one above, in [0, 1]
         float part_ = 0.0f;
         glm::vec3 average_{0.0f};
     };
-    At at(float roughness, float thickness = 0.0f) const { return At(*this, roughness, thickness); }
+    /// Without wavelengths for red, green and blue. With a film, wavelengths have what its three colours have.
+    At at(float roughness, float thickness = 0.0f, const Wavelengths* wavelengths = nullptr) const {
+        return At(*this, roughness, thickness, wavelengths);
+    }
 
   private:
     static constexpr std::size_t nodes = 160;  ///< at μ = (i / (nodes − 1))², dense where E is steep

@@ -1,5 +1,7 @@
 #include "shading/bsdf/conductor_surface.hpp"
 
+#include <algorithm>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "sampling/ggx.hpp"
@@ -26,29 +28,71 @@ float gets_away(float roughness) {
     return 1.0f / (1.0f + (0.5f + 0.2f * roughness) * roughness);
 }
 
+// 2 ∫ F μ dμ by the midpoint rule.
+template <class Fresnel>
+auto mean_over_cosine(const Fresnel& fresnel) {
+    constexpr int steps = 512;
+    auto sum = 0.0f * fresnel(0.5f);
+    for (int i = 0; i < steps; ++i) {
+        const float mu = (static_cast<float>(i) + 0.5f) / steps;
+        sum += 2.0f * mu / steps * fresnel(mu);
+    }
+    return sum;
+}
+
+// The wavelengths of the table of a spectrum.
+constexpr float first_nanometre = 380.0f, nanometre_step = 5.0f;
+constexpr int spectrum_nodes = 81;
+
 }  // namespace
 
 ConductorSurface::ConductorSurface(float ior, const glm::vec3& eta, const glm::vec3& k,
-                                   const std::optional<ValueRange>& roughness, const std::optional<FilmOfSurface>& film)
-    : eta_(eta / ior), k_(k / ior) {
+                                   const std::optional<ValueRange>& roughness, const std::optional<FilmOfSurface>& film,
+                                   std::span<const MetalPoint> spectrum)
+    : ior_(ior), eta_(eta / ior), k_(k / ior) {
     if (film) film_.emplace(ThinFilm::Layers{ior, film->ior, eta, k}, film->thickness.least, film->thickness.greatest);
+    for (int i = 0; i < spectrum_nodes && !spectrum.empty(); ++i) {
+        const MetalPoint index = index_at(spectrum, first_nanometre + nanometre_step * static_cast<float>(i));
+        AtWavelength at{index.eta / ior, index.k / ior, 0.0f};
+        if (roughness)
+            at.mean_reflectance = mean_over_cosine([&](float mu) { return fresnel_conductor(mu, at.eta, at.k); });
+        spectrum_.push_back(at);
+    }
     if (!roughness) return;
     losses_.emplace(*roughness, losses_of);
-    // The midpoint rule for 2 ∫ F μ dμ.
-    constexpr int steps = 512;
-    for (int i = 0; i < steps; ++i) {
-        const float mu = (static_cast<float>(i) + 0.5f) / steps;
-        mean_reflectance_ += 2.0f * mu / steps * fresnel_conductor(mu, eta_, k_);
+    mean_reflectance_ = mean_over_cosine([&](float mu) { return fresnel_conductor(mu, eta_, k_); });
+}
+
+ConductorSurface::AtWavelength ConductorSurface::at(float nanometres) const {
+    const float position =
+        std::clamp((nanometres - first_nanometre) / nanometre_step, 0.0f, static_cast<float>(spectrum_nodes - 1));
+    const auto below = std::min(static_cast<std::size_t>(position), std::size_t{spectrum_nodes - 2});
+    const float part = position - static_cast<float>(below);
+    const AtWavelength &a = spectrum_[below], &b = spectrum_[below + 1];
+    return {glm::mix(a.eta, b.eta, part), glm::mix(a.k, b.k, part),
+            glm::mix(a.mean_reflectance, b.mean_reflectance, part)};
+}
+
+glm::vec3 ConductorSurface::fresnel(float cos_theta, float thickness, const Wavelengths* wavelengths) const {
+    if (!has_spectrum_for(wavelengths))
+        return for_light(film_ ? film_->reflectance(cos_theta, thickness) : fresnel_conductor(cos_theta, eta_, k_),
+                         wavelengths);
+    glm::vec3 eta, k;
+    for (int i = 0; i < 3; ++i) {
+        const AtWavelength index = at(wavelengths->nanometres[i]);
+        eta[i] = index.eta;
+        k[i] = index.k;
     }
+    return film_ ? film_->reflectance_at(wavelengths->nanometres, eta * ior_, k * ior_, cos_theta, thickness)
+                 : fresnel_conductor(cos_theta, eta, k);
 }
 
-glm::vec3 ConductorSurface::fresnel(float cos_theta, float thickness) const {
-    return film_ ? film_->reflectance(cos_theta, thickness) : fresnel_conductor(cos_theta, eta_, k_);
-}
-
-ConductorSurface::Multiple ConductorSurface::multiple(float roughness, float thickness) const {
+ConductorSurface::Multiple ConductorSurface::multiple(float roughness, float thickness,
+                                                      const Wavelengths* wavelengths) const {
     const LossTables::At losses = losses_->at(roughness);
-    const glm::vec3 f = film_ ? film_->average(thickness) : mean_reflectance_;
+    glm::vec3 f = for_light(film_ ? film_->average(thickness) : mean_reflectance_, wavelengths);
+    if (!film_ && has_spectrum_for(wavelengths))
+        for (int i = 0; i < 3; ++i) f[i] = at(wavelengths->nanometres[i]).mean_reflectance;
     const float q = gets_away(roughness);
     return {losses, f * f * q / (1.0f - f * (1.0f - q))};
 }

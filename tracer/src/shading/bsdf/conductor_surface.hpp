@@ -8,15 +8,22 @@
 // fitted q to walks on the microsurface: the light that meets the surface again gets away more readily than that which
 // comes from outside, of which the part 1 − L̄ does.
 //
+// At wavelengths the index is that of the metal's spectrum, which is kept every few nanometres. What a film on a rough
+// metal makes of F̄ is taken from its colours there.
+//
 // Reference: Kulla & Conty 2017 (lost_energy.hpp), and for the square of F̄ Hill, A Multi-Faceted Exploration, 2018.
 #pragma once
 
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "shading/bsdf/film_of_surface.hpp"
 #include "shading/bsdf/lost_energy.hpp"
+#include "shading/metals.hpp"
 #include "shading/thin_film.hpp"
+#include "spectrum/wavelengths.hpp"
 
 namespace phasetree::tracer {
 
@@ -24,10 +31,14 @@ class ConductorSurface {
   public:
     /// The index η + ik is that against vacuum, as is `ior` of the clear medium in front. `roughness` is that of GGX,
     /// for a surface that is rough somewhere.
+    /// `spectrum` is the same index by wavelength, if it is known; without it light of wavelengths is reflected as
+    /// red, green and blue are that look like it.
     ConductorSurface(float ior, const glm::vec3& eta, const glm::vec3& k,
-                     const std::optional<ValueRange>& roughness = {}, const std::optional<FilmOfSurface>& film = {});
+                     const std::optional<ValueRange>& roughness = {}, const std::optional<FilmOfSurface>& film = {},
+                     std::span<const MetalPoint> spectrum = {});
 
-    glm::vec3 fresnel(float cos_theta, float thickness) const;
+    /// For light of wavelengths, or for red, green and blue.
+    glm::vec3 fresnel(float cos_theta, float thickness, const Wavelengths* wavelengths = nullptr) const;
 
     /// Of the lobe after several scatterings at a place of that roughness: what single scattering loses, and the part
     /// of it that this metal gives back.
@@ -35,13 +46,24 @@ class ConductorSurface {
         LossTables::At losses;
         glm::vec3 reflected;
     };
-    Multiple multiple(float roughness, float thickness) const;
+    Multiple multiple(float roughness, float thickness, const Wavelengths* wavelengths = nullptr) const;
 
   private:
+    // The index relative to the medium in front, and F̄ without a film, at a wavelength.
+    struct AtWavelength {
+        float eta, k, mean_reflectance;
+    };
+    AtWavelength at(float nanometres) const;
+    bool has_spectrum_for(const Wavelengths* wavelengths) const {
+        return wavelengths && wavelengths->is_spectral && !spectrum_.empty();
+    }
+
+    float ior_;
     glm::vec3 eta_, k_;  ///< relative to the medium in front
     std::optional<ThinFilm> film_;
     std::optional<LossTables> losses_;
-    glm::vec3 mean_reflectance_{0.0f};  ///< F̄ without a film
+    glm::vec3 mean_reflectance_{0.0f};    ///< F̄ without a film
+    std::vector<AtWavelength> spectrum_;  ///< every few nanometres; empty if the spectrum is not known
 };
 
 }  // namespace phasetree::tracer

@@ -43,11 +43,19 @@ DielectricSurface DielectricSurface::reversed() const {
 }
 
 DielectricSurface::Fresnel DielectricSurface::fresnel(float cos_theta, float thickness) const {
+    return fresnel(cos_theta, thickness, nullptr);
+}
+
+DielectricSurface::Fresnel DielectricSurface::fresnel(float cos_theta, float thickness,
+                                                      const Wavelengths* wavelengths) const {
     const auto [reflectance, cos_transmitted] = fresnel_dielectric(cos_theta, eta_);
     if (!film_) return {glm::vec3(reflectance), cos_transmitted};
     if (reflectance == 1.0f) return {glm::vec3(1.0f), cos_transmitted};
     // Both ways a film without losses reflects the same, so that one table, without an edge of total reflection, does.
-    return {film_->reflectance(eta_ < 1.0f ? cos_transmitted : cos_theta, thickness), cos_transmitted};
+    const float cosine = eta_ < 1.0f ? cos_transmitted : cos_theta;
+    if (wavelengths && wavelengths->is_spectral)
+        return {film_->reflectance_at(wavelengths->nanometres, cosine, thickness), cos_transmitted};
+    return {for_light(film_->reflectance(cosine, thickness), wavelengths), cos_transmitted};
 }
 
 DielectricSurface::Side DielectricSurface::side(const ValueRange& roughness) const {

@@ -17,6 +17,7 @@
 #include "shading/bsdf/thin_films.hpp"
 #include "shading/fresnel.hpp"
 #include "shading/thin_film.hpp"
+#include "spectrum/wavelengths.hpp"
 
 namespace phasetree::tracer {
 
@@ -48,7 +49,10 @@ class DielectricSurface {
         glm::vec3 reflectance;
         float cos_transmitted;
     };
+    /// For red, green and blue.
     Fresnel fresnel(float cos_theta, float thickness) const;
+    /// For light of wavelengths, or of colours without any: a film reflects exactly what it does at each wavelength.
+    Fresnel fresnel(float cos_theta, float thickness, const Wavelengths* wavelengths) const;
 
     /// Of the lobes after several scatterings at a place of that roughness.
     struct Multiple {

@@ -19,7 +19,8 @@ class RoughConductorBsdf {
   public:
     /// The surface is shared by all points of an interface and must outlive the BSDF; `roughness` is within its range,
     /// and so is the thickness of its film in nanometres.
-    RoughConductorBsdf(const ConductorSurface& surface, float roughness, float thickness = 0.0f);
+    RoughConductorBsdf(const ConductorSurface& surface, float roughness, float thickness = 0.0f,
+                       const Wavelengths* wavelengths = nullptr);
 
     std::optional<BsdfSample> sample(const glm::vec3& wo, float u_lobe, const glm::vec2& u) const;
     glm::vec3 evaluate(const glm::vec3& wo, const glm::vec3& wi) const;
@@ -39,6 +40,7 @@ class RoughConductorBsdf {
     const ConductorSurface* surface_;
     Ggx ggx_;
     float thickness_;
+    const Wavelengths* wavelengths_;
     ConductorSurface::Multiple multiple_;
 };
 

@@ -9,8 +9,10 @@
 
 namespace phasetree::tracer {
 
-RoughDielectricBsdf::RoughDielectricBsdf(const DielectricSurface& surface, float roughness)
+RoughDielectricBsdf::RoughDielectricBsdf(const DielectricSurface& surface, float roughness,
+                                         const Wavelengths* wavelengths)
     : surface_(&surface),
+      wavelengths_(surface.has_film() ? wavelengths : nullptr),
       ggx_(roughness),
       eta_(surface.eta()),
       multiple_(surface.multiple(roughness)),
@@ -71,6 +73,7 @@ RoughDielectricBsdf::Scattered RoughDielectricBsdf::scattered(const glm::vec3& w
             sum.pdf += (1.0f - again) * single.pdf;
         }
     }
+    sum.value = for_light(sum.value, wavelengths_);
     return sum;
 }
 

@@ -30,7 +30,9 @@ namespace phasetree::tracer {
 class RoughDielectricBsdf {
   public:
     /// The surface is shared by all points of an interface and must outlive the BSDF; `roughness` is within its range.
-    RoughDielectricBsdf(const DielectricSurface& surface, float roughness);
+    /// Light of wavelengths is scattered as red, green and blue are that look like it, which makes a difference with a
+    /// film: so what is scattered once and what is scattered more often stay together all of the light.
+    RoughDielectricBsdf(const DielectricSurface& surface, float roughness, const Wavelengths* wavelengths = nullptr);
 
     std::optional<BsdfSample> sample(const glm::vec3& wo, float u_lobe, const glm::vec2& u) const;
     glm::vec3 evaluate(const glm::vec3& wo, const glm::vec3& wi) const;
@@ -55,6 +57,7 @@ class RoughDielectricBsdf {
     Scattered scattered(const glm::vec3& wo, const glm::vec3& wi, const std::optional<glm::vec3>& m) const;
 
     const DielectricSurface* surface_;
+    const Wavelengths* wavelengths_;  ///< null where there is no film
     Ggx ggx_;
     float eta_;
     DielectricSurface::Multiple multiple_;

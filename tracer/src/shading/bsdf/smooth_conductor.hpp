@@ -15,12 +15,13 @@ class SmoothConductorBsdf {
   public:
     /// The surface is shared by all points of an interface and must outlive the BSDF; the thickness of its film is in
     /// nanometres, and within the surface's range.
-    explicit SmoothConductorBsdf(const ConductorSurface& surface, float thickness = 0.0f)
-        : surface_(&surface), thickness_(thickness) {}
+    explicit SmoothConductorBsdf(const ConductorSurface& surface, float thickness = 0.0f,
+                                 const Wavelengths* wavelengths = nullptr)
+        : surface_(&surface), thickness_(thickness), wavelengths_(wavelengths) {}
 
     std::optional<BsdfSample> sample(const glm::vec3& wo, float /*u_lobe*/, const glm::vec2& /*u*/) const {
         if (!(wo.z > 0.0f)) return std::nullopt;
-        return BsdfSample{{-wo.x, -wo.y, wo.z}, surface_->fresnel(wo.z, thickness_), 1.0f, true, false};
+        return BsdfSample{{-wo.x, -wo.y, wo.z}, surface_->fresnel(wo.z, thickness_, wavelengths_), 1.0f, true, false};
     }
     glm::vec3 evaluate(const glm::vec3& /*wo*/, const glm::vec3& /*wi*/) const { return glm::vec3{0.0f}; }
     float pdf(const glm::vec3& /*wo*/, const glm::vec3& /*wi*/) const { return 0.0f; }
@@ -30,6 +31,7 @@ class SmoothConductorBsdf {
   private:
     const ConductorSurface* surface_;
     float thickness_;
+    const Wavelengths* wavelengths_;
 };
 
 }  // namespace phasetree::tracer

@@ -23,7 +23,8 @@ class SmoothDielectricBsdf {
     SmoothDielectricBsdf(float ior_from, float ior_to);
     /// The surface is shared by all points of an interface and must outlive the BSDF; the thickness of its film is in
     /// nanometres, and within the surface's range.
-    explicit SmoothDielectricBsdf(const DielectricSurface& surface, float thickness = 0.0f);
+    explicit SmoothDielectricBsdf(const DielectricSurface& surface, float thickness = 0.0f,
+                                  const Wavelengths* wavelengths = nullptr);
 
     std::optional<BsdfSample> sample(const glm::vec3& wo, float u_lobe, const glm::vec2& u) const;
     glm::vec3 evaluate(const glm::vec3& /*wo*/, const glm::vec3& /*wi*/) const { return glm::vec3{0.0f}; }
@@ -36,6 +37,7 @@ class SmoothDielectricBsdf {
     float radiance_factor_;
     const DielectricSurface* film_ = nullptr;  ///< the surface, if it has a film
     float thickness_ = 0.0f;
+    const Wavelengths* wavelengths_ = nullptr;
 };
 
 }  // namespace phasetree::tracer

@@ -12,6 +12,7 @@
 #include "phasetree/io/kind.hpp"
 #include "shading/texture/field_value.hpp"
 #include "shading/texture/texture_point.hpp"
+#include "spectrum/wavelengths.hpp"
 
 namespace phasetree::tracer {
 
@@ -44,6 +45,7 @@ struct FieldTexture {
     void prepare() { value = FieldValue(of); }
 
     glm::vec3 at(const TexturePoint& p) const;
+    glm::vec3 at(const TexturePoint& p, const Wavelengths& wavelengths) const;
 };
 
 }  // namespace phasetree::tracer

@@ -13,6 +13,7 @@
 #include "shading/texture/field.hpp"
 #include "shading/texture/image.hpp"
 #include "shading/texture/marble.hpp"
+#include "shading/texture/measured.hpp"
 #include "shading/texture/mesh_image.hpp"
 #include "shading/texture/speckle.hpp"
 #include "shading/texture/wood.hpp"
@@ -21,8 +22,8 @@ namespace phasetree::tracer {
 
 // Those that a scene file names, with their parameters: one list, from which the reader, the reference and the schema
 // follow. A colour by itself is the constant one.
-using NamedTextures =
-    TypeList<WoodTexture, SpeckleTexture, MarbleTexture, CheckerTexture, FieldTexture, ImageTexture, MeshImageTexture>;
+using NamedTextures = TypeList<WoodTexture, SpeckleTexture, MarbleTexture, CheckerTexture, FieldTexture, ImageTexture,
+                               MeshImageTexture, MeasuredTexture>;
 
 /// A kind of texture, once its contract has been asked of it. If it does not meet that, the message names the kind and
 /// the member.
@@ -46,18 +47,33 @@ struct TextureStop {
     Texture texture;
 };
 
-/// The texture's colour at a place, for any place whatever: TextureKind's at() is asked within its limits only.
-inline glm::vec3 color_at(const Texture& texture, TexturePoint point) {
+/// The texture's colour at a place, as a path takes it, for any place whatever: TextureKind's at() is asked within its
+/// limits only.
+inline glm::vec3 color_at(const Texture& texture, TexturePoint point, const Wavelengths* wavelengths = nullptr) {
     // Where floats resolve no texture any more, and for what is no position, it is the colour of the origin.
     const glm::vec3& p = point.position;
     if (!(std::abs(p.x) < 1e9f && std::abs(p.y) < 1e9f && std::abs(p.z) < 1e9f)) point.position = glm::vec3(0.0f);
     return std::visit(
-        [&](const auto& kind) {
-            if constexpr (
-                requires { kind.at(point.position); } && !requires { kind.at(point); })
-                return kind.at(point.position);
-            else
-                return kind.at(point);
+        [&]<class Kind>(const Kind& kind) {
+            constexpr bool is_solid = requires {
+                kind.at(point.position);
+            }
+            &&!requires {
+                kind.at(point);
+            };
+            const auto& place = [&]() -> const auto& {
+                if constexpr (is_solid)
+                    return point.position;
+                else
+                    return point;
+            }
+            ();
+            if constexpr (requires { kind.at(place, *wavelengths); }) {
+                if (wavelengths) return kind.at(place, *wavelengths);
+                return kind.at(place);
+            } else {
+                return for_light(kind.at(place), wavelengths);
+            }
         },
         texture);
 }

@@ -1,0 +1,34 @@
+// A colour that was measured: the share of light that is reflected at each wavelength. Light of red, green and blue is
+// reflected by the colour that it has in daylight, D65.
+#pragma once
+
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+
+#include "phasetree/io/kind.hpp"
+#include "spectrum/spectrum.hpp"
+
+namespace phasetree::tracer {
+
+/// A list of points, [[wavelength, value], …], of which the wavelengths rise.
+struct SpectrumParameter : Parameter {};
+
+struct MeasuredTexture {
+    static constexpr KindInfo info{"measured", "A colour by its spectrum, as it was measured."};
+
+    SharedSpectrum reflectance{};
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&MeasuredTexture::reflectance,
+          SpectrumParameter{{"reflectance", "nm", "Wavelengths and the share of light that is reflected at each.",
+                             limits::fraction}});
+    }
+
+    glm::vec3 at(const glm::vec3& /*position*/) const { return glm::clamp(reflectance->colour(), 0.0f, 1.0f); }
+    glm::vec3 at(const glm::vec3& position, const Wavelengths& wavelengths) const {
+        return wavelengths.is_spectral ? reflectance->at(wavelengths) : for_light(at(position), &wavelengths);
+    }
+};
+
+}  // namespace phasetree::tracer
