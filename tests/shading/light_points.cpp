@@ -76,7 +76,7 @@ TEST_CASE("point light: what it brings belongs to its group") {
     for (const float u : {0.1f, 0.9f}) {
         const auto sample = lights.sample(glm::vec3(0, 0, 0), {u, 0.5f});
         REQUIRE(sample);
-        lights.add_to_groups(glm::vec3(1.0f), sample->source, sample->wi, groups);
+        lights.add_to_groups(glm::vec3(1.0f), nullptr, sample->source, sample->wi, groups);
     }
     CHECK(groups == std::vector<glm::vec3>{glm::vec3(0.0f), glm::vec3(1.0f), glm::vec3(1.0f)});
 }

@@ -120,6 +120,12 @@ TEST_CASE("any number of threads, any crop, with photons and a guide") {
     check_threads_and_crop(everything(true, true));
 }
 
+TEST_CASE("any number of threads, any crop, with wavelengths, photons and a guide") {
+    Scene scene = everything(true, true);
+    scene.settings.spectral = true;
+    check_threads_and_crop(scene);
+}
+
 TEST_CASE("any instruction set") {
     const Scene scene = everything();
     const World world(scene);

@@ -333,6 +333,32 @@ TEST_CASE("measured spectra: of light, of what reflects it, and of what absorbs 
                  3.0 * (1 - std::exp(-1.0)) * of_bulb);
 }
 
+TEST_CASE("groups of lights at infinity have their shares at each wavelength") {
+    const std::string bulb = R"({"constant": {"spectrum": {"blackbody": 2700}, "group": "bulb"}})";
+    const std::string sky = R"({"constant": {"radiance": [0.2, 0.4, 1], "group": "sky"}})";
+    const auto scene_with = [&](const std::string& lights) {
+        return spectral_scene(
+            R"("a": {"clear": {"ior": 1, "absorption_spectrum": [[400, 4], [560, 0.2], [590, 6], [610, 0.3]]}})",
+            slab_of_a, R"("lights": [)" + lights + "]");
+    };
+    const Scene both = scene_with(bulb + ", " + sky);
+    const World world(both);
+    PathCounters counters;
+    const Ray ray{glm::vec3(-1, 0, 0), glm::vec3(1, 0, 0), world.geometry().label({-1, 0, 0}), {}};
+    std::vector<glm::dvec3> groups(3);
+    constexpr int count = 1 << 14;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        Sampler sampler(0, 0, i, 3);
+        PathRecord record;
+        trace_path(world, both, ray, sampler, counters, &record);
+        REQUIRE(record.groups.size() == groups.size());
+        for (std::size_t g = 0; g < groups.size(); ++g) groups[g] += glm::dvec3(record.groups[g]) / double{count};
+    }
+    CHECK(groups[0] == glm::dvec3(0.0));  // that of lights without a group
+    check_colour(groups[1], mean_of_pixel(scene_with(bulb), ray.origin, ray.direction));
+    check_colour(groups[2], mean_of_pixel(scene_with(sky), ray.origin, ray.direction));
+}
+
 TEST_CASE("all techniques find the same light of a lamp with a spectrum, of a point too") {
     for (const char* const lamp : {R"({"sphere": {"centre": [0.6, 0, 3], "radius": 0.4, "radiance": [20, 20, 20],
                                                   "spectrum": {"blackbody": 3000}}})",

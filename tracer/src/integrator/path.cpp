@@ -124,10 +124,9 @@ class Path {
     // that at these, and becomes a colour here.
     void add_light(const glm::vec3& found, const LightSource& source, const glm::vec3& direction,
                    bool is_to_be_scattered) {
-        const glm::vec3 radiance = now_ ? now_->to_rgb * found : found;
-        radiance_ += radiance;
+        radiance_ += colour_of_found(found, now_);
         guiding_.add_light(found);
-        recorder_.add_light(radiance, source, direction, is_to_be_scattered);
+        recorder_.add_light(found, now_, source, direction, is_to_be_scattered);
     }
 
     // What a flight past `distance` would leave of red, green and blue. Of a medium that scatters it is taken to be

@@ -35,10 +35,10 @@ void PathRecorder::scattered(const Surface& surface, bool is_delta, bool is_link
     record_->behind = met;
 }
 
-void PathRecorder::add_to_parts(const glm::vec3& radiance, const LightSource& source, const glm::vec3& direction,
-                                bool is_to_be_scattered) {
-    if (scatterings_ + (is_to_be_scattered ? 1 : 0) <= 1) record_->direct += radiance;
-    lights_.add_to_groups(radiance, source, direction, record_->groups);
+void PathRecorder::add_to_parts(const glm::vec3& found, const Wavelengths* wavelengths, const LightSource& source,
+                                const glm::vec3& direction, bool is_to_be_scattered) {
+    if (scatterings_ + (is_to_be_scattered ? 1 : 0) <= 1) record_->direct += colour_of_found(found, wavelengths);
+    lights_.add_to_groups(found, wavelengths, source, direction, record_->groups);
 }
 
 }  // namespace phasetree::tracer

@@ -38,11 +38,12 @@ class PathRecorder {
         if (record_) ++scatterings_;
     }
 
-    /// The path brings radiance, of a light that was seen in the direction. `is_to_be_scattered` says that a shadow
-    /// ray or a photon brought it to the place of which scattered() or scattered_in_medium() is to tell next.
-    void add_light(const glm::vec3& radiance, const LightSource& source, const glm::vec3& direction,
-                   bool is_to_be_scattered) {
-        if (record_) add_to_parts(radiance, source, direction, is_to_be_scattered);
+    /// The path brings light that was seen in the direction, of wavelengths or of red, green and blue.
+    /// `is_to_be_scattered` says that a shadow ray or a photon brought it to the place of which scattered() or
+    /// scattered_in_medium() is to tell next.
+    void add_light(const glm::vec3& found, const Wavelengths* wavelengths, const LightSource& source,
+                   const glm::vec3& direction, bool is_to_be_scattered) {
+        if (record_) add_to_parts(found, wavelengths, source, direction, is_to_be_scattered);
     }
 
     /// The path has ended.
@@ -53,8 +54,8 @@ class PathRecorder {
   private:
     void begin(const Scene& scene);
     void add_length(Phase phase, float distance);
-    void add_to_parts(const glm::vec3& radiance, const LightSource& source, const glm::vec3& direction,
-                      bool is_to_be_scattered);
+    void add_to_parts(const glm::vec3& found, const Wavelengths* wavelengths, const LightSource& source,
+                      const glm::vec3& direction, bool is_to_be_scattered);
 
     PathRecord* record_;
     const Lights& lights_;

@@ -102,8 +102,9 @@ void Lights::cluster_lamps() {
     tree_ = LightTree::of(lamps);
 }
 
-void Lights::add_to_groups(const glm::vec3& radiance, const LightSource& source, const glm::vec3& direction,
-                           std::span<glm::vec3> groups) const {
+void Lights::add_to_groups(const glm::vec3& found, const Wavelengths* wavelengths, const LightSource& source,
+                           const glm::vec3& direction, std::span<glm::vec3> groups) const {
+    const glm::vec3 radiance = colour_of_found(found, wavelengths);
     const auto is_like_first = [&](std::size_t group) { return group == infinite_group_.front(); };
     if (const auto* area = std::get_if<OfAreaLight>(&source)) {
         groups[area_group_[area->index]] += radiance;
@@ -116,11 +117,13 @@ void Lights::add_to_groups(const glm::vec3& radiance, const LightSource& source,
     } else if (std::ranges::all_of(infinite_group_, is_like_first)) {
         groups[infinite_group_.front()] += radiance;
     } else {
-        const glm::vec3 all = infinite_radiance(direction, nullptr);
+        const glm::vec3 all = infinite_radiance(direction, wavelengths);
         for (std::size_t i = 0; i < infinite_.size(); ++i) {
-            const glm::vec3 part = radiance_of_infinite(i, direction, nullptr);
+            const glm::vec3 part = radiance_of_infinite(i, direction, wavelengths);
+            glm::vec3 share(0.0f);
             for (int c = 0; c < 3; ++c)
-                if (all[c] > 0) groups[infinite_group_[i]][c] += radiance[c] * (part[c] / all[c]);
+                if (all[c] > 0) share[c] = found[c] * (part[c] / all[c]);
+            groups[infinite_group_[i]] += colour_of_found(share, wavelengths);
         }
     }
 }

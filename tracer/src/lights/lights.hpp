@@ -115,11 +115,11 @@ class Lights {
     std::size_t group_of(std::string_view name);
     /// The names of the groups, default_group first.
     const std::vector<std::string>& groups() const { return groups_; }
-    /// Adds radiance, which came of a light that was seen in the direction, to that light's group. What came
-    /// of infinite lights in several groups is shared out as they shine in that direction; it then adds up to the
-    /// radiance but for rounding. `groups` is as long as groups().
-    void add_to_groups(const glm::vec3& radiance, const LightSource& source, const glm::vec3& direction,
-                       std::span<glm::vec3> groups) const;
+    /// Adds what a path found of a light that was seen in the direction, as a colour, to that light's group: of light
+    /// of wavelengths or of red, green and blue. What came of infinite lights in several groups is shared out as they
+    /// shine in that direction; it then adds up to the colour of all but for rounding. `groups` is as long as groups().
+    void add_to_groups(const glm::vec3& found, const Wavelengths* wavelengths, const LightSource& source,
+                       const glm::vec3& direction, std::span<glm::vec3> groups) const;
 
     /// Whether there are none, glowing parts left aside.
     bool empty() const { return infinite_.empty() && area_.empty() && points_.empty(); }

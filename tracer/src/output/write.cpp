@@ -29,7 +29,7 @@ void write_layers(const Image& image, const std::filesystem::path& path, const M
     std::optional<OutputError> first_error;
     std::vector<Layer> layers = layers_of(image);
     // The picture comes first there. Here it is written last, so that where its file is the others are, too.
-    std::ranges::rotate(layers, layers.begin() + 1);
+    std::rotate(layers.begin(), layers.begin() + 1, layers.end());
     for (const Layer& layer : layers) try {
             write_encoded(file_of_plane(path, layer.name), [&] { return encode_layer(image, layer, metadata); });
         } catch (const OutputError& error) {

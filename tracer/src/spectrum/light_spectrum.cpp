@@ -15,9 +15,11 @@ constexpr int first_nanometre = 380, last_nanometre = 780;
 
 Spectrum relative_to_daylight(const Spectrum& power) {
     std::vector<Spectrum::Point> points;
+    // Over the greatest, so that no float is too large or too small whatever the unit is.
+    const double unit = power.greatest() > 0.0f ? static_cast<double>(power.greatest()) : 1.0;
     for (int nm = first_nanometre; nm <= last_nanometre; ++nm) {
         const auto at = static_cast<float>(nm);
-        points.push_back({at, power.at(at) / static_cast<float>(daylight_at(nm))});
+        points.push_back({at, static_cast<float>(static_cast<double>(power.at(at)) / unit / daylight_at(nm))});
     }
     const float brightness = luminance(Spectrum(points).colour());
     for (Spectrum::Point& point : points) point.value = brightness > 0.0f ? point.value / brightness : 0.0f;

@@ -50,4 +50,9 @@ inline glm::vec3 for_light(const glm::vec3& rgb, const Wavelengths* wavelengths)
     return wavelengths ? rgb * wavelengths->primaries : rgb;
 }
 
+/// What a path finds in the end, of its wavelengths if it has any, as red, green and blue.
+inline glm::vec3 colour_of_found(const glm::vec3& found, const Wavelengths* wavelengths) {
+    return wavelengths ? wavelengths->to_rgb * found : found;
+}
+
 }  // namespace phasetree::tracer
