@@ -55,6 +55,32 @@ TEST_CASE("Owen scrambling: a bit depends on the bits above it only, and on all 
     }
 }
 
+TEST_CASE("sampler: numbers that are evenly spaced over a power of two of samples, and uniform over pixels") {
+    for (const std::uint32_t count : {8u, 64u}) {
+        std::vector<float> numbers;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            Sampler sampler(17, 23, 3 * count + i, 4);
+            sampler.next2();
+            numbers.push_back(sampler.next_evenly());
+        }
+        std::ranges::sort(numbers);
+        for (std::size_t i = 1; i < count; ++i)
+            CHECK(numbers[i] - numbers[i - 1] == doctest::Approx(1.0f / static_cast<float>(count)).epsilon(1e-5));
+    }
+    double sum = 0, of_squares = 0;
+    constexpr std::uint32_t pixels = 40000;
+    for (std::uint32_t x = 0; x < pixels; ++x) {
+        const double u = static_cast<double>(Sampler(x, 5, 11, 4).next_evenly());
+        REQUIRE(u >= 0);
+        REQUIRE(u < 1);
+        sum += u;
+        of_squares += u * u;
+    }
+    // Five standard errors.
+    CHECK(std::abs(sum / pixels - 0.5) < 5 * std::sqrt(1.0 / 12 / pixels));
+    CHECK(std::abs(of_squares / pixels - 1.0 / 3) < 5 * std::sqrt(4.0 / 45 / pixels));
+}
+
 TEST_CASE("sampler: every aligned power of two of samples is a (0,m,2)-net") {
     for (std::uint32_t m = 1; m <= 10; ++m) {
         const std::uint32_t count = 1u << m;

@@ -133,7 +133,7 @@ TEST_CASE("dispersion adds and loses nothing: a furnace, and glass that hardly d
     const std::string ball = R"({"set": {"phase": "glass", "of": {"sphere": {"radius": 1}}}})";
     const double significance = sidak(1e-4, 9);
     const Scene furnace = scene_of(R"("glass": {"clear": {"glass": "diamond"}})", ball);
-    const auto seen = radiance_along(World(furnace), furnace, {0, -5, 0.4f}, {0.05f, 1, 0}, 40000);
+    const auto seen = radiance_along(World(furnace), furnace, {0, -5, 0.4f}, {0.05f, 1, 0}, 60000);
     for (const Moments& m : seen) {
         CHECK(mean_p_value(m, 1.0, 1e-3) > significance);
         CHECK(mean_p_value(m, 1.05, 1e-3) < significance);

@@ -68,6 +68,8 @@ void check_colour(const glm::dvec3& found, const glm::dvec3& expected, double pa
     CHECK_FALSE(is_near(1.01 * found));
 }
 
+const WavelengthDistribution by_response;
+
 const std::string ball_of_a = R"({"set": {"phase": "a", "of": {"sphere": {"radius": 1}}}})";
 // Between x = 0 and 0.5.
 const std::string slab_of_a =
@@ -79,7 +81,7 @@ TEST_CASE("wavelengths of a path: each is chosen as one alone would be, and whit
     glm::dvec3 white(0.0);
     constexpr int count = 3000;
     for (int i = 0; i < count; ++i) {
-        const Wavelengths all = Wavelengths::three((static_cast<float>(i) + 0.5f) / count);
+        const Wavelengths all = Wavelengths::three((static_cast<float>(i) + 0.5f) / count, by_response);
         white += glm::dvec3(all.to_rgb * glm::vec3(1.0f));
         for (int k = 0; k < 3; ++k) {
             // The shares of the density that are below two of them are a third apart.
@@ -90,6 +92,45 @@ TEST_CASE("wavelengths of a path: each is chosen as one alone would be, and whit
         }
     }
     check_colour(white / static_cast<double>(count), glm::dvec3(1.0), 1e-3);
+}
+
+TEST_CASE("wavelengths are chosen where lights shine, and colours stay what they are") {
+    const std::string bands =
+        "[[430, 0], [447, 3.6], [464, 0], [536, 0], [546, 8.2], [556, 0], [601, 0], [611, 4.9], [621, 0]]";
+    const auto scene_with = [&](const std::string& light) {
+        return spectral_scene(R"("a": {"diffuse": {"color": [0.8, 0.3, 0.1]}})", ball_of_a,
+                              R"("lights": [{"constant": {)" + light + "}}]");
+    };
+    const Scene in_bands = scene_with("\"spectrum\": " + bands), by_day = scene_with("");
+    const World narrow(in_bands), day(by_day);
+    int within = 0, by_day_within = 0;
+    constexpr int count = 2000;
+    const auto is_in_band = [](float nm) {
+        return std::abs(nm - 447) < 17 || std::abs(nm - 546) < 10 || std::abs(nm - 611) < 10;
+    };
+    glm::dvec3 white(0.0);
+    for (int i = 0; i < count; ++i) {
+        const float u = (static_cast<float>(i) + 0.5f) / count;
+        const Wavelengths all = narrow.wavelengths(u);
+        white += glm::dvec3(all.to_rgb * glm::vec3(1.0f)) / double{count};
+        within += is_in_band(all.hero());
+        by_day_within += is_in_band(day.wavelengths(u).hero());
+    }
+    check_colour(white, glm::dvec3(1.0), 3e-3);
+    CHECK(within > 0.6 * count);
+    CHECK(by_day_within < 0.4 * count);
+    const Spectrum power(
+        {{430, 0}, {447, 3.6f}, {464, 0}, {536, 0}, {546, 8.2f}, {556, 0}, {601, 0}, {611, 4.9f}, {621, 0}});
+    const auto relative = [&](double nm) {
+        return static_cast<double>(power.at(static_cast<float>(nm))) / daylight_at(nm);
+    };
+    const glm::dvec3 of_lamp = colour_of([&](double nm, const glm::vec3&) { return relative(nm); });
+    const double brightness = 0.2126 * of_lamp.x + 0.7152 * of_lamp.y + 0.0722 * of_lamp.z;
+    const glm::vec3 paint(0.8f, 0.3f, 0.1f);
+    check_colour(mean_of_pixel(in_bands, {0, -5, 0.3f}, {0, 1, 0}),
+                 colour_of([&](double nm, const glm::vec3& primaries) {
+                     return relative(nm) / brightness * static_cast<double>(glm::dot(primaries, paint));
+                 }));
 }
 
 TEST_CASE("spectral furnace: all kinds of surfaces and media give back what they got") {
@@ -169,7 +210,7 @@ TEST_CASE("metals reflect each wavelength as they were measured, with an oxide t
 TEST_CASE("at three wavelengths a metal is one whose red, green and blue have its index there") {
     const Metal copper = find_metal("copper").value();
     for (const float u : {0.0f, 0.2f, 0.31f}) {
-        const Wavelengths at = Wavelengths::three(u);
+        const Wavelengths at = Wavelengths::three(u, by_response);
         glm::vec3 eta, k;
         for (int i = 0; i < 3; ++i) {
             const MetalPoint index = index_at(copper.spectrum, at.nanometres[i]);
@@ -196,7 +237,7 @@ TEST_CASE("at three wavelengths a metal is one whose red, green and blue have it
 }
 
 TEST_CASE("a soap film reflects each wavelength by itself, from either side") {
-    const Wavelengths at = Wavelengths::three(0.27f);
+    const Wavelengths at = Wavelengths::three(0.27f, by_response);
     for (const auto& [from, to] : {std::pair(1.0f, 1.0f), std::pair(1.0f, 1.5f), std::pair(1.5f, 1.0f)}) {
         const DielectricSurface surface(from, to, {}, FilmOfSurface{1.33f, {420.0f, 420.0f}});
         const SmoothDielectricBsdf bsdf(surface, 420.0f, &at);
@@ -304,7 +345,7 @@ TEST_CASE("measured spectra: of light, of what reflects it, and of what absorbs 
     const auto check_xy = [](float kelvin, double x, double y) {
         glm::dvec3 xyz(0.0);
         const LightSpectrum light = LightSpectrum::of_temperature(kelvin);
-        const Wavelengths at = Wavelengths::three(0.1f);
+        const Wavelengths at = Wavelengths::three(0.1f, by_response);
         CHECK(light.light(glm::vec3(1.0f), &at) != light.light(glm::vec3(1.0f), nullptr));
         for (double nm = 380.5; nm < 780; ++nm)
             xyz += std::pow(nm, -5) / (std::exp(1.438776877e7 / (static_cast<double>(kelvin) * nm)) - 1) *

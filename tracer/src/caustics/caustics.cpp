@@ -69,7 +69,7 @@ float Caustics::time(int pass) const {
 std::optional<Wavelengths> Caustics::wavelengths(int pass) const {
     if (!world_.needs_wavelengths()) return std::nullopt;
     Sampler sampler(column_of_passes, 0, static_cast<std::uint32_t>(pass), scene_.settings.seed);
-    return world_.wavelengths(sampler.next());
+    return world_.wavelengths(sampler.next_evenly());
 }
 
 // What a photon is worth is its power times the weight that it has in the first pass against the other techniques: on a

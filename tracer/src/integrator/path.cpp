@@ -38,11 +38,10 @@ class Path {
           ray_(ray),
           camera_ior_(clear_at(scene, ray.phase).ior),
           recorder_(record, scene) {
-        // Photons have wavelengths, and the paths that gather them have the same. Without photons they are chosen by
-        // the first number that a path draws, which is spread the most evenly over the samples of a pixel.
+        // Photons have wavelengths, and the paths that gather them have the same.
         if (!world.needs_wavelengths()) return;
         wavelengths_ =
-            photons_ && photons_.map->wavelengths() ? *photons_.map->wavelengths() : world.wavelengths(sampler.next());
+            photons_ && photons_.map->wavelengths() ? *photons_.map->wavelengths() : world.wavelengths(sampler.next_evenly());
         if (wavelengths_->is_spectral) now_ = &*wavelengths_;
     }
 

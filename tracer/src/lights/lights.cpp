@@ -128,6 +128,13 @@ void Lights::add_to_groups(const glm::vec3& found, const Wavelengths* wavelength
     }
 }
 
+std::vector<SharedLightSpectrum> Lights::spectra() const {
+    std::vector<SharedLightSpectrum> all;
+    for (const auto* const of_kind : {&infinite_spectrum_, &area_spectrum_, &point_spectrum_})
+        all.insert(all.end(), of_kind->begin(), of_kind->end());
+    return all;
+}
+
 void Lights::set_background(const std::optional<glm::vec3>& radiance) {
     if (radiance) check_colour(*radiance, "the background");
     background_ = radiance;

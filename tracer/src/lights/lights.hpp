@@ -123,6 +123,8 @@ class Lights {
 
     /// Whether there are none, glowing parts left aside.
     bool empty() const { return infinite_.empty() && area_.empty() && points_.empty(); }
+    /// Those of all lights; null for one without.
+    std::vector<SharedLightSpectrum> spectra() const;
     std::span<const InfiniteLight> infinite() const { return infinite_; }
     std::span<const AreaLight> area() const { return area_; }
     std::span<const AnyPointLight> points() const { return points_; }

@@ -29,12 +29,9 @@ class Absorption {
         absorption.distance_ = distance;
         return absorption;
     }
-    /// By wavelength, per unit of length; not negative. For colours it is what it is of light that just comes in.
-    static Absorption of(SharedSpectrum spectrum) {
-        Absorption absorption(glm::max(spectrum->colour(), glm::vec3(0.0f)));
-        absorption.spectrum_ = std::move(spectrum);
-        return absorption;
-    }
+    /// By wavelength, per unit of length; not negative. For colours it is what makes their light the same after a
+    /// distance at which a good third of it is left.
+    static Absorption of(SharedSpectrum spectrum);
 
     const glm::vec3& rgb() const { return rgb_; }
     /// At least the greatest at any wavelength and for any of the colours, together with a scattering.

@@ -53,6 +53,17 @@ inline glm::vec3 emission(const Medium& medium) {
         },
         medium);
 }
+/// The spectrum of that; null if it is not known.
+inline SharedLightSpectrum emission_spectrum(const Medium& medium) {
+    return std::visit(
+        []<class Kind>(const Kind& kind) -> SharedLightSpectrum {
+            if constexpr (ScatteringMediumKind<Kind>)
+                return kind.coefficients().emission_spectrum;
+            else
+                return nullptr;
+        },
+        medium);
+}
 /// Its σt where it is densest, of red, green and blue.
 inline glm::vec3 extinction(const Medium& medium) {
     return std::visit(

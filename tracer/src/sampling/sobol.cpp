@@ -74,6 +74,11 @@ float Sampler::next() {
     return to_unit_interval(scrambled(group.index, mix_bits(group.scramble)));
 }
 
+float Sampler::next_evenly() {
+    const std::uint32_t shift = mix_bits(next_group().scramble);
+    return to_unit_interval(reversed_sample_ ^ shift);
+}
+
 glm::vec2 Sampler::next2() {
     const Group group = next_group();
     return {to_unit_interval(scrambled(group.index, mix_bits(group.scramble))),

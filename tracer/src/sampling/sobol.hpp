@@ -26,6 +26,11 @@ class Sampler {
     /// In [0, 1): a multiple of 2⁻²⁴, never 1.
     float next();
     glm::vec2 next2();
+    /// A number like that of next(), also a group of its own, of which those of 2ᵐ samples of a pixel, if these begin
+    /// at a multiple of 2ᵐ, are 2⁻ᵐ apart: each bit is flipped or not, alike for all samples. So nothing but where they
+    /// begin is random. It integrates what is smooth with far less noise than numbers that are each random within
+    /// 2⁻ᵐ, as those of next() are.
+    float next_evenly();
 
   private:
     struct Group {

@@ -87,7 +87,8 @@ struct ClearParameters : FilmParameters {
         v(&P::absorption_spectrum,
           SpectrumParameter{{"absorption_spectrum", "nm, 1/m",
                              "In place of the absorption: wavelengths and the absorption at each. Without "
-                             "\"spectral\" it is red, green and blue that are absorbed so in thin layers.",
+                             "\"spectral\" red, green and blue are absorbed so that a layer looks the same that lets "
+                             "a good third of white light through.",
                              limits::non_negative, true}});
         v(&P::color,
           ColourParameter{{"color", "", "In place of the absorption: what is left of white light after a distance.",

@@ -28,6 +28,8 @@ class LightSpectrum {
     bool visible() const { return visible_; }
     /// Of luminance 1.
     const glm::vec3& colour() const { return colour_; }
+    /// S/D65 at a wavelength, of luminance 1.
+    float relative_at(float nanometres) const { return relative_.at(nanometres); }
     /// What a light of this spectrum sends that has the luminance of the colour `rgb`: at a path's wavelengths, or in
     /// red, green and blue.
     glm::vec3 light(const glm::vec3& rgb, const Wavelengths* wavelengths) const;

@@ -10,6 +10,8 @@
 // colour reflects more than all light, and the mean over wavelengths of every colour is that colour.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <functional>
 #include <glm/vec3.hpp>
 
@@ -24,7 +26,28 @@ struct Wavelength {
     glm::vec3 response{1.0f};          ///< w/p: what light of this wavelength brings to red, green and blue
 };
 
-/// The wavelength that u in [0, 1) chooses. p is in proportion to the sum of |w| over red, green and blue.
+/// How wavelengths are chosen: p, the same within each nanometre.
+class WavelengthDistribution {
+  public:
+    /// In proportion to the sum of |w| over red, green and blue.
+    WavelengthDistribution();
+    /// In proportion to that times how strong the light of a scene is at each wavelength, relative to D65, which is
+    /// positive from 380 to 780 nm.
+    explicit WavelengthDistribution(const std::function<double(double)>& light);
+
+    /// The wavelength that u in [0, 1) chooses.
+    Wavelength sample(float u) const;
+    /// ∫ w f dλ.
+    glm::dvec3 colour_of(const std::function<double(double)>& f) const;
+
+  private:
+    static constexpr std::size_t cells = 400;
+
+    std::array<double, cells> cumulative_;
+    std::array<glm::vec3, cells> response_;
+};
+
+/// The wavelength that u chooses where nothing is known of the light.
 Wavelength sampled_wavelength(float u);
 
 /// ρ of red, green and blue at a wavelength in nanometres.

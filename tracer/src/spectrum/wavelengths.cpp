@@ -9,12 +9,12 @@ Wavelengths Wavelengths::of_dispersed_colours(const Wavelength& hero) {
             hero.response, false};
 }
 
-Wavelengths Wavelengths::three(float u) {
+Wavelengths Wavelengths::three(float u, const WavelengthDistribution& distribution) {
     Wavelengths all{glm::vec3(0.0f), glm::mat3(0.0f), glm::mat3(0.0f), glm::vec3(3.0f, 0.0f, 0.0f), true};
     for (int i = 0; i < 3; ++i) {
         // Less than 1 after rounding, too.
         const float at = u + static_cast<float>(i) / 3.0f;
-        const Wavelength one = sampled_wavelength(at < 1.0f ? at : at - 1.0f);
+        const Wavelength one = distribution.sample(at < 1.0f ? at : at - 1.0f);
         all.nanometres[i] = one.nanometres;
         all.primaries[i] = one.primaries;
         all.to_rgb[i] = one.response / 3.0f;

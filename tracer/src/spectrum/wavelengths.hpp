@@ -28,7 +28,7 @@ struct Wavelengths {
     /// For a path of red, green and blue that is dispersed, or was.
     static Wavelengths of_dispersed_colours(const Wavelength& hero);
     /// For a path of three wavelengths; u in [0, 1) chooses them.
-    static Wavelengths three(float u);
+    static Wavelengths three(float u, const WavelengthDistribution& distribution);
 
     glm::vec3 nanometres;  ///< of the path's numbers, the hero's first
     /// ρ of red, green and blue at the wavelengths, a column for each.

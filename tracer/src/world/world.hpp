@@ -8,6 +8,7 @@
 #include "spectrum/wavelengths.hpp"
 #include "world/flat_boundaries.hpp"
 #include "world/traced_geometry.hpp"
+#include "world/wavelengths_of_lights.hpp"
 
 namespace phasetree::tracer {
 
@@ -23,7 +24,8 @@ class World {
                                              const Clear* clear = std::get_if<Clear>(&material);
                                              return clear && clear->dispersion;
                                          })),
-          is_spectral_(scene.settings.spectral) {}
+          is_spectral_(scene.settings.spectral),
+          distribution_(wavelengths_of_lights(scene)) {}
     World(const World&) = delete;
     World& operator=(const World&) = delete;
 
@@ -36,7 +38,8 @@ class World {
     bool needs_wavelengths() const { return disperses_ || is_spectral_; }
     /// Those of a path, which u in [0, 1) chooses.
     Wavelengths wavelengths(float u) const {
-        return is_spectral_ ? Wavelengths::three(u) : Wavelengths::of_dispersed_colours(sampled_wavelength(u));
+        return is_spectral_ ? Wavelengths::three(u, distribution_)
+                            : Wavelengths::of_dispersed_colours(sampled_wavelength(u));
     }
 
   private:
@@ -44,6 +47,7 @@ class World {
     std::vector<FlatBoundary> flat_boundaries_;
     bool disperses_;
     bool is_spectral_;
+    WavelengthDistribution distribution_;
 };
 
 }  // namespace phasetree::tracer

@@ -1,0 +1,38 @@
+#include "world/wavelengths_of_lights.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace phasetree::tracer {
+
+namespace {
+
+// What each light of a scene has; null for one without a spectrum.
+std::vector<SharedLightSpectrum> spectra_of(const Scene& scene) {
+    std::vector<SharedLightSpectrum> spectra(scene.lights.spectra());
+    const auto add = [&](const Material& material) {
+        if (const auto* glowing = std::get_if<Glowing>(&material))
+            spectra.push_back(glowing->spectrum);
+        else if (const auto* clear = std::get_if<Clear>(&material); clear && shines(clear->interior))
+            spectra.push_back(emission_spectrum(clear->interior));
+    };
+    for (const Material& material : scene.materials) add(material);
+    for (const Mesh& mesh : scene.meshes) add(mesh.material);
+    return spectra;
+}
+
+}  // namespace
+
+WavelengthDistribution wavelengths_of_lights(const Scene& scene) {
+    const std::vector<SharedLightSpectrum> spectra = spectra_of(scene);
+    if (std::ranges::none_of(spectra, [](const SharedLightSpectrum& spectrum) { return spectrum != nullptr; }))
+        return {};
+    return WavelengthDistribution([&](double nanometres) {
+        double sum = 0.0;
+        for (const SharedLightSpectrum& spectrum : spectra)
+            sum += spectrum ? static_cast<double>(spectrum->relative_at(static_cast<float>(nanometres))) : 1.0;
+        return 0.5 + 0.5 * sum / static_cast<double>(spectra.size());
+    });
+}
+
+}  // namespace phasetree::tracer
