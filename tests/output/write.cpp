@@ -142,6 +142,47 @@ TEST_CASE("EXR keeps further channels under their names, other formats leave the
     CHECK_THROWS_AS(encode(image, Format::exr, metadata, transform), std::invalid_argument);
 }
 
+TEST_CASE("PNG and TIFF have alpha, and the colours of what covers the background; JPEG has neither") {
+    const OcioVariable none;
+    const TemporaryDirectory folder;
+    const DisplayTransform transform(std::nullopt, "Standard", 0.0f);
+    // A colour over black, with alpha from 0 to 1.
+    const glm::vec3 colour(0.8f, 0.4f, 0.1f);
+    Image image{64, 4, {}};
+    image.further = {{"A", {}}};
+    for (int i = 0; i < 64 * 4; ++i) {
+        const float alpha = static_cast<float>(i % 64) / 63.0f;
+        image.pixels.push_back(alpha * colour);
+        image.further[0].values.push_back(alpha);
+    }
+    for (const char* const name : {"a.png", "a.tif"}) {
+        CAPTURE(name);
+        write_image(image, folder / name, metadata, transform);
+        // Asked for as it is in the file: OpenImageIO multiplies colours by alpha otherwise.
+        OIIO::ImageSpec as_stored;
+        as_stored.attribute("oiio:UnassociatedAlpha", 1);
+        const auto input = OIIO::ImageInput::open((folder / name).string(), &as_stored);
+        REQUIRE(input);
+        REQUIRE(input->spec().nchannels == 4);
+        CHECK(input->spec().alpha_channel == 3);
+        std::vector<float> values(image.pixels.size() * 4);
+        REQUIRE(input->read_image(0, 0, 0, 4, OIIO::TypeDesc::FLOAT, values.data()));
+        // One code of eight bits, by which dithering rounds up or down.
+        constexpr double code = 1.0 / 255 + 1e-6;
+        for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+            const double alpha = static_cast<double>(image.further[0].values[i]);
+            CHECK(std::abs(static_cast<double>(values[4 * i + 3]) - alpha) < code);
+            for (int c = 0; c < 3; ++c) {
+                const double expected = alpha > 0 ? srgb(static_cast<double>(colour[c])) : 0.0;
+                CHECK(std::abs(static_cast<double>(values[4 * i + static_cast<std::size_t>(c)]) - expected) < code);
+            }
+        }
+    }
+    Image without = image;
+    without.further.clear();
+    CHECK((encode(image, Format::jpeg, metadata, transform) == encode(without, Format::jpeg, metadata, transform)));
+}
+
 TEST_CASE("equal pictures are equal files, whenever they are written") {
     const OcioVariable none;
     const TemporaryDirectory folder;

@@ -72,11 +72,15 @@ std::vector<std::string> checked_outputs(const RenderOptions& options, const Sam
             outputs = {stem + ".exr", stem + ".png"};
     }
     check_outputs(outputs);
-    const auto keeps_planes = [](const std::string& output) {
-        return is_film_file(output) || format_of(output) == Format::exr;
+    const auto keeps_planes = [&](const std::string& output) {
+        if (is_film_file(output)) return true;
+        const Format format = format_of(output);
+        return format == Format::exr || (options.planes == "alpha" && format != Format::jpeg);
     };
     if (options.planes && std::ranges::none_of(outputs, keeps_planes))
-        throw OutputError("--planes needs an output that can hold them: name a .exr or .part file with -o");
+        throw OutputError(
+            "--planes needs an output that can hold them: name a .exr or .part file with -o, or for alpha alone a .png "
+            "or .tif file");
     if (options.stats) check_file_writable(*options.stats);
     if (options.checkpoint) check_file_writable(*options.checkpoint);
     return outputs;

@@ -117,6 +117,38 @@ std::vector<unsigned char> encoded(const OIIO::ImageSpec& spec, const char* name
     return bytes;
 }
 
+// How much of each pixel is covered, if that is recorded.
+const Channel* alpha_of(const Image& image) {
+    const auto found = std::ranges::find(image.further, "A", &Channel::name);
+    return found == image.further.end() ? nullptr : &*found;
+}
+
+// PNG and programs that edit pictures want the colour of what covers a pixel, not what is left of it there.
+void divide_by_alpha(std::vector<glm::vec3>& pixels, const Channel& alpha) {
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const float covered = alpha.values[i];
+        pixels[i] = covered > 0.0f ? pixels[i] / covered : glm::vec3(0.0f);
+    }
+}
+
+// A channel as pixels whose three numbers are alike.
+std::vector<glm::vec3> spread(const Channel& channel) {
+    std::vector<glm::vec3> pixels;
+    pixels.reserve(channel.values.size());
+    for (const float value : channel.values) pixels.emplace_back(value);
+    return pixels;
+}
+
+// Codes of red, green, blue and alpha, of those of three colours and three equal alphas.
+template <class Code>
+std::vector<Code> with_alpha(const std::vector<Code>& colours, const std::vector<Code>& alphas) {
+    std::vector<Code> codes;
+    codes.reserve(colours.size() / 3 * 4);
+    for (std::size_t i = 0; i < colours.size(); i += 3)
+        codes.insert(codes.end(), {colours[i], colours[i + 1], colours[i + 2], alphas[i]});
+    return codes;
+}
+
 // All channels of a layer, pixel by pixel.
 std::vector<float> interleaved(const Image& image, const Layer& layer) {
     std::vector<float> values;
@@ -148,14 +180,29 @@ std::vector<unsigned char> encode(const Image& image, Format format, const Metad
                                   const DisplayTransform& transform) {
     if (format == Format::exr) return encode_layer(image, whole(image), metadata);
     check(image);
+    const Channel* const alpha = format == Format::jpeg ? nullptr : alpha_of(image);
     std::vector<glm::vec3> shown = image.pixels;
+    if (alpha) divide_by_alpha(shown, *alpha);
     transform.apply(shown);
-    const OIIO::ImageSpec spec = shown_spec(image, format, metadata, transform);
+    OIIO::ImageSpec spec = shown_spec(image, format, metadata, transform);
+    if (alpha) {
+        spec.nchannels = 4;
+        spec.channelnames = {"R", "G", "B", "A"};
+        spec.alpha_channel = 3;
+        spec.attribute("oiio:UnassociatedAlpha", 1);
+    }
     const char* name = name_for_format(format);
-    if (format == Format::tiff) return encoded(spec, name, quantise16(shown).data());
     const Crop whole{};
     const Crop& place = image.crop ? *image.crop : whole;
-    return encoded(spec, name, quantise8(shown, image.width, place.x0, place.y0).data());
+    const auto codes_of = [&](const std::vector<glm::vec3>& pixels) {
+        return quantise8(pixels, image.width, place.x0, place.y0);
+    };
+    if (format == Format::tiff) {
+        const auto codes = quantise16(shown);
+        return encoded(spec, name, alpha ? with_alpha(codes, quantise16(spread(*alpha))).data() : codes.data());
+    }
+    const auto codes = codes_of(shown);
+    return encoded(spec, name, alpha ? with_alpha(codes, codes_of(spread(*alpha))).data() : codes.data());
 }
 
 std::vector<unsigned char> encode_png(std::span<const std::uint8_t> pixels, int width, int height,

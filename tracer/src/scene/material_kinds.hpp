@@ -143,12 +143,17 @@ struct DiffuseParameters {
     static constexpr KindInfo info{"diffuse", "Paper, plaster, clay: reflects alike in all directions."};
 
     Texture color{};
+    Number roughness = 0.0f;
 
     template <class V>
     static void parameters(V&& v) {
         v(&DiffuseParameters::color, Parameter{"color", "", "Reflectance.", limits::any});
+        v(&DiffuseParameters::roughness,
+          Parameter{"roughness", "",
+                    "How rough it is: 0 is Lambert's law, 1 clay or the moon, whose rim is as bright as its middle.",
+                    limits::fraction, true});
     }
-    Diffuse made() const { return {color}; }
+    Diffuse made() const { return {color, roughness}; }
 };
 
 std::vector<std::string_view> names_of_metals();

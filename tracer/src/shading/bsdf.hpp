@@ -16,6 +16,7 @@
 #include "shading/bsdf/diffuse.hpp"
 #include "shading/bsdf/rough_conductor.hpp"
 #include "shading/bsdf/rough_dielectric.hpp"
+#include "shading/bsdf/rough_diffuse.hpp"
 #include "shading/bsdf/sample.hpp"
 #include "shading/bsdf/smooth_conductor.hpp"
 #include "shading/bsdf/smooth_dielectric.hpp"
@@ -34,8 +35,8 @@ template <class... Kinds>
 using BsdfOf = std::variant<typename CheckedBsdf<Kinds>::Type...>;
 
 /// Every kind of BSDF.
-using AnyBsdf = BsdfOf<DiffuseBsdf, SmoothDielectricBsdf, RoughDielectricBsdf, SmoothConductorBsdf, RoughConductorBsdf,
-                       CoatedDiffuseBsdf>;
+using AnyBsdf = BsdfOf<DiffuseBsdf, RoughDiffuseBsdf, SmoothDielectricBsdf, RoughDielectricBsdf, SmoothConductorBsdf,
+                       RoughConductorBsdf, CoatedDiffuseBsdf>;
 
 class Bsdf {
   public:
@@ -68,7 +69,8 @@ class Bsdf {
     }
     /// Whether it has a diffuse part, so that light from nearly any direction counts.
     bool is_diffuse() const {
-        return std::holds_alternative<DiffuseBsdf>(kind_) || std::holds_alternative<CoatedDiffuseBsdf>(kind_);
+        return std::holds_alternative<DiffuseBsdf>(kind_) || std::holds_alternative<RoughDiffuseBsdf>(kind_) ||
+               std::holds_alternative<CoatedDiffuseBsdf>(kind_);
     }
     bool passes_through() const {
         return std::visit([](const auto& bsdf) { return bsdf.passes_through(); }, kind_);

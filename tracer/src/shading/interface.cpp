@@ -57,7 +57,7 @@ Interface::Optics optics_of(const Clear& from, const Conductor& to, SharedSurfac
 }
 
 Interface::Optics optics_of(const Clear&, const Diffuse& to, SharedSurfaces&) {
-    return Interface::DiffuseOptics{std::make_shared<const Texture>(to.color)};
+    return Interface::DiffuseOptics{std::make_shared<const Texture>(to.color), to.roughness};
 }
 
 Interface::Optics optics_of(const Clear& from, const Coated& to, SharedSurfaces& shared) {
@@ -101,7 +101,10 @@ Bsdf bsdf_of(const Interface::MetalOptics& optics, const TexturePoint& p, const 
 }
 
 Bsdf bsdf_of(const Interface::DiffuseOptics& optics, const TexturePoint& p, const Wavelengths* wavelengths) {
-    return DiffuseBsdf(color_at(*optics.color, p, wavelengths));
+    const glm::vec3 color = color_at(*optics.color, p, wavelengths);
+    const float roughness = number_at(optics.roughness, p.position);
+    if (roughness > 0.0f) return RoughDiffuseBsdf(color, std::min(roughness, 1.0f));
+    return DiffuseBsdf(color);
 }
 
 Bsdf bsdf_of(const Interface::CoatedOptics& optics, const TexturePoint& p, const Wavelengths* wavelengths) {

@@ -65,6 +65,7 @@ class Interface {
     };
     struct DiffuseOptics {
         std::shared_ptr<const Texture> color;
+        Number roughness = 0.0f;
     };
     struct CoatedOptics {
         std::shared_ptr<const Texture> color;

@@ -1,8 +1,9 @@
 // What a scene says of a phase or a mesh, as plain values. A material is the optics of a surface, and of a clear one
 // also the medium inside: light travels in phases of clear materials, and ends at the surface of all others.
 //
-// `roughness` is the α of GGX: 0 is polished, 0.1 satin, 0.5 matt. Below 0.001 a surface is treated as perfectly
-// smooth, which no eye tells apart. What the surface between two materials does is in interface.hpp.
+// `roughness` is, but for what is diffuse, the α of GGX: 0 is polished, 0.1 satin, 0.5 matt. Below 0.001 a surface is
+// treated as perfectly smooth, which no eye tells apart. What the surface between two materials does is in
+// interface.hpp.
 #pragma once
 
 #include <cstdint>
@@ -43,6 +44,7 @@ struct Clear {
 
 struct Diffuse {
     Texture color = ConstantTexture{};
+    Number roughness = 0.0f;  ///< bsdf/rough_diffuse.hpp; not that of GGX
 };
 
 /// Metal, with the complex index against vacuum; metals.hpp has measured ones.

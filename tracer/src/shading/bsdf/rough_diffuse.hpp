@@ -1,0 +1,76 @@
+// Clay, plaster, sandstone, dust: small diffuse facets that hide and light each other, so that a ball of it is flatter
+// and brighter at its rim than Lambert's, as the full moon is.
+//
+//     f = ρ/π (A + r A s/t) + f_ms,   s = o·i − o.z i.z,   t = max(o.z, i.z) where s > 0, else 1
+//     A = 1/(1 + (1/2 − 2/(3π)) r)
+//
+// is what is scattered once (Fujii's form of Oren and Nayar's model), with the roughness r in [0, 1], of which 0 is
+// Lambert's law. On a white surface it reflects, of light at an angle θ,
+//     E(θ) = A + r A G(θ)/π,   G = sin θ (θ − sin θ cos θ) + 2/3 (tan θ (1 − sin³θ) − sin θ)
+// and of uniform light Ē = A (1 + r (2/3 − 28/(15 π))). What is left has been scattered more than once:
+//     f_ms = ρ′/π (1 − E(o)) (1 − E(i))/(1 − Ē),   ρ′ = ρ² Ē/(1 − ρ (1 − Ē))
+// so that a white surface reflects all light, and a coloured one's colour is the deeper the rougher it is.
+//
+// References: Oren & Nayar, Generalization of Lambert's Reflectance Model, SIGGRAPH 1994; Portsmouth, Kutz & Hill, EON:
+// A Practical Energy-Preserving Rough Diffuse BRDF, JCGT 14(1), 2025.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <numbers>
+#include <optional>
+
+#include "sampling/warps.hpp"
+#include "shading/bsdf/sample.hpp"
+
+namespace phasetree::tracer {
+
+class RoughDiffuseBsdf {
+  public:
+    /// `roughness` is r, in [0, 1].
+    RoughDiffuseBsdf(const glm::vec3& albedo, float roughness)
+        : albedo_(albedo), roughness_(roughness), once_(1.0f / (1.0f + (0.5f - 2.0f / (3.0f * pi)) * roughness)) {
+        const float average = once_ * (1.0f + roughness * (2.0f / 3.0f - 28.0f / (15.0f * pi)));
+        again_ = albedo * albedo * average / ((1.0f - albedo * (1.0f - average)) * std::max(1.0f - average, 1e-7f));
+    }
+
+    std::optional<BsdfSample> sample(const glm::vec3& wo, float /*u_lobe*/, const glm::vec2& u) const {
+        const glm::vec3 wi = square_to_cosine_hemisphere(u);
+        if (!(wo.z > 0.0f) || !(wi.z > 0.0f)) return std::nullopt;
+        return BsdfSample{wi, over_lambert(wo, wi), cosine_hemisphere_pdf(wi.z), false, false};
+    }
+    glm::vec3 evaluate(const glm::vec3& wo, const glm::vec3& wi) const {
+        if (!(wo.z > 0.0f) || !(wi.z > 0.0f)) return glm::vec3(0.0f);
+        return over_lambert(wo, wi) * cosine_hemisphere_pdf(wi.z);
+    }
+    float pdf(const glm::vec3& /*wo*/, const glm::vec3& wi) const { return cosine_hemisphere_pdf(wi.z); }
+    bool is_delta() const { return false; }
+    bool passes_through() const { return false; }
+
+  private:
+    static constexpr float pi = std::numbers::pi_v<float>;
+
+    /// π f.
+    glm::vec3 over_lambert(const glm::vec3& wo, const glm::vec3& wi) const {
+        const float s = glm::dot(wo, wi) - wo.z * wi.z;
+        const float t = s > 0.0f ? std::max(wo.z, wi.z) : 1.0f;
+        return albedo_ * (once_ * (1.0f + roughness_ * s / t)) + again_ * ((1.0f - white(wo.z)) * (1.0f - white(wi.z)));
+    }
+    /// E by the cosine c; tan θ (1 − sin³θ) is written so that it is exact where light grazes.
+    float white(float c) const {
+        const float cosine = std::min(c, 1.0f), sine = std::sqrt((1.0f - cosine) * (1.0f + cosine));
+        const float g = sine * (std::acos(cosine) - sine * cosine) +
+                        2.0f / 3.0f * (sine * cosine * (1.0f + sine + sine * sine) / (1.0f + sine) - sine);
+        return once_ * (1.0f + roughness_ * g / pi);
+    }
+
+    glm::vec3 albedo_;
+    float roughness_;
+    float once_;       ///< A
+    glm::vec3 again_;  ///< ρ′/(1 − Ē)
+};
+
+}  // namespace phasetree::tracer
