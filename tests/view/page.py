@@ -42,7 +42,7 @@ class Page(unittest.TestCase):
     def setUp(self):
         self.expected = ()  # what the browser may say on its console
         self.view.file.write_text(LARGER, encoding="utf-8")
-        self.view.post("change", {"camera": None, "hidden": [], "looks": {}, "cut": None, "numbers": {}, "layer": "", "exposure": 0})
+        self.view.post("change", {"camera": None, "hidden": [], "looks": {}, "cut": None, "numbers": {}, "layer": "", "exposure": 0, "time": 0})
         self.browser.events.clear()
         self.browser.open(self.view.url)
         self.browser.wait_for(READY)
@@ -415,6 +415,30 @@ class Page(unittest.TestCase):
             last = self.wait_for_another(last)
             self.shoot(f"layer-{layer}")
         self.set_input("#layer", "", "change")
+        self.browser.wait_for(f"{READY} && {SEEN} === {json.dumps(self.before)}")
+
+    def test_time_goes_from_the_first_key_to_the_last(self):
+        self.assertTrue(self.browser.run("document.getElementById('time').hidden"))
+        moving = LARGER.replace('"radius": 0.5', '"radius": {"keys": [[0, 0.2], [2, 0.5]]}')
+        self.assertNotEqual(moving, LARGER)
+        self.view.file.write_text(moving, encoding="utf-8")
+        self.browser.wait_for("!document.getElementById('time').hidden")
+        first = self.wait_for_another(self.before)
+        slider = "document.getElementById('time-slider')"
+        self.assertEqual(self.browser.run(f"[{slider}.min, {slider}.max, {slider}.value]"), ["0", "2", "0"])
+        self.shoot("time")
+        self.set_input("#time-slider", "2", "input")
+        # At its end the scene is the one without keys.
+        self.browser.wait_for(f"{READY} && {SEEN} === {json.dumps(self.before)}")
+        self.assertEqual(self.text("time-said"), "2.00 s")
+        self.set_input("#time-slider", "0", "input")
+        self.browser.wait_for(f"{READY} && {SEEN} === {json.dumps(first)}")
+        # Played, it ends at the end by itself, in two seconds at least.
+        begun = time.monotonic()
+        self.browser.run("document.getElementById('time-play').click()")
+        self.browser.wait_for(f"document.getElementById('time-play').textContent === 'Stop'")
+        self.browser.wait_for(f"document.getElementById('time-play').textContent === 'Play'")
+        self.assertGreater(time.monotonic() - begun, 1.5)
         self.browser.wait_for(f"{READY} && {SEEN} === {json.dumps(self.before)}")
 
     def test_the_exposure_brightens(self):

@@ -70,7 +70,7 @@ class Bench {
     Session& begin() {
         options_.name = "scene";
         options_.threads = 1;
-        session_.emplace([this](WatchedFiles& files, const NumberEdits&) { return read(files); }, options_);
+        session_.emplace([this](WatchedFiles& files, const Reading& wished) { return read(files, wished); }, options_);
         return *session_;
     }
     void save() { std::ofstream(file_, std::ios::app) << "."; }
@@ -96,16 +96,19 @@ class Bench {
     std::atomic<bool> holds_reading{false};
 
   private:
-    ViewedScene read(WatchedFiles& files) {
+    ViewedScene read(WatchedFiles& files, const Reading& wished) {
         files.add(file_);
         ++readings;
         Scene scene = scene_with(position);
         if (is_endless) scene.object = Set{.phase = Phase{1}, .of = Plane{}};
         (void)comes([&] { return !holds_reading; });
-        return {std::move(scene), [this](float exposure_ev) {
-                    before_display(exposure_ev);
-                    return DisplayTransform(std::nullopt, std::nullopt, exposure_ev);
-                }};
+        ViewedScene viewed{std::move(scene), [this](float exposure_ev) {
+                               before_display(exposure_ev);
+                               return DisplayTransform(std::nullopt, std::nullopt, exposure_ev);
+                           }};
+        viewed.seconds = wished.seconds.value_or(0.5);
+        viewed.keys = TimeSpan{-1, 3};
+        return viewed;
     }
 
     std::filesystem::path file_ =
@@ -170,6 +173,29 @@ TEST_CASE("an error of one picture is over with the next") {
     session.change(camera_at("[3, 0, 0]"));
     REQUIRE(bench.is_ready());
     CHECK(session.shown()->error.empty());
+}
+
+TEST_CASE("the scene is read at the time that is wished, and anew at that when it is saved") {
+    Bench bench;
+    Session& session = bench.begin();
+    REQUIRE(bench.is_ready());
+    CHECK(session.shown()->seconds == 0.5);
+    REQUIRE(session.shown()->keys);
+    CHECK(session.shown()->keys->first == -1);
+    CHECK(session.shown()->keys->last == 3);
+    const int before = bench.readings;
+    const std::uint64_t number = session.shown()->picture->number;
+    Change change;
+    change.seconds = 2.25;
+    session.change(change);
+    CHECK(session.shown()->seconds == 2.25);
+    REQUIRE(bench.is_ready());
+    CHECK(bench.readings == before + 1);
+    CHECK(session.shown()->picture->number > number);
+    bench.save();
+    REQUIRE(bench.is_seen());
+    REQUIRE(bench.is_ready());
+    CHECK(session.shown()->seconds == 2.25);
 }
 
 TEST_CASE("a camera that is wished while a file with another is read stays") {

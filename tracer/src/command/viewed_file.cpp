@@ -1,5 +1,6 @@
 #include "command/viewed_file.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -7,6 +8,7 @@
 #include "command/load.hpp"
 #include "command/unplaced_report.hpp"
 #include "output/file.hpp"
+#include "phasetree/io/keys.hpp"
 #include "phasetree/io/kept_nodes.hpp"
 #include "scene/camera_text.hpp"
 #include "volume/read_volume.hpp"
@@ -47,11 +49,23 @@ Document with_edits(const SceneFile& scene, const Document& document, const view
     return scene.assets_within ? edited.with_files_within(*scene.assets_within) : edited;
 }
 
+// Objects that stand in files of their own may have keys of which the scene's file knows nothing; the time can be given
+// by --at all the same.
+std::optional<view::TimeSpan> span_of_keys(const Document& document) {
+    const std::vector<double> times = times_of_keys(document.root());
+    if (times.empty()) return std::nullopt;
+    const auto [first, last] = std::ranges::minmax(times);
+    return first < last ? std::optional(view::TimeSpan{first, last}) : std::nullopt;
+}
+
 view::ViewedScene read_viewed(const ViewedFile& file, const std::shared_ptr<KeptNodes>& kept, view::WatchedFiles& files,
-                              const view::NumberEdits& numbers) {
+                              const view::Reading& wished) {
+    const view::NumberEdits& numbers = wished.numbers;
     files.add(file.scene.name);
     kept->start();
-    const Document in_file = read_document(file.scene);
+    SceneFile at_time = file.scene;
+    if (wished.seconds) at_time.at = wished.seconds;
+    const Document in_file = read_document(at_time);
     const Document document = with_edits(file.scene, in_file, numbers).with_kept_nodes(kept);
     add_named_files(document, document.root(), files);
     NodePlaces places;
@@ -72,7 +86,9 @@ view::ViewedScene read_viewed(const ViewedFile& file, const std::shared_ptr<Kept
             numbers,
             view::numbers_of(in_file),
             std::move(places),
-            std::move(warnings)};
+            std::move(warnings),
+            document.seconds(),
+            span_of_keys(document)};
 }
 
 // The file keeps who may read and write it.
@@ -92,9 +108,9 @@ view::ReadScene ViewedFile::reader() const {
     const auto first = std::make_shared<First>();
     const auto kept = std::make_shared<KeptNodes>();
     first->scene = read_viewed(*this, kept, first->files, {});
-    return [file = *this, first, kept](view::WatchedFiles& files, const view::NumberEdits& numbers) {
+    return [file = *this, first, kept](view::WatchedFiles& files, const view::Reading& wished) {
         std::optional<view::ViewedScene> known = std::exchange(first->scene, std::nullopt);
-        if (!known || !numbers.empty()) return read_viewed(file, kept, files, numbers);
+        if (!known || !wished.numbers.empty() || wished.seconds) return read_viewed(file, kept, files, wished);
         files = first->files;
         return std::move(*known);
     };

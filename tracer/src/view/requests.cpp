@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* name_of_request = "<request>";
-constexpr Range exposures{-50, 50}, fractions{0, 1}, indices{1, 4}, lengths{-1e6, 1e6};
+constexpr Range exposures{-50, 50}, fractions{0, 1}, times{-1e9, 1e9}, indices{1, 4}, lengths{-1e6, 1e6};
 
 Json list(const glm::vec3& v) {
     return Json::array({v.x, v.y, v.z});
@@ -102,6 +102,7 @@ Change read_change(const std::string& text, const Shown& shown) {
         for (const Value number : *numbers)
             change.numbers->emplace(number.key(), as<double>(document, number, "a number"));
     }
+    if (const auto seconds = reader.value("time")) change.seconds = as<double>(document, *seconds, "the time", times);
     change.layer = reader.maybe<std::string>("layer");
     if (change.layer && !change.layer->empty() &&
         std::ranges::none_of(shown.layers, [&](const FilmLayer& layer) { return layer.name == *change.layer; }))
@@ -139,6 +140,9 @@ std::string written(const Shown& shown) {
     for (const FilmLayer& layer : shown.layers) json["layers"].push_back(layer.name);
     json["numbers"] = shown.numbers;
     json["numbers_version"] = shown.numbers_version;
+    json["time"] = shown.seconds;
+    json["times"] = Json();
+    if (shown.keys) json["times"] = {shown.keys->first, shown.keys->last};
     json["camera"] = shown.camera_text;
     json["centre"] = list(shown.centre);
     json["radius"] = shown.radius;

@@ -46,7 +46,8 @@ void Session::show(const std::function<void(Shown&)>& edit) {
 void Session::show_locked(const std::function<void(Shown&)>& edit) {
     auto next = std::make_shared<Shown>(*shown_);
     edit(*next);
-    show_wishes(wishes_.edits, wishes_.numbers, *next);
+    show_wishes(wishes_.edits, wishes_.read_as.numbers, *next);
+    if (wishes_.read_as.seconds) next->seconds = *wishes_.read_as.seconds;
     next->layer = wishes_.layer;
     next->camera_text = wishes_.camera ? camera_text(*wishes_.camera, filter_in_file_) : camera_in_file_;
     ++next->version;
@@ -96,13 +97,15 @@ std::uint64_t Session::change(const Change& change) {
         if (change.looks) wishes_.edits.looks = *change.looks;
         if (change.has_cut) wishes_.edits.cut = change.cut;
         if (change.is_of_object()) ++wishes_.object;
-        if (change.numbers) wishes_.numbers = *change.numbers;
-        if (change.numbers) ++wishes_.text;
-        if (change.has_camera || change.layer || change.is_of_object() || change.numbers) wishes_.since = Clock::now();
+        if (change.numbers) wishes_.read_as.numbers = *change.numbers;
+        if (change.seconds) wishes_.read_as.seconds = change.seconds;
+        if (change.is_of_text()) ++wishes_.text;
+        if (change.has_camera || change.layer || change.is_of_object() || change.is_of_text())
+            wishes_.since = Clock::now();
         announce_wishes();
         // Before the thread can have done it, or the page would be told of what is over.
         if (change.is_of_object()) show_locked([](Shown& shown) { shown.doing = "Building cells"; });
-        if (change.numbers) show_locked([](Shown& shown) { shown.doing = "Reading the scene"; });
+        if (change.is_of_text()) show_locked([](Shown& shown) { shown.doing = "Reading the scene"; });
         if (change.has_camera || change.layer) show_locked([](Shown& shown) { shown.doing = "Taking the picture"; });
     }
     if (change.exposure_ev) expose();

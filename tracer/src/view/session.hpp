@@ -48,10 +48,12 @@ struct Change {
     bool has_cut = false;                              ///< Whether the cut changes: to this one,
     std::optional<CutPlane> cut;                       ///< or without a value to none.
     std::optional<NumberEdits> numbers;                ///< all of them
+    std::optional<double> seconds;                     ///< the time at which the scene is read
     std::optional<std::string> layer;                  ///< to be shown; empty for the picture itself
     std::optional<float> exposure_ev;
 
     bool is_of_object() const { return hidden || looks || has_cut; }
+    bool is_of_text() const { return numbers || seconds; }
 };
 
 class Session {
@@ -88,7 +90,7 @@ class Session {
     struct Wishes {
         std::uint64_t reading = 1, text = 0, object = 0, view = 0;
         Edits edits;
-        NumberEdits numbers;
+        Reading read_as;
         std::optional<AnyCameraParameters> camera;
         std::string layer;
         std::optional<float> exposure_ev;  // needs no new picture and so has no number

@@ -95,7 +95,7 @@ void Session::read(Wishes& wishes) {
     std::shared_ptr<const ViewedScene> viewed;
     std::string error;
     try {
-        ViewedScene scene = read_(files, wishes.numbers);
+        ViewedScene scene = read_(files, wishes.read_as);
         if (options_.samples) scene.scene.settings.samples = *options_.samples;
         if (options_.width) set_width(scene.scene.film, *options_.width);
         viewed = std::make_shared<const ViewedScene>(std::move(scene));
@@ -120,6 +120,8 @@ void Session::read(Wishes& wishes) {
     show([&](Shown& shown) {
         shown.numbers_of_file = {viewed_, &viewed_->numbers};
         shown.numbers_version = wishes.reading;
+        shown.seconds = viewed_->seconds;
+        shown.keys = viewed_->keys;
     });
 }
 

@@ -58,6 +58,8 @@ struct Shown {
     /// Those of the file, and how often it has been read until they were there.
     std::shared_ptr<const TextNumbers> numbers_of_file = std::make_shared<TextNumbers>();
     std::uint64_t numbers_version = 0;
+    double seconds = 0;            ///< likewise: the time of what is shown,
+    std::optional<TimeSpan> keys;  ///< and from the scene's first key to its last
     std::string camera_text;  ///< likewise, as the scene's file would say it; empty until there is an object
     glm::vec3 centre{0.0f};   ///< of the object
     float radius = 1;         ///< of a ball around it

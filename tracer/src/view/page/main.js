@@ -7,6 +7,7 @@ import {PhaseList} from "./phases.js";
 import {draw, place} from "./picture.js";
 import {showPoint} from "./point.js";
 import {Changes, ask, askFile, askNumbers, follow, writeCamera, writeNumbers} from "./server.js";
+import {Time} from "./time.js";
 
 const element = (id) => document.getElementById(id);
 const canvas = element("picture"), exposure = element("exposure");
@@ -22,6 +23,13 @@ const cut = new Cut({
   normal: [...document.querySelectorAll("[data-normal]")],
   offset: element("cut-offset"),
   said: element("cut-said"),
+}, (change) => changes.make(change));
+
+const time = new Time({
+  section: element("time"),
+  slider: element("time-slider"),
+  said: element("time-said"),
+  play: element("time-play"),
 }, (change) => changes.make(change));
 
 const numbers = new Numbers({
@@ -87,6 +95,7 @@ function told(next, pixels) {
   if (changes.arePending || state.version < changes.version) return;
   phases.show(state.phases);
   cut.show(state);
+  time.show(state);
   showLayers(state);
   numbers.show(state, askNumbers).catch((error) => refuse(error.message));
   if (document.activeElement !== exposure) showExposure(state.exposure);
