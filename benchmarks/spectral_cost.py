@@ -54,7 +54,7 @@ def main():
     parser.add_argument("--samples", type=int, default=64)
     parser.add_argument("--size", default="160x120")
     parser.add_argument("scenes", nargs="*")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     for scene in options.scenes or [os.path.join(SCENES, "hourglass.json")]:
         # Beside the scene, because that names files beside itself.
         with tempfile.TemporaryDirectory() as folder, tempfile.NamedTemporaryFile(
