@@ -207,6 +207,8 @@ class WrongScenes {
     // Cameras and lights.
     void add_cameras_and_lights() {
         camera("camera that looks at itself", "", R"({"position": [0, 0, 3], "look_at": [0, 0, 3]})");
+        camera("camera with keys as a whole", "no keys",
+               R"({"keys": [[0, {"position": [0, -5, 0], "look_at": [0, 0, 0]}]]})");
         camera("camera without a place", "position", R"({"look_at": [0, 0, 0]})");
         camera("camera that sees all", "fov", R"({"position": [0, -5, 0], "look_at": [0, 0, 0], "fov": 180})");
         camera("camera that sees nothing", "fov", R"({"position": [0, -5, 0], "look_at": [0, 0, 0], "fov": 0})");

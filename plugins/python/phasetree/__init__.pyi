@@ -2511,10 +2511,11 @@ class materials:
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
         """
     @staticmethod
-    def diffuse(color: Sequence[float] | str | Texture) -> Material:
+    def diffuse(color: Sequence[float] | str | Texture, roughness: float | Number | None = ...) -> Material:
         r"""Paper, plaster, clay: reflects alike in all directions.
 
         color: Reflectance. (colour or texture)
+        roughness: How rough it is: 0 is Lambert's law, 1 clay or the moon, whose rim is as bright as its middle. (number or field; at least 0 and at most 1; default 0)
         """
     @staticmethod
     def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold", "iron", "nickel", "silver", "titanium", "tungsten", "aluminum"] | None = ..., eta: Sequence[float] | np.ndarray | None = ..., k: Sequence[float] | np.ndarray | None = ..., roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
@@ -2575,10 +2576,11 @@ def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
     """
 
-def diffuse(color: Sequence[float] | str | Texture) -> Material:
+def diffuse(color: Sequence[float] | str | Texture, roughness: float | Number | None = ...) -> Material:
     r"""Paper, plaster, clay: reflects alike in all directions.
 
     color: Reflectance. (colour or texture)
+    roughness: How rough it is: 0 is Lambert's law, 1 clay or the moon, whose rim is as bright as its middle. (number or field; at least 0 and at most 1; default 0)
     """
 
 def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold", "iron", "nickel", "silver", "titanium", "tungsten", "aluminum"] | None = ..., eta: Sequence[float] | np.ndarray | None = ..., k: Sequence[float] | np.ndarray | None = ..., roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "phasetree/io/keys.hpp"
 #include "phasetree/io/read_kind.hpp"
 #include "scene/camera_kinds.hpp"
 #include "scene/read_parts.hpp"
@@ -89,6 +90,11 @@ std::vector<CameraMoment> read_camera_moments(const Document& document, Value va
 }
 
 AnyCameraParameters read_camera(const Document& document, Value value, FilmSettings& film) {
+    if (value.is_object() && Keys::are_in(value))
+        throw document.error(
+            value.find("keys")->key_offset(),
+            "a camera as a whole has no keys; its \"position\", its \"look_at\" and its numbers may have "
+            "keys each");
     if (!names_its_kind(value)) return read_camera_of_kind<ThinLensKind>(document, value, "the camera", film);
     AnyCameraParameters parameters;
     with_kind(CameraKinds(), document, value, "a camera", [&]<class Kind>(Value members) {

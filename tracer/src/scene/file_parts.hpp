@@ -37,7 +37,8 @@ struct FileParts {
                                     R"({"type": "string"})"});
         v(&P::version, PartParameter{{"version", "", "The version of this format."}, "1", R"({"const": 1})"});
         v(&P::phases,
-          PartParameter{{"phases", "", "The phases by their names, and the material of each.", limits::any, true},
+          PartParameter{{"phases", "", "The phases by their names, and the material of each: all that the tree names.",
+                         limits::any, true},
                         "object of materials",
                         R"({"type": "object", "minProperties": 1, "maxProperties": 63,
                                         "additionalProperties": {"$ref": "#/definitions/material"}})"});
