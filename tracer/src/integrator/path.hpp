@@ -68,9 +68,10 @@ struct PathHelp {
 /// near enough to count for the point of the line that is t behind the boundary. So the density is
 ///     N π r² (p(line)/m²) n² F(t).
 ///
-/// Dispersion. Where a path, a shadow ray or a photon meets an interface that disperses, one wavelength is chosen for
-/// all of them (spectrum/wavelength.hpp), so that the techniques still estimate the same: the integral over directions
-/// and wavelengths. The density of wavelengths is the same of all three, and cancels in their weights.
+/// Wavelengths (spectrum/wavelengths.hpp). If the scene asks for them a path, its shadow rays and the photons that it
+/// gathers have the same three from the beginning on; else they have one, from where an interface disperses their
+/// colours. So the techniques still estimate the same: the integral over directions and wavelengths. The density of
+/// wavelengths is the same of all three, and cancels in their weights.
 ///
 /// Guiding. Where a guide chooses some of the directions from a surface (guided.hpp), the density of the BSDF in all of
 /// this is that of both together.

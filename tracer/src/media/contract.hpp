@@ -25,7 +25,8 @@ struct Way {
     const Wavelengths* wavelengths = nullptr;  ///< of the light; none if its numbers are red, green and blue
 };
 
-/// What becomes of a path on its way. Every colour channel has a weight, which multiplies the path's throughput.
+/// What becomes of a path on its way. Each of its three numbers, here called channels, has a weight, which multiplies
+/// the path's throughput.
 struct Flight {
     glm::vec3 weight{1.0f};
     std::optional<float> scattered_at{};  ///< the distance at which it is scattered; none if it gets to the way's end

@@ -53,8 +53,12 @@ std::vector<Chapter> scene_chapters() {
     for (Chapter& chapter : node_chapters()) chapters.push_back(std::move(chapter));
     chapters.push_back(
         {"Materials", "A phase or a mesh is of one material, `{\"kind\": {parameters}}`.", pages_of(MaterialKinds())});
-    chapters.push_back({"Textures", "A material's colour may be a texture, which is a colour for each point of space.",
-                        pages_of(NamedTextures())});
+    chapters.push_back(
+        {"Textures",
+         "A material's colour may be a texture, which is a colour for each point of space: that of a whole "
+         "tree. What a tree moves is moved through its texture; what is an object of \"objects\", or an "
+         "instance of one, takes the texture along.",
+         pages_of(NamedTextures())});
     chapters.push_back({"Numbers",
                         "A material's roughness, and the thickness of a film on it, may be another at each point.",
                         pages_of(NumberTextures())});
