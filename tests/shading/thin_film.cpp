@@ -85,7 +85,8 @@ TEST_CASE("thin film: without thickness, or with the index of one side, it is no
     }
 }
 
-TEST_CASE("thin film: colours are the spectrum's by the colour matching functions, and a flat one is grey") {
+TEST_CASE(
+    "thin film: colours are the spectrum's in daylight by the colour matching functions, and a flat one is grey") {
     glm::dvec3 sum(0.0);
     for (const tracer::SpectralWeight& w : tracer::spectral_weights()) sum += w.weight;
     for (int c = 0; c < 3; ++c) CHECK(sum[c] == doctest::Approx(1.0).epsilon(1e-12));
@@ -93,8 +94,9 @@ TEST_CASE("thin film: colours are the spectrum's by the colour matching function
     const ThinFilm film({1.0f, 1.33f, glm::vec3(1.0f)}, 380.0f, 380.0f);
     for (const double cosine : {1.0, 0.8031, 0.4567, 0.1234}) {
         glm::dvec3 expected(0.0), weight(0.0);
-        for (double wavelength = 360; wavelength <= 800; wavelength += 1) {
-            const glm::dvec3 w = tracer::rec709_from_xyz(tracer::colour_matching(wavelength));
+        for (double wavelength = 380; wavelength <= 780; wavelength += 1) {
+            const glm::dvec3 w =
+                tracer::daylight_at(wavelength) * tracer::rec709_from_xyz(tracer::colour_matching(wavelength));
             expected +=
                 w * tracer::thin_film_reflectance(1.0, static_cast<double>(1.33f), 1.0, 0.0, cosine, 380.0, wavelength);
             weight += w;

@@ -133,6 +133,40 @@ TEST_CASE("wavelengths are chosen where lights shine, and colours stay what they
                  }));
 }
 
+TEST_CASE("no lamp takes more than half of the wavelengths from the others, however violet it is") {
+    for (const char* const spectrum :
+         {"[[440, 0], [450, 1], [460, 0]]", "[[395, 0], [405, 1], [415, 0]]", "[[650, 0], [660, 1], [670, 0]]"}) {
+        CAPTURE(spectrum);
+        const Scene scene = spectral_scene(
+            R"("a": {"diffuse": {"color": [1, 1, 1]}})", ball_of_a,
+            R"("lights": [{"constant": {}}, {"sphere": {"centre": [0, 0, 9], "radius": 1, "radiance": [0, 0, 0], "spectrum": )" +
+                std::string(spectrum) + "}}]");
+        const World world(scene);
+        int green = 0, green_by_response = 0;
+        constexpr int count = 4000;
+        for (int i = 0; i < count; ++i) {
+            const float u = (static_cast<float>(i) + 0.5f) / count;
+            const auto is_green = [](float nm) { return nm > 520 && nm < 580; };
+            green += is_green(world.wavelengths(u).hero());
+            green_by_response += is_green(Wavelengths::three(u, by_response).hero());
+        }
+        CHECK(green > 0.49 * green_by_response);
+    }
+}
+
+TEST_CASE("lines that are narrower than a nanometre have their colour") {
+    const auto colour = [](std::vector<Spectrum::Point> points) {
+        return LightSpectrum(Spectrum(std::move(points))).colour();
+    };
+    // Of the two lines of mercury, each also as a band of 4 nm with the same power.
+    const glm::vec3 narrow = colour({{435.6f, 0}, {435.8f, 1}, {436.0f, 0}, {545.8f, 0}, {546.0f, 1}, {546.2f, 0}});
+    const glm::vec3 wide = colour({{433.8f, 0}, {435.8f, 1}, {437.8f, 0}, {544.0f, 0}, {546.0f, 1}, {548.0f, 0}});
+    CHECK(glm::length(narrow - wide) < 0.03f * glm::length(wide));
+    CHECK(narrow.z > 1.0f);
+    CHECK(LightSpectrum(Spectrum({{588.4f, 0}, {588.5f, 1}, {588.6f, 0}})).visible());
+    CHECK_FALSE(LightSpectrum(Spectrum({{800.0f, 0}, {801.0f, 1}})).visible());
+}
+
 TEST_CASE("spectral furnace: all kinds of surfaces and media give back what they got") {
     struct Case {
         std::string material;
@@ -369,6 +403,14 @@ TEST_CASE("measured spectra: of light, of what reflects it, and of what absorbs 
         return mean_of_pixel(spectral_scene("\"a\": " + material, slab_of_a, R"("lights": [])"), {-1, 0, 0}, {1, 0, 0});
     };
     check_colour(shining(R"({"glowing": {"radiance": 3, "spectrum": {"blackbody": 2700}}})"), 3.0 * of_bulb);
+    // One that loses nothing in red and green shines there all the same.
+    for (const bool is_spectral : {false, true}) {
+        Scene scene = spectral_scene(R"("a": {"clear": {"ior": 1, "absorption": [0, 0, 1e-4], "emission": [6, 6, 6],
+                                        "emission_spectrum": {"blackbody": 2700}}})",
+                                     slab_of_a, R"("lights": [])");
+        scene.settings.spectral = is_spectral;
+        check_colour(mean_of_pixel(scene, {-1, 0, 0}, {1, 0, 0}), 3.0 * of_bulb);
+    }
     check_colour(shining(R"({"clear": {"ior": 1, "absorption": [2, 2, 2], "emission": [6, 6, 6],
                                        "emission_spectrum": {"blackbody": 2700}}})"),
                  3.0 * (1 - std::exp(-1.0)) * of_bulb);

@@ -57,7 +57,7 @@ TEST_CASE("every kind of material tells its name and what of it can be changed")
     };
     const view::Look look{.color = glm::vec3(0.25f), .ior = 1.25f, .roughness = 0.75f};
     for (const Case& c : {Case{R"({"clear": {"ior": 1.5}})", "clear", true, true, true},
-                          Case{R"({"diffuse": {"color": [0.5, 0.5, 0.5]}})", "diffuse", true, false, false},
+                          Case{R"({"diffuse": {"color": [0.5, 0.5, 0.5]}})", "diffuse", true, false, true},
                           Case{R"({"conductor": {"metal": "gold"}})", "conductor", false, false, true},
                           Case{R"({"coated": {"color": [0.5, 0.5, 0.5]}})", "coated", true, true, true}}) {
         CAPTURE(c.material);

@@ -10,7 +10,7 @@ inline float luminance(const glm::vec3& rgb) {
 }
 
 /// How bright the three numbers of a path are, which are colours or those of three wavelengths
-/// (spectrum/wavelengths.hpp). Wavelengths are chosen by how much they count, so they count alike.
+/// (spectrum/wavelengths.hpp). Wavelengths count alike, because they are chosen by how much they count.
 inline float brightness(const glm::vec3& numbers, bool is_spectral) {
     return is_spectral ? (numbers.x + numbers.y + numbers.z) / 3.0f : luminance(numbers);
 }

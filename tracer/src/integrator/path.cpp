@@ -13,6 +13,7 @@
 #include "integrator/roulette.hpp"
 #include "integrator/shadow_ray.hpp"
 #include "integrator/technique_weight.hpp"
+#include "media/channel_choice.hpp"
 #include "phasetree/math/bounds.hpp"
 #include "world/chain.hpp"
 
@@ -40,8 +41,8 @@ class Path {
           recorder_(record, scene) {
         // Photons have wavelengths, and the paths that gather them have the same.
         if (!world.needs_wavelengths()) return;
-        wavelengths_ =
-            photons_ && photons_.map->wavelengths() ? *photons_.map->wavelengths() : world.wavelengths(sampler.next_evenly());
+        wavelengths_ = photons_ && photons_.map->wavelengths() ? *photons_.map->wavelengths()
+                                                               : world.wavelengths(sampler.next_evenly());
         if (wavelengths_->is_spectral) now_ = &*wavelengths_;
     }
 
@@ -59,8 +60,8 @@ class Path {
                           light->source, ray_.direction, false);
                 break;
             }
-            throughput_ *= flight.weight;
             if (now_) seen_through_ *= weight_of_colours(flight, distance);
+            throughput_ *= flight.weight;
             if (flight.scattered_at) {
                 recorder_.travelled(ray_.phase, *flight.scattered_at);
                 scatter_in_medium(*flight.scattered_at);
@@ -128,12 +129,13 @@ class Path {
         recorder_.add_light(found, now_, source, direction, is_to_be_scattered);
     }
 
-    // What a flight past `distance` would leave of red, green and blue. Of a medium that scatters it is taken to be
-    // grey: a path's distances there are sampled for its wavelengths.
+    // What a flight past `distance` leaves of red, green and blue. Of a medium that scatters it is taken to be grey: a
+    // path's distances there are sampled for its wavelengths, by its throughput, so the weights that have a bound are
+    // those by that.
     glm::vec3 weight_of_colours(const Flight& flight, float distance) {
         if (const auto* absorbing = std::get_if<AbsorbingMedium>(&medium()))
             return absorbing->transmittance({ray_.origin, ray_.direction, distance}, sampler_);
-        return glm::vec3((flight.weight.x + flight.weight.y + flight.weight.z) / 3.0f);
+        return glm::vec3(glm::dot(channel_choice(throughput_), flight.weight));
     }
 
     // Tells the recorder of a surface before the path's ray leaves it in the direction `next`.

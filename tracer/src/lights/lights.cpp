@@ -116,13 +116,16 @@ void Lights::add_to_groups(const glm::vec3& found, const Wavelengths* wavelength
         groups[0] += radiance;
     } else if (std::ranges::all_of(infinite_group_, is_like_first)) {
         groups[infinite_group_.front()] += radiance;
+    } else if (const glm::vec3 all = infinite_radiance(direction, wavelengths); all == glm::vec3(0.0f)) {
+        groups[infinite_group_.front()] += radiance;
     } else {
-        const glm::vec3 all = infinite_radiance(direction, wavelengths);
         for (std::size_t i = 0; i < infinite_.size(); ++i) {
             const glm::vec3 part = radiance_of_infinite(i, direction, wavelengths);
             glm::vec3 share(0.0f);
+            // Light of a shadow ray that was dispersed is of colours of which none came from the lights: it is shared
+            // by brightness.
             for (int c = 0; c < 3; ++c)
-                if (all[c] > 0) share[c] = found[c] * (part[c] / all[c]);
+                share[c] = found[c] * (all[c] > 0 ? part[c] / all[c] : luminance(part) / luminance(all));
             groups[infinite_group_[i]] += colour_of_found(share, wavelengths);
         }
     }

@@ -30,7 +30,7 @@ class Absorption {
         return absorption;
     }
     /// By wavelength, per unit of length; not negative. For colours it is what makes their light the same after a
-    /// distance at which a good third of it is left.
+    /// distance of one over its mean, at which a third of it is left or more.
     static Absorption of(SharedSpectrum spectrum);
 
     const glm::vec3& rgb() const { return rgb_; }

@@ -13,8 +13,7 @@ namespace phasetree::tracer {
 struct ScatteringCoefficients {
     Absorption absorption{};     ///< σa
     glm::vec3 scattering{0.0f};  ///< σs
-    /// What it shines by itself: radiance per unit of length. It is 0 in channels that are neither absorbed nor
-    /// scattered, where it would have no bound.
+    /// What it shines by itself: radiance per unit of length.
     glm::vec3 emission{0.0f};
     SharedLightSpectrum emission_spectrum{};  ///< of that, if it is known
     HenyeyGreenstein phase_function{};

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <exception>
 #include <memory>
 #include <stdexcept>
@@ -117,10 +118,18 @@ std::vector<unsigned char> encoded(const OIIO::ImageSpec& spec, const char* name
     return bytes;
 }
 
-// How much of each pixel is covered, if that is recorded.
+// How much of each pixel is covered, if that is recorded and the background is black: where nothing covers, nothing
+// shines. Denoising may leave a little there. Over another background the colour of what covers is not known.
 const Channel* alpha_of(const Image& image) {
     const auto found = std::ranges::find(image.further, "A", &Channel::name);
-    return found == image.further.end() ? nullptr : &*found;
+    if (found == image.further.end()) return nullptr;
+    double covered = 0, uncovered = 0;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const glm::vec3& p = image.pixels[i];
+        const double light = static_cast<double>(std::abs(p.x) + std::abs(p.y) + std::abs(p.z));
+        if (std::isfinite(light)) (found->values[i] > 0 ? covered : uncovered) += light;
+    }
+    return uncovered <= 0.001 * covered ? &*found : nullptr;
 }
 
 // PNG and programs that edit pictures want the colour of what covers a pixel, not what is left of it there.

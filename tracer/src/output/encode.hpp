@@ -33,8 +33,8 @@ Format format_of(const std::filesystem::path& path);
 ///   PNG   8 bits, dithered (quantise.hpp), tagged sRGB where the display is
 ///   JPEG  the same 8 bits and tag, quality 95, chroma not subsampled
 ///   TIFF  16 bits, ZIP
-/// With a channel "A" PNG and TIFF have it as a fourth channel, and colours are divided by it first, as such files have
-/// them: it is taken for what covers a black background.
+/// With a channel "A" and a black background, which is known by pixels that nothing covers, PNG and TIFF have it as a
+/// fourth channel, and colours are divided by it first, as such files have them.
 /// Throws OutputError with the reason, not knowing the path.
 std::vector<unsigned char> encode(const Image& image, Format format, const Metadata& metadata,
                                   const DisplayTransform& transform);

@@ -113,7 +113,8 @@ void show(const Medium& interior, float half_size, Look& look) {
                 const ScatteringCoefficients& c = medium.coefficients();
                 const float scattered = std::max({c.scattering.x, c.scattering.y, c.scattering.z}) * half_size;
                 if (shines(interior) && !c.scatters()) {
-                    show_light(c.emission / glm::max(c.extinction(), glm::vec3(1e-6f)), look);
+                    const glm::vec3 emission = light_of(c.emission, c.emission_spectrum, nullptr);
+                    show_light(emission / glm::max(c.extinction(), glm::vec3(1e-6f)), look);
                 } else if (scattered > thin) {
                     look.kind = Look::diffuse;
                     look.color = reflectance(c);
@@ -136,7 +137,7 @@ Look look_of(const std::string& name, const Material& material, const Bounds& bo
                 look.kind = Look::metal;
                 look.color = reflectance(m);
             } else if constexpr (requires { m.light; }) {
-                show_light(m.radiance * mean(m.light, bounds), look);
+                show_light(m.radiance * light_of(mean(m.light, bounds), m.spectrum, nullptr), look);
             } else {
                 look.kind = requires {
                     m.ior;

@@ -84,9 +84,9 @@ std::uint64_t fingerprint(const Document& document) {
 }
 
 std::vector<std::pair<std::string, std::string>> settings_of_samples(const RenderSettings& settings) {
-    // Guiding is told below, so that films from before there was any are still known.
-    constexpr std::array<std::string_view, 7> others{
-        "width", "height", "samples", "exposure", "view", "frames_per_second", "guiding"};
+    // Guiding and wavelengths are told below, so that films from before there were any are still known.
+    constexpr std::array<std::string_view, 8> others{
+        "width", "height", "samples", "exposure", "view", "frames_per_second", "guiding", "spectral"};
     const ImageParameters values{settings};
     std::vector<std::pair<std::string, std::string>> all;
     ImageParameters::parameters([&](auto member, const Parameter& p) {
@@ -97,6 +97,7 @@ std::vector<std::pair<std::string, std::string>> settings_of_samples(const Rende
     if (settings.shutter != glm::vec2(0))
         all.emplace_back("shutter", fmt::format("{},{}", settings.shutter.x, settings.shutter.y));
     if (settings.guiding) all.emplace_back("guiding", "true");
+    if (settings.spectral) all.emplace_back("spectral", "true");
     // By it the noise is judged.
     if (settings.noise > 0) all.emplace_back("exposure", fmt::format("{}", settings.exposure_ev));
     return all;

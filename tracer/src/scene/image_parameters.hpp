@@ -35,11 +35,12 @@ struct ImageParameters : RenderSettings {
         v(&P::max_depth,
           Parameter{"max_depth", "", "The most surfaces that a path meets. One between equal indices counts, too.",
                     Limits{.low = 1, .high = 1 << 20}, true});
-        v(&P::spectral, Parameter{"spectral", "",
-                                  "Whether light has wavelengths in place of red, green and blue, three on each path. "
-                                  "Metals, thin films, absorption and light then are what they are at each wavelength; "
-                                  "colours are spectra that look like them.",
-                                  limits::any, true});
+        v(&P::spectral,
+          Parameter{"spectral", "",
+                    "Whether light has wavelengths in place of red, green and blue, three on each path. "
+                    "Metals, films on smooth surfaces, absorption and light then are what they are at each "
+                    "wavelength; colours are spectra that look like them.",
+                    limits::any, true});
         v(&P::guiding, Parameter{"guiding", "",
                                  "Whether paths learn where light comes from before the first sample, so that half "
                                  "of them go there from diffuse surfaces. It pays where most light has been scattered "

@@ -76,7 +76,9 @@ Medium ClearParameters::interior() const {
         c.scattering = measured.reduced_scattering * (*scale / (1.0f - c.phase_function.g()));
         c.absorption = measured.absorption * *scale;
     }
-    const glm::vec3 extinction = c.extinction();
+    // By wavelength a medium may lose nothing here and there.
+    const bool has_spectrum = absorption_spectrum || emission_spectrum;
+    const glm::vec3 extinction = has_spectrum ? glm::vec3(c.greatest_extinction()) : c.extinction();
     for (int i = 0; i < 3; ++i)
         if (c.emission[i] > 0.0f && !(extinction[i] > 0.0f))
             throw ParameterError("emission",

@@ -88,7 +88,7 @@ struct ClearParameters : FilmParameters {
           SpectrumParameter{{"absorption_spectrum", "nm, 1/m",
                              "In place of the absorption: wavelengths and the absorption at each. Without "
                              "\"spectral\" red, green and blue are absorbed so that a layer looks the same that lets "
-                             "a good third of white light through.",
+                             "a third of white light through, or more.",
                              limits::non_negative, true}});
         v(&P::color,
           ColourParameter{{"color", "", "In place of the absorption: what is left of white light after a distance.",

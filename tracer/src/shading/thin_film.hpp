@@ -8,7 +8,7 @@
 //     R = (|rₛ|² + |rₚ|²)/2, for each colour the mean of R(λ) by colour_matching.hpp
 //
 // A film absorbs nothing: behind it arrives 1 − R. It is so thin that it displaces no ray; what is refracted goes where
-// it would without it. Indices do not change with the wavelength, but for a metal's, which are those of each colour.
+// it would without it. Indices do not change with the wavelength, but for a metal's.
 // Colours beyond what red, green and blue can show are clipped to [0, 1].
 //
 // The colours of R are tabulated over cos θ in the medium outside and, if the thickness varies, over the thickness.

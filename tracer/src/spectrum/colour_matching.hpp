@@ -14,6 +14,8 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "spectrum/wavelength.hpp"
+
 namespace phasetree::tracer {
 
 inline double colour_matching_lobe(double wavelength, double middle, double below, double above) {
@@ -43,14 +45,14 @@ struct SpectralWeight {
     glm::dvec3 weight;
 };
 
-/// Weights by which a spectrum that is the same at all wavelengths is as much red as green and blue: those of each
-/// colour add up to 1. Some are negative, as Rec.709's primaries do not hold all colours.
+/// Weights by which light of D65 is as much red as green and blue: those of each colour add up to 1. Some are negative,
+/// as Rec.709's primaries do not hold all colours.
 inline std::vector<SpectralWeight> spectral_weights() {
     constexpr double first = 380.0, last = 780.0, step = 2.0;
     std::vector<SpectralWeight> weights;
     glm::dvec3 sum(0.0);
     for (double wavelength = first; wavelength <= last; wavelength += step) {
-        weights.push_back({wavelength, rec709_from_xyz(colour_matching(wavelength))});
+        weights.push_back({wavelength, daylight_at(wavelength) * rec709_from_xyz(colour_matching(wavelength))});
         sum += weights.back().weight;
     }
     for (SpectralWeight& w : weights) w.weight /= sum;

@@ -1,5 +1,6 @@
 #include "spectrum/light_spectrum.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <utility>
@@ -10,17 +11,21 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Between these D65 is known; a nanometre is finer than any of the points of D65 and of most lamps.
+// Between these D65 is known. A nanometre is finer than the points of D65; lines are spread over one or two.
 constexpr int first_nanometre = 380, last_nanometre = 780;
 
 Spectrum relative_to_daylight(const Spectrum& power) {
-    std::vector<Spectrum::Point> points;
-    // Over the greatest, so that no float is too large or too small whatever the unit is.
-    const double unit = power.greatest() > 0.0f ? static_cast<double>(power.greatest()) : 1.0;
-    for (int nm = first_nanometre; nm <= last_nanometre; ++nm) {
-        const auto at = static_cast<float>(nm);
-        points.push_back({at, static_cast<float>(static_cast<double>(power.at(at)) / unit / daylight_at(nm))});
+    std::vector<double> means;
+    for (int nm = first_nanometre; nm < last_nanometre; ++nm) {
+        const double middle = nm + 0.5;
+        means.push_back(power.mean_around(middle) / daylight_at(middle));
     }
+    // Over the greatest, so that no float is too large or too small whatever the unit is.
+    const double greatest = *std::ranges::max_element(means);
+    std::vector<Spectrum::Point> points;
+    for (std::size_t i = 0; i < means.size(); ++i)
+        points.push_back({static_cast<float>(first_nanometre + static_cast<int>(i)) + 0.5f,
+                          static_cast<float>(greatest > 0.0 ? means[i] / greatest : 0.0)});
     const float brightness = luminance(Spectrum(points).colour());
     for (Spectrum::Point& point : points) point.value = brightness > 0.0f ? point.value / brightness : 0.0f;
     return Spectrum(std::move(points));

@@ -5,7 +5,7 @@
 namespace phasetree::tracer {
 
 Spectrum::Spectrum(std::vector<Point> points) : points_(std::move(points)) {
-    colour_ = glm::vec3(colour_of([this](double nanometres) { return at(static_cast<float>(nanometres)); }));
+    colour_ = glm::vec3(colour_of([this](double nanometres) { return mean_around(nanometres); }));
 }
 
 float Spectrum::at(float nanometres) const {
@@ -15,6 +15,21 @@ float Spectrum::at(float nanometres) const {
     if (above == points_.end()) return below->value;
     const float part = (nanometres - below->nanometres) / (above->nanometres - below->nanometres);
     return below->value + part * (above->value - below->value);
+}
+
+double Spectrum::mean_around(double nanometres) const {
+    const double from = nanometres - 0.5, to = nanometres + 0.5;
+    double last = from, last_value = static_cast<double>(at(static_cast<float>(from))), sum = 0.0;
+    const auto go_to = [&](double nm, double value) {
+        sum += 0.5 * (last_value + value) * (nm - last);
+        last = nm;
+        last_value = value;
+    };
+    auto point = std::ranges::upper_bound(points_, from, {}, [](const Point& p) { return double{p.nanometres}; });
+    for (; point != points_.end() && double{point->nanometres} < to; ++point)
+        go_to(double{point->nanometres}, double{point->value});
+    go_to(to, static_cast<double>(at(static_cast<float>(to))));
+    return sum;
 }
 
 glm::vec3 Spectrum::at(const Wavelengths& wavelengths) const {

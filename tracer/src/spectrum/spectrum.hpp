@@ -20,6 +20,8 @@ class Spectrum {
     explicit Spectrum(std::vector<Point> points);
 
     float at(float nanometres) const;
+    /// Its mean over the nanometre around a wavelength, in which a line may be narrower than that.
+    double mean_around(double nanometres) const;
     /// At each of a path's wavelengths.
     glm::vec3 at(const Wavelengths& wavelengths) const;
     float greatest() const;

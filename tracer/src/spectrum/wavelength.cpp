@@ -132,8 +132,21 @@ glm::dvec3 WavelengthDistribution::colour_of(const std::function<double(double)>
     return sum;
 }
 
+double WavelengthDistribution::mean_of(const std::function<double(double)>& f) const {
+    double sum = 0.0, before = 0.0;
+    for (std::size_t i = 0; i < cells; ++i) {
+        sum += f(first + static_cast<double>(i) + 0.5) * (cumulative_[i] - before);
+        before = cumulative_[i];
+    }
+    return sum;
+}
+
 glm::dvec3 colour_of(const std::function<double(double)>& f) {
     return by_response().colour_of(f);
+}
+
+double mean_of(const std::function<double(double)>& f) {
+    return by_response().mean_of(f);
 }
 
 Wavelength sampled_wavelength(float u) {

@@ -39,6 +39,8 @@ class WavelengthDistribution {
     Wavelength sample(float u) const;
     /// ∫ w f dλ.
     glm::dvec3 colour_of(const std::function<double(double)>& f) const;
+    /// ∫ p f dλ.
+    double mean_of(const std::function<double(double)>& f) const;
 
   private:
     static constexpr std::size_t cells = 400;
@@ -53,8 +55,11 @@ Wavelength sampled_wavelength(float u);
 /// ρ of red, green and blue at a wavelength in nanometres.
 glm::vec3 primaries_at(double wavelength);
 
-/// ∫ w f dλ: the colour of D65 times f, which is asked at each nanometre between 380 and 780.
+/// ∫ w f dλ: the colour of D65 times f, which is asked in the middle of each nanometre between 380 and 780.
 glm::dvec3 colour_of(const std::function<double(double)>& f);
+/// ∫ |w| f dλ/∫ |w| dλ, with the sum of |w| over red, green and blue: the mean of f where nothing is known of the
+/// light.
+double mean_of(const std::function<double(double)>& f);
 
 /// D65, in proportion to power per nanometre: 100 at 560 nm.
 double daylight_at(double wavelength);

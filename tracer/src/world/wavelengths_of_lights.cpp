@@ -27,10 +27,17 @@ WavelengthDistribution wavelengths_of_lights(const Scene& scene) {
     const std::vector<SharedLightSpectrum> spectra = spectra_of(scene);
     if (std::ranges::none_of(spectra, [](const SharedLightSpectrum& spectrum) { return spectrum != nullptr; }))
         return {};
+    // Each counts alike where it is seen, whether the eye is quick or slow to see it: a violet lamp of luminance 1 has
+    // a hundred times the power of a green one.
+    std::vector<double> scale;
+    for (const SharedLightSpectrum& spectrum : spectra)
+        scale.push_back(
+            spectrum ? 1.0 / mean_of([&](double nm) { return double{spectrum->relative_at(static_cast<float>(nm))}; })
+                     : 1.0);
     return WavelengthDistribution([&](double nanometres) {
         double sum = 0.0;
-        for (const SharedLightSpectrum& spectrum : spectra)
-            sum += spectrum ? static_cast<double>(spectrum->relative_at(static_cast<float>(nanometres))) : 1.0;
+        for (std::size_t i = 0; i < spectra.size(); ++i)
+            sum += scale[i] * (spectra[i] ? double{spectra[i]->relative_at(static_cast<float>(nanometres))} : 1.0);
         return 0.5 + 0.5 * sum / static_cast<double>(spectra.size());
     });
 }

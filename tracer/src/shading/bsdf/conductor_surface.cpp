@@ -1,6 +1,7 @@
 #include "shading/bsdf/conductor_surface.hpp"
 
 #include <algorithm>
+#include <array>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -51,7 +52,10 @@ ConductorSurface::ConductorSurface(float ior, const glm::vec3& eta, const glm::v
                                    std::span<const MetalPoint> spectrum)
     : ior_(ior), eta_(eta / ior), k_(k / ior) {
     if (film) film_.emplace(ThinFilm::Layers{ior, film->ior, eta, k}, film->thickness.least, film->thickness.greatest);
-    for (int i = 0; i < spectrum_nodes && !spectrum.empty(); ++i) {
+    // An index for red, green and blue is taken to be that at the wavelengths for which those of metals are given.
+    const std::array<MetalPoint, 3> by_colours{{{450, eta.z, k.z}, {550, eta.y, k.y}, {650, eta.x, k.x}}};
+    if (spectrum.empty()) spectrum = by_colours;
+    for (int i = 0; i < spectrum_nodes; ++i) {
         const MetalPoint index = index_at(spectrum, first_nanometre + nanometre_step * static_cast<float>(i));
         AtWavelength at{index.eta / ior, index.k / ior, 0.0f};
         if (roughness)

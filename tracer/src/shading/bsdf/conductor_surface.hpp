@@ -31,8 +31,8 @@ class ConductorSurface {
   public:
     /// The index η + ik is that against vacuum, as is `ior` of the clear medium in front. `roughness` is that of GGX,
     /// for a surface that is rough somewhere.
-    /// `spectrum` is the same index by wavelength, if it is known; without it light of wavelengths is reflected as
-    /// red, green and blue are that look like it.
+    /// `spectrum` is the same index by wavelength, if it is known; without it that of blue, green and red is taken to
+    /// be the index at 450, 550 and 650 nm, between which it is linear.
     ConductorSurface(float ior, const glm::vec3& eta, const glm::vec3& k,
                      const std::optional<ValueRange>& roughness = {}, const std::optional<FilmOfSurface>& film = {},
                      std::span<const MetalPoint> spectrum = {});
@@ -54,16 +54,14 @@ class ConductorSurface {
         float eta, k, mean_reflectance;
     };
     AtWavelength at(float nanometres) const;
-    bool has_spectrum_for(const Wavelengths* wavelengths) const {
-        return wavelengths && wavelengths->is_spectral && !spectrum_.empty();
-    }
+    bool has_spectrum_for(const Wavelengths* wavelengths) const { return wavelengths && wavelengths->is_spectral; }
 
     float ior_;
     glm::vec3 eta_, k_;  ///< relative to the medium in front
     std::optional<ThinFilm> film_;
     std::optional<LossTables> losses_;
     glm::vec3 mean_reflectance_{0.0f};    ///< F̄ without a film
-    std::vector<AtWavelength> spectrum_;  ///< every few nanometres; empty if the spectrum is not known
+    std::vector<AtWavelength> spectrum_;  ///< every few nanometres
 };
 
 }  // namespace phasetree::tracer
