@@ -8,8 +8,8 @@
 #include "command/load.hpp"
 #include "command/unplaced_report.hpp"
 #include "output/file.hpp"
-#include "phasetree/io/keys.hpp"
 #include "phasetree/io/kept_nodes.hpp"
+#include "phasetree/io/keys.hpp"
 #include "scene/camera_text.hpp"
 #include "volume/read_volume.hpp"
 

@@ -60,9 +60,9 @@ struct Shown {
     std::uint64_t numbers_version = 0;
     double seconds = 0;            ///< likewise: the time of what is shown,
     std::optional<TimeSpan> keys;  ///< and from the scene's first key to its last
-    std::string camera_text;  ///< likewise, as the scene's file would say it; empty until there is an object
-    glm::vec3 centre{0.0f};   ///< of the object
-    float radius = 1;         ///< of a ball around it
+    std::string camera_text;       ///< likewise, as the scene's file would say it; empty until there is an object
+    glm::vec3 centre{0.0f};        ///< of the object
+    float radius = 1;              ///< of a ball around it
     float exposure_ev = 0;
     double seconds_to_picture = 0;  ///< from the last change to the first picture of it
 };

@@ -30,10 +30,10 @@ struct ViewedScene {
     std::function<DisplayTransform(float exposure_ev)> display;
     std::optional<Document> file{};  ///< of the scene, without the numbers that stand in place of its own:
     NumberEdits edits{};
-    TextNumbers numbers{};   ///< of the file
-    NodePlaces places{};     ///< of the object's nodes, with those numbers
-    std::string warnings{};  ///< of the reader, each with a newline behind it
-    double seconds = 0;      ///< the time at which it was read,
+    TextNumbers numbers{};           ///< of the file
+    NodePlaces places{};             ///< of the object's nodes, with those numbers
+    std::string warnings{};          ///< of the reader, each with a newline behind it
+    double seconds = 0;              ///< the time at which it was read,
     std::optional<TimeSpan> keys{};  ///< and from the first key to the last; nothing where nothing changes with time
 
     /// Where a node stands in its file, as that is; nothing for one that stands in none.
