@@ -266,6 +266,17 @@ void say_what_is_missing(const RenderOptions& options, const Scene& scene, const
     }
 }
 
+// Of what an output is asked for and will not have.
+void warn_of_alpha(const Scene& scene, const std::string& name, const std::vector<std::string>& outputs) {
+    if (!scene.film.planes[Planes::place<AlphaPlane>()] || scene.lights.is_background_black()) return;
+    for (const std::string& output : outputs)
+        if (!is_film_file(output) && (format_of(output) == Format::png || format_of(output) == Format::tiff))
+            say("{}: warning: {} gets no alpha, because the background is not black; \"background\": [0, 0, 0] makes "
+                "it "
+                "so\n",
+                name, output);
+}
+
 int render_scene(const RenderOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     expect_checkpoint_requests();
@@ -293,6 +304,7 @@ int render_scene(const RenderOptions& options) {
     job.threads = threads.count();
     job.cancelled = [] { return interrupted(); };
     const std::vector<std::string> outputs = checked_outputs(options, *job.samples);
+    warn_of_alpha(scene, document.name(), outputs);
     const DisplayTransform display =
         display_of(document, scene.settings, options.display, options.view, options.exposure);
     if (threads.count() < threads.wanted())

@@ -43,15 +43,18 @@ class Path {
         if (!world.needs_wavelengths()) return;
         wavelengths_ = photons_ && photons_.map->wavelengths() ? *photons_.map->wavelengths()
                                                                : world.wavelengths(sampler.next_evenly());
-        if (wavelengths_->is_spectral) now_ = &*wavelengths_;
+        if (wavelengths_->is_spectral) current_ = &*wavelengths_;
     }
+
+    Path(const Path&) = delete;  // current_ points into it
+    Path& operator=(const Path&) = delete;
 
     glm::vec3 trace() {
         for (int depth = 0; depth < scene_.settings.max_depth;) {
             const Hit hit = world_.geometry().intersect(ray_, counters_);
             const Surface* surface = std::get_if<Surface>(&hit);
             const float distance = surface ? surface->distance : Bounds::infinity;
-            const auto light = scene_.lights.seen(ray_.origin, ray_.direction, distance, is_camera_ray_, now_);
+            const auto light = scene_.lights.seen(ray_.origin, ray_.direction, distance, is_camera_ray_, current_);
             const Flight flight = through_medium(light ? light->distance : distance);
             add_emission_of_medium(flight.emitted);
             if (light && !flight.scattered_at) {
@@ -60,7 +63,7 @@ class Path {
                           light->source, ray_.direction, false);
                 break;
             }
-            if (now_) seen_through_ *= weight_of_colours(flight, distance);
+            if (current_ && recorder_.is_asked()) recorded_throughput_ *= weight_of_colours(flight, distance);
             throughput_ *= flight.weight;
             if (flight.scattered_at) {
                 recorder_.travelled(ray_.phase, *flight.scattered_at);
@@ -73,11 +76,11 @@ class Path {
             chain_.by_photons.reach_boundary(distance);
             recorder_.travelled(ray_.phase, distance);
             ++depth;
-            if (const auto emitted = surface->emitted(now_))
+            if (const auto emitted = surface->emitted(current_))
                 add_light(throughput_ * chain_.weight(scene_, photons_, ray_, *surface) * emitted->radiance,
                           OfGlowingSurface{emitted->group}, ray_.direction, false);
             if (surface->optics.get().disperses()) disperse();
-            const Bsdf bsdf = surface->bsdf(now_);
+            const Bsdf bsdf = surface->bsdf(current_);
             if (bsdf.passes_through()) {  // equal indices scatter nothing, but do count for max_depth
                 ray_ = surface->transmitted(ray_.direction);
                 entered_ = surface->normal;
@@ -95,15 +98,15 @@ class Path {
     void disperse() {
         if (is_dispersed_) return;
         is_dispersed_ = true;
-        now_ = &wavelengths_.value();
-        if (now_->is_spectral)
-            throughput_ *= now_->of_hero_alone;
+        current_ = &wavelengths_.value();
+        if (current_->is_spectral)
+            throughput_ *= current_->hero_to_all;
         else
-            seen_through_ = throughput_;
+            recorded_throughput_ = throughput_;
     }
 
     Flight through_medium(float distance) {
-        return fly(medium(), {ray_.origin, ray_.direction, distance, now_}, throughput_, sampler_);
+        return fly(medium(), {ray_.origin, ray_.direction, distance, current_}, throughput_, sampler_);
     }
 
     // The same as scatter_and_continue() of a surface, in the medium at that distance along the ray. There is always a
@@ -124,14 +127,13 @@ class Path {
     // that at these, and becomes a colour here.
     void add_light(const glm::vec3& found, const LightSource& source, const glm::vec3& direction,
                    bool is_to_be_scattered) {
-        radiance_ += colour_of_found(found, now_);
+        radiance_ += colour_of_found(found, current_);
         guiding_.add_light(found);
-        recorder_.add_light(found, now_, source, direction, is_to_be_scattered);
+        recorder_.add_light(found, current_, source, direction, is_to_be_scattered);
     }
 
-    // What a flight past `distance` leaves of red, green and blue. Of a medium that scatters it is taken to be grey: a
-    // path's distances there are sampled for its wavelengths, by its throughput, so the weights that have a bound are
-    // those by that.
+    // Returns what a flight past `distance` leaves of red, green and blue. In a medium that scatters that is one number
+    // for all three: the mean of the flight's weights by channel_choice(), because only that mean has a bound.
     glm::vec3 weight_of_colours(const Flight& flight, float distance) {
         if (const auto* absorbing = std::get_if<AbsorbingMedium>(&medium()))
             return absorbing->transmittance({ray_.origin, ray_.direction, distance}, sampler_);
@@ -141,14 +143,16 @@ class Path {
     // Tells the recorder of a surface before the path's ray leaves it in the direction `next`.
     void record(const Surface& surface, const GuidedBsdf& bsdf, float lobe, const glm::vec2& u,
                 const std::optional<GuidedBsdf::Sample>& next) {
-        if (!now_)
+        if (!current_)
             return record(surface, bsdf.bsdf(),
                           bsdf.guide() ? bsdf.unguided_sample(lobe, u) : std::optional<BsdfSample>(next), throughput_);
-        // The albedo is in all colours though the path has wavelengths: it tells what a surface looks like.
+        // The albedo is in colours though the path has wavelengths, because it tells what a surface looks like. So the
+        // surface is asked once more, with the same numbers. Where these are at the edge between reflection and
+        // refraction, the record follows the one and the path the other, which is rare and changes no light.
         const Bsdf in_colours = surface.bsdf();
         const auto seen = GuidedBsdf(in_colours, bsdf.frame(), bsdf.wo(), bsdf.guide()).unguided_sample(lobe, u);
-        record(surface, in_colours, seen, seen_through_);
-        seen_through_ *= seen ? seen->weight : glm::vec3(0.0f);
+        record(surface, in_colours, seen, recorded_throughput_);
+        recorded_throughput_ *= seen ? seen->weight : glm::vec3(0.0f);
     }
     void record(const Surface& surface, const Bsdf& bsdf, const std::optional<BsdfSample>& next,
                 const glm::vec3& throughput) {
@@ -235,7 +239,7 @@ class Path {
     }
 
     std::optional<LightSample> sampled_light(const LightProposal& proposal) {
-        return proposal.sample(scene_.lights, sampler_.next2(), now_);
+        return proposal.sample(scene_.lights, sampler_.next2(), current_);
     }
 
     // f is what of the light is scattered into the path, the cosine included, and pdf the density with which the path
@@ -303,9 +307,9 @@ class Path {
         });
         glm::vec3 fluence = power / photons_.map->expected();
         if (photon.of_one_wavelength) {
-            if (!is_dispersed_) fluence *= wavelengths_->of_hero_alone;
-        } else if (now_ && !now_->is_spectral) {
-            fluence = for_light(fluence, now_);
+            if (!is_dispersed_) fluence *= wavelengths_->hero_to_all;
+        } else if (current_ && !current_->is_spectral) {
+            fluence = for_light(fluence, current_);
         }
         add_light(throughput_ * f * fluence * weight, photon.source, photon.towards_light, true);
     }
@@ -343,7 +347,7 @@ class Path {
             if (!(by_photons > 0.0f)) return;
             // What the medium leaves of the photon between the boundary and the point. A point before the boundary is
             // one at which nothing is lost yet.
-            const Wavelengths* of_photon = photon.of_one_wavelength ? &*wavelengths_ : now_;
+            const Wavelengths* of_photon = photon.of_one_wavelength ? &*wavelengths_ : current_;
             const glm::vec3 left =
                 transmittance(medium(), {point.position, photon.direction, std::max(depth, 0.0f), of_photon}, sampler_);
             const float f = point.phase_function.get().evaluate(glm::dot(ray_.direction, photon.direction));
@@ -358,13 +362,15 @@ class Path {
     // guide is for.
     bool roulette(int depth) {
         const float ior = clear_at(scene_, ray_.phase).ior / camera_ior_;
-        const float worth = std::max({throughput_.x, throughput_.y, throughput_.z}) * ior * ior;
+        // The hero's throughput stands for three wavelengths where it has gone on alone.
+        const float alone = is_dispersed_ && current_->is_spectral ? current_->hero_to_all.x : 1.0f;
+        const float worth = std::max({throughput_.x, throughput_.y, throughput_.z}) / alone * ior * ior;
         if (!(worth > 0)) return false;
         const float survival = roulette_survival(std::max(guiding_.pdf_over_unguided(), 1.0f) * worth, depth);
         if (survival < 1.0f) {
             if (sampler_.next() >= survival) return false;
             throughput_ /= survival;
-            seen_through_ /= survival;
+            recorded_throughput_ /= survival;
         }
         return true;
     }
@@ -382,11 +388,14 @@ class Path {
     // The outward normal of the clear boundary that the path met last in this medium.
     std::optional<glm::vec3> entered_;
     bool is_camera_ray_ = true;
-    std::optional<Wavelengths> wavelengths_;  // none where the world needs none
-    const Wavelengths* now_ = nullptr;        // what the path's numbers are of; null if they are red, green and blue
+    // Those of the path, also while it still carries colours; none where the world needs none.
+    std::optional<Wavelengths> wavelengths_;
+    // What the path's numbers are of: null while they are red, green and blue, else wavelengths_.
+    const Wavelengths* current_ = nullptr;
     bool is_dispersed_ = false;
-    // What the way from the camera leaves of red, green and blue, for the record of a path that has wavelengths.
-    glm::vec3 seen_through_{1.0f};
+    // What the way from the camera leaves of red, green and blue, for the record; a path of colours uses it from where
+    // it is dispersed.
+    glm::vec3 recorded_throughput_{1.0f};
     PathRecorder recorder_;
 };
 

@@ -30,17 +30,17 @@ float point_density(const ShadowRayContext& context, const Ray& ray, const Light
 }  // namespace
 
 Arrival trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSample& sampled,
-                         const PathLight& path_light, int interfaces_before) {
+                         const PathWavelengths& path_wavelengths, int interfaces_before) {
     const auto density_at_end = [&](int length, const Surface* glowing) {
         if (!photons_follow(interfaces_before + length)) return 0.0f;
         if (glowing) return line_density(context.photons, ray, *glowing);
         const auto* point = std::get_if<OfPointLight>(&sampled.source);
         return point ? point_density(context, ray, sampled, *point) : line_density(context.photons, ray);
     };
-    PathLight its_light = path_light;
+    PathWavelengths ray_wavelengths = path_wavelengths;
     // The light was sampled for the path. An interface of equal indices may have dispersed a ray of colours since.
-    const auto of_sampled = [&] {
-        return path_light.now() ? sampled.radiance : for_light(sampled.radiance, its_light.now());
+    const auto sampled_radiance = [&] {
+        return path_wavelengths.now() ? sampled.radiance : for_light(sampled.radiance, ray_wavelengths.now());
     };
     Arrival arrival;
     glm::vec3 throughput(1.0f);
@@ -61,31 +61,32 @@ Arrival trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSa
             blocked && blocked->glowing && !sampled.is_of_point_light() ? &*blocked->glowing : nullptr;
         std::optional<Lights::Emission> light;
         if (!is_straight)
-            light = context.scene.lights.seen(ray.origin, ray.direction, distance, false, its_light.now());
+            light = context.scene.lights.seen(ray.origin, ray.direction, distance, false, ray_wavelengths.now());
         else if (escaped)
-            light = Lights::Emission{to_sampled, of_sampled(), sampled.source};
+            light = Lights::Emission{to_sampled, sampled_radiance(), sampled.source};
         if (light) glowing = nullptr;  // a lamp is before it
-        if (const auto emitted = glowing ? glowing->emitted(its_light.now()) : std::nullopt)
+        if (const auto emitted = glowing ? glowing->emitted(ray_wavelengths.now()) : std::nullopt)
             light = Lights::Emission{distance, emitted->radiance, OfGlowingSurface{emitted->group}};
         const bool brings_emission = shines(medium) && !sampled.is_of_point_light();
         const bool is_dark = light ? light->radiance == glm::vec3(0.0f) : !surface;
         if (is_dark && !brings_emission) return arrival;
-        const Passage passage = pass(
-            medium, {ray.origin, ray.direction, light ? light->distance : distance, its_light.now()}, context.sampler);
-        const bool is_dispersed_here = its_light.is_dispersed && !path_light.is_dispersed;
-        const glm::vec3 of_path = is_dispersed_here ? its_light.wavelengths->of_hero_alone : glm::vec3(1.0f);
-        if (brings_emission) arrival.from_media += throughput * passage.emitted * of_path;
+        const Passage passage =
+            pass(medium, {ray.origin, ray.direction, light ? light->distance : distance, ray_wavelengths.now()},
+                 context.sampler);
+        const bool is_dispersed_here = ray_wavelengths.is_dispersed && !path_wavelengths.is_dispersed;
+        const glm::vec3 to_path = is_dispersed_here ? ray_wavelengths.wavelengths->hero_to_all : glm::vec3(1.0f);
+        if (brings_emission) arrival.from_media += throughput * passage.emitted * to_path;
         throughput *= passage.left;
         if (is_dark || throughput == glm::vec3(0.0f)) return arrival;
         if (light) {
-            throughput *= of_path;
+            throughput *= to_path;
             arrival.light = Arrival::FromLight{throughput * light->radiance, light->source, ray.direction,
                                                density_at_end(length, glowing), to_boundary};
             return arrival;
         }
         if (phase_function(medium) && !chain_survives(throughput, context.sampler)) return arrival;
-        if (surface->optics.get().disperses()) its_light.is_dispersed = true;
-        const Bsdf bsdf = surface->bsdf(its_light.now());
+        if (surface->optics.get().disperses()) ray_wavelengths.is_dispersed = true;
+        const Bsdf bsdf = surface->bsdf(ray_wavelengths.now());
         if (bsdf.passes_through()) {
             to_sampled = std::max(to_sampled - distance, 0.0f);
             ray = surface->transmitted(ray.direction);

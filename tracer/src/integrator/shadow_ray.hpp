@@ -18,10 +18,10 @@ struct ShadowRayContext {
     PathCounters& counters;
 };
 
-/// Of which light the path is that a shadow ray belongs to.
-struct PathLight {
-    /// Those of a spectral path, or those that a path of colours has from where it is dispersed; null where nothing
-    /// disperses colours.
+/// The wavelengths of the path that a shadow ray belongs to.
+struct PathWavelengths {
+    /// Those of a spectral path, or those that a path of colours has from where it is dispersed. They are null only in
+    /// scenes that are not spectral and in which nothing disperses.
     const Wavelengths* wavelengths = nullptr;
     bool is_dispersed = false;  ///< whether the path has been dispersed already
     /// What the path's numbers are of; null if they are red, green and blue.
@@ -53,12 +53,12 @@ struct Arrival {
 /// each of which reflects or refracts the ray at random, times the transmittance of the media and the weights of the
 /// interfaces. Up to the first boundary that it meets the ray goes straight to the light that was sampled, which is
 /// known; after that it is asked what light it sees. Of a shadow ray that is dispersed on its way the radiance includes
-/// Wavelengths::of_hero_alone, so that it is of the same light as the path's other numbers. A point light is seen by
+/// Wavelengths::hero_to_all, so that it is of the same light as the path's other numbers. A point light is seen by
 /// the straight ray alone, through boundaries that bend nothing: what it sends through an interface that bends light is
 /// left to photons, because no direction that is sampled here leads through the interface to a point. The ray may start
 /// at a rough interface that photons pass on their way to a lit place: `interfaces_before` counts that interface and
 /// those from there to the lit place.
-Arrival trace_shadow_ray(const ShadowRayContext&, Ray ray, const LightSample& sampled, const PathLight&,
+Arrival trace_shadow_ray(const ShadowRayContext&, Ray ray, const LightSample& sampled, const PathWavelengths&,
                          int interfaces_before);
 
 /// With which density photons start on the line on which a ray leads to a light (EmittedPhoton::line_density); 0 if

@@ -110,6 +110,8 @@ class Lights {
     void cluster_lamps();
     /// What camera rays see instead of the infinite lights.
     void set_background(const std::optional<glm::vec3>& radiance);
+    /// Whether camera rays that meet nothing see no light.
+    bool is_background_black() const { return background_ ? *background_ == glm::vec3(0.0f) : infinite_.empty(); }
 
     /// The number in groups() of a group, which is added if there is none of this name.
     std::size_t group_of(std::string_view name);

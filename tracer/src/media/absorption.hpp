@@ -1,4 +1,4 @@
-// How much of light a medium absorbs per unit of length.
+// This is how much of light a medium absorbs per unit of length.
 //
 // It is given for red, green and blue, as a colour that is left after a distance, or by wavelength. Light of
 // wavelengths loses what makes the colour after that distance exactly what it is for red, green and blue: with the
@@ -20,7 +20,7 @@ class Absorption {
   public:
     Absorption() = default;
     /// For red, green and blue, per unit of length; not negative.
-    Absorption(const glm::vec3& rgb) : rgb_(rgb) {}  // NOLINT: coefficients are one
+    Absorption(const glm::vec3& rgb) : rgb_(rgb) {}  // NOLINT: it converts by itself
     explicit Absorption(float grey) : rgb_(grey) {}
     /// What is left of white light after a distance, in (0, 1].
     static Absorption left_after(const glm::vec3& colour, float distance) {
@@ -30,7 +30,7 @@ class Absorption {
         return absorption;
     }
     /// By wavelength, per unit of length; not negative. For colours it is what makes their light the same after a
-    /// distance of one over its mean, at which a third of it is left or more.
+    /// distance of one over its mean, which lets a third of white light through, or more.
     static Absorption of(SharedSpectrum spectrum);
 
     const glm::vec3& rgb() const { return rgb_; }

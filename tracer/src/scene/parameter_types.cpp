@@ -117,6 +117,10 @@ tracer::SharedLightSpectrum LightSpectrumType::read(const Document& document, Va
             return std::make_shared<const tracer::LightSpectrum>(
                 tracer::LightSpectrum::of_temperature(blackbody.temperature));
         });
+    if (!value.is_array())
+        throw document.error(value, fmt::format("{} must be a list of points, [[wavelength, value], …], or "
+                                                "{{\"blackbody\": kelvin}}",
+                                                what));
     const tracer::SharedSpectrum power =
         SpectrumType::read(document, value, what, tracer::SpectrumParameter{{p.name, "", "", limits::non_negative}});
     auto spectrum = std::make_shared<const tracer::LightSpectrum>(*power);

@@ -20,7 +20,7 @@ Spectrum relative_to_daylight(const Spectrum& power) {
         const double middle = nm + 0.5;
         means.push_back(power.mean_around(middle) / daylight_at(middle));
     }
-    // Over the greatest, so that no float is too large or too small whatever the unit is.
+    // Divided by the greatest, the numbers are good floats whatever the unit is.
     const double greatest = *std::ranges::max_element(means);
     std::vector<Spectrum::Point> points;
     for (std::size_t i = 0; i < means.size(); ++i)
@@ -43,7 +43,7 @@ LightSpectrum LightSpectrum::of_temperature(float kelvin) {
     constexpr double second_radiation_constant = 1.438776877e7;  // nm K
     std::vector<Spectrum::Point> points;
     const auto exponent = [&](double nm) { return second_radiation_constant / (nm * static_cast<double>(kelvin)); };
-    // Over the power at 780 nm, where what is not very hot shines most: no float is too small for the ratio.
+    // Divided by the power at 780 nm, all are good floats from 500 K on, which is the least that scene files may say.
     const double reference = exponent(last_nanometre);
     for (int nm = first_nanometre; nm <= last_nanometre; ++nm) {
         const double ratio =

@@ -20,7 +20,7 @@ class Spectrum {
     explicit Spectrum(std::vector<Point> points);
 
     float at(float nanometres) const;
-    /// Its mean over the nanometre around a wavelength, in which a line may be narrower than that.
+    /// Its mean over the nanometre around a wavelength, so that lines narrower than a nanometre count, too.
     double mean_around(double nanometres) const;
     /// At each of a path's wavelengths.
     glm::vec3 at(const Wavelengths& wavelengths) const;

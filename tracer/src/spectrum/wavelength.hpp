@@ -17,7 +17,7 @@
 
 namespace phasetree::tracer {
 
-/// That of Fraunhofer's line d, in nanometres, for which indices are given in tables.
+/// The wavelength of Fraunhofer's line d in nanometres, for which tables give indices.
 inline constexpr float wavelength_of_d_line = 587.5618f;
 
 struct Wavelength {
@@ -31,8 +31,8 @@ class WavelengthDistribution {
   public:
     /// In proportion to the sum of |w| over red, green and blue.
     WavelengthDistribution();
-    /// In proportion to that times how strong the light of a scene is at each wavelength, relative to D65, which is
-    /// positive from 380 to 780 nm.
+    /// In proportion to that sum times light(λ), how strong the light of a scene is relative to D65. It must be more
+    /// than 0 from 380 to 780 nm.
     explicit WavelengthDistribution(const std::function<double(double)>& light);
 
     /// The wavelength that u in [0, 1) chooses.

@@ -1,4 +1,4 @@
-// Of which light the three numbers are that a path carries.
+// This says of which light the three numbers are that a path carries.
 //
 // Without `"spectral"` they are red, green and blue, and stand for what the whole spectrum brings, until the path is
 // refracted by something that bends colours differently. There one wavelength is chosen for it, the hero, and from then
@@ -9,11 +9,12 @@
 // wavelengths are chosen, and all that the path meets is what it is at each of the three. Where it is dispersed the
 // hero, the first of them, goes on alone and counts three times. The path's radiance becomes a colour in the end:
 //     Σ L(λᵢ) w(λᵢ)/(3 p(λᵢ))   over the three; wavelength.hpp has w and p.
-// Neighbours in the spectrum are as far apart as the third of it, so three wavelengths have far less noise in their
-// colours than three times one.
+// Because the three are spread over the spectrum, they have far less noise in their colours than one wavelength that
+// counts three times.
 //
 // Reference: Wilkie, Nawaz, Droske, Weidlich & Hanika, Hero Wavelength Spectral Sampling, EGSR 2014, whose wavelengths
-// all but one end at dispersion, as here; they weigh the three by one density, and ours are each chosen by the same.
+// all but one end at dispersion, as here. They weigh the wavelengths against each other; here all three have the same
+// density, so there is no weight.
 #pragma once
 
 #include <glm/geometric.hpp>
@@ -35,9 +36,10 @@ struct Wavelengths {
     glm::mat3 primaries;
     /// From what a path finds in the end to red, green and blue.
     glm::mat3 to_rgb;
-    /// By how much the path's numbers are multiplied where the hero alone goes on from here: in this, red, green and
-    /// blue have the hero's response each; of three wavelengths the others are 0.
-    glm::vec3 of_hero_alone;
+    /// The factor that makes of what the hero alone brings the numbers of a path that is not dispersed: of colours the
+    /// hero's response, of three wavelengths (3, 0, 0). A path of three is multiplied by it where it is dispersed. A
+    /// path of colours is not, because to_rgb has the response; but what a dispersed shadow ray or photon brings it is.
+    glm::vec3 hero_to_all;
     /// Whether the path has three wavelengths from its beginning on.
     bool is_spectral;
 

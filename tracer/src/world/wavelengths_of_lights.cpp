@@ -7,7 +7,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// What each light of a scene has; null for one without a spectrum.
+// Returns what each light of a scene has: null for one without a spectrum.
 std::vector<SharedLightSpectrum> spectra_of(const Scene& scene) {
     std::vector<SharedLightSpectrum> spectra(scene.lights.spectra());
     const auto add = [&](const Material& material) {
@@ -27,8 +27,8 @@ WavelengthDistribution wavelengths_of_lights(const Scene& scene) {
     const std::vector<SharedLightSpectrum> spectra = spectra_of(scene);
     if (std::ranges::none_of(spectra, [](const SharedLightSpectrum& spectrum) { return spectrum != nullptr; }))
         return {};
-    // Each counts alike where it is seen, whether the eye is quick or slow to see it: a violet lamp of luminance 1 has
-    // a hundred times the power of a green one.
+    // Spectra have the luminance 1, by which a violet lamp would count a hundred times as much as a green one. Here
+    // each has the mean 1 instead. No spectrum is dark: scene files with such are refused.
     std::vector<double> scale;
     for (const SharedLightSpectrum& spectrum : spectra)
         scale.push_back(

@@ -3,7 +3,7 @@
 // Half of the wavelengths are chosen as for light of D65, and half in proportion to the mean spectrum of all lights, of
 // which each counts alike, however bright it is; a light without a spectrum is of D65. So of a scene's only lamp, with
 // narrow bands, more than half of the paths see light; and no wavelength is chosen less than half as often as it would
-// be without, so a lamp that hardly matters makes at most twice as much noise.
+// be without, so no sample weighs more than twice what it would.
 #pragma once
 
 #include "scene/scene.hpp"

@@ -1,15 +1,16 @@
 // Clay, plaster, sandstone, dust: small diffuse facets that hide and light each other, so that a ball of it is flatter
 // and brighter at its rim than Lambert's, as the full moon is.
 //
-//     f = ρ/π (A + r A s/t) + f_ms,   s = o·i − o.z i.z,   t = max(o.z, i.z) where s > 0, else 1
+//     f = f_once + f_ms
+//     f_once = ρ/π (A + r A s/t),   s = o·i − o.z i.z,   t = max(o.z, i.z) where s > 0, else 1
 //     A = 1/(1 + (1/2 − 2/(3π)) r)
 //
-// is what is scattered once (Fujii's form of Oren and Nayar's model), with the roughness r in [0, 1], of which 0 is
-// Lambert's law. On a white surface it reflects, of light at an angle θ,
+// f_once is what is scattered once (Fujii's form of Oren and Nayar's model), with the roughness r in [0, 1], of which 0
+// is Lambert's law. Of light at an angle θ a white surface reflects by it
 //     E(θ) = A + r A G(θ)/π,   G = sin θ (θ − sin θ cos θ) + 2/3 (tan θ (1 − sin³θ) − sin θ)
 // and of uniform light Ē = A (1 + r (2/3 − 28/(15 π))). What is left has been scattered more than once:
 //     f_ms = ρ′/π (1 − E(o)) (1 − E(i))/(1 − Ē),   ρ′ = ρ² Ē/(1 − ρ (1 − Ē))
-// so that a white surface reflects all light, and a coloured one's colour is the deeper the rougher it is.
+// so that a white surface reflects all light, and a coloured one looks the more saturated the rougher it is.
 //
 // References: Oren & Nayar, Generalization of Lambert's Reflectance Model, SIGGRAPH 1994; Portsmouth, Kutz & Hill, EON:
 // A Practical Energy-Preserving Rough Diffuse BRDF, JCGT 14(1), 2025.
@@ -32,9 +33,9 @@ class RoughDiffuseBsdf {
   public:
     /// `roughness` is r, in [0, 1].
     RoughDiffuseBsdf(const glm::vec3& albedo, float roughness)
-        : albedo_(albedo), roughness_(roughness), once_(1.0f / (1.0f + (0.5f - 2.0f / (3.0f * pi)) * roughness)) {
-        const float average = once_ * (1.0f + roughness * (2.0f / 3.0f - 28.0f / (15.0f * pi)));
-        again_ = albedo * albedo * average / ((1.0f - albedo * (1.0f - average)) * std::max(1.0f - average, 1e-7f));
+        : albedo_(albedo), roughness_(roughness), a_(1.0f / (1.0f + (0.5f - 2.0f / (3.0f * pi)) * roughness)) {
+        const float average = a_ * (1.0f + roughness * (2.0f / 3.0f - 28.0f / (15.0f * pi)));
+        multiple_ = albedo * albedo * average / ((1.0f - albedo * (1.0f - average)) * std::max(1.0f - average, 1e-7f));
     }
 
     std::optional<BsdfSample> sample(const glm::vec3& wo, float /*u_lobe*/, const glm::vec2& u) const {
@@ -53,24 +54,25 @@ class RoughDiffuseBsdf {
   private:
     static constexpr float pi = std::numbers::pi_v<float>;
 
-    /// π f.
+    /// Returns π f.
     glm::vec3 over_lambert(const glm::vec3& wo, const glm::vec3& wi) const {
         const float s = glm::dot(wo, wi) - wo.z * wi.z;
         const float t = s > 0.0f ? std::max(wo.z, wi.z) : 1.0f;
-        return albedo_ * (once_ * (1.0f + roughness_ * s / t)) + again_ * ((1.0f - white(wo.z)) * (1.0f - white(wi.z)));
+        return albedo_ * (a_ * (1.0f + roughness_ * s / t)) +
+               multiple_ * ((1.0f - white_albedo_once(wo.z)) * (1.0f - white_albedo_once(wi.z)));
     }
-    /// E by the cosine c; tan θ (1 − sin³θ) is written so that it is exact where light grazes.
-    float white(float c) const {
+    /// Returns E by the cosine c; tan θ (1 − sin³θ) is written so that it is exact where light grazes.
+    float white_albedo_once(float c) const {
         const float cosine = std::min(c, 1.0f), sine = std::sqrt((1.0f - cosine) * (1.0f + cosine));
         const float g = sine * (std::acos(cosine) - sine * cosine) +
                         2.0f / 3.0f * (sine * cosine * (1.0f + sine + sine * sine) / (1.0f + sine) - sine);
-        return once_ * (1.0f + roughness_ * g / pi);
+        return a_ * (1.0f + roughness_ * g / pi);
     }
 
     glm::vec3 albedo_;
     float roughness_;
-    float once_;       ///< A
-    glm::vec3 again_;  ///< ρ′/(1 − Ē)
+    float a_;             ///< A
+    glm::vec3 multiple_;  ///< ρ′/(1 − Ē)
 };
 
 }  // namespace phasetree::tracer
