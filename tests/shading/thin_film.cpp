@@ -7,6 +7,7 @@
 #include "shading/fresnel.hpp"
 #include "shading/metals.hpp"
 #include "spectrum/colour_matching.hpp"
+#include "spectrum/daylight.hpp"
 
 namespace test_thin_film {
 

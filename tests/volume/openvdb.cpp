@@ -172,6 +172,11 @@ TEST_CASE("one of several grids is read by its name") {
     CHECK(said_of(one, "whole") ==
           "of its grid \"whole\": it is a grid of int32, but a level set has floats or doubles");
     CHECK(said_of_labels(one, "fog") == "of its grid \"fog\": it is a grid of float, but labels are int32 or int64");
+    // A grid of vectors in a view's pyramid is passed over.
+    auto wind = openvdb::Vec3SGrid::create();
+    wind->setName("wind");
+    wind->setTransform(openvdb::math::Transform::createFrustumTransform(openvdb::BBoxd({0, 0, 0}, {9, 9, 9}), 0.5, 2));
+    CHECK(said_of(folder.write("wind.vdb", {wind, ball(0.5, {0, 0, 0}, 0.05f, "a")})) == "nothing");
     CHECK(said_of(folder.write("fog.vdb", {fog})).starts_with("it is a fog volume, not a level set"));
 }
 

@@ -1,29 +1,38 @@
 #!/usr/bin/env python3
-"""Writes the table of tracer/src/spectrum/upsampling.cpp: three spectra, one for each primary colour of Rec.709.
+"""Prints the table of tracer/src/spectrum/primaries.cpp: three spectra, one for each primary colour of Rec.709.
 
 They are smooth, by the sum of squared differences between neighbours, that add up to 1 at every wavelength,
 are nowhere below 0, and whose colours under D65 are exactly red, green and blue. The idea is that of Mallett & Yuksel,
-Spectral Primary Decomposition for Rendering with sRGB Reflectance, EGSR 2019; the numbers are our own, by our colour
-matching functions. Spectra that would be below 0 are held at 0 there, and the rest is solved anew, until none is.
+Spectral Primary Decomposition for Rendering with sRGB Reflectance, EGSR 2019; the numbers are our own, by the colour
+matching functions in colour_matching.cpp. Spectra that would be below 0 are held at 0 there, and the rest is solved
+anew, until none is.
 """
-from math import exp
+import re
+from pathlib import Path
 
-D65 = [49.9755, 54.6482, 82.7549, 91.486, 93.4318, 86.6823, 104.865, 117.008, 117.812, 114.861, 115.923, 108.811,
-       109.354, 107.802, 104.79, 107.689, 104.405, 104.046, 100, 96.3342, 95.788, 88.6856, 90.0062, 89.5991, 87.6987,
-       83.2886, 83.6992, 80.0268, 80.2146, 82.2778, 78.2842, 69.7213, 71.6091, 74.349, 61.604, 69.8856, 75.087,
-       63.5927, 46.4182, 66.8054, 63.3828]
-FIRST, STEP, NODES = 380, 10, len(D65)
+SPECTRUM = Path(__file__).resolve().parent.parent / "src" / "spectrum"
+FIRST, LAST, STEP = 380, 780, 10
+NODES = (LAST - FIRST) // STEP + 1
 RGB = [[3.2404542, -1.5371385, -0.4985314], [-0.9692660, 1.8760108, 0.0415560], [0.0556434, -0.2040259, 1.0572252]]
 
 
-def lobe(x, middle, below, above):
-    return exp(-0.5 * ((x - middle) / (below if x < middle else above)) ** 2)
+def numbers(file):
+    """Those of the table in a file of C++."""
+    text = re.sub(r"//.*", "", (SPECTRUM / file).read_text())
+    table = re.search(r"array<[^>]*> \w+\{(.*?)\};", text, re.S).group(1)
+    return [float(n) for n in re.findall(r"[0-9]+(?:\.[0-9]+)?", table)]
+
+
+D65 = numbers("daylight.cpp")
+OBSERVER = numbers("colour_matching.cpp")
+assert len(D65) == NODES and len(OBSERVER) == 3 * ((LAST - FIRST) // 5 + 1)
 
 
 def matching(x):
-    return [1.056 * lobe(x, 599.8, 37.9, 31.0) + 0.362 * lobe(x, 442.0, 16.0, 26.7) - 0.065 * lobe(x, 501.1, 20.4, 26.2),
-            0.821 * lobe(x, 568.8, 46.9, 40.5) + 0.286 * lobe(x, 530.9, 16.3, 31.1),
-            1.217 * lobe(x, 437.0, 11.8, 36.0) + 0.681 * lobe(x, 459.0, 26.0, 13.8)]
+    """CIE's three functions at a wavelength, linear between steps of 5 nm."""
+    node, part = divmod((x - FIRST) / 5, 1)
+    below, above = (OBSERVER[3 * int(n):3 * int(n) + 3] for n in (node, node + 1))
+    return [(1 - part) * a + part * b for a, b in zip(below, above)]
 
 
 def colours_of_nodes():
@@ -86,4 +95,4 @@ while True:
     held |= below
 for i in range(NODES):
     row = [max(spectra[s * NODES + i], 0.0) for s in range(3)]
-    print("    {%.7ff, %.7ff, %.7ff},  // %d nm" % (*row, FIRST + STEP * i))
+    print("    {%.7f, %.7f, %.7f},  // %d nm" % (*row, FIRST + STEP * i))

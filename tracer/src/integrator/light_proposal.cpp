@@ -58,10 +58,10 @@ std::optional<glm::vec3> boundary_along(const glm::vec3& line, const Surface& su
 
 }  // namespace
 
-LightProposal LightProposal::at(const Surface& surface, const World& world, const Scene& scene,
-                                PathCounters& counters) {
+LightProposal LightProposal::at(const Surface& surface, const World& world, const Scene& scene, PathCounters& counters,
+                                const Wavelengths* wavelengths) {
     const glm::vec3& p = surface.near_side.origin;
-    const float eta = std::get<Clear>(scene.materials[surface.near_side.phase.index]).ior;
+    const float eta = std::get<Clear>(scene.materials[surface.near_side.phase.index]).ior_for(wavelengths);
     if (eta == 1.0f) return {{p, surface.normal}, surface.normal, eta};
     // The line to look along is bent as by a plane parallel to the surface.
     const glm::vec3 lamp = scene.lights.towards_brightest(p, surface.normal).value_or(surface.normal);
@@ -73,8 +73,8 @@ LightProposal LightProposal::at(const Surface& surface, const World& world, cons
 }
 
 LightProposal LightProposal::at(const MediumPoint& point, const std::optional<glm::vec3>& entered, const World& world,
-                                const Scene& scene) {
-    const float eta = std::get<Clear>(scene.materials[point.phase.index]).ior;
+                                const Scene& scene, const Wavelengths* wavelengths) {
+    const float eta = std::get<Clear>(scene.materials[point.phase.index]).ior_for(wavelengths);
     LightProposal proposal(point.position, entered.value_or(glm::vec3(0.0f)), eta);
     if (eta == 1.0f) return proposal;
     if (!entered) proposal.planes_ = 0;

@@ -35,12 +35,16 @@ class LightProposal {
         : at_(at), outward_{outward}, planes_(eta == 1.0f ? 0 : 1), eta_(eta) {}
     /// Adds another plane through which light comes in.
     void add_plane(const glm::vec3& outward);
-    /// For a surface without a far side. Lights are taken to be in vacuum.
-    static LightProposal at(const Surface& surface, const World& world, const Scene& scene, PathCounters& counters);
+    /// For a surface without a far side. Lights are taken to be in vacuum. Where a medium disperses, directions are bent
+    /// as its index at the hero of the path's `wavelengths` bends them, even if the path is not dispersed yet: so
+    /// shadow rays that are dispersed on their way reach the light, whatever their hero is. All techniques of a path
+    /// have the same hero, and weigh by the same densities.
+    static LightProposal at(const Surface& surface, const World& world, const Scene& scene, PathCounters& counters,
+                            const Wavelengths* wavelengths);
     /// For a point in a medium. `entered` is the outward normal of the boundary that the path met last in this medium,
     /// if any: near it light comes in where the path did, and far from it next to none comes in at all.
     static LightProposal at(const MediumPoint& point, const std::optional<glm::vec3>& entered, const World& world,
-                            const Scene& scene);
+                            const Scene& scene, const Wavelengths* wavelengths);
 
     /// A direction from p, and the light that is seen in it; `u` is in [0, 1)².
     std::optional<LightSample> sample(const Lights& lights, glm::vec2 u,

@@ -94,6 +94,8 @@ class Path {
 
   private:
     const Medium& medium() const { return clear_at(scene_, ray_.phase).interior; }
+    // PathWavelengths::wavelengths.
+    const Wavelengths* all_wavelengths() const { return wavelengths_ ? &*wavelengths_ : nullptr; }
     // From here on the path is of its hero alone.
     void disperse() {
         if (is_dispersed_) return;
@@ -178,7 +180,7 @@ class Path {
         if (!unguided.is_delta()) {
             // A rough interface gets light from both sides, so none is preferred and no bending is guessed.
             proposal = surface.far_side ? LightProposal(surface.near_side.origin)
-                                        : LightProposal::at(surface, world_, scene_, counters_);
+                                        : LightProposal::at(surface, world_, scene_, counters_, all_wavelengths());
             add_direct_light(surface, bsdf, proposal, per_line_density_of);
             add_caustics(surface, bsdf, proposal);
         }
@@ -209,7 +211,7 @@ class Path {
         ++counters_.interactions;
         is_camera_ray_ = false;
         const HenyeyGreenstein& phase = point.phase_function;
-        const auto proposal = LightProposal::at(point, entered_, world_, scene_);
+        const auto proposal = LightProposal::at(point, entered_, world_, scene_, all_wavelengths());
         const auto placement = photons_ ? PhotonPlacement::in(medium(), photons_.map->half_length()) : std::nullopt;
         const PhotonDensity by_photons{placement ? per_line_density_across(point.phase) : 0.0f, placement};
         if (const auto light = sampled_light(proposal)) {
@@ -248,9 +250,8 @@ class Path {
                           const Ray& shadow, int interfaces_before) {
         if (scene_.settings.techniques == Techniques::directions_alone) return;
         const Photons photons = by_photons.per_line_density > 0.0f ? photons_ : Photons{};
-        const Arrival arrival =
-            trace_shadow_ray({world_, scene_, photons, sampler_, counters_}, shadow, light,
-                             {wavelengths_ ? &*wavelengths_ : nullptr, is_dispersed_}, interfaces_before);
+        const Arrival arrival = trace_shadow_ray({world_, scene_, photons, sampler_, counters_}, shadow, light,
+                                                 {all_wavelengths(), is_dispersed_}, interfaces_before);
         // No direction that the path takes by itself meets a point.
         const float by_directions = light.is_of_point_light() ? 0.0f : pdf;
         const auto weight = [&](float density_of_photons) {

@@ -9,14 +9,15 @@ namespace phasetree::tracer {
 
 namespace {
 
-// ∫₀ᵈ ε T dt, with what passes all of the way, T(d). Where nothing is lost that is ε d; on a way without end, which
-// only phases without an end have, it is left out.
-glm::vec3 emitted_along(const ScatteringCoefficients::ForLight& coefficients, const glm::vec3& passed, float length) {
+// ∫₀ᵈ ε T dt = ε (1 − exp(−σ d))/σ with the extinction σ, where next to nothing is lost, too. Where nothing is lost it
+// is ε d; on a way without end, which only phases without an end have, it is left out.
+glm::vec3 emitted_along(const ScatteringCoefficients::ForLight& coefficients, float length) {
     const glm::vec3 extinction = coefficients.extinction();
     glm::vec3 emitted(0.0f);
+    if (coefficients.emission == glm::vec3(0.0f)) return emitted;
     for (int c = 0; c < 3; ++c)
         if (extinction[c] > 0.0f)
-            emitted[c] = coefficients.emission[c] * (1.0f - passed[c]) / extinction[c];
+            emitted[c] = coefficients.emission[c] * -std::expm1(-extinction[c] * length) / extinction[c];
         else if (std::isfinite(length))
             emitted[c] = coefficients.emission[c] * length;
     return emitted;
@@ -30,7 +31,7 @@ glm::vec3 HomogeneousMedium::transmittance(const Way& way, Sampler&) const {
 
 Passage HomogeneousMedium::pass(const Way& way, Sampler& sampler) const {
     const glm::vec3 left = transmittance(way, sampler);
-    return {left, emitted_along(coefficients_.for_light(way.wavelengths), left, way.length)};
+    return {left, emitted_along(coefficients_.for_light(way.wavelengths), way.length)};
 }
 
 Flight HomogeneousMedium::fly(const Way& way, const glm::vec3& throughput, Sampler& sampler) const {
@@ -38,7 +39,7 @@ Flight HomogeneousMedium::fly(const Way& way, const glm::vec3& throughput, Sampl
     const glm::vec3 extinction = coefficients.extinction();
     const glm::vec3 passed = beer_lambert(extinction, way.length);
     Flight flight;
-    flight.emitted = emitted_along(coefficients, passed, way.length);
+    flight.emitted = emitted_along(coefficients, way.length);
     if (!coefficients.scatters()) {
         flight.weight = passed;
         return flight;

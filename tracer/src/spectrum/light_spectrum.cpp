@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "image/luminance.hpp"
+#include "spectrum/daylight.hpp"
 
 namespace phasetree::tracer {
 

@@ -1,80 +1,17 @@
-// Source of D65: CIE 15, Colorimetry, table of relative spectral power distributions, in steps of 10 nm. ρ was computed
-// by tracer/color/upsampling.py, which says how; the idea is that of Mallett & Yuksel, Spectral Primary Decomposition
-// for Rendering with sRGB Reflectance, EGSR 2019.
 #include "spectrum/wavelength.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "spectrum/colour_matching.hpp"
+#include "spectrum/daylight.hpp"
+#include "spectrum/primaries.hpp"
 
 namespace phasetree::tracer {
 
 namespace {
 
-constexpr double first = 380.0, step = 10.0;
-constexpr std::size_t nodes = 41;
-
-constexpr std::array<double, nodes> daylight{
-    49.9755, 54.6482, 82.7549, 91.486,  93.4318, 86.6823, 104.865, 117.008, 117.812, 114.861, 115.923,
-    108.811, 109.354, 107.802, 104.79,  107.689, 104.405, 104.046, 100.0,   96.3342, 95.788,  88.6856,
-    90.0062, 89.5991, 87.6987, 83.2886, 83.6992, 80.0268, 80.2146, 82.2778, 78.2842, 69.7213, 71.6091,
-    74.349,  61.604,  69.8856, 75.087,  63.5927, 46.4182, 66.8054, 63.3828};
-
-const std::array<glm::vec3, nodes> primaries{{
-    {0.0515853f, 0.0000000f, 0.9484147f},  // 380 nm
-    {0.0517779f, 0.0000000f, 0.9482221f},  // 390 nm
-    {0.0525672f, 0.0000000f, 0.9474328f},  // 400 nm
-    {0.0534831f, 0.0000000f, 0.9465169f},  // 410 nm
-    {0.0513974f, 0.0000000f, 0.9486026f},  // 420 nm
-    {0.0439393f, 0.0000000f, 0.9560607f},  // 430 nm
-    {0.0319021f, 0.0000000f, 0.9680979f},  // 440 nm
-    {0.0148479f, 0.0000000f, 0.9851521f},  // 450 nm
-    {0.0081316f, 0.0076980f, 0.9841704f},  // 460 nm
-    {0.0000000f, 0.1190221f, 0.8809779f},  // 470 nm
-    {0.0000000f, 0.2931262f, 0.7068738f},  // 480 nm
-    {0.0000000f, 0.4942639f, 0.5057361f},  // 490 nm
-    {0.0000000f, 0.6882833f, 0.3117167f},  // 500 nm
-    {0.0000000f, 0.8493612f, 0.1506388f},  // 510 nm
-    {0.0000000f, 0.9575825f, 0.0424175f},  // 520 nm
-    {0.0000000f, 1.0000000f, 0.0000000f},  // 530 nm
-    {0.0000000f, 1.0000000f, 0.0000000f},  // 540 nm
-    {0.0000000f, 1.0000000f, 0.0000000f},  // 550 nm
-    {0.0000000f, 1.0000000f, 0.0000000f},  // 560 nm
-    {0.0000000f, 1.0000000f, 0.0000000f},  // 570 nm
-    {0.1840019f, 0.8159981f, 0.0000000f},  // 580 nm
-    {0.4939964f, 0.5060036f, 0.0000000f},  // 590 nm
-    {0.7544587f, 0.1689950f, 0.0765463f},  // 600 nm
-    {0.9434251f, 0.0000000f, 0.0565749f},  // 610 nm
-    {1.0000000f, 0.0000000f, 0.0000000f},  // 620 nm
-    {1.0000000f, 0.0000000f, 0.0000000f},  // 630 nm
-    {1.0000000f, 0.0000000f, 0.0000000f},  // 640 nm
-    {1.0000000f, 0.0000000f, 0.0000000f},  // 650 nm
-    {1.0000000f, 0.0000000f, 0.0000000f},  // 660 nm
-    {1.0000000f, 0.0000000f, 0.0000000f},  // 670 nm
-    {1.0000000f, 0.0000000f, 0.0000000f},  // 680 nm
-    {1.0000000f, 0.0000000f, 0.0000000f},  // 690 nm
-    {1.0000000f, 0.0000000f, 0.0000000f},  // 700 nm
-    {1.0000000f, 0.0000000f, 0.0000000f},  // 710 nm
-    {1.0000000f, 0.0000000f, 0.0000000f},  // 720 nm
-    {1.0000000f, 0.0000000f, 0.0000000f},  // 730 nm
-    {1.0000000f, 0.0000000f, 0.0000000f},  // 740 nm
-    {1.0000000f, 0.0000000f, 0.0000000f},  // 750 nm
-    {1.0000000f, 0.0000000f, 0.0000000f},  // 760 nm
-    {1.0000000f, 0.0000000f, 0.0000000f},  // 770 nm
-    {1.0000000f, 0.0000000f, 0.0000000f},  // 780 nm
-}};
-
-// Linear between the nodes.
-template <class T>
-T between_nodes(const std::array<T, nodes>& values, double wavelength) {
-    const double at = std::clamp((wavelength - first) / step, 0.0, static_cast<double>(nodes - 1));
-    const std::size_t below = std::min(static_cast<std::size_t>(at), nodes - 2);
-    using Scalar = std::conditional_t<std::is_same_v<T, double>, double, float>;
-    const auto part = static_cast<Scalar>(at - static_cast<double>(below));
-    return (Scalar(1) - part) * values[below] + part * values[below + 1];
-}
+constexpr double first = 380.0;
 
 double size_of(const glm::dvec3& w) {
     return std::abs(w.x) + std::abs(w.y) + std::abs(w.z);
@@ -151,14 +88,6 @@ double mean_of(const std::function<double(double)>& f) {
 
 Wavelength sampled_wavelength(float u) {
     return by_response().sample(u);
-}
-
-glm::vec3 primaries_at(double wavelength) {
-    return between_nodes(primaries, wavelength);
-}
-
-double daylight_at(double wavelength) {
-    return between_nodes(daylight, wavelength);
 }
 
 }  // namespace phasetree::tracer

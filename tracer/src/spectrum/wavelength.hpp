@@ -3,11 +3,7 @@
 // With the wavelength λ chosen by the density p, and the light L(λ) found there, a path brings to each of the three
 //     L(λ) w(λ)/p(λ),   ∫ w dλ = 1,
 // where w is how much a wavelength counts for red, green or blue: CIE's colour matching functions, as Rec.709 has them,
-// times the white of its screens, CIE's illuminant D65. So L is relative to D65. What is given as red, green and blue
-// is at λ
-//     red ρ_r(λ) + green ρ_g(λ) + blue ρ_b(λ)
-// with three spectra ρ that add up to 1, and whose own colours are exactly red, green and blue: white stays white, no
-// colour reflects more than all light, and the mean over wavelengths of every colour is that colour.
+// times the white of its screens, CIE's illuminant D65. So L is relative to D65.
 #pragma once
 
 #include <array>
@@ -22,7 +18,7 @@ inline constexpr float wavelength_of_d_line = 587.5618f;
 
 struct Wavelength {
     float nanometres = wavelength_of_d_line;
-    glm::vec3 primaries{1.0f / 3.0f};  ///< ρ at this wavelength
+    glm::vec3 primaries{1.0f / 3.0f};  ///< ρ of primaries.hpp at this wavelength
     glm::vec3 response{1.0f};          ///< w/p: what light of this wavelength brings to red, green and blue
 };
 
@@ -52,16 +48,10 @@ class WavelengthDistribution {
 /// The wavelength that u chooses where nothing is known of the light.
 Wavelength sampled_wavelength(float u);
 
-/// ρ of red, green and blue at a wavelength in nanometres.
-glm::vec3 primaries_at(double wavelength);
-
 /// ∫ w f dλ: the colour of D65 times f, which is asked in the middle of each nanometre between 380 and 780.
 glm::dvec3 colour_of(const std::function<double(double)>& f);
 /// ∫ |w| f dλ/∫ |w| dλ, with the sum of |w| over red, green and blue: the mean of f where nothing is known of the
 /// light.
 double mean_of(const std::function<double(double)>& f);
-
-/// D65, in proportion to power per nanometre: 100 at 560 nm.
-double daylight_at(double wavelength);
 
 }  // namespace phasetree::tracer

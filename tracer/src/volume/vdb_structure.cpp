@@ -137,8 +137,8 @@ void skip_metadata(Bytes& file) {
     }
 }
 
-void skip_transform(Bytes& file) {
-    const std::string type = file.text();
+// How many doubles tell of a transform of this type, if it is linear.
+std::optional<std::uint64_t> doubles_of_linear_transform(const std::string& type) {
     const std::array<std::pair<const char*, std::uint64_t>, 7> doubles{{{"UniformScaleMap", 15},
                                                                         {"ScaleMap", 15},
                                                                         {"UniformScaleTranslateMap", 18},
@@ -147,8 +147,21 @@ void skip_transform(Bytes& file) {
                                                                         {"AffineMap", 16},
                                                                         {"UnitaryMap", 16}}};
     for (const auto& [name, count] : doubles)
-        if (type == name) return file.skip(8 * count);
-    throw std::runtime_error("its voxels are not of one size");
+        if (type == name) return count;
+    return std::nullopt;
+}
+
+void skip_transform(Bytes& file) {
+    std::string type = file.text();
+    if (type == "NonlinearFrustumMap") {
+        // A box, a taper and a depth, and the transform that comes after it. OpenVDB follows one within another to any
+        // depth; nobody writes one that is not linear.
+        file.skip(8 * 8);
+        type = file.text();
+    }
+    const auto doubles = doubles_of_linear_transform(type);
+    if (!doubles) throw std::runtime_error("its voxels are not of one size");
+    file.skip(8 * *doubles);
 }
 
 // A mask of the 2^(3 log2) places of a node.
@@ -242,10 +255,9 @@ void check_grid(Bytes& file, std::string type, bool is_instance) {
     if (is_half) type.resize(type.size() - half.size());
     const auto compression = file.number<std::uint32_t>();
     skip_metadata(file);
-    const std::optional<unsigned> bytes = value_bytes_of(type);
-    if (!bytes) return;
     skip_transform(file);
-    if (!is_instance) TreeWalk(file, compression, *bytes, is_half ? 2 : *bytes)();
+    const std::optional<unsigned> bytes = value_bytes_of(type);
+    if (bytes && !is_instance) TreeWalk(file, compression, *bytes, is_half ? 2 : *bytes)();
 }
 
 }  // namespace
