@@ -2,9 +2,11 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "paths.hpp"
+#include "scene/read_parts.hpp"
 
 namespace test_cameras {
 
@@ -50,6 +52,32 @@ TEST_CASE("a camera without a kind is a thin lens") {
         CHECK(lens.focus_distance == 4.0f);
         CHECK(scene->film.width == 1024);
         CHECK(scene->film.height == 768);
+    }
+}
+
+TEST_CASE("a camera that is turned stands elsewhere on a circle, and looks at the same point") {
+    const auto lens = [](const std::string& more, double seconds = 0) {
+        const std::string text = R"({"position": [1, -5, 2], "look_at": [1, 0, 1], "lens_radius": 0.5)" + more + "}";
+        FilmSettings film;
+        const auto document = phasetree::Document::from_text(text, "camera.json").at(seconds);
+        return std::get<ThinLensParameters>(read_camera(document, document.root(), film));
+    };
+    const auto is_near = [](const glm::vec3& a, const glm::vec3& b) { return glm::length(a - b) < 1e-5f; };
+    const std::string turn = R"(, "up": [0, 0, 2], "turn": 90)";
+    CHECK(is_near(lens(turn).position, {6, 0, 2}));
+    CHECK(is_near(lens(R"(, "turn": -90)").position, {-4, 0, 2}));
+    CHECK(lens(R"(, "turn": 0)").position == glm::vec3(1, -5, 2));
+    CHECK(lens(turn).look_at == glm::vec3(1, 0, 1));
+    // The point in focus stays where it is.
+    CHECK(lens(turn + R"(, "focus_at": [3, 0, 1.6])").focus_distance.value() ==
+          doctest::Approx(lens(R"(, "focus_at": [1, -2, 1.6])").focus_distance.value()));
+    // Over y, and about an axis that the scene gives.
+    CHECK(is_near(lens(R"(, "up": [0, 0, 0], "turn": 180)").position, {1, -5, 0}));
+    CHECK(is_near(lens(R"(, "up": [1, 0, 0], "turn": 180)").position, {1, 5, 0}));
+    const std::string keys = R"(, "turn": {"keys": [[0, 0], [4, 360]]})";
+    for (const double seconds : {0.0, 0.5, 1.0, 3.0, 4.0}) {
+        const double angle = seconds / 4 * 2 * std::numbers::pi;
+        CHECK(is_near(lens(keys, seconds).position, {1 + 5 * std::sin(angle), -5 * std::cos(angle), 2}));
     }
 }
 

@@ -2873,12 +2873,13 @@ class meshes:
 
 class cameras:
     @staticmethod
-    def thin_lens(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, up: Sequence[float] | np.ndarray | None = ..., filter: Literal["blackman_harris", "box"] | None = ..., fov: float | None = ..., lens_radius: float | None = ..., blades: int | None = ..., blade_rotation: float | None = ..., focus_distance: float | None = ..., focus_at: Sequence[float] | np.ndarray | None = ...) -> Camera:
+    def thin_lens(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, up: Sequence[float] | np.ndarray | None = ..., turn: float | None = ..., filter: Literal["blackman_harris", "box"] | None = ..., fov: float | None = ..., lens_radius: float | None = ..., blades: int | None = ..., blade_rotation: float | None = ..., focus_distance: float | None = ..., focus_at: Sequence[float] | np.ndarray | None = ...) -> Camera:
         r"""A lens with a plane of focus; a pinhole, if its radius is 0. The kind need not be named.
 
         position: Where it is. ([x, y, z] in m; at least -1e15 and at most 1e15)
         look_at: A point in the middle of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
         up: A direction that is up in the image; +y, or +x, if it looks along that. ([x, y, z]; default [0, 0, 1])
+        turn: Angle by which the camera goes around the axis up through look_at, to its own right at first. With keys that is a turntable. (number in degrees; default 0)
         filter: How samples are spread about the middle of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
         fov: Angle between the upper and the lower edge of the image. (number in degrees; more than 0 and less than 180; default 40)
         lens_radius: Radius of the lens; what is out of focus blurs by it. (number in m; at least 0 and at most 1e15; default 0)
@@ -2888,22 +2889,24 @@ class cameras:
         focus_at: In place of the distance: a point of the plane of focus. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
         """
     @staticmethod
-    def orthographic(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, height: float, up: Sequence[float] | np.ndarray | None = ..., filter: Literal["blackman_harris", "box"] | None = ...) -> Camera:
+    def orthographic(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, height: float, up: Sequence[float] | np.ndarray | None = ..., turn: float | None = ..., filter: Literal["blackman_harris", "box"] | None = ...) -> Camera:
         r"""All rays are parallel, so that lengths across them are the same at any distance.
 
         position: Where it is. ([x, y, z] in m; at least -1e15 and at most 1e15)
         look_at: A point in the middle of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
         height: What the height of the whole image shows. (number in m; more than 0 and at most 1e10)
         up: A direction that is up in the image; +y, or +x, if it looks along that. ([x, y, z]; default [0, 0, 1])
+        turn: Angle by which the camera goes around the axis up through look_at, to its own right at first. With keys that is a turntable. (number in degrees; default 0)
         filter: How samples are spread about the middle of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
         """
     @staticmethod
-    def tilt_shift(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, up: Sequence[float] | np.ndarray | None = ..., filter: Literal["blackman_harris", "box"] | None = ..., fov: float | None = ..., lens_radius: float | None = ..., blades: int | None = ..., blade_rotation: float | None = ..., focus_distance: float | None = ..., focus_at: Sequence[float] | np.ndarray | None = ..., shift: Sequence[float] | np.ndarray | None = ..., tilt: Sequence[float] | np.ndarray | None = ...) -> Camera:
+    def tilt_shift(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, up: Sequence[float] | np.ndarray | None = ..., turn: float | None = ..., filter: Literal["blackman_harris", "box"] | None = ..., fov: float | None = ..., lens_radius: float | None = ..., blades: int | None = ..., blade_rotation: float | None = ..., focus_distance: float | None = ..., focus_at: Sequence[float] | np.ndarray | None = ..., shift: Sequence[float] | np.ndarray | None = ..., tilt: Sequence[float] | np.ndarray | None = ...) -> Camera:
         r"""A lens that shifts, so that verticals stay parallel, and whose plane of focus tilts.
 
         position: Where it is. ([x, y, z] in m; at least -1e15 and at most 1e15)
         look_at: A point in the middle of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
         up: A direction that is up in the image; +y, or +x, if it looks along that. ([x, y, z]; default [0, 0, 1])
+        turn: Angle by which the camera goes around the axis up through look_at, to its own right at first. With keys that is a turntable. (number in degrees; default 0)
         filter: How samples are spread about the middle of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
         fov: Angle between the upper and the lower edge of the image. (number in degrees; more than 0 and less than 180; default 40)
         lens_radius: Radius of the lens; what is out of focus blurs by it. (number in m; at least 0 and at most 1e15; default 0)
@@ -2915,31 +2918,34 @@ class cameras:
         tilt: By which the plane of focus leans away at its top, and turns away at its right. ([x, y] in degrees; more than -90 and less than 90; default [0, 0])
         """
     @staticmethod
-    def panorama(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, up: Sequence[float] | np.ndarray | None = ..., filter: Literal["blackman_harris", "box"] | None = ...) -> Camera:
+    def panorama(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, up: Sequence[float] | np.ndarray | None = ..., turn: float | None = ..., filter: Literal["blackman_harris", "box"] | None = ...) -> Camera:
         r"""All directions, on an image that should be twice as wide as high (equirectangular, lat-long).
 
         position: Where it is. ([x, y, z] in m; at least -1e15 and at most 1e15)
         look_at: A point in the middle of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
         up: A direction that is up in the image; +y, or +x, if it looks along that. ([x, y, z]; default [0, 0, 1])
+        turn: Angle by which the camera goes around the axis up through look_at, to its own right at first. With keys that is a turntable. (number in degrees; default 0)
         filter: How samples are spread about the middle of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
         """
     @staticmethod
-    def dome(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, up: Sequence[float] | np.ndarray | None = ..., filter: Literal["blackman_harris", "box"] | None = ..., fov: float | None = ...) -> Camera:
+    def dome(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, up: Sequence[float] | np.ndarray | None = ..., turn: float | None = ..., filter: Literal["blackman_harris", "box"] | None = ..., fov: float | None = ...) -> Camera:
         r"""A fisheye for domes: the angle from the middle grows evenly outwards, and the widest circle of the image has the field of view.
 
         position: Where it is. ([x, y, z] in m; at least -1e15 and at most 1e15)
         look_at: A point in the middle of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
         up: A direction that is up in the image; +y, or +x, if it looks along that. ([x, y, z]; default [0, 0, 1])
+        turn: Angle by which the camera goes around the axis up through look_at, to its own right at first. With keys that is a turntable. (number in degrees; default 0)
         filter: How samples are spread about the middle of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
         fov: Angle across the circle. (number in degrees; more than 0 and at most 360; default 180)
         """
 
-def camera(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, up: Sequence[float] | np.ndarray | None = ..., filter: Literal["blackman_harris", "box"] | None = ..., fov: float | None = ..., lens_radius: float | None = ..., blades: int | None = ..., blade_rotation: float | None = ..., focus_distance: float | None = ..., focus_at: Sequence[float] | np.ndarray | None = ...) -> Camera:
+def camera(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, up: Sequence[float] | np.ndarray | None = ..., turn: float | None = ..., filter: Literal["blackman_harris", "box"] | None = ..., fov: float | None = ..., lens_radius: float | None = ..., blades: int | None = ..., blade_rotation: float | None = ..., focus_distance: float | None = ..., focus_at: Sequence[float] | np.ndarray | None = ...) -> Camera:
     r"""A lens with a plane of focus; a pinhole, if its radius is 0. The kind need not be named.
 
     position: Where it is. ([x, y, z] in m; at least -1e15 and at most 1e15)
     look_at: A point in the middle of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
     up: A direction that is up in the image; +y, or +x, if it looks along that. ([x, y, z]; default [0, 0, 1])
+    turn: Angle by which the camera goes around the axis up through look_at, to its own right at first. With keys that is a turntable. (number in degrees; default 0)
     filter: How samples are spread about the middle of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
     fov: Angle between the upper and the lower edge of the image. (number in degrees; more than 0 and less than 180; default 40)
     lens_radius: Radius of the lens; what is out of focus blurs by it. (number in m; at least 0 and at most 1e15; default 0)

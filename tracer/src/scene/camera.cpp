@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
 
 #include "phasetree/io/keys.hpp"
 #include "phasetree/io/read_kind.hpp"
@@ -27,12 +30,28 @@ bool names_its_kind(Value value) {
     return value.is_object() && value.size() == 1 && value[0].is_object();
 }
 
+// Where a camera stands that is turned by its angle: Rodrigues' formula about the unit vector k,
+//     k (k · d) + (d − k (k · d)) cos a + (k × d) sin a.
+template <class Kind>
+glm::vec3 turned_position(const Kind& kind) {
+    if (kind.turn_degrees == 0.0f) return kind.position;
+    // The camera replaces an axis of no length by +y, too.
+    const glm::dvec3 up = kind.up == glm::vec3(0.0f) ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(kind.up);
+    const glm::dvec3 axis = glm::normalize(up), away = glm::dvec3(kind.position) - glm::dvec3(kind.look_at);
+    const double angle = static_cast<double>(kind.turn_degrees) * std::numbers::pi / 180.0;
+    const glm::dvec3 along = axis * glm::dot(axis, away);
+    return glm::vec3(glm::dvec3(kind.look_at) + along + (away - along) * std::cos(angle) +
+                     glm::cross(axis, away) * std::sin(angle));
+}
+
 template <class Kind>
 AnyCameraParameters read_camera_of_kind(const Document& document, Value members, std::string_view what,
                                         FilmSettings& film) {
     return read_kind<Kind>(document, members, what, [&](const Kind& kind) {
         film.filter = filter_of_name(kind.filter_name);
-        const AnyCameraParameters parameters = kind.made();
+        Kind turned = kind;
+        turned.position = turned_position(kind);
+        const AnyCameraParameters parameters = turned.made();
         (void)Camera(parameters, film.resolution());
         return parameters;
     });

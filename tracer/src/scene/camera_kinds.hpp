@@ -19,6 +19,12 @@ std::vector<std::string_view> names_of_filters();
 /// One of these names.
 PixelFilter filter_of_name(std::string_view name);
 
+/// What a scene file says of every camera beside the parameters of its kind.
+struct CameraInFile {
+    float turn_degrees = 0;
+    std::string filter_name = "blackman_harris";
+};
+
 /// What all kinds have: where the camera stands, and how the film filters its samples.
 template <class P, class V>
 void view_parameters(V&& v) {
@@ -26,6 +32,12 @@ void view_parameters(V&& v) {
     v(&P::look_at, Parameter{"look_at", "m", "A point in the middle of the image.", coordinate});
     v(&P::up, Parameter{"up", "", "A direction that is up in the image; +y, or +x, if it looks along that.",
                         limits::any, true});
+    v(&P::turn_degrees,
+      Parameter{
+          "turn", "degrees",
+          "Angle by which the camera goes around the axis up through look_at, to its own right at first. With keys "
+          "that is a turntable.",
+          limits::any, true});
     v(&P::filter_name,
       ChoiceParameter{{"filter", "", "How samples are spread about the middle of a pixel.", limits::any, true},
                       names_of_filters});
@@ -52,13 +64,11 @@ void lens_parameters(V&& v) {
       Parameter{"focus_at", "m", "In place of the distance: a point of the plane of focus.", coordinate, true});
 }
 
-struct ThinLensKind : ThinLensParameters {
+struct ThinLensKind : ThinLensParameters, CameraInFile {
     static constexpr KindInfo info{
         "thin_lens", "A lens with a plane of focus; a pinhole, if its radius is 0. The kind need not be named."};
 
     std::optional<glm::vec3> focus_at{};
-    std::string filter_name = "blackman_harris";
-
     template <class V>
     static void parameters(V&& v) {
         using P = ThinLensKind;
@@ -69,13 +79,11 @@ struct ThinLensKind : ThinLensParameters {
     ThinLensParameters made() const;
 };
 
-struct TiltShiftKind : TiltShiftParameters {
+struct TiltShiftKind : TiltShiftParameters, CameraInFile {
     static constexpr KindInfo info{
         "tilt_shift", "A lens that shifts, so that verticals stay parallel, and whose plane of focus tilts."};
 
     std::optional<glm::vec3> focus_at{};
-    std::string filter_name = "blackman_harris";
-
     template <class V>
     static void parameters(V&& v) {
         using P = TiltShiftKind;
@@ -93,12 +101,10 @@ struct TiltShiftKind : TiltShiftParameters {
     TiltShiftParameters made() const;
 };
 
-struct PanoramaKind : PanoramaParameters {
+struct PanoramaKind : PanoramaParameters, CameraInFile {
     static constexpr KindInfo info{"panorama",
                                    "All directions, on an image that should be twice as wide as high (equirectangular, "
                                    "lat-long)."};
-
-    std::string filter_name = "blackman_harris";
 
     template <class V>
     static void parameters(V&& v) {
@@ -107,13 +113,11 @@ struct PanoramaKind : PanoramaParameters {
     PanoramaParameters made() const { return *this; }
 };
 
-struct DomeKind : DomeParameters {
+struct DomeKind : DomeParameters, CameraInFile {
     static constexpr KindInfo info{
         "dome",
         "A fisheye for domes: the angle from the middle grows evenly outwards, and the widest "
         "circle of the image has the field of view."};
-
-    std::string filter_name = "blackman_harris";
 
     template <class V>
     static void parameters(V&& v) {
@@ -125,13 +129,11 @@ struct DomeKind : DomeParameters {
     DomeParameters made() const { return *this; }
 };
 
-struct OrthographicKind : OrthographicParameters {
+struct OrthographicKind : OrthographicParameters, CameraInFile {
     static constexpr KindInfo info{"orthographic",
                                    "All rays are parallel, so that lengths across them are the same at any distance."};
     /// The widest picture is 32,768 times as wide as it is high, and rays start no farther away than `farthest`.
     static constexpr float highest = 1e10f;
-
-    std::string filter_name = "blackman_harris";
 
     template <class V>
     static void parameters(V&& v) {

@@ -17,7 +17,7 @@ std::string name_of(const PixelFilter& filter) {
         const PixelFilter named = filter_of_name(name);
         if (named.shape() == filter.shape() && named.radius() == filter.radius()) return std::string(name);
     }
-    return ThinLensKind().filter_name;  // no scene file gives another
+    return CameraInFile().filter_name;  // no scene file gives another
 }
 
 template <class Kind>
