@@ -92,7 +92,7 @@ inline void tell(std::vector<float>& told, const tracer::Texture& texture) {
     for (int i = 0; i < 20; ++i) {
         const float t = 0.173f * static_cast<float>(i);
         const glm::vec3 p(t, 0.31f - 2.1f * t, 0.7f * t * t);
-        tell(told, color_at(texture, {p, {0.36f, 0.48f, 0.8f}, glm::vec2(t, 0.3f * t)}));
+        tell(told, color_at(texture, {p, {0.36f, 0.48f, 0.8f}, tracer::MeshCoordinates{{t, 0.3f * t}}}));
     }
 }
 
@@ -122,6 +122,10 @@ inline void tell(std::vector<float>& told, const tracer::Material& material) {
             if constexpr (requires { m.film; }) {
                 tell(told, m.film ? m.film->thickness : tracer::Number(-1.0f));
                 told.push_back(m.film ? m.film->ior : 0);
+            }
+            if constexpr (requires { m.bump; }) {
+                told.push_back(m.bump ? m.bump->height : 0);
+                if (m.bump) tell(told, m.bump->texture);
             }
             if constexpr (requires { m.color; }) tell(told, m.color);
             if constexpr (requires { m.light; }) {
@@ -233,12 +237,20 @@ inline std::vector<Case> cases() {
               {"density_depth", dense},
               {"film_ior", R"("ior": 1.5, "film_thickness": 300)"},
               {"glass", R"("glass": "bk7")"}});
-    material("diffuse", R"("color": [0.1, 0.2, 0.3])");
+    // A bump needs a height, and a height a bump.
+    const auto bumped = [](const std::string& needed, std::map<std::string, std::string> instead) {
+        for (const char* const key : {"bump", "bump_height"})
+            instead[key] = needed + R"(, "bump": {"marble": {}}, "bump_height": 0.1)";
+        return instead;
+    };
+    material("diffuse", R"("color": [0.1, 0.2, 0.3])", bumped(R"("color": [0.1, 0.2, 0.3])", {}));
     const std::string index = R"("eta": [1, 2, 3], "k": [2, 3, 4])";
     material("conductor", R"("metal": "gold")",
-             {{"eta", index}, {"k", index}, {"film_ior", R"("metal": "gold", "film_thickness": 300)"}});
-    material("coated", R"("color": [0.1, 0.2, 0.3])",
-             {{"film_ior", R"("color": [0.1, 0.2, 0.3], "film_thickness": 300)"}});
+             bumped(R"("metal": "gold")",
+                    {{"eta", index}, {"k", index}, {"film_ior", R"("metal": "gold", "film_thickness": 300)"}}));
+    material(
+        "coated", R"("color": [0.1, 0.2, 0.3])",
+        bumped(R"("color": [0.1, 0.2, 0.3])", {{"film_ior", R"("color": [0.1, 0.2, 0.3], "film_thickness": 300)"}}));
     material("glowing", "");
     for (const char* const name : {"wood", "speckle", "marble", "checker"})
         all.push_back(

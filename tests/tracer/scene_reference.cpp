@@ -182,6 +182,7 @@ TEST_CASE("every key changes what is read") {
                                                     {"visible_to_camera", "false"},
                                                     {"group", "\"key\""},
                                                     {"medium", "\"ketchup\""},
+                                                    {"bump", R"({"checker": {"size": 0.25}})"},
                                                     {"glass", "\"sf11\""},
                                                     {"abbe_number", "40"},
                                                     {"density", R"({"sphere": {"radius": 0.5}})"},

@@ -143,7 +143,7 @@ TEST_CASE("textures from images: on a mesh by its coordinates, and an error wher
         for (std::size_t k = 0; k < 3; ++k)
             CHECK(mesh.uv[t][k] == glm::vec2(mesh.vertices[mesh.triangles[t][static_cast<int>(k)]]));
     const Texture& color = std::get<Diffuse>(mesh.material).color;
-    CHECK(glm::length(color_at(color, {{}, {0, 0, 1}, glm::vec2(0.25f, 0.25f)}) - glm::vec3(0, 0, 1)) < 1e-4f);
+    CHECK(glm::length(color_at(color, {{}, {0, 0, 1}, MeshCoordinates{{0.25f, 0.25f}}}) - glm::vec3(0, 0, 1)) < 1e-4f);
     CHECK(says(R"({"diffuse": {"color": [1, 1, 1]}})", "needs texture coordinates", mesh_of("f 1 2 3\n")));
     CHECK(
         says(R"({"diffuse": {"color": [1, 1, 1]}})", "needs texture coordinates", mesh_of("f 1/1 2/2 3/3\nf 1 3 4\n")));

@@ -2511,14 +2511,16 @@ class materials:
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
         """
     @staticmethod
-    def diffuse(color: Sequence[float] | str | Texture, roughness: float | Number | None = ...) -> Material:
+    def diffuse(color: Sequence[float] | str | Texture, roughness: float | Number | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ...) -> Material:
         r"""Paper, plaster, clay: reflects alike in all directions.
 
         color: Reflectance. (colour or texture)
         roughness: How rough it is: 0 is Lambert's law, 1 clay or the moon, whose rim is as bright as its middle. (number or field; at least 0 and at most 1; default 0)
+        bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45°. (colour or texture; default none)
+        bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
         """
     @staticmethod
-    def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold", "iron", "nickel", "silver", "titanium", "tungsten", "aluminum"] | None = ..., eta: Sequence[float] | np.ndarray | None = ..., k: Sequence[float] | np.ndarray | None = ..., roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
+    def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold", "iron", "nickel", "silver", "titanium", "tungsten", "aluminum"] | None = ..., eta: Sequence[float] | np.ndarray | None = ..., k: Sequence[float] | np.ndarray | None = ..., roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ...) -> Material:
         r"""Metal: one of the measured ones, or with a complex index η + ik of one's own.
 
         metal: A measured metal. (`"aluminium"`, `"brass"`, `"chromium"`, `"copper"`, `"gold"`, `"iron"`, `"nickel"`, `"silver"`, `"titanium"`, `"tungsten"`, `"aluminum"`; default none)
@@ -2527,9 +2529,11 @@ class materials:
         roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
         film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
+        bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45°. (colour or texture; default none)
+        bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
         """
     @staticmethod
-    def coated(color: Sequence[float] | str | Texture, ior: float | None = ..., roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
+    def coated(color: Sequence[float] | str | Texture, ior: float | None = ..., roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ...) -> Material:
         r"""Varnished or glazed: a clear coat over a diffuse base.
 
         color: Reflectance of the base. (colour or texture)
@@ -2537,6 +2541,8 @@ class materials:
         roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
         film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
+        bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45°. (colour or texture; default none)
+        bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
         """
     @staticmethod
     def glowing(light: Sequence[float] | str | Texture | None = ..., radiance: float | None = ..., color: Sequence[float] | str | Texture | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., group: str | Expression | None = ...) -> Material:
@@ -2576,14 +2582,16 @@ def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
     """
 
-def diffuse(color: Sequence[float] | str | Texture, roughness: float | Number | None = ...) -> Material:
+def diffuse(color: Sequence[float] | str | Texture, roughness: float | Number | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ...) -> Material:
     r"""Paper, plaster, clay: reflects alike in all directions.
 
     color: Reflectance. (colour or texture)
     roughness: How rough it is: 0 is Lambert's law, 1 clay or the moon, whose rim is as bright as its middle. (number or field; at least 0 and at most 1; default 0)
+    bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45°. (colour or texture; default none)
+    bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
     """
 
-def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold", "iron", "nickel", "silver", "titanium", "tungsten", "aluminum"] | None = ..., eta: Sequence[float] | np.ndarray | None = ..., k: Sequence[float] | np.ndarray | None = ..., roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
+def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold", "iron", "nickel", "silver", "titanium", "tungsten", "aluminum"] | None = ..., eta: Sequence[float] | np.ndarray | None = ..., k: Sequence[float] | np.ndarray | None = ..., roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ...) -> Material:
     r"""Metal: one of the measured ones, or with a complex index η + ik of one's own.
 
     metal: A measured metal. (`"aluminium"`, `"brass"`, `"chromium"`, `"copper"`, `"gold"`, `"iron"`, `"nickel"`, `"silver"`, `"titanium"`, `"tungsten"`, `"aluminum"`; default none)
@@ -2592,9 +2600,11 @@ def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold",
     roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
     film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
+    bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45°. (colour or texture; default none)
+    bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
     """
 
-def coated(color: Sequence[float] | str | Texture, ior: float | None = ..., roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
+def coated(color: Sequence[float] | str | Texture, ior: float | None = ..., roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ...) -> Material:
     r"""Varnished or glazed: a clear coat over a diffuse base.
 
     color: Reflectance of the base. (colour or texture)
@@ -2602,6 +2612,8 @@ def coated(color: Sequence[float] | str | Texture, ior: float | None = ..., roug
     roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
     film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
+    bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45°. (colour or texture; default none)
+    bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
     """
 
 def glowing(light: Sequence[float] | str | Texture | None = ..., radiance: float | None = ..., color: Sequence[float] | str | Texture | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., group: str | Expression | None = ...) -> Material:

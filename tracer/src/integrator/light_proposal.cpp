@@ -62,12 +62,13 @@ LightProposal LightProposal::at(const Surface& surface, const World& world, cons
                                 const Wavelengths* wavelengths) {
     const glm::vec3& p = surface.near_side.origin;
     const float eta = std::get<Clear>(scene.materials[surface.near_side.phase.index]).ior_for(wavelengths);
-    if (eta == 1.0f) return {{p, surface.normal}, surface.normal, eta};
+    const glm::vec3& normal = surface.geometric_normal;
+    if (eta == 1.0f) return {{p, surface.normal}, normal, eta};
     // The line to look along is bent as by a plane parallel to the surface.
-    const glm::vec3 lamp = scene.lights.towards_brightest(p, surface.normal).value_or(surface.normal);
-    const std::optional<glm::vec3> line = bent_inward(lamp, surface.normal, eta);
+    const glm::vec3 lamp = scene.lights.towards_brightest(p, normal).value_or(normal);
+    const std::optional<glm::vec3> line = bent_inward(lamp, normal, eta);
     const std::optional<glm::vec3> met = line ? boundary_along(*line, surface, world, scene, counters) : std::nullopt;
-    LightProposal proposal(p, met.value_or(surface.normal), eta);
+    LightProposal proposal(p, met.value_or(normal), eta);
     proposal.add_flat_boundaries(world, [&](const glm::vec3&) { return std::optional(lamp); });
     return proposal;
 }

@@ -175,7 +175,7 @@ class Path {
         LightProposal proposal;
         const auto per_line_density_of = [&](const glm::vec3& wi) {
             return surface.far_side && chain_.photons_count_earlier() ? per_line_density_beyond(surface, bsdf, wi)
-                                                                      : per_line_density_at(surface, unguided, wi);
+                                                                      : per_line_density_at(surface, bsdf, wi);
         };
         if (!unguided.is_delta()) {
             // A rough interface gets light from both sides, so none is preferred and no bending is guessed.
@@ -281,10 +281,17 @@ class Path {
                rough_factor(bsdf.bsdf().reverse_pdf(bsdf.wo(), wi), clear_at(scene_, left_to.phase).ior, wi.z,
                             clear_at(scene_, surface.near_side.phase).ior, bsdf.wo().z);
     }
+    // The cosine by which photons from a local direction are spread over the surface: it is by the geometric normal.
+    static float photon_cosine(const Surface& surface, const Frame& frame, const glm::vec3& wi) {
+        if (surface.far_side) return std::abs(wi.z);
+        if (surface.normal == surface.geometric_normal) return wi.z;
+        return wi.z > 0.0f ? glm::dot(frame.to_world(wi), surface.geometric_normal) : 0.0f;
+    }
     // PhotonDensity::per_line_density of a direction at a surface on which photons count; 0 if they do not count in it.
-    float per_line_density_at(const Surface& surface, const Bsdf& bsdf, const glm::vec3& wi) const {
-        const float cosine = surface.far_side ? std::abs(wi.z) : wi.z;
-        if (!photons_ || !(cosine > least_photon_cosine) || bsdf.is_delta()) return 0.0f;
+    float per_line_density_at(const Surface& surface, const GuidedBsdf& bsdf, const glm::vec3& wi) const {
+        if (!photons_ || bsdf.bsdf().is_delta()) return 0.0f;
+        const float cosine = photon_cosine(surface, bsdf.frame(), wi);
+        if (!(cosine > least_photon_cosine)) return 0.0f;
         return per_line_density_across(wi.z < 0.0f ? surface.far_side->phase : surface.near_side.phase) * cosine;
     }
     // N π r² n². Where a phase disperses, n is that of the d line: all techniques weigh by the same, so their weights
@@ -325,15 +332,15 @@ class Path {
             const bool is_from_near = photon.phase == near;
             if (!is_from_near && !(surface.far_side && photon.phase == surface.far_side->phase)) return;
             if (is_from_near != (wi.z > 0.0f)) return;
-            const float by_photons = per_line_density_at(surface, bsdf.bsdf(), wi) * photon.line_density;
+            const float by_photons = per_line_density_at(surface, bsdf, wi) * photon.line_density;
             if (!(by_photons > 0.0f)) return;
-            // Photons are counted by area of the surface, and so have the cosine already that evaluate() multiplies by.
-            const glm::vec3 f = bsdf.evaluate(wi) / std::abs(wi.z);
+            // Photons are counted by area of the surface, and so have the surface's cosine already.
+            const glm::vec3 f = bsdf.evaluate(wi) / photon_cosine(surface, bsdf.frame(), wi);
             add_photon(photon, photon.power, f, by_photons, bsdf.pdf(wi, photon.direction), proposal,
                        surface.near_side.origin);
         };
         if (!surface.far_side)
-            photons_.map->near(surface.near_side.origin, surface.normal, add);
+            photons_.map->near(surface.near_side.origin, surface.geometric_normal, add);
         else if (!chain_.photons_count_earlier())
             photons_.map->near_at_interface(surface.near_side.origin, surface.normal, add);
     }

@@ -19,15 +19,15 @@ class PathGuiding {
     /// The density of directions that takes part in the choice at a surface; null if only the BSDF chooses.
     const DirectionTree* at(const Surface& surface, const Bsdf& bsdf) const {
         if (!guide_ || pdf_over_unguided_ < least_pdf_over_unguided || !can_be_guided(surface, bsdf)) return nullptr;
-        return guide_->at(surface.near_side.origin, facing_of(surface.normal));
+        return guide_->at(surface.near_side.origin, facing_of(surface.geometric_normal));
     }
     /// The path leaves a surface in this direction of world space, with this throughput, before roulette.
     void leave(const Surface& surface, const Bsdf& bsdf, const GuidedBsdf::Sample& next, const glm::vec3& direction,
                const glm::vec3& throughput) {
         pdf_over_unguided_ *= next.pdf_over_unguided;
         if (findings_ && !next.delta && can_be_guided(surface, bsdf))
-            findings_->leave(surface.near_side.origin, facing_of(surface.normal), direction, next.wi.z / next.pdf,
-                             brightness(throughput, is_spectral_));
+            findings_->leave(surface.near_side.origin, facing_of(surface.geometric_normal), direction,
+                             next.wi.z / next.pdf, brightness(throughput, is_spectral_));
     }
     /// The path brings radiance, of its wavelengths if it has any, as the throughput is that leave() is told.
     void add_light(const glm::vec3& radiance) {

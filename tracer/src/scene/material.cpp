@@ -21,6 +21,15 @@ std::vector<std::string_view> names_of_glasses() {
     return names;
 }
 
+std::optional<Bump> BumpParameters::bump() const {
+    if (bump_texture && !bump_height) throw ParameterError("bump", "\"bump\" needs a \"bump_height\"");
+    if (bump_height && !bump_texture)
+        throw ParameterError("bump_height", "\"bump_height\" is that of a \"bump\", which is missing",
+                             ParameterError::Place::key);
+    if (!bump_texture || *bump_height == 0.0f) return std::nullopt;
+    return Bump{*bump_texture, *bump_height};
+}
+
 std::optional<Dispersion> ClearParameters::dispersion() const {
     if (glass && (ior || abbe_number))
         throw ParameterError("glass", "\"glass\" names the index at each wavelength; give either it or \"ior\"",
@@ -56,11 +65,11 @@ Conductor ConductorParameters::made() const {
                              ParameterError::Place::key);
     if (metal) {
         const Metal found = find_metal(*metal).value();
-        return {found.eta, found.k, roughness, film(), found.spectrum};
+        return {found.eta, found.k, roughness, film(), found.spectrum, bump()};
     }
     if (!eta) throw ParameterError("eta", "is missing");
     if (!k) throw ParameterError("k", "is missing");
-    return {*eta, *k, roughness, film()};
+    return {*eta, *k, roughness, film(), {}, bump()};
 }
 
 Material read_material(const Document& document, Value value) {

@@ -41,6 +41,26 @@ struct FilmParameters {
     }
 };
 
+// What opaque materials have of bumps on their surface.
+struct BumpParameters {
+    std::optional<Texture> bump_texture{};
+    std::optional<float> bump_height{};
+
+    template <class P, class V>
+    static void bump_parameters(V&& v) {
+        v(&P::bump_texture,
+          Parameter{"bump", "",
+                    "A texture whose bright places look as if they stood out of the surface: it turns the surface's "
+                    "normals and moves nothing. A step in it is a slope of 45°.",
+                    limits::any, true});
+        v(&P::bump_height,
+          Parameter{"bump_height", "m", "With a bump: how much higher white is than black; lower, if it is negative.",
+                    Limits{.low = -farthest, .high = farthest}, true});
+    }
+    /// Throws ParameterError if there is one of the two alone.
+    std::optional<Bump> bump() const;
+};
+
 struct ClearParameters : FilmParameters {
     static constexpr KindInfo info{"clear",
                                    "Vacuum, air, water, glass, milk, wax, fog: light travels inside, and may be "
@@ -139,7 +159,7 @@ struct ClearParameters : FilmParameters {
     Clear made() const;
 };
 
-struct DiffuseParameters {
+struct DiffuseParameters : BumpParameters {
     static constexpr KindInfo info{"diffuse", "Paper, plaster, clay: reflects alike in all directions."};
 
     Texture color{};
@@ -147,18 +167,20 @@ struct DiffuseParameters {
 
     template <class V>
     static void parameters(V&& v) {
-        v(&DiffuseParameters::color, Parameter{"color", "", "Reflectance.", limits::any});
-        v(&DiffuseParameters::roughness,
+        using P = DiffuseParameters;
+        v(&P::color, Parameter{"color", "", "Reflectance.", limits::any});
+        v(&P::roughness,
           Parameter{"roughness", "",
                     "How rough it is: 0 is Lambert's law, 1 clay or the moon, whose rim is as bright as its middle.",
                     limits::fraction, true});
+        bump_parameters<P>(v);
     }
-    Diffuse made() const { return {color, roughness}; }
+    Diffuse made() const { return {color, roughness, bump()}; }
 };
 
 std::vector<std::string_view> names_of_metals();
 
-struct ConductorParameters : FilmParameters {
+struct ConductorParameters : FilmParameters, BumpParameters {
     static constexpr KindInfo info{"conductor",
                                    "Metal: one of the measured ones, or with a complex index η + ik of one's own."};
 
@@ -177,11 +199,12 @@ struct ConductorParameters : FilmParameters {
                                limits::non_negative, true}});
         v(&P::roughness, roughness_parameter);
         film_parameters<P>(v);
+        bump_parameters<P>(v);
     }
     Conductor made() const;
 };
 
-struct CoatedParameters : FilmParameters {
+struct CoatedParameters : FilmParameters, BumpParameters {
     static constexpr KindInfo info{"coated", "Varnished or glazed: a clear coat over a diffuse base."};
 
     Texture color{};
@@ -195,8 +218,9 @@ struct CoatedParameters : FilmParameters {
         v(&P::ior, Parameter{"ior", "", "Refractive index of the coat.", Limits{.low = 1, .high = 4}, true});
         v(&P::roughness, roughness_parameter);
         film_parameters<P>(v);
+        bump_parameters<P>(v);
     }
-    Coated made() const { return {color, ior, roughness, film()}; }
+    Coated made() const { return {color, ior, roughness, film(), bump()}; }
 };
 
 struct GlowingParameters {

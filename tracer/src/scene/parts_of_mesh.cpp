@@ -71,7 +71,8 @@ float luminance_of(const Set& set, const Glowing& material) {
     float sum = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const auto& [a, b, c] = set.triangles[i * set.triangles.size() / count];
-        sum += luminance(color_at(material.light, {(a.p + b.p + c.p) / 3.0f, {0, 0, 1}, (a.uv + b.uv + c.uv) / 3.0f}));
+        sum += luminance(color_at(material.light,
+                                  {(a.p + b.p + c.p) / 3.0f, {0, 0, 1}, MeshCoordinates{(a.uv + b.uv + c.uv) / 3.0f}}));
     }
     return material.radiance * std::max(sum / static_cast<float>(count), least_brightness);
 }

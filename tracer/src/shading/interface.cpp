@@ -124,7 +124,14 @@ Interface Interface::between(const Material& from, const Material& to, SharedSur
     const Clear* clear = std::get_if<Clear>(&from);
     if (clear == nullptr)
         return Interface(DiffuseOptics{std::make_shared<const Texture>(ConstantTexture{glm::vec3(0.0f)})});
-    return std::visit([&](const auto& material) { return Interface(optics_of(*clear, material, shared)); }, to);
+    return std::visit(
+        [&](const auto& material) {
+            if constexpr (requires { material.bump; })
+                return Interface(optics_of(*clear, material, shared), material.bump);
+            else
+                return Interface(optics_of(*clear, material, shared));
+        },
+        to);
 }
 
 bool Interface::disperses() const {

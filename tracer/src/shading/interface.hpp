@@ -35,6 +35,8 @@ class Interface {
     /// them.
     Bsdf at(const TexturePoint& point, const Wavelengths* wavelengths = nullptr) const&;
     Bsdf at(const TexturePoint& point, const Wavelengths* wavelengths = nullptr) && = delete;
+    /// The bumps of the surface, if it has any.
+    const Bump* bump() const { return bump_ ? &*bump_ : nullptr; }
     /// Whether it refracts light of different wavelengths differently.
     bool disperses() const;
 
@@ -82,9 +84,11 @@ class Interface {
     using Optics = std::variant<ClearOptics, MetalOptics, DiffuseOptics, CoatedOptics, GlowingOptics>;
 
   private:
-    explicit Interface(Optics optics) : optics_(std::move(optics)) {}
+    explicit Interface(Optics optics, std::optional<Bump> bump = std::nullopt)
+        : optics_(std::move(optics)), bump_(std::move(bump)) {}
 
     Optics optics_;
+    std::optional<Bump> bump_;
 };
 
 /// The interfaces of every ordered pair of materials, built once.

@@ -14,6 +14,7 @@
 #include <variant>
 
 #include "media/medium.hpp"
+#include "shading/bump.hpp"
 #include "shading/metals.hpp"
 #include "shading/texture/number.hpp"
 #include "shading/texture/texture.hpp"
@@ -45,6 +46,7 @@ struct Clear {
 struct Diffuse {
     Texture color = ConstantTexture{};
     Number roughness = 0.0f;  ///< bsdf/rough_diffuse.hpp; not that of GGX
+    std::optional<Bump> bump{};
 };
 
 /// Metal, with the complex index against vacuum; metals.hpp has measured ones.
@@ -54,6 +56,7 @@ struct Conductor {
     Number roughness = 0.0f;
     std::optional<SurfaceFilm> film{};
     std::span<const MetalPoint> spectrum{};  ///< of a measured one, for light of wavelengths; it stays where it is
+    std::optional<Bump> bump{};
 };
 
 /// A diffuse base under a clear coat: varnished or glazed.
@@ -62,6 +65,7 @@ struct Coated {
     float ior = 1.5f;  ///< of the coat, against vacuum
     Number roughness = 0.0f;
     std::optional<SurfaceFilm> film{};
+    std::optional<Bump> bump{};
 };
 
 /// What shines by itself: embers, lava, a filament, a screen. Its surface sends the radiance `radiance` · `light` to
@@ -84,6 +88,8 @@ using Material = std::variant<Clear, Diffuse, Conductor, Coated, Glowing>;
 inline bool needs_uv(const Material& material) {
     return std::visit(
         [](const auto& kind) {
+            if constexpr (requires { kind.bump; })
+                if (kind.bump && needs_uv(kind.bump->texture)) return true;
             if constexpr (requires { kind.light; })
                 return needs_uv(kind.light) || needs_uv(kind.color);
             else if constexpr (requires { kind.color; })

@@ -26,8 +26,11 @@ struct Surface {
         std::optional<StartInCopy> start{};
     };
 
-    float distance;                ///< from the ray's origin
-    glm::vec3 normal;              ///< of unit length, on the side the ray came from; the shading normal of a mesh
+    float distance;  ///< from the ray's origin
+    /// The shading normal, by which light is scattered: of unit length, on the side the ray came from. It is that of
+    /// the surface but for bumps and the smooth normals of meshes.
+    glm::vec3 normal;
+    glm::vec3 geometric_normal;    ///< the surface's own, of unit length, on the side the ray came from
     Side near_side;                ///< the one the ray came from; its phase is clear
     std::optional<Side> far_side;  ///< the other; none where light does not travel there: opaque phases and meshes
     std::reference_wrapper<const Interface> optics;  ///< seen from the near side

@@ -127,6 +127,7 @@ Surface TracedGeometry::surface_of_several(const Ray& ray, const Met& met, doubl
     const auto [outside, inside] = from == to ? std::pair(phasetree::vacuum, phasetree::vacuum) : std::pair(from, to);
     Surface surface{.distance = static_cast<float>(distance),
                     .normal = first.normal,
+                    .geometric_normal = first.normal,
                     .near_side = {first.p_in, from, ray.in, std::nullopt},
                     .far_side = std::nullopt,
                     .optics = interfaces_.between(outside.index, inside.index),
@@ -143,6 +144,11 @@ Surface TracedGeometry::surface_of_several(const Ray& ray, const Met& met, doubl
         surface.near_side.start = StartInCopy{first.copy.number, first.crossing.p_in};
     }
     if (is_clear(scene_.materials[to.index])) surface.far_side = {on.origin, to, on.in, on.start};
+    if (const Bump* bump = surface.optics.get().bump()) {
+        const glm::dvec3 in_object(bump->normal_at(surface.place));
+        const glm::vec3 in_scene(glm::normalize(in_object * shown.copy.to_object.matrix));
+        surface.normal = turned_to_ray(in_scene, surface.geometric_normal, ray.direction);
+    }
     return surface;
 }
 

@@ -80,11 +80,24 @@ std::vector<Interface> interfaces_of(std::span<const Mesh> meshes, std::span<con
     return interfaces;
 }
 
-std::optional<glm::vec2> uv_at(const Mesh& mesh, const RTCRayHit& hit) {
+// The vectors in a triangle's plane whose products with its sides `a` and `b` are 1 and 0, and 0 and 1: what a function
+// that is linear in the triangle gains along a, times the first, and along b, times the second, is its gradient.
+glm::mat2x3 dual_basis(const glm::vec3& a, const glm::vec3& b) {
+    const float aa = glm::dot(a, a), ab = glm::dot(a, b), bb = glm::dot(b, b), determinant = aa * bb - ab * ab;
+    if (!(determinant > 0.0f)) return glm::mat2x3(0.0f);
+    return {(bb * a - ab * b) / determinant, (aa * b - ab * a) / determinant};
+}
+
+std::optional<MeshCoordinates> coordinates_at(const Mesh& mesh, const RTCRayHit& hit) {
     if (mesh.uv.empty()) return std::nullopt;
     const auto& corners = mesh.uv[hit.hit.primID];
     const float u = hit.hit.u, v = hit.hit.v;
-    return (1 - u - v) * corners[0] + u * corners[1] + v * corners[2];
+    const glm::uvec3& t = mesh.triangles[hit.hit.primID];
+    const glm::vec3& p = mesh.vertices[t.x];
+    const glm::mat2x3 dual = dual_basis(mesh.vertices[t.y] - p, mesh.vertices[t.z] - p);
+    const glm::vec2 along_a = corners[1] - corners[0], along_b = corners[2] - corners[0];
+    return MeshCoordinates{(1 - u - v) * corners[0] + u * corners[1] + v * corners[2],
+                           {along_a.x * dual[0] + along_b.x * dual[1], along_a.y * dual[0] + along_b.y * dual[1]}};
 }
 
 }  // namespace
@@ -179,6 +192,7 @@ Surface TracedGeometry::surface_of_object(const Ray& ray, const embree::Query& q
     const CrossingNormal normal = object().normal(hit.hit.primID, c, ray.direction);
     Surface surface{.distance = c.t_in,
                     .normal = -normal.unit,
+                    .geometric_normal = -normal.unit,
                     .near_side = {c.p_in, c.from},
                     .far_side = std::nullopt,
                     .optics = interfaces_.between(c.from.index, c.to.index),
@@ -187,6 +201,8 @@ Surface TracedGeometry::surface_of_object(const Ray& ray, const embree::Query& q
                     .entered = c.to,
                     .place = {c.p_in, -normal.unit, std::nullopt}};
     if (is_clear(scene_.materials[c.to.index])) surface.far_side = {c.p_out, c.to};
+    if (const Bump* bump = surface.optics.get().bump())
+        surface.normal = turned_to_ray(bump->normal_at(surface.place), surface.geometric_normal, ray.direction);
     return surface;
 }
 
@@ -208,15 +224,19 @@ Surface TracedGeometry::surface_of_mesh(const Ray& ray, const RTCRayHit& hit) co
     }
     const float largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), 1.0f});
     const glm::vec3 origin = p + flat * std::max(surface_epsilon_, relative_surface_epsilon * largest);
+    const TexturePoint place(origin, shading, coordinates_at(mesh, hit));
+    const Interface& optics = mesh_interfaces_[index * scene_.materials.size() + ray.phase.index];
+    if (const Bump* bump = optics.bump()) shading = turned_to_ray(bump->normal_at(place), flat, ray.direction);
     return {.distance = hit.ray.tfar,
             .normal = shading,
+            .geometric_normal = flat,
             .near_side = {origin, ray.phase, ray.in},
             .far_side = std::nullopt,
-            .optics = mesh_interfaces_[index * scene_.materials.size() + ray.phase.index],
+            .optics = optics,
             .hint = {},
             .object = first_mesh_ + static_cast<std::uint32_t>(index),
             .entered = std::nullopt,
-            .place = {origin, shading, uv_at(mesh, hit)}};
+            .place = place};
 }
 
 CellStatistics TracedGeometry::statistics() const {

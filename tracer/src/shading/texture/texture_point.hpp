@@ -1,20 +1,35 @@
 // A place on a surface, as textures see it.
 #pragma once
 
+#include <glm/mat2x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 
 namespace phasetree::tracer {
 
+/// A mesh's texture coordinates at a place.
+struct MeshCoordinates {
+    glm::vec2 uv;
+    glm::mat2x3 gradients{0.0f};  ///< ∇u and ∇v along the surface, per unit of length
+};
+
 struct TexturePoint {
     glm::vec3 position;                  ///< in the object's own space, in the scene's unit of length
     glm::vec3 normal{0.0f, 0.0f, 1.0f};  ///< of unit length, to either side
-    std::optional<glm::vec2> uv{};       ///< a mesh's texture coordinates, if it has any
+    std::optional<MeshCoordinates> mesh{};
 
     TexturePoint(const glm::vec3& p) : position(p) {}
-    TexturePoint(const glm::vec3& p, const glm::vec3& n, const std::optional<glm::vec2>& coordinates)
-        : position(p), normal(n), uv(coordinates) {}
+    TexturePoint(const glm::vec3& p, const glm::vec3& n, const std::optional<MeshCoordinates>& coordinates)
+        : position(p), normal(n), mesh(coordinates) {}
+
+    /// A place nearby on the surface, which is taken to be flat.
+    TexturePoint moved(const glm::vec3& by) const {
+        TexturePoint there = *this;
+        there.position += by;
+        if (mesh) there.mesh->uv += by * mesh->gradients;
+        return there;
+    }
 };
 
 }  // namespace phasetree::tracer
