@@ -92,12 +92,14 @@ inline void tell(std::vector<float>& told, const tracer::Texture& texture) {
     for (int i = 0; i < 20; ++i) {
         const float t = 0.173f * static_cast<float>(i);
         const glm::vec3 p(t, 0.31f - 2.1f * t, 0.7f * t * t);
-        tell(told, color_at(texture, {p, {0.36f, 0.48f, 0.8f}, tracer::MeshCoordinates{{t, 0.3f * t}}}));
+        tracer::TexturePoint place{p, {0.36f, 0.48f, 0.8f}, tracer::MeshCoordinates{{t, 0.3f * t}}};
+        place.copy = static_cast<std::uint32_t>(i);
+        tell(told, color_at(texture, place));
     }
 }
 
 inline void tell(std::vector<float>& told, const tracer::Number& number) {
-    for (const float t : {0.0f, 0.4f, 1.7f}) told.push_back(number_at(number, {t, 0.5f * t, -t}));
+    for (const float t : {0.0f, 0.4f, 1.7f}) told.push_back(number_at(number, glm::vec3(t, 0.5f * t, -t)));
 }
 
 inline void tell(std::vector<float>& told, const tracer::Material& material) {
@@ -261,11 +263,15 @@ inline std::vector<Case> cases() {
                        tell_material_of_scene});
     };
     texture("field", R"("of": {"sphere": {"radius": 1}}, "ramp": [[0, [0, 0, 0]], [1, [1, 1, 1]]])");
+    texture("per_copy", R"("ramp": [[0, [0, 0, 0]], [1, [1, 1, 1]]])");
     texture("measured", R"("reflectance": [[450, 0.1], [600, 0.8]])");
     texture("image", R"("file": "sky.hdr")");
     texture("mesh_image", R"("file": "sky.hdr")");
     all.push_back({"Numbers", "field", R"("of": {"sphere": {"radius": 1}}, "ramp": [[-2, 0], [2, 0.5]])",
                    scene + R"(coated": {"color": [1, 1, 1], "roughness": {"field": )", "}}}}", tell_material_of_scene});
+    all.push_back({"Numbers", "per_copy", R"("ramp": [[0, 0], [1, 0.5]])",
+                   scene + R"(coated": {"color": [1, 1, 1], "roughness": {"per_copy": )", "}}}}",
+                   tell_material_of_scene});
     const auto light = [&](const std::string& name, const std::string& needed) {
         all.push_back({"Lights", name, needed, "{\"lights\": [{\"" + name + "\": ", "}]}", tell_lights});
     };

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -94,8 +95,8 @@ TEST_CASE("textures by the tree: roughness and films, and what is wrong with a r
     };
     const Scene scene = sand_of(ramp("[[0, 0.1], [2, 0.5]]"));
     const Number& roughness = std::get<Conductor>(scene.materials[2]).roughness;
-    CHECK(number_at(roughness, {2, 0, 0}) == doctest::Approx(0.3));
-    CHECK(number_at(roughness, {9, 0, 0}) == 0.5f);
+    CHECK(number_at(roughness, glm::vec3(2, 0, 0)) == doctest::Approx(0.3));
+    CHECK(number_at(roughness, glm::vec3(9, 0, 0)) == 0.5f);
     CHECK(least_of(roughness) == 0.1f);
     CHECK(greatest_of(roughness) == 0.5f);
     CHECK(says(ramp("[[0, 0.1], [2, 1.5]]"), "1.5"));
@@ -106,7 +107,46 @@ TEST_CASE("textures by the tree: roughness and films, and what is wrong with a r
                "there is no shape \"pond\""));
     const Scene film = sand_of(R"({"clear": {"ior": 1.5, "film_thickness": {"field": {"of": {"plane": {}},
         "ramp": [[0, 100], [1, 900]]}}, "film_ior": 1.4}})");
-    CHECK(number_at(std::get<Clear>(film.materials[2]).film->thickness, {0, 0, 0.5f}) == doctest::Approx(500));
+    CHECK(number_at(std::get<Clear>(film.materials[2]).film->thickness, glm::vec3(0, 0, 0.5f)) == doctest::Approx(500));
+}
+
+TEST_CASE("each copy of an object has its own colour and roughness, the same all over it") {
+    std::string places;
+    for (int i = 0; i < 30; ++i) places += (i > 0 ? ", [" : "[") + std::to_string(3 * i) + ", 0, 0]";
+    const Scene scene = read_scene(phasetree::Document::from_text(
+        R"({"version": 1, "phases": {"sweet": {"coated": {"color": {"per_copy": {"ramp": [[0, [1, 0, 0]], [0.5, [1, 0, 0]],
+            [0.5, [0, 0, 1]], [1, [0, 0, 1]]]}}, "roughness": {"per_copy": {"ramp": [[0, 0.2], [1, 0.4]], "seed": 1}}}}},
+            "objects": [{"name": "ball", "tree": {"set": {"phase": "sweet", "of": {"sphere": {"radius": 1}}}}}],
+            "instances": [{"of": "ball", "transforms": [)" +
+            places + R"(]}], "camera": {"position": [0, -5, 0], "look_at": [0, 0, 0]}})",
+        "test.json"));
+    const World world(scene);
+    const auto& sweet = std::get<Coated>(scene.materials[1]);
+    PathCounters counters;
+    int red = 0;
+    std::set<float> roughnesses;
+    for (int i = 0; i < 30; ++i) {
+        std::optional<glm::vec3> color;
+        for (const float to : {-0.7f, 0.1f, 0.6f}) {
+            const Ray ray{{3.0f * static_cast<float>(i) + to, -5, to}, {0, 1, 0}, phasetree::vacuum, {}};
+            const Hit hit = world.geometry().intersect(ray, counters);
+            REQUIRE(std::holds_alternative<Surface>(hit));
+            const TexturePoint& place = std::get<Surface>(hit).place;
+            const glm::vec3 here = color_at(sweet.color, place);
+            CHECK(here == color.value_or(here));
+            color = here;
+            roughnesses.insert(number_at(sweet.roughness, place));
+        }
+        CHECK((*color == glm::vec3(1, 0, 0) || *color == glm::vec3(0, 0, 1)));
+        red += *color == glm::vec3(1, 0, 0) ? 1 : 0;
+    }
+    CHECK(red > 6);
+    CHECK(red < 24);
+    CHECK(roughnesses.size() == 30);
+    CHECK(*roughnesses.begin() >= 0.2f);
+    CHECK(*roughnesses.rbegin() <= 0.4f);
+    CHECK(least_of(sweet.roughness) == 0.2f);
+    CHECK(greatest_of(sweet.roughness) == 0.4f);
 }
 
 TEST_CASE("textures from images: sRGB is decoded, and each side of a solid gets its own projection") {

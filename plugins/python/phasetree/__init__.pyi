@@ -2695,6 +2695,13 @@ class textures:
 
         reflectance: Wavelengths and the share of light that is reflected at each. (list of [nm, number] in nm; at least 0 and at most 1)
         """
+    @staticmethod
+    def per_copy(ramp: Sequence[Sequence[float | str | Sequence[float] | Texture]], seed: int | None = ...) -> Texture:
+        r"""A colour or texture for each copy that "instances" place: leaves, pebbles and sweets are not all alike.
+
+        ramp: Numbers from 0 to 1, and the colour or texture of a copy whose random number that is; between them they are mixed. (list of [number, colour or texture]; at least 0 and at most 1)
+        seed: Another whole number gives other copies other values. (whole number; zero or more; default 0)
+        """
 
 class numbers:
     @staticmethod
@@ -2703,6 +2710,13 @@ class numbers:
 
         of: The field, or the name of a shape. (field)
         ramp: Values of the field and the number at each, between which it is interpolated. (list of [number, number] in m)
+        """
+    @staticmethod
+    def per_copy(ramp: Sequence[Sequence[float]] | np.ndarray, seed: int | None = ...) -> Number:
+        r"""A number for each copy that "instances" place.
+
+        ramp: Numbers from 0 to 1, and the value of a copy whose random number that is; between them it is interpolated. (list of [number, number])
+        seed: Another whole number gives other copies other values. (whole number; zero or more; default 0)
         """
 
 class lights:

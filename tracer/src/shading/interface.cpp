@@ -84,33 +84,33 @@ Bsdf dispersive_bsdf(const Interface::ClearOptics::Dispersive& sides, float hero
 // bsdf_of() gives the BSDF of each kind of optics at a place, for light of wavelengths or, without any, of colours.
 
 Bsdf bsdf_of(const Interface::ClearOptics& optics, const TexturePoint& p, const Wavelengths* wavelengths) {
-    const float thickness = number_at(optics.thickness, p.position);
+    const float thickness = number_at(optics.thickness, p);
     // Between equal indices there is at most a film. What passes it goes straight on, however rough it is, and there is
     // no microfacet that would send it there.
     if (optics.surface->eta() == 1.0f) return SmoothDielectricBsdf(*optics.surface, thickness, wavelengths);
-    const float roughness = std::max(number_at(optics.from, p.position), number_at(optics.to, p.position));
+    const float roughness = std::max(number_at(optics.from, p), number_at(optics.to, p));
     if (is_smooth(roughness)) return SmoothDielectricBsdf(*optics.surface, thickness, wavelengths);
     return RoughDielectricBsdf(*optics.surface, std::min(roughness, 1.0f), wavelengths);
 }
 
 Bsdf bsdf_of(const Interface::MetalOptics& optics, const TexturePoint& p, const Wavelengths* wavelengths) {
-    const float thickness = number_at(optics.thickness, p.position);
-    const float roughness = number_at(optics.roughness, p.position);
+    const float thickness = number_at(optics.thickness, p);
+    const float roughness = number_at(optics.roughness, p);
     if (is_smooth(roughness)) return SmoothConductorBsdf(*optics.surface, thickness, wavelengths);
     return RoughConductorBsdf(*optics.surface, std::min(roughness, 1.0f), thickness, wavelengths);
 }
 
 Bsdf bsdf_of(const Interface::DiffuseOptics& optics, const TexturePoint& p, const Wavelengths* wavelengths) {
     const glm::vec3 color = color_at(*optics.color, p, wavelengths);
-    const float roughness = number_at(optics.roughness, p.position);
+    const float roughness = number_at(optics.roughness, p);
     if (roughness > 0.0f) return RoughDiffuseBsdf(color, std::min(roughness, 1.0f));
     return DiffuseBsdf(color);
 }
 
 Bsdf bsdf_of(const Interface::CoatedOptics& optics, const TexturePoint& p, const Wavelengths* wavelengths) {
-    const float roughness = number_at(optics.roughness, p.position);
+    const float roughness = number_at(optics.roughness, p);
     return CoatedDiffuseBsdf(optics.coating->at(is_smooth(roughness) ? 0.0f : std::min(roughness, 1.0f),
-                                                number_at(optics.thickness, p.position), wavelengths),
+                                                number_at(optics.thickness, p), wavelengths),
                              color_at(*optics.color, p, wavelengths));
 }
 

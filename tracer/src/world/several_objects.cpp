@@ -136,6 +136,7 @@ Surface TracedGeometry::surface_of_several(const Ray& ray, const Met& met, doubl
                     .entered = to,
                     .place = {shown.crossing.p_in, shown.normal_in_object, std::nullopt},
                     .copy = shown.copy.number};
+    surface.place.copy = surface.copy;
     const Ray on = behind(ray, met);
     if (met.joined) {
         surface.near_side.origin += static_cast<float>(met.apart()) * first.normal;

@@ -1,27 +1,17 @@
 // Colours driven by a field of the tree: sand that is dark near water, edges that are worn. A ramp makes colours, or
 // other textures, of the field's value, which is a distance: negative inside of the field's solid, and for the field
 // `merge` of an object, that to the nearest of some of its phases.
-//
-// Two textures are mixed in linear light.
 #pragma once
 
 #include <glm/vec3.hpp>
-#include <memory>
-#include <vector>
 
 #include "phasetree/io/kind.hpp"
 #include "shading/texture/field_value.hpp"
+#include "shading/texture/ramp_of_textures.hpp"
 #include "shading/texture/texture_point.hpp"
 #include "spectrum/wavelengths.hpp"
 
 namespace phasetree::tracer {
-
-/// The texture from this value of the field on, until the next; texture.hpp has the member that is left out here.
-struct TextureStop;
-using TextureRamp = std::shared_ptr<const std::vector<TextureStop>>;
-
-/// A list of stops, [[value, colour or number], …], of which the values rise.
-struct RampParameter : Parameter {};
 
 struct FieldTexture {
     static constexpr KindInfo info{
@@ -44,8 +34,10 @@ struct FieldTexture {
     }
     void prepare() { value = FieldValue(of); }
 
-    glm::vec3 at(const TexturePoint& p) const;
-    glm::vec3 at(const TexturePoint& p, const Wavelengths& wavelengths) const;
+    glm::vec3 at(const TexturePoint& p) const { return color_at(ramp, value.at(p.position), p, nullptr); }
+    glm::vec3 at(const TexturePoint& p, const Wavelengths& wavelengths) const {
+        return color_at(ramp, value.at(p.position), p, &wavelengths);
+    }
 };
 
 }  // namespace phasetree::tracer

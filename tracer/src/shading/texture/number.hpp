@@ -1,9 +1,8 @@
 // A number of a material, such as its roughness, that may be another at each point: it may follow a field of the tree,
-// as the colours of field.hpp do.
+// as the colours of field.hpp do, or be another for each copy, as those of per_copy.hpp.
 #pragma once
 
-#include <algorithm>
-#include <span>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -11,13 +10,10 @@
 #include "phasetree/model/concepts.hpp"
 #include "shading/texture/field.hpp"
 #include "shading/texture/field_value.hpp"
-#include "shading/texture/ramp.hpp"
+#include "shading/texture/number_stop.hpp"
+#include "shading/texture/per_copy.hpp"
 
 namespace phasetree::tracer {
-
-struct NumberStop {
-    float at, number;
-};
 
 struct FieldNumber {
     static constexpr KindInfo info{"field",
@@ -37,31 +33,36 @@ struct FieldNumber {
     }
     void prepare() { value = FieldValue(of); }
 
-    float at(const glm::vec3& p) const {
-        const BetweenStops between = between_stops(std::span(ramp), value.at(p));
-        const float low = ramp[between.below].number, high = ramp[between.above].number;
-        return low + between.part * (high - low);
-    }
-    float least() const { return std::ranges::min_element(ramp, {}, &NumberStop::number)->number; }
-    float greatest() const { return std::ranges::max_element(ramp, {}, &NumberStop::number)->number; }
+    float at(const TexturePoint& p) const { return number_at(ramp, value.at(p.position)); }
+    float least() const { return least_of(ramp); }
+    float greatest() const { return greatest_of(ramp); }
 };
 
 /// Those that a scene file names in the place of a number.
-using NumberTextures = TypeList<FieldNumber>;
+using NumberTextures = TypeList<FieldNumber, PerCopyNumber>;
 
-using Number = std::variant<float, FieldNumber>;
+using Number = std::variant<float, FieldNumber, PerCopyNumber>;
 
-inline float number_at(const Number& number, const glm::vec3& p) {
-    const float* constant = std::get_if<float>(&number);
-    return constant ? *constant : std::get<FieldNumber>(number).at(p);
+/// What of_texture makes of the number, or the number itself if it is the same everywhere.
+template <class OfTexture>
+float of_number(const Number& number, const OfTexture& of_texture) {
+    return std::visit(
+        [&]<class Kind>(const Kind& kind) {
+            if constexpr (std::is_same_v<Kind, float>)
+                return kind;
+            else
+                return of_texture(kind);
+        },
+        number);
+}
+inline float number_at(const Number& number, const TexturePoint& p) {
+    return of_number(number, [&](const auto& kind) { return kind.at(p); });
 }
 inline float least_of(const Number& number) {
-    const float* constant = std::get_if<float>(&number);
-    return constant ? *constant : std::get<FieldNumber>(number).least();
+    return of_number(number, [](const auto& kind) { return kind.least(); });
 }
 inline float greatest_of(const Number& number) {
-    const float* constant = std::get_if<float>(&number);
-    return constant ? *constant : std::get<FieldNumber>(number).greatest();
+    return of_number(number, [](const auto& kind) { return kind.greatest(); });
 }
 
 }  // namespace phasetree::tracer

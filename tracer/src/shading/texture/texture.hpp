@@ -15,6 +15,7 @@
 #include "shading/texture/marble.hpp"
 #include "shading/texture/measured.hpp"
 #include "shading/texture/mesh_image.hpp"
+#include "shading/texture/per_copy.hpp"
 #include "shading/texture/speckle.hpp"
 #include "shading/texture/wood.hpp"
 
@@ -23,7 +24,7 @@ namespace phasetree::tracer {
 // Those that a scene file names, with their parameters: one list, from which the reader, the reference and the schema
 // follow. A colour by itself is the constant one.
 using NamedTextures = TypeList<WoodTexture, SpeckleTexture, MarbleTexture, CheckerTexture, FieldTexture, ImageTexture,
-                               MeshImageTexture, MeasuredTexture>;
+                               MeshImageTexture, MeasuredTexture, PerCopyTexture>;
 
 /// A kind of texture, once its contract has been asked of it. If it does not meet that, the message names the kind and
 /// the member.
@@ -80,9 +81,14 @@ inline glm::vec3 color_at(const Texture& texture, TexturePoint point, const Wave
 
 /// Whether it can only be on a mesh, whose file has texture coordinates.
 inline bool needs_uv(const Texture& texture) {
-    if (const auto* field = std::get_if<FieldTexture>(&texture))
-        return std::ranges::any_of(*field->ramp, [](const TextureStop& stop) { return needs_uv(stop.texture); });
-    return std::holds_alternative<MeshImageTexture>(texture);
+    return std::visit(
+        []<class Kind>(const Kind& kind) {
+            if constexpr (requires { kind.ramp; })
+                return std::ranges::any_of(*kind.ramp, [](const TextureStop& stop) { return needs_uv(stop.texture); });
+            else
+                return std::is_same_v<Kind, MeshImageTexture>;
+        },
+        texture);
 }
 
 }  // namespace phasetree::tracer

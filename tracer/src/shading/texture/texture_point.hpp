@@ -1,6 +1,7 @@
 // A place on a surface, as textures see it.
 #pragma once
 
+#include <cstdint>
 #include <glm/mat2x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -18,6 +19,7 @@ struct TexturePoint {
     glm::vec3 position;                  ///< in the object's own space, in the scene's unit of length
     glm::vec3 normal{0.0f, 0.0f, 1.0f};  ///< of unit length, to either side
     std::optional<MeshCoordinates> mesh{};
+    std::uint32_t copy = 0;  ///< which of an object's copies it is on, as Surface::copy has it
 
     TexturePoint(const glm::vec3& p) : position(p) {}
     TexturePoint(const glm::vec3& p, const glm::vec3& n, const std::optional<MeshCoordinates>& coordinates)

@@ -1,0 +1,69 @@
+// Copies of one object that do not look all the same. Each copy that a scene's "instances" place has a random number of
+// its own, the same everywhere on it: a hash of the copy's number in [0, 1).
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "phasetree/io/kind.hpp"
+#include "sampling/hash.hpp"
+#include "shading/texture/number_stop.hpp"
+#include "shading/texture/ramp_of_textures.hpp"
+#include "shading/texture/texture_point.hpp"
+
+namespace phasetree::tracer {
+
+inline float random_of_copy(std::uint32_t copy, int seed) {
+    return hash_to_unit(hash(copy, static_cast<std::uint32_t>(seed)));
+}
+
+inline constexpr Parameter per_copy_seed{"seed", "", "Another whole number gives other copies other values.",
+                                         limits::non_negative, true};
+
+struct PerCopyTexture {
+    static constexpr KindInfo info{"per_copy",
+                                   "A colour or texture for each copy that \"instances\" place: leaves, pebbles and "
+                                   "sweets are not all alike."};
+
+    TextureRamp ramp{};
+    int seed = 0;
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = PerCopyTexture;
+        v(&P::ramp, RampParameter{{"ramp", "",
+                                   "Numbers from 0 to 1, and the colour or texture of a copy whose random number that "
+                                   "is; between them they are mixed.",
+                                   limits::fraction}});
+        v(&P::seed, per_copy_seed);
+    }
+
+    glm::vec3 at(const TexturePoint& p) const { return color_at(ramp, random_of_copy(p.copy, seed), p, nullptr); }
+    glm::vec3 at(const TexturePoint& p, const Wavelengths& wavelengths) const {
+        return color_at(ramp, random_of_copy(p.copy, seed), p, &wavelengths);
+    }
+};
+
+struct PerCopyNumber {
+    static constexpr KindInfo info{"per_copy", "A number for each copy that \"instances\" place."};
+
+    std::vector<NumberStop> ramp{};
+    int seed = 0;
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = PerCopyNumber;
+        v(&P::ramp, RampParameter{{"ramp", "",
+                                   "Numbers from 0 to 1, and the value of a copy whose random number that is; between "
+                                   "them it is interpolated."}});
+        v(&P::seed, per_copy_seed);
+    }
+
+    float at(const TexturePoint& p) const { return number_at(ramp, random_of_copy(p.copy, seed)); }
+    float least() const { return least_of(ramp); }
+    float greatest() const { return greatest_of(ramp); }
+};
+
+}  // namespace phasetree::tracer
