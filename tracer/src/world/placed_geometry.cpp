@@ -75,6 +75,7 @@ void intersect_place(const RTCIntersectFunctionNArguments* arguments) noexcept {
     const PlaceInEmbree& place = places.list[arguments->primID];
     const Target& target = (*places.targets)[place.target];
     auto& query = *reinterpret_cast<PlacedQuery*>(arguments->context);
+    if (query.query.passes_cells) return;
     auto& rayhit = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
 
     const RTCHit hit_before = rayhit.hit;

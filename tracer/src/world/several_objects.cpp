@@ -62,7 +62,12 @@ TracedGeometry::NextOfSeveral TracedGeometry::next_of_several(const Ray& ray, fl
     counters.trace.phantoms += q.query.counters.phantoms;
     if (!embree::is_hit(hit)) return Escaped{};
     if (hit.hit.instID[0] == RTC_INVALID_GEOMETRY_ID) return hit;
-    return crossing_in_scene(q, hit);
+    const CrossingInScene found = crossing_in_scene(q, hit);
+    if (is_clear(scene_.materials[found.crossing.to.index]))
+        if (const auto mesh =
+                mesh_flush_with_interface(ray, static_cast<float>(found.distance), found.p_in, found.p_out))
+            return *mesh;
+    return found;
 }
 
 TracedGeometry::CrossingInScene TracedGeometry::crossing_in_scene(const PlacedQuery& query,

@@ -138,7 +138,11 @@ TracedGeometry::TracedGeometry(const Scene& scene, const WorldOptions& options,
     }
     rtcAttachGeometryByID(embree_.get(), placed_ ? placed_->handle() : tree_->handle(), object_id);
     unsigned id = first_mesh_id;
-    for (const Mesh& mesh : scene.meshes) attach(embree_.get(), device_.get(), mesh, id++);
+    for (const Mesh& mesh : scene.meshes) {
+        attach(embree_.get(), device_.get(), mesh, id++);
+        Bounds& box = mesh_bounds_.emplace_back();
+        for (const glm::vec3& vertex : mesh.vertices) box = unite(box, {vertex, vertex});
+    }
     rtcCommitScene(embree_.get());
     surface_epsilon_ = relative_surface_epsilon * bounds().diagonal();
 }
@@ -158,13 +162,33 @@ bool TracedGeometry::trace(const Ray& ray, float far, embree::Query& query, RTCR
     return embree::is_hit(hit);
 }
 
+std::optional<RTCRayHit> TracedGeometry::mesh_flush_with_interface(const Ray& ray, float distance,
+                                                                   const glm::vec3& p_in,
+                                                                   const glm::vec3& p_out) const {
+    // By so much, relative to distances and coordinates, what Embree finds is rounded.
+    constexpr float rounding = 4e-7f;
+    const float largest = std::max({std::abs(p_in.x), std::abs(p_in.y), std::abs(p_in.z)});
+    const float depth = glm::length(p_out - p_in) + rounding * (distance + largest);
+    if (std::ranges::none_of(mesh_bounds_, [&](const Bounds& box) { return box.inflated(depth).contains(p_in); }))
+        return std::nullopt;
+    embree::Query query;
+    query.passes_cells = true;
+    RTCRayHit hit = embree::rayhit_of(ray.origin, ray.direction, distance, distance + depth);
+    embree::intersect(embree_.get(), query.context, hit);
+    return embree::is_hit(hit) ? std::optional(hit) : std::nullopt;
+}
+
 Hit TracedGeometry::intersect(const Ray& ray, PathCounters& counters) const {
     if (placed_) return intersect_several(ray, std::numeric_limits<float>::infinity(), counters);
     embree::Query query;
     RTCRayHit hit;
     if (!trace(ray, std::numeric_limits<float>::infinity(), query, hit, counters)) return Escaped{};
-    if (hit.hit.geomID == object_id) return surface_of_object(ray, query, hit);
-    return surface_of_mesh(ray, hit);
+    if (hit.hit.geomID != object_id) return surface_of_mesh(ray, hit);
+    const Crossing& c = query.crossing;
+    if (is_clear(scene_.materials[c.to.index]))
+        if (const auto mesh = mesh_flush_with_interface(ray, c.t_in, c.p_in, c.p_out))
+            return surface_of_mesh(ray, *mesh);
+    return surface_of_object(ray, query, hit);
 }
 
 Visibility TracedGeometry::visibility(const Ray& ray, float far, PathCounters& counters) const {
@@ -178,6 +202,10 @@ Visibility TracedGeometry::visibility(const Ray& ray, float far, PathCounters& c
     embree::Query query;
     RTCRayHit hit;
     if (!trace(ray, far, query, hit, counters)) return Escaped{};
+    if (hit.hit.geomID == object_id && is_clear(scene_.materials[query.crossing.to.index])) {
+        const Crossing& c = query.crossing;
+        if (const auto mesh = mesh_flush_with_interface(ray, c.t_in, c.p_in, c.p_out)) hit = *mesh;
+    }
     const bool is_mesh = hit.hit.geomID != object_id;
     const Material& met =
         is_mesh ? scene_.meshes[hit.hit.geomID - first_mesh_id].material : scene_.materials[query.crossing.to.index];

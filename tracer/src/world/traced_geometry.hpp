@@ -77,6 +77,12 @@ class TracedGeometry {
 
     void attach_meshes();
     bool trace(const Ray& ray, float far, embree::Query& query, RTCRayHit& hit, PathCounters& counters) const;
+    /// What a ray meets of the meshes where an interface of two clear phases was found, whose bracket lies between the
+    /// two points; `distance` is the first one's. A mesh that stands flush with an interface is met within its bracket,
+    /// and it counts as if it stood before it: the ray, which would start behind it next, meets it in the phase it is
+    /// in.
+    std::optional<RTCRayHit> mesh_flush_with_interface(const Ray& ray, float distance, const glm::vec3& p_in,
+                                                       const glm::vec3& p_out) const;
     Surface surface_of_object(const Ray& ray, const embree::Query& query, const RTCRayHit& hit) const;
     Surface surface_of_mesh(const Ray& ray, const RTCRayHit& hit) const;
 
@@ -93,6 +99,7 @@ class TracedGeometry {
     std::optional<embree::CellGeometry> tree_;  ///< of a scene of one tree
     std::optional<PlacedGeometry> placed_;      ///< of a scene of several objects
     SceneHandle embree_;
+    std::vector<Bounds> mesh_bounds_;
     std::uint32_t first_mesh_;  ///< the number of the first mesh, as Surface::object has it
     InterfaceTable interfaces_;
     std::vector<Interface> mesh_interfaces_;  ///< [mesh · phases + phase the ray is in]

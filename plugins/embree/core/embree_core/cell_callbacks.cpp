@@ -52,6 +52,7 @@ std::optional<Crossing> search(const InterfaceCells& cells, const Arguments& arg
 void intersect_cell_for_query(const InterfaceCells& cells, const RTCIntersectFunctionNArguments* arguments) noexcept {
     if (arguments->valid[0] != -1) return;
     Query& query = query_of(arguments->context);
+    if (query.passes_cells) return;
     RTCRay& ray = reinterpret_cast<RTCRayHit*>(arguments->rayhit)->ray;
     const auto crossing = search(cells, *arguments, query, ray);
     if (!crossing) return;
@@ -64,7 +65,9 @@ void intersect_cell_for_query(const InterfaceCells& cells, const RTCIntersectFun
 void occluded_cell_for_query(const InterfaceCells& cells, const RTCOccludedFunctionNArguments* arguments) noexcept {
     if (arguments->valid[0] != -1) return;
     const RTCRay& ray = *reinterpret_cast<const RTCRay*>(arguments->ray);
-    if (search(cells, *arguments, query_of(arguments->context), ray)) write_occlusion(arguments->ray, 1, 0);
+    Query& query = query_of(arguments->context);
+    if (query.passes_cells) return;
+    if (search(cells, *arguments, query, ray)) write_occlusion(arguments->ray, 1, 0);
 }
 
 }  // namespace phasetree::embree

@@ -25,6 +25,8 @@ struct Query {
     std::optional<Phase> elsewhere;
     /// In: the crossing at which the ray starts, if it starts at one.
     StartHint start;
+    /// In: whether cells are passed by, so that only what else is in the scene is found.
+    bool passes_cells = false;
     /// Out: the crossing behind the last hit that an object reported, in that object's own space. If the ray's final
     /// hit is an object's, this is that hit's; the hit's primID is the cell, whose InterfaceCells::normal gives the
     /// normal, and ObjectInstance::of(hit) is the object whose phase changes.
