@@ -107,6 +107,40 @@ TEST_CASE("SIGTERM and SIGHUP say \"resume me\", and Ctrl-C does not; each leave
     CHECK(shell.run(render, "", send).code == 1);
 }
 
+TEST_CASE(
+    "an interrupted frame of a film leaves a checkpoint and no picture, so --skip-existing does not take it for "
+    "whole") {
+    const Shell shell;
+    write_text(shell.directory / "scene.json", cut_scene(500));
+    const std::vector<std::string> render{"render",          "scene.json", "--quiet",   "--frames",     "0:1",
+                                          "--skip-existing", "-o",         "a.#.exr",   "--checkpoint", "c.#.part",
+                                          "--resume",        "c.#.part",   "--or-start"};
+    bool is_sent = false;
+    std::optional<double> ready;
+    const auto send = [&](pid_t child) {
+        if (is_sent || !is_ready(child)) return;
+        if (!ready) ready = processor_seconds(child);
+        if (processor_seconds(child) - *ready < 0.3) return;
+        is_sent = ::kill(child, SIGTERM) == 0;
+    };
+    Outcome o;
+    for (int attempts = 0; attempts < 5 && o.code != 75; ++attempts) {
+        for (const char* const name : {"a.0.exr", "c.0.part"}) std::filesystem::remove(shell.directory / name);
+        is_sent = false;
+        ready.reset();
+        o = shell.run(render, "", send);
+    }
+    CAPTURE(o.err);
+    REQUIRE(o.code == 75);
+    CHECK(o.err.find("the frame's picture is not written") != std::string::npos);
+    CHECK(std::filesystem::exists(shell.directory / "c.0.part"));
+    CHECK_FALSE(std::filesystem::exists(shell.directory / "a.0.exr"));
+    REQUIRE(shell.run(render).code == 0);
+    REQUIRE(shell.run({"render", "scene.json", "--quiet", "--frames", "0:1", "-o", "b.#.exr"}).code == 0);
+    const bool same = bytes_of(shell.directory / "a.0.exr") == bytes_of(shell.directory / "b.0.exr");
+    CHECK(same);
+}
+
 TEST_CASE("SIGUSR1 asks for a checkpoint at any time and ends nothing") {
     const Shell shell;
     write_text(shell.directory / "scene.json", cut_scene(700));

@@ -120,6 +120,11 @@ struct Everything {
     bool is_finished;
 };
 
+// An interrupted frame of a film is not written: --skip-existing would take it for a whole one.
+bool is_unfinished_frame(const RenderOptions& options, const Rendering& r) {
+    return r.cancelled && options.frame;
+}
+
 // Returns whether all could be written.
 bool write_all(const Everything& e, Rendering& rendering) {
     Metadata metadata;
@@ -134,12 +139,14 @@ bool write_all(const Everything& e, Rendering& rendering) {
     // The checkpoint is written first, should there be no time for the rest; one that is an output, too, in its turn.
     const bool is_output = e.options.checkpoint && std::ranges::count(e.outputs, *e.options.checkpoint) > 0;
     if (e.options.checkpoint && !is_output) write_film_file(*e.options.checkpoint);
-    if (e.options.denoise && !std::ranges::all_of(e.outputs, is_film_file)) {
+    const bool is_unfinished = is_unfinished_frame(e.options, rendering);
+    if (e.options.denoise && !is_unfinished && !std::ranges::all_of(e.outputs, is_film_file)) {
         denoise_picture(rendering.image,
                         {denoiser_of(*e.options.denoise), rendering.threads, e.options.quiet, rendering.cancelled});
         leave_out(rendering.image, e.header.film.planes, e.wanted_planes, e.header.subjects);
     }
     for (const std::string& output : e.outputs) {
+        if (is_unfinished && output != e.options.checkpoint) continue;
         const bool is_written = is_film_file(output)
                                     ? write_film_file(output)
                                     : writing([&] { write_image(rendering.image, output, metadata, e.display); });
@@ -255,7 +262,10 @@ bool has_samples(const Film& film) {
 
 // What is said of a render that ended before all pixels had all samples.
 void say_what_is_missing(const RenderOptions& options, const Scene& scene, const Rendering& r, int wanted) {
-    if (r.cancelled) {
+    if (is_unfinished_frame(options, r)) {
+        say("phasetree: interrupted after {} of {} samples a pixel; the frame's picture is not written\n", r.samples,
+            wanted);
+    } else if (r.cancelled) {
         say("phasetree: interrupted; the image has {} of {} samples a pixel{}\n", r.samples, wanted,
             wanted == 1 ? ", in part" : "");
     } else if (r.noisy_blocks > 0 && !options.quiet) {
@@ -341,7 +351,7 @@ int render_scene(const RenderOptions& options) {
     say_what_is_missing(options, scene, rendering, job.samples->size());
     if (!all_is_well) return 1;
     if (!rendering.cancelled) return 0;
-    return code_of_interruption(options.checkpoint || std::ranges::any_of(outputs, is_film_file));
+    return code_of_interruption(options.checkpoint || (!options.frame && std::ranges::any_of(outputs, is_film_file)));
 }
 
 }  // namespace
