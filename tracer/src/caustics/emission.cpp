@@ -25,9 +25,10 @@ constexpr int cells_a_side_of_glowing = 16;
 // This part of the photons is spread evenly whatever was learnt, because what was learnt is an estimate.
 constexpr double even_part = 0.1;
 
-bool bends_light(const Material& material) {
-    const Clear* clear = std::get_if<Clear>(&material);
-    return clear && clear->ior != 1.0f;
+// Whether photons go on where they meet it.
+bool sends_light_on(const Material& material) {
+    if (const Clear* clear = std::get_if<Clear>(&material)) return clear->ior != 1.0f;
+    return std::holds_alternative<Conductor>(material);
 }
 
 glm::vec3 position_of(const AnyPointLight& any) {
@@ -43,7 +44,7 @@ float squared_ior(const Scene& scene, Phase phase) {
 
 PhotonEmission::PhotonEmission(const World& world, const Scene& scene) : world_(world), scene_(scene) {
     const Bounds& bounds = world.geometry().bounds();
-    if (bounds.empty() || !bounds.finite() || std::ranges::none_of(scene.materials, bends_light)) return;
+    if (bounds.empty() || !bounds.finite() || std::ranges::none_of(scene.materials, sends_light_on)) return;
     centre_ = bounds.centre();
     radius_ = 0.5005f * bounds.diagonal();
     for (const InfiniteLight& infinite : scene.lights.infinite())

@@ -1,5 +1,6 @@
 #include "caustics/trace_photon.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "caustics/photon_map.hpp"
@@ -9,6 +10,9 @@
 namespace phasetree::tracer {
 
 namespace {
+
+// What cosines are divided by at least.
+constexpr float least_flat_cosine = 1e-4f;
 
 // This is one photon on its way.
 class PhotonFlight {
@@ -56,13 +60,11 @@ class PhotonFlight {
                 ray_ = surface->transmitted(ray_.direction);
                 continue;
             }
-            if (!surface->far_side) {
-                if (photons_follow(interfaces_) && !bsdf.is_delta() && came_from_light())
-                    traced.on_surfaces.push_back(photon_at(surface->near_side.origin));
-                return;
+            if (photons_follow(interfaces_) && !bsdf.is_delta() && came_from_light()) {
+                auto& photons = surface->far_side ? traced.on_interfaces : traced.on_surfaces;
+                photons.push_back(photon_at(surface->near_side.origin));
             }
-            if (photons_follow(interfaces_) && !bsdf.is_delta() && came_from_light())
-                traced.on_interfaces.push_back(photon_at(surface->near_side.origin));
+            if (!sends_photons_on(bsdf, *surface)) return;
             if (!photons_follow(++interfaces_) || !scatter(*surface, bsdf)) return;
         }
     }
@@ -117,9 +119,15 @@ class PhotonFlight {
         // A smooth interface has no density of directions, so it needs no second pair of numbers.
         const auto next = bsdf.sample(wo, u_lobe, bsdf.is_delta() ? glm::vec2(0.0f) : sampler_.next2());
         if (!next) return false;
-        if (!next->delta) multiply_quotients(surface, bsdf, ray_, wo, *next);
+        // A rough surface is where shadow rays start, and those of one that the photon has met do not pass a mirror.
+        if (!next->delta)
+            multiply_quotients(surface, bsdf, ray_, wo, *next);
+        else if (!surface.far_side && !quotients_.by_shadow_rays)
+            quotients_.by_shadow_rays = 0.0f;
         const Phase from = ray_.phase;
+        const glm::vec3 in = ray_.direction;
         ray_ = continued(surface, frame, *next);
+        if (surface.normal != surface.geometric_normal && !spread_by_shading_normal(surface, in)) return false;
         // The BSDF is sampled as if the photon were a path that comes from the camera, so its weight is of radiance
         // that arrives from `after` and leaves into `before`: a refraction scales it by (before/after)². Power is not
         // scaled. What does not disperse, a rough interface or one with a film, bends all light as that of the d line.
@@ -127,6 +135,21 @@ class PhotonFlight {
         const float before = clear_at(scene_, from).ior_for(bent_as);
         const float after = clear_at(scene_, ray_.phase).ior_for(bent_as), ratio = after / before;
         power_ *= next->weight * (ratio * ratio);
+        return true;
+    }
+
+    // A path's radiance is scattered by the shading normal, and power is spread over the surface by the geometric one.
+    // The quotient of the cosines for power over those for radiance is (Veach, Robust Monte Carlo Methods for Light
+    // Transport Simulation, 5.3.2)
+    //     |ωo·n_s| |ωi·n_g| / (|ωo·n_g| |ωi·n_s|)
+    // with ωo to where the photon comes from. Returns false if the photon would go on into the surface.
+    bool spread_by_shading_normal(const Surface& surface, const glm::vec3& in) {
+        const glm::vec3 &shading = surface.normal, &flat = surface.geometric_normal;
+        const float out = glm::dot(ray_.direction, flat);
+        if (!(out > 0.0f)) return false;
+        power_ *= -glm::dot(in, shading) * out /
+                  (std::max(-glm::dot(in, flat), least_flat_cosine) *
+                   std::max(glm::dot(ray_.direction, shading), least_flat_cosine));
         return true;
     }
 

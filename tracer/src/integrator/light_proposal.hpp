@@ -35,8 +35,8 @@ class LightProposal {
         : at_(at), outward_{outward}, planes_(eta == 1.0f ? 0 : 1), eta_(eta) {}
     /// Adds another plane through which light comes in.
     void add_plane(const glm::vec3& outward);
-    /// For a surface without a far side. Lights are taken to be in vacuum. Where a medium disperses, directions are bent
-    /// as its index at the hero of the path's `wavelengths` bends them, even if the path is not dispersed yet: so
+    /// For a surface without a far side. Lights are taken to be in vacuum. Where a medium disperses, directions are
+    /// bent as its index at the hero of the path's `wavelengths` bends them, even if the path is not dispersed yet: so
     /// shadow rays that are dispersed on their way reach the light, whatever their hero is. All techniques of a path
     /// have the same hero, and weigh by the same densities.
     static LightProposal at(const Surface& surface, const World& world, const Scene& scene, PathCounters& counters,

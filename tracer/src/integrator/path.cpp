@@ -174,8 +174,8 @@ class Path {
         const GuidedBsdf bsdf(unguided, frame, frame.to_local(-ray_.direction), guiding_.at(surface, unguided));
         LightProposal proposal;
         const auto per_line_density_of = [&](const glm::vec3& wi) {
-            return surface.far_side && chain_.photons_count_earlier() ? per_line_density_beyond(surface, bsdf, wi)
-                                                                      : per_line_density_at(surface, bsdf, wi);
+            return is_passed_by_photons(surface, unguided) ? per_line_density_beyond(surface, bsdf, wi)
+                                                           : per_line_density_at(surface, bsdf, wi);
         };
         if (!unguided.is_delta()) {
             // A rough interface gets light from both sides, so none is preferred and no bending is guessed.
@@ -199,11 +199,16 @@ class Path {
                       .proposal = proposal,
                       .direction = ray_.direction,
                       .by_photons = {per_line_density_of(next->wi)},
-                      .interfaces_before = interfaces_before(surface)};
+                      .interfaces_before = interfaces_before(surface, unguided)};
         else if (is_link(unguided, surface))
             ++chain_.length;
-        else
-            chain_ = {};  // a delta lobe that shadow rays cannot follow: that of a mirror or of a smooth coat
+        else if (is_mirror(unguided) && glm::dot(ray_.direction, surface.geometric_normal) > 0.0f) {
+            ++chain_.length;
+            chain_.has_mirror = true;
+        } else
+            // A delta lobe that neither shadow rays nor photons follow: that of a smooth coat, or of a mirror whose
+            // bump sends the path into the mirror once more.
+            chain_ = {};
         return true;
     }
 
@@ -237,7 +242,7 @@ class Path {
         const float per_line_density = per_line_density_of(wi);
         add_direct_light(*light, f, bsdf.pdf(wi, light->wi), {per_line_density},
                          wi.z < 0 ? surface.transmitted(light->wi) : surface.reflected(light->wi),
-                         interfaces_before(surface));
+                         interfaces_before(surface, bsdf.bsdf()));
     }
 
     std::optional<LightSample> sampled_light(const LightProposal& proposal) {
@@ -269,9 +274,13 @@ class Path {
                   direction, true);
     }
 
+    // Whether photons that go on from the surface count at an earlier place of the path, and not on the surface.
+    bool is_passed_by_photons(const Surface& surface, const Bsdf& bsdf) const {
+        return sends_photons_on(bsdf, surface) && chain_.photons_count_earlier();
+    }
     // PathChain::interfaces_before of a chain that starts at the surface.
-    int interfaces_before(const Surface& surface) const {
-        return surface.far_side && chain_.photons_count_earlier() ? chain_.interfaces() + 1 : 0;
+    int interfaces_before(const Surface& surface, const Bsdf& bsdf) const {
+        return is_passed_by_photons(surface, bsdf) ? chain_.interfaces() + 1 : 0;
     }
     // PhotonDensity::per_line_density of a direction that leads on from a rough interface, if photons count at an
     // earlier place.
@@ -339,9 +348,10 @@ class Path {
             add_photon(photon, photon.power, f, by_photons, bsdf.pdf(wi, photon.direction), proposal,
                        surface.near_side.origin);
         };
+        if (is_passed_by_photons(surface, bsdf.bsdf())) return;
         if (!surface.far_side)
             photons_.map->near(surface.near_side.origin, surface.geometric_normal, add);
-        else if (!chain_.photons_count_earlier())
+        else
             photons_.map->near_at_interface(surface.near_side.origin, surface.normal, add);
     }
 

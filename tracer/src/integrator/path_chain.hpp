@@ -39,7 +39,8 @@ struct PathChain {
     /// How many interfaces lead from the place that photons light to the rough one where this chain starts, that one
     /// included; 0 if photons light the start itself. Where no photons count it means nothing.
     int interfaces_before = 0;
-    int length = 0;  ///< how many smooth clear interfaces it has
+    int length = 0;           ///< how many smooth clear interfaces and mirrors it has
+    bool has_mirror = false;  ///< then shadow rays do not follow it
 
     /// How many interfaces are between what photons light and the lamp.
     int interfaces() const { return interfaces_before + length; }
@@ -67,9 +68,9 @@ struct PathChain {
 
   private:
     float weight(const Scene& scene, float density_of_photons) const {
-        if (!pdf || length > longest_chain) return 1;
+        if (!pdf || length > longest_chain || (has_mirror && density_of_photons == 0.0f)) return 1;
         return technique_weight(scene.settings.techniques, Technique::directions, *pdf,
-                                proposal.pdf(scene.lights, direction), density_of_photons);
+                                has_mirror ? 0.0f : proposal.pdf(scene.lights, direction), density_of_photons);
     }
 };
 

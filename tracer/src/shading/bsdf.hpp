@@ -72,6 +72,10 @@ class Bsdf {
         return std::holds_alternative<DiffuseBsdf>(kind_) || std::holds_alternative<RoughDiffuseBsdf>(kind_) ||
                std::holds_alternative<CoatedDiffuseBsdf>(kind_);
     }
+    /// Whether it is metal's.
+    bool is_metal() const {
+        return std::holds_alternative<SmoothConductorBsdf>(kind_) || std::holds_alternative<RoughConductorBsdf>(kind_);
+    }
     bool passes_through() const {
         return std::visit([](const auto& bsdf) { return bsdf.passes_through(); }, kind_);
     }

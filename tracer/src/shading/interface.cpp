@@ -7,12 +7,6 @@ namespace phasetree::tracer {
 
 namespace {
 
-constexpr float least_roughness = 1e-3f;
-
-bool is_smooth(float roughness) {
-    return !(roughness >= least_roughness);
-}
-
 ValueRange range_of(const Number& number) {
     return {least_of(number), greatest_of(number)};
 }

@@ -23,6 +23,12 @@
 
 namespace phasetree::tracer {
 
+/// The least roughness that is not treated as none.
+inline constexpr float least_roughness = 1e-3f;
+inline bool is_smooth(float roughness) {
+    return !(roughness >= least_roughness);
+}
+
 /// A film of some hundred nanometres on a surface, which shows colours by interference: thin_film.hpp.
 struct SurfaceFilm {
     Number thickness = 0.0f;  ///< in nanometres

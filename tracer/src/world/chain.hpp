@@ -1,5 +1,5 @@
 // Chains of smooth interfaces between clear phases, which shadow rays and photons follow by Fresnel's odds (path.hpp).
-// Photons follow them through rough interfaces as well (caustics/rough_chain.hpp).
+// Photons follow them by mirrors, rough metal and rough interfaces as well (caustics/rough_chain.hpp).
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,8 @@ namespace phasetree::tracer {
 /// sample, which then have the weight 1.
 inline constexpr int longest_chain = 128;
 
-/// Whether photons light what is at the end of so many interfaces, smooth and rough. What no interface bends is left to
-/// the other techniques.
+/// Whether photons light what is at the end of so many interfaces, smooth and rough, and metals, which count as such.
+/// What nothing bends or mirrors is left to the other techniques.
 inline bool photons_follow(int interfaces) {
     return interfaces > 0 && interfaces <= longest_chain;
 }
@@ -30,6 +30,16 @@ inline const Clear& clear_at(const Scene& scene, Phase phase) {
 /// Whether a surface is a link of a chain: smooth, and clear on both sides. A mirror is none: shadow rays end there.
 inline bool is_link(const Bsdf& bsdf, const Surface& surface) {
     return bsdf.is_delta() && surface.far_side;
+}
+
+/// Whether a surface is a mirror, by which photons go on, but no shadow rays.
+inline bool is_mirror(const Bsdf& bsdf) {
+    return bsdf.is_delta() && bsdf.is_metal();
+}
+
+/// Whether photons go on from a surface, wherever they fall on it: what is clear on both sides, and metal.
+inline bool sends_photons_on(const Bsdf& bsdf, const Surface& surface) {
+    return surface.far_side || bsdf.is_metal();
 }
 
 /// Deep in a medium that scatters next to nothing of a shadow ray or a photon is left when it gets to the boundary, and
