@@ -49,7 +49,7 @@ struct ImageParameters : RenderSettings {
         v(&P::caustics, Parameter{"caustics", "",
                                   "Whether photons look for the light that lamps, surfaces that glow, the sun and the "
                                   "bright parts of environment images throw through clear surfaces, curved or rough, "
-                                  "onto other surfaces and into media that scatter. "
+                                  "and by metal onto other surfaces and into media that scatter. "
                                   "They blur it by a pixel or two, less with more samples.",
                                   limits::any, true});
         v(&P::photons, Parameter{"photons", "", "For caustics: photons for each pixel and sample.",
