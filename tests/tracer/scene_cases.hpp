@@ -216,7 +216,7 @@ inline void tell_settings(const Document& document, std::vector<float>& told) {
     told.push_back(static_cast<float>(s.view ? s.view->size() : 0));
 }
 
-inline std::vector<Case> cases() {
+inline std::vector<Case> cases_of_materials() {
     std::vector<Case> all;
     const auto material = [&](const std::string& name, const std::string& needed,
                               std::map<std::string, std::string> instead = {}) {
@@ -254,6 +254,11 @@ inline std::vector<Case> cases() {
         "coated", R"("color": [0.1, 0.2, 0.3])",
         bumped(R"("color": [0.1, 0.2, 0.3])", {{"film_ior", R"("color": [0.1, 0.2, 0.3], "film_thickness": 300)"}}));
     material("glowing", "");
+    return all;
+}
+
+inline std::vector<Case> cases() {
+    std::vector<Case> all = cases_of_materials();
     for (const char* const name : {"wood", "speckle", "marble", "checker"})
         all.push_back(
             {"Textures", name, "", fmt::format("{{\"diffuse\": {{\"color\": {{\"{}\": ", name), "}}}", tell_material});
