@@ -418,6 +418,16 @@ TEST_CASE("measured spectra: of light, of what reflects it, and of what absorbs 
                  3.0 * (1 - std::exp(-1.0)) * of_bulb);
 }
 
+TEST_CASE("a spectrum of which nothing is seen, as one in micrometres, is refused") {
+    for (const char* const points : {"[[0.4, 1], [0.7, 0.5]]", "[[800, 1]]", "[[200, 1], [379, 0]]"}) {
+        CAPTURE(points);
+        CHECK_THROWS_WITH_AS(
+            spectral_scene(R"("a": {"diffuse": {"color": {"measured": {"reflectance": )" + std::string(points) + "}}}}",
+                           ball_of_a),
+            doctest::Contains("light is from 380 to 780 nanometres"), phasetree::SceneError);
+    }
+}
+
 TEST_CASE("groups of lights at infinity have their shares at each wavelength") {
     const std::string bulb = R"({"constant": {"spectrum": {"blackbody": 2700}, "group": "bulb"}})";
     const std::string sky = R"({"constant": {"radiance": [0.2, 0.4, 1], "group": "sky"}})";

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <stdexcept>
+
 #include "phasetree/io/read_kind.hpp"
 #include "scene/material_kinds.hpp"
 #include "scene/read_parts.hpp"
@@ -67,6 +69,7 @@ Conductor ConductorParameters::made() const {
         const Metal found = find_metal(*metal).value();
         return {found.eta, found.k, roughness, film(), found.spectrum, bump()};
     }
+    if (!eta && !k) throw std::invalid_argument("the conductor material needs a \"metal\", or \"eta\" and \"k\"");
     if (!eta) throw ParameterError("eta", "is missing");
     if (!k) throw ParameterError("k", "is missing");
     return {*eta, *k, roughness, film(), {}, bump()};

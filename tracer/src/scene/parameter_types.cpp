@@ -101,6 +101,10 @@ tracer::SharedSpectrum SpectrumType::read(const Document& document, Value value,
                                                        nanometres, points.back().nanometres));
         points.push_back({nanometres, as<float>(document, point[1], "the value of a point", range_of(p.limits))});
     }
+    if (points.back().nanometres < 380.0f || points.front().nanometres > 780.0f)
+        throw document.error(value, fmt::format("none of the wavelengths of {} is seen: light is from 380 to 780 "
+                                                "nanometres",
+                                                what));
     return std::make_shared<const tracer::Spectrum>(std::move(points));
 }
 

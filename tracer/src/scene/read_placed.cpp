@@ -95,12 +95,22 @@ class ObjectsReader {
         for (std::size_t i = 0; i < read.size(); ++i) found_[of[i]].object.tree = read[i];
     }
 
+    // The document of another file. That there is none is an error of the place that names it.
+    Document document_beside(Value named, const std::string& name) const {
+        try {
+            return document_.beside(named);
+        } catch (const SceneError& e) {
+            if (e.line() > 0) throw;
+            throw document_.error(named, fmt::format("{}: {}", name, e.message()), e.suggestion());
+        }
+    }
+
     // Takes the tree of another file. A file that several objects name is read once.
     void take(Value named, Found& found) {
         const std::string name = as<std::string>(document_, named, "\"file\"");
         auto known = files_.find(name);
         if (known == files_.end()) {
-            const Document other = document_.beside(named);
+            const Document other = document_beside(named, name);
             const Value root = other.root();
             if (has_objects(other))
                 throw document_.error(named, fmt::format("\"{}\" is a scene of several objects; one of its files can "

@@ -56,8 +56,9 @@ std::vector<Chapter> scene_chapters() {
     chapters.push_back(
         {"Textures",
          "A material's colour may be a texture, which is a colour for each point of space: that of a whole "
-         "tree. What a tree moves is moved through its texture; what is an object of \"objects\", or an "
-         "instance of one, takes the texture along.",
+         "tree. Nodes that move or bend a part of the tree do not take the texture along: a field that a "
+         "colour follows must be moved in the same way. What is an object of \"objects\", or an instance "
+         "of one, takes its textures along.",
          pages_of(NamedTextures())});
     chapters.push_back({"Numbers",
                         "A material's roughness, and the thickness of a film on it, may be another at each point.",
