@@ -55,7 +55,7 @@ TEST_CASE("photons and paths find the same light by mirrors, rough metal, bumps,
          Case{
              "bumps",
              R"(, "bump": {"field": {"of": {"translate": {"by": [0, 0, -50], "of": {"box": {"size": [100, 100, 100]}}}},
-                 "ramp": [[-1, [0, 0, 0]], [1, [1, 1, 1]]]}}, "bump_height": 0.5)",
+                 "ramp": [[-1, [0, 0, 0]], [1, [1, 1, 1]]]}}, "bump_height": 1)",
              ""},
          Case{"glass", "", R"("ior": 1.5)"}, Case{"rough glass", "", R"("ior": 1.5, "roughness": 0.3)"}}) {
         CAPTURE(c.name);

@@ -235,7 +235,7 @@ TEST_CASE("of copies at the same place the first is met, also where Embree asks 
         const Hit hit = geometry.intersect(Ray{origin, d, start.phase, {}, start.in}, counters);
         const auto* surface = std::get_if<Surface>(&hit);
         REQUIRE(surface);
-        CHECK(surface->copy == 0);
+        CHECK(surface->place.copy == 0);
     }
 }
 

@@ -281,9 +281,8 @@ void warn_of_alpha(const Scene& scene, const std::string& name, const std::vecto
     if (!scene.film.planes[Planes::place<AlphaPlane>()] || scene.lights.is_background_black()) return;
     for (const std::string& output : outputs)
         if (!is_film_file(output) && (format_of(output) == Format::png || format_of(output) == Format::tiff))
-            say("{}: warning: {} gets no alpha, because the background is not black; \"background\": [0, 0, 0] makes "
-                "it "
-                "so\n",
+            say("{}: warning: {} gets no alpha, because the background is not black, as \"background\": [0, 0, 0] "
+                "makes it\n",
                 name, output);
 }
 

@@ -285,6 +285,8 @@ class Path {
     // PhotonDensity::per_line_density of a direction that leads on from a rough interface, if photons count at an
     // earlier place.
     float per_line_density_beyond(const Surface& surface, const GuidedBsdf& bsdf, const glm::vec3& wi) const {
+        // A bump may send the path into the surface once more, where no photon comes from.
+        if (!surface.far_side && !(photon_cosine(surface, bsdf.frame(), wi) > 0.0f)) return 0.0f;
         const Surface::Side& left_to = wi.z < 0 ? *surface.far_side : surface.near_side;
         return chain_.by_photons.per_line_density / *chain_.pdf *
                rough_factor(bsdf.bsdf().reverse_pdf(bsdf.wo(), wi), clear_at(scene_, left_to.phase).ior, wi.z,

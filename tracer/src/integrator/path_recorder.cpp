@@ -26,7 +26,7 @@ void PathRecorder::scattered(const Surface& surface, bool is_delta, bool is_link
                         .distance = distance_,
                         .albedo = weight,
                         .object = surface.object,
-                        .instance = surface.copy,
+                        .instance = surface.place.copy,
                         .left = surface.near_side.phase,
                         .entered = surface.entered};
     if (!record_->first) record_->first = met;

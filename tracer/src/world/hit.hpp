@@ -38,7 +38,6 @@ struct Surface {
     std::uint32_t object;                            ///< the objects of phases come first, then the meshes
     std::optional<Phase> entered;                    ///< the phase behind, clear or opaque; none behind a mesh
     TexturePoint place;                              ///< in the space of what was met
-    std::uint32_t copy = 0;                          ///< of the object (scene/placed.hpp); 0 of one that is there once
 
     /// For light of these wavelengths, or for red, green and blue; it must not outlive the wavelengths.
     Bsdf bsdf(const Wavelengths* wavelengths = nullptr) const { return optics.get().at(place, wavelengths); }

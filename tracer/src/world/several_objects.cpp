@@ -63,10 +63,9 @@ TracedGeometry::NextOfSeveral TracedGeometry::next_of_several(const Ray& ray, fl
     if (!embree::is_hit(hit)) return Escaped{};
     if (hit.hit.instID[0] == RTC_INVALID_GEOMETRY_ID) return hit;
     const CrossingInScene found = crossing_in_scene(q, hit);
-    if (is_clear(scene_.materials[found.crossing.to.index]))
-        if (const auto mesh =
-                mesh_flush_with_interface(ray, static_cast<float>(found.distance), found.p_in, found.p_out))
-            return *mesh;
+    const auto mesh =
+        mesh_flush_with_interface(ray, found.crossing.to, static_cast<float>(found.distance), found.p_in, found.p_out);
+    if (mesh) return *mesh;
     return found;
 }
 
@@ -139,9 +138,8 @@ Surface TracedGeometry::surface_of_several(const Ray& ray, const Met& met, doubl
                     .hint = {},
                     .object = shown.copy.object,
                     .entered = to,
-                    .place = {shown.crossing.p_in, shown.normal_in_object, std::nullopt},
-                    .copy = shown.copy.number};
-    surface.place.copy = surface.copy;
+                    .place = {shown.crossing.p_in, shown.normal_in_object, std::nullopt}};
+    surface.place.copy = shown.copy.number;
     const Ray on = behind(ray, met);
     if (met.joined) {
         surface.near_side.origin += static_cast<float>(met.apart()) * first.normal;

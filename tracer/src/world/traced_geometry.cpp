@@ -159,12 +159,17 @@ bool TracedGeometry::trace(const Ray& ray, float far, embree::Query& query, RTCR
     counters.trace.visits += query.counters.visits;
     counters.trace.batches += query.counters.batches;
     counters.trace.phantoms += query.counters.phantoms;
-    return embree::is_hit(hit);
+    if (!embree::is_hit(hit)) return false;
+    const Crossing& c = query.crossing;
+    if (hit.hit.geomID == object_id)
+        if (const auto mesh = mesh_flush_with_interface(ray, c.to, c.t_in, c.p_in, c.p_out)) hit = *mesh;
+    return true;
 }
 
-std::optional<RTCRayHit> TracedGeometry::mesh_flush_with_interface(const Ray& ray, float distance,
+std::optional<RTCRayHit> TracedGeometry::mesh_flush_with_interface(const Ray& ray, Phase to, float distance,
                                                                    const glm::vec3& p_in,
                                                                    const glm::vec3& p_out) const {
+    if (mesh_bounds_.empty() || !is_clear(scene_.materials[to.index])) return std::nullopt;
     // By so much, relative to distances and coordinates, what Embree finds is rounded.
     constexpr float rounding = 4e-7f;
     const float largest = std::max({std::abs(p_in.x), std::abs(p_in.y), std::abs(p_in.z)});
@@ -184,10 +189,6 @@ Hit TracedGeometry::intersect(const Ray& ray, PathCounters& counters) const {
     RTCRayHit hit;
     if (!trace(ray, std::numeric_limits<float>::infinity(), query, hit, counters)) return Escaped{};
     if (hit.hit.geomID != object_id) return surface_of_mesh(ray, hit);
-    const Crossing& c = query.crossing;
-    if (is_clear(scene_.materials[c.to.index]))
-        if (const auto mesh = mesh_flush_with_interface(ray, c.t_in, c.p_in, c.p_out))
-            return surface_of_mesh(ray, *mesh);
     return surface_of_object(ray, query, hit);
 }
 
@@ -202,10 +203,6 @@ Visibility TracedGeometry::visibility(const Ray& ray, float far, PathCounters& c
     embree::Query query;
     RTCRayHit hit;
     if (!trace(ray, far, query, hit, counters)) return Escaped{};
-    if (hit.hit.geomID == object_id && is_clear(scene_.materials[query.crossing.to.index])) {
-        const Crossing& c = query.crossing;
-        if (const auto mesh = mesh_flush_with_interface(ray, c.t_in, c.p_in, c.p_out)) hit = *mesh;
-    }
     const bool is_mesh = hit.hit.geomID != object_id;
     const Material& met =
         is_mesh ? scene_.meshes[hit.hit.geomID - first_mesh_id].material : scene_.materials[query.crossing.to.index];

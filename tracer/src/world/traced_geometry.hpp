@@ -77,11 +77,11 @@ class TracedGeometry {
 
     void attach_meshes();
     bool trace(const Ray& ray, float far, embree::Query& query, RTCRayHit& hit, PathCounters& counters) const;
-    /// What a ray meets of the meshes where an interface of two clear phases was found, whose bracket lies between the
-    /// two points; `distance` is the first one's. A mesh that stands flush with an interface is met within its bracket,
-    /// and it counts as if it stood before it: the ray, which would start behind it next, meets it in the phase it is
-    /// in.
-    std::optional<RTCRayHit> mesh_flush_with_interface(const Ray& ray, float distance, const glm::vec3& p_in,
+    /// The mesh that stands flush with an interface, if there is one and light goes on behind the interface, in the
+    /// phase `to`. The interface is known to lie between the points p_in, which is `distance` from the ray's origin,
+    /// and p_out. The ray would go on from p_out and could start behind the mesh, so a mesh between the two counts as
+    /// if it stood before the interface.
+    std::optional<RTCRayHit> mesh_flush_with_interface(const Ray& ray, Phase to, float distance, const glm::vec3& p_in,
                                                        const glm::vec3& p_out) const;
     Surface surface_of_object(const Ray& ray, const embree::Query& query, const RTCRayHit& hit) const;
     Surface surface_of_mesh(const Ray& ray, const RTCRayHit& hit) const;

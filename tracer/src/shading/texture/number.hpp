@@ -10,8 +10,8 @@
 #include "phasetree/model/concepts.hpp"
 #include "shading/texture/field.hpp"
 #include "shading/texture/field_value.hpp"
-#include "shading/texture/number_stop.hpp"
 #include "shading/texture/per_copy.hpp"
+#include "shading/texture/ramp_of_numbers.hpp"
 
 namespace phasetree::tracer {
 

@@ -9,7 +9,7 @@
 
 #include "phasetree/io/kind.hpp"
 #include "sampling/hash.hpp"
-#include "shading/texture/number_stop.hpp"
+#include "shading/texture/ramp_of_numbers.hpp"
 #include "shading/texture/ramp_of_textures.hpp"
 #include "shading/texture/texture_point.hpp"
 

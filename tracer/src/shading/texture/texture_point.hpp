@@ -19,7 +19,7 @@ struct TexturePoint {
     glm::vec3 position;                  ///< in the object's own space, in the scene's unit of length
     glm::vec3 normal{0.0f, 0.0f, 1.0f};  ///< of unit length, to either side
     std::optional<MeshCoordinates> mesh{};
-    std::uint32_t copy = 0;  ///< which of an object's copies it is on, as Surface::copy has it
+    std::uint32_t copy = 0;  ///< of the object (scene/placed.hpp); 0 of one that is there once
 
     TexturePoint(const glm::vec3& p) : position(p) {}
     TexturePoint(const glm::vec3& p, const glm::vec3& n, const std::optional<MeshCoordinates>& coordinates)
