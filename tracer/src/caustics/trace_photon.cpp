@@ -11,10 +11,10 @@ namespace phasetree::tracer {
 
 namespace {
 
-// What cosines are divided by at least.
+// A smaller cosine than this counts as this where it divides.
 constexpr float least_flat_cosine = 1e-4f;
 
-// This is one photon on its way.
+// Follows one photon until it ends.
 class PhotonFlight {
   public:
     PhotonFlight(const World& world, const Scene& scene, const EmittedPhoton& emitted, float radius, Sampler& sampler,
@@ -31,7 +31,7 @@ class PhotonFlight {
           power_(emitted.power) {
         // A photon of a glowing surface starts at that surface.
         if (std::holds_alternative<OfGlowingSurface>(emitted.emission.source)) came_from_light_ = true;
-        // No direction meets a point, and no shadow ray does through what bends.
+        // A sampled direction never meets a point, and a shadow ray does not meet it through what bends light.
         if (emitted.emission.is_of_point_light()) quotients_ = {.by_directions = 0, .by_shadow_rays = 0.0f};
     }
 
@@ -40,8 +40,8 @@ class PhotonFlight {
             const Hit hit = world_.geometry().intersect(ray_, counters_);
             const Surface* surface = std::get_if<Surface>(&hit);
             float distance = surface ? surface->distance : std::numeric_limits<float>::infinity();
-            // Lamps with an extent hide what is behind them. The photon's own can do so once something has bent its
-            // way.
+            // Lamps with an extent hide what is behind them. The photon's own lamp can do so once something has bent the
+            // photon's way.
             const LightSource own = interfaces_ == 0 ? emitted_.emission.source : LightSource{};
             if (const auto lamp = scene_.lights.area_light_in_the_way(ray_.origin, ray_.direction, distance, own)) {
                 surface = nullptr;
@@ -84,7 +84,7 @@ class PhotonFlight {
                 is_dispersed_};
     }
 
-    // From here on all three of its numbers are of the hero.
+    // From here on the photon stands for the hero alone. Of a photon of three wavelengths only the first number counts.
     void disperse() {
         const Wavelengths& wavelengths = wavelengths_.value();
         power_ = wavelengths.is_spectral ? glm::vec3(power_.x) : for_light(power_, &wavelengths);
@@ -96,7 +96,8 @@ class PhotonFlight {
         const std::optional<PhotonPlacement> placement = PhotonPlacement::in(medium(), half_length_);
         if (!placement) return;
         const float depth = placement->sample(sampler_.next());
-        // A place up to h (half_length_) behind the line's end counts for points before the end.
+        // The place may lie up to h (half_length_) beyond the end of the photon's line, because it lights points within h
+        // around it, of which some are before the end.
         if (depth < distance + half_length_ && came_from_light())
             traced.in_media.push_back({photon_at(ray_.origin + depth * ray_.direction), depth});
     }
@@ -119,7 +120,8 @@ class PhotonFlight {
         // A smooth interface has no density of directions, so it needs no second pair of numbers.
         const auto next = bsdf.sample(wo, u_lobe, bsdf.is_delta() ? glm::vec2(0.0f) : sampler_.next2());
         if (!next) return false;
-        // A rough surface is where shadow rays start, and those of one that the photon has met do not pass a mirror.
+        // Shadow rays do not pass a mirror, so they find nothing of this photon unless they start at a rough surface that
+        // it met before.
         if (!next->delta)
             multiply_quotients(surface, bsdf, ray_, wo, *next);
         else if (!surface.far_side && !quotients_.by_shadow_rays)
@@ -142,7 +144,8 @@ class PhotonFlight {
     // The quotient of the cosines for power over those for radiance is (Veach, Robust Monte Carlo Methods for Light
     // Transport Simulation, 5.3.2)
     //     |ωo·n_s| |ωi·n_g| / (|ωo·n_g| |ωi·n_s|)
-    // with ωo to where the photon comes from. Returns false if the photon would go on into the surface.
+    // with ωo to where the photon comes from. Returns false if the photon would go on into the surface: paths find such
+    // light, and photons do not.
     bool spread_by_shading_normal(const Surface& surface, const glm::vec3& in) {
         const glm::vec3 &shading = surface.normal, &flat = surface.geometric_normal;
         const float out = glm::dot(ray_.direction, flat);
@@ -153,10 +156,12 @@ class PhotonFlight {
         return true;
     }
 
-    // Multiplies the quotients by what a rough interface brings, at which the photon arrives by the ray `in`.
+    // Multiplies the quotients by the quotient of densities at a rough surface, on which the photon arrives by the ray
+    // `in`. Cosines are those to the shading normal; paths take the same, so the weights still sum to 1.
     void multiply_quotients(const Surface& surface, const Bsdf& bsdf, const Ray& in, const glm::vec3& wo,
                             const BsdfSample& next) {
         const Surface::Side& path_side = next.transmitted ? *surface.far_side : surface.near_side;
+        const LightReceiver receiver = receiver_of_passed_light(surface, path_side);
         const float lamp_ior = clear_at(scene_, in.phase).ior;
         const float factor = rough_factor(next.pdf, lamp_ior, wo.z, clear_at(scene_, path_side.phase).ior, next.wi.z);
         // A path that comes backwards has next.wi where the photon has wo.
@@ -166,12 +171,12 @@ class PhotonFlight {
             // A shadow ray reaches a point light on a straight line alone, so only from the photon's first interface.
             const float distance =
                 emitted_.emission.distance + glm::length(surface.near_side.origin - emitted_.ray.origin);
-            quotients_.by_shadow_rays = scene_.lights.point_light_probability(path_side.origin, point->index) *
+            quotients_.by_shadow_rays = scene_.lights.point_light_probability(receiver, point->index) *
                                         squared_optical_distance(lamp_ior, distance) / factor;
         } else if (quotients_.by_shadow_rays) {
             quotients_.by_shadow_rays = *quotients_.by_shadow_rays * backwards;
         } else {
-            quotients_.by_shadow_rays = scene_.lights.pdf(path_side.origin, -in.direction) / factor;
+            quotients_.by_shadow_rays = scene_.lights.pdf(receiver, -in.direction) / factor;
         }
         quotients_.by_directions *= backwards;
     }

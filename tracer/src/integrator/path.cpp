@@ -178,9 +178,10 @@ class Path {
                                                            : per_line_density_at(surface, bsdf, wi);
         };
         if (!unguided.is_delta()) {
-            // A rough interface gets light from both sides, so none is preferred and no bending is guessed.
-            proposal = surface.far_side ? LightProposal(surface.near_side.origin)
-                                        : LightProposal::at(surface, world_, scene_, counters_, all_wavelengths());
+            // Photons that go on from the surface weigh by the same density of shadow rays, and know of no bending.
+            proposal = surface.far_side || is_passed_by_photons(surface, unguided)
+                           ? LightProposal(receiver_of_passed_light(surface, surface.near_side))
+                           : LightProposal::at(surface, world_, scene_, counters_, all_wavelengths());
             add_direct_light(surface, bsdf, proposal, per_line_density_of);
             add_caustics(surface, bsdf, proposal);
         }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "lights/light_receiver.hpp"
 #include "sampling/sobol.hpp"
 #include "scene/scene.hpp"
 #include "shading/frame.hpp"
@@ -40,6 +41,13 @@ inline bool is_mirror(const Bsdf& bsdf) {
 /// Whether photons go on from a surface, wherever they fall on it: what is clear on both sides, and metal.
 inline bool sends_photons_on(const Bsdf& bsdf, const Surface& surface) {
     return surface.far_side || bsdf.is_metal();
+}
+
+/// Where shadow rays start on a surface that photons go on from, as both paths and photons have it; `of_path`
+/// is the side from which the path comes. What is clear on both
+/// sides gets light from both, so neither is preferred; metal gets it from the side of its normal.
+inline LightReceiver receiver_of_passed_light(const Surface& surface, const Surface::Side& of_path) {
+    return surface.far_side ? LightReceiver(of_path.origin) : LightReceiver(of_path.origin, surface.normal);
 }
 
 /// Deep in a medium that scatters next to nothing of a shadow ray or a photon is left when it gets to the boundary, and
