@@ -2516,7 +2516,7 @@ class materials:
 
         color: Reflectance. (colour or texture)
         roughness: How rough it is: 0 is Lambert's law, 1 clay or the moon, whose rim is as bright as its middle. (number or field; at least 0 and at most 1; default 0)
-        bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45°. (colour or texture; default none)
+        bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45° to 55°. (colour or texture; default none)
         bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
         """
     @staticmethod
@@ -2529,7 +2529,7 @@ class materials:
         roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
         film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
-        bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45°. (colour or texture; default none)
+        bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45° to 55°. (colour or texture; default none)
         bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
         """
     @staticmethod
@@ -2541,7 +2541,7 @@ class materials:
         roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
         film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
-        bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45°. (colour or texture; default none)
+        bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45° to 55°. (colour or texture; default none)
         bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
         """
     @staticmethod
@@ -2587,7 +2587,7 @@ def diffuse(color: Sequence[float] | str | Texture, roughness: float | Number | 
 
     color: Reflectance. (colour or texture)
     roughness: How rough it is: 0 is Lambert's law, 1 clay or the moon, whose rim is as bright as its middle. (number or field; at least 0 and at most 1; default 0)
-    bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45°. (colour or texture; default none)
+    bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45° to 55°. (colour or texture; default none)
     bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
     """
 
@@ -2600,7 +2600,7 @@ def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold",
     roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
     film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
-    bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45°. (colour or texture; default none)
+    bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45° to 55°. (colour or texture; default none)
     bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
     """
 
@@ -2612,7 +2612,7 @@ def coated(color: Sequence[float] | str | Texture, ior: float | None = ..., roug
     roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
     film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
-    bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45°. (colour or texture; default none)
+    bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45° to 55°. (colour or texture; default none)
     bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
     """
 
@@ -2699,8 +2699,8 @@ class textures:
     def per_copy(ramp: Sequence[Sequence[float | str | Sequence[float] | Texture]], seed: int | None = ...) -> Texture:
         r"""A colour or texture for each copy that "instances" place: leaves, pebbles and sweets are not all alike.
 
-        ramp: Numbers from 0 to 1, and the colour or texture of a copy whose random number that is; between them they are mixed. (list of [number, colour or texture]; at least 0 and at most 1)
-        seed: Another whole number gives other copies other values. (whole number; zero or more; default 0)
+        ramp: Numbers from 0 to 1, and the colour or texture of a copy that has that random number; between them they are mixed. (list of [number, colour or texture]; at least 0 and at most 1)
+        seed: Another seed gives each copy another value; parameters with the same seed vary together. (whole number; zero or more; default 0)
         """
 
 class numbers:
@@ -2715,8 +2715,8 @@ class numbers:
     def per_copy(ramp: Sequence[Sequence[float]] | np.ndarray, seed: int | None = ...) -> Number:
         r"""A number for each copy that "instances" place.
 
-        ramp: Numbers from 0 to 1, and the value of a copy whose random number that is; between them it is interpolated. (list of [number, number])
-        seed: Another whole number gives other copies other values. (whole number; zero or more; default 0)
+        ramp: Numbers from 0 to 1, and the value of a copy that has that random number; between them it is interpolated. (list of [number, number])
+        seed: Another seed gives each copy another value; parameters with the same seed vary together. (whole number; zero or more; default 0)
         """
 
 class lights:

@@ -51,7 +51,7 @@ struct BumpParameters {
         v(&P::bump_texture,
           Parameter{"bump", "",
                     "A texture whose bright places look as if they stood out of the surface: it turns the surface's "
-                    "normals and moves nothing. A step in it is a slope of 45°.",
+                    "normals and moves nothing. A step in it is a slope of 45° to 55°.",
                     limits::any, true});
         v(&P::bump_height,
           Parameter{"bump_height", "m", "With a bump: how much higher white is than black; lower, if it is negative.",

@@ -11,10 +11,10 @@ namespace phasetree::tracer {
 
 namespace {
 
-// A smaller step between two places is mostly rounding: this share of the largest coordinate.
-constexpr float least_step = 1e-5f;
-// The least cosine between a bumped normal and the direction that it is seen from, where the surface is not seen at a
-// smaller one.
+// Two places that are nearer to each other than this share of the largest coordinate differ mostly by rounding.
+constexpr float least_half_distance = 1e-5f;
+// Bumped normals are turned until their cosine with the direction from which they are seen is about this, or that of
+// the surface's own normal where that is less.
 constexpr float least_cosine = 0.05f;
 
 }  // namespace
@@ -22,12 +22,12 @@ constexpr float least_cosine = 0.05f;
 glm::vec3 Bump::normal_at(const TexturePoint& place) const {
     const glm::vec3& p = place.position;
     const float largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    const float step = std::max(0.5f * std::abs(height), least_step * largest);
-    if (!(step > 0.0f)) return place.normal;
+    const float half_distance = std::max(0.5f * std::abs(height), least_half_distance * largest);
+    if (!(half_distance > 0.0f)) return place.normal;
     const Frame frame(place.normal);
     const auto slope = [&](const glm::vec3& along) {
         const auto brightness = [&](float by) { return luminance(color_at(texture, place.moved(by * along))); };
-        return height * (brightness(step) - brightness(-step)) / (2.0f * step);
+        return height * (brightness(half_distance) - brightness(-half_distance)) / (2.0f * half_distance);
     };
     const glm::vec3 x = frame.to_world({1, 0, 0}), y = frame.to_world({0, 1, 0});
     return glm::normalize(place.normal - slope(x) * x - slope(y) * y);

@@ -80,8 +80,9 @@ std::vector<Interface> interfaces_of(std::span<const Mesh> meshes, std::span<con
     return interfaces;
 }
 
-// The vectors in a triangle's plane whose products with its sides `a` and `b` are 1 and 0, and 0 and 1: what a function
-// that is linear in the triangle gains along a, times the first, and along b, times the second, is its gradient.
+// Two vectors in the plane of a triangle with the sides `a` and `b`: the first has the product 1 with a and 0 with b,
+// the second 0 with a and 1 with b. A function that is linear in the triangle, and grows by α along a and by β along b,
+// has the gradient of α times the first and β times the second.
 glm::mat2x3 dual_basis(const glm::vec3& a, const glm::vec3& b) {
     const float aa = glm::dot(a, a), ab = glm::dot(a, b), bb = glm::dot(b, b), determinant = aa * bb - ab * ab;
     if (!(determinant > 0.0f)) return glm::mat2x3(0.0f);
@@ -147,7 +148,7 @@ TracedGeometry::TracedGeometry(const Scene& scene, const WorldOptions& options,
     surface_epsilon_ = relative_surface_epsilon * bounds().diagonal();
 }
 
-// Whether the ray meets anything.
+// Fills in what the ray meets and returns whether there is anything.
 bool TracedGeometry::trace(const Ray& ray, float far, embree::Query& query, RTCRayHit& hit,
                            PathCounters& counters) const {
     query.elsewhere = ray.phase;  // the scene has one object
@@ -170,7 +171,7 @@ std::optional<RTCRayHit> TracedGeometry::mesh_flush_with_interface(const Ray& ra
                                                                    const glm::vec3& p_in,
                                                                    const glm::vec3& p_out) const {
     if (mesh_bounds_.empty() || !is_clear(scene_.materials[to.index])) return std::nullopt;
-    // By so much, relative to distances and coordinates, what Embree finds is rounded.
+    // The relative rounding error of the distances that Embree finds, and of coordinates.
     constexpr float rounding = 4e-7f;
     const float largest = std::max({std::abs(p_in.x), std::abs(p_in.y), std::abs(p_in.z)});
     const float depth = glm::length(p_out - p_in) + rounding * (distance + largest);

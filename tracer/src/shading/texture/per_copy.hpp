@@ -1,5 +1,6 @@
-// Copies of one object that do not look all the same. Each copy that a scene's "instances" place has a random number of
-// its own, the same everywhere on it: a hash of the copy's number in [0, 1).
+// Copies of one object that do not look all the same. Each copy that a scene's "instances" place gets a random number
+// in [0, 1), which is a hash of the copy's number and a seed, and is the same everywhere on the copy. What is there
+// once, and every mesh, has the number of the first copy.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +20,9 @@ inline float random_of_copy(std::uint32_t copy, int seed) {
     return hash_to_unit(hash(copy, static_cast<std::uint32_t>(seed)));
 }
 
-inline constexpr Parameter per_copy_seed{"seed", "", "Another whole number gives other copies other values.",
-                                         limits::non_negative, true};
+inline constexpr Parameter per_copy_seed{
+    "seed", "", "Another seed gives each copy another value; parameters with the same seed vary together.",
+    limits::non_negative, true};
 
 struct PerCopyTexture {
     static constexpr KindInfo info{"per_copy",
@@ -34,8 +36,8 @@ struct PerCopyTexture {
     static void parameters(V&& v) {
         using P = PerCopyTexture;
         v(&P::ramp, RampParameter{{"ramp", "",
-                                   "Numbers from 0 to 1, and the colour or texture of a copy whose random number that "
-                                   "is; between them they are mixed.",
+                                   "Numbers from 0 to 1, and the colour or texture of a copy that has that random "
+                                   "number; between them they are mixed.",
                                    limits::fraction}});
         v(&P::seed, per_copy_seed);
     }
@@ -56,7 +58,7 @@ struct PerCopyNumber {
     static void parameters(V&& v) {
         using P = PerCopyNumber;
         v(&P::ramp, RampParameter{{"ramp", "",
-                                   "Numbers from 0 to 1, and the value of a copy whose random number that is; between "
+                                   "Numbers from 0 to 1, and the value of a copy that has that random number; between "
                                    "them it is interpolated."}});
         v(&P::seed, per_copy_seed);
     }
