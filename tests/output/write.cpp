@@ -1,19 +1,15 @@
+// Pictures in files of all formats: their numbers, channels, tags and codes.
 #include "output/write.hpp"
 
 #include <OpenImageIO/imageio.h>
 #include <doctest/doctest.h>
-#include <sys/resource.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <random>
 #include <thread>
 
 #include "environment.hpp"
@@ -21,6 +17,7 @@
 #include "phasetree/version.hpp"
 #include "phasetree_support/temporary_directory.hpp"
 #include "phasetree_support/whole_file.hpp"
+#include "pictures.hpp"
 
 namespace test_write {
 
@@ -30,21 +27,6 @@ using namespace phasetree::support;
 using namespace phasetree::tracer::test;
 
 namespace {
-
-const Metadata metadata{"/some/where/hourglass.json", 128, 18446744073709551615u};
-constexpr std::array<const char*, 4> names{"a.exr", "a.png", "a.jpg", "a.tif"};
-
-Image noise(int width, int height) {
-    Image image{width, height, {}};
-    std::mt19937 random(1);
-    std::uniform_real_distribution<float> value(0.0f, 2.0f);
-    for (int i = 0; i < width * height; ++i) image.pixels.emplace_back(value(random), value(random), value(random));
-    return image;
-}
-
-Image flat(int width, int height, glm::vec3 color) {
-    return {width, height, std::vector<glm::vec3>(static_cast<std::size_t>(width) * height, color)};
-}
 
 OIIO::ImageSpec spec_of(const fs::path& path) {
     const auto input = OIIO::ImageInput::open(path.string());
@@ -66,26 +48,6 @@ std::vector<T> values_of(const fs::path& path, OIIO::TypeDesc type) {
 double srgb(double v) {
     return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
 }
-
-/// No file of this process may grow beyond a few bytes: the nearest to a full disk that needs no disk.
-class FullDisk {
-  public:
-    explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-        getrlimit(RLIMIT_FSIZE, &previous_);
-        const rlimit tight{bytes, previous_.rlim_max};
-        setrlimit(RLIMIT_FSIZE, &tight);
-    }
-    ~FullDisk() {
-        setrlimit(RLIMIT_FSIZE, &previous_);
-        std::signal(SIGXFSZ, handler_);
-    }
-    FullDisk(const FullDisk&) = delete;
-    FullDisk& operator=(const FullDisk&) = delete;
-
-  private:
-    void (*handler_)(int);
-    rlimit previous_{};
-};
 
 }  // namespace
 
@@ -350,151 +312,6 @@ TEST_CASE("PNG is tagged sRGB, JPEG is fine") {
     const std::size_t table = bytes.find("\xff\xdb");
     REQUIRE(table != std::string::npos);
     CHECK(static_cast<int>(bytes[table + 5]) == 2);
-}
-
-TEST_CASE("a bad name is refused with the reason, before and after rendering") {
-    const OcioVariable none;
-    const TemporaryDirectory folder;
-    fs::create_directory(folder / "folder.png");
-    write_text(folder / "file", "");
-    fs::create_symlink("loop.png", folder / "loop.png");
-    const Image image = noise(8, 8);
-    const DisplayTransform transform;
-    struct Case {
-        fs::path path;
-        const char* reason;
-    };
-    const Case cases[] = {
-        {folder / "a.bmp",
-         "\".bmp\" is no known image format; the formats are .exr, .png, .jpg, .jpeg, .tif and .tiff"},
-        {folder / "a", "its name has no extension; the formats are .exr"},
-        {folder / ".exr", "its name has no extension"},
-        {"", "its name has no extension"},
-        {folder / "folder.png", "it is a directory"},
-        {folder / "missing" / "a.png", "there is no directory"},
-        {folder / "file" / "a.png", "is not a directory"},
-        {folder / (std::string(300, 'x') + ".png"), "File name too long"},
-        {folder / "loop.png", "the symbolic link leads nowhere"},
-        {"/proc/a.png", "no file can be created in the directory \"/proc\""},  // not even by root
-    };
-    for (const Case& c : cases) {
-        CAPTURE(c.path.string());
-        const std::string before = message_of<OutputError>([&] { check_writable(c.path); });
-        const std::string after = message_of<OutputError>([&] { write_image(image, c.path, metadata, transform); });
-        CHECK(contains(before, c.reason));
-        CHECK(before == after);
-        CHECK(contains(before, "cannot write \"" + c.path.string() + "\": "));
-        CHECK_FALSE(contains(before, "\n"));
-    }
-    CHECK(folder.size() == 3);
-}
-
-TEST_CASE("permissions are respected") {
-    const TemporaryDirectory folder;
-    write_text(folder / "protected.png", "precious");
-    fs::permissions(folder / "protected.png", fs::perms(0444));
-    // Root may write everywhere: become somebody else for a moment, where that is possible.
-    const bool root = ::geteuid() == 0;
-    for (const bool writable_folder : {false, true}) {
-        fs::permissions(folder.path(), fs::perms(writable_folder ? 0777 : 0555));
-        if (root && ::seteuid(65534) != 0) continue;
-        const std::string created = message_of<OutputError>([&] { check_writable(folder / "a.png"); });
-        const std::string replaced = message_of<OutputError>([&] { check_writable(folder / "protected.png"); });
-        if (root) REQUIRE(::seteuid(0) == 0);
-        CHECK(contains(created, writable_folder ? "(no exception)" : "Permission denied"));
-        CHECK(contains(replaced, "Permission denied"));
-    }
-    fs::permissions(folder.path(), fs::perms(0755));
-    CHECK(bytes_of(folder / "protected.png") == "precious");
-    CHECK(folder.size() == 1);
-}
-
-TEST_CASE("a full disk leaves the old file and no other") {
-    const OcioVariable none;
-    const TemporaryDirectory folder;
-    const Image image = noise(64, 64);
-    const DisplayTransform transform;
-    for (const char* name : names) {
-        CAPTURE(name);
-        write_text(folder / name, "precious");
-        std::string message;
-        {
-            const FullDisk full(512);
-            message = message_of<OutputError>([&] { write_image(image, folder / name, metadata, transform); });
-        }
-        CHECK(contains(message, "File too large"));
-        CHECK(contains(message, name));
-        CHECK(bytes_of(folder / name) == "precious");
-    }
-    CHECK(folder.size() == names.size());
-}
-
-TEST_CASE("a file of any kind is written whole or not at all, and never in the place of what is no file") {
-    const TemporaryDirectory folder;
-    write_text(folder / "numbers", "precious");
-    std::string message;
-    {
-        const FullDisk full(512);
-        message = message_of<OutputError>([&] { write_file(std::string(1000, '1'), folder / "numbers"); });
-    }
-    CHECK(contains(message, "File too large"));
-    CHECK(bytes_of(folder / "numbers") == "precious");
-    write_file("one two", folder / "numbers");
-    CHECK(bytes_of(folder / "numbers") == "one two");
-    write_file("", folder / "numbers");
-    CHECK(bytes_of(folder / "numbers") == "");
-
-    REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
-    fs::create_symlink("pipe", folder / "link");
-    for (const char* name : {"pipe", "link"}) {
-        CAPTURE(name);
-        for (const bool before : {true, false})
-            CHECK(contains(message_of<OutputError>(
-                               [&] { before ? check_file_writable(folder / name) : write_file("one", folder / name); }),
-                           "it is not a regular file"));
-    }
-    CHECK(fs::is_fifo(folder / "pipe"));
-    CHECK(folder.size() == 3);
-}
-
-namespace {
-
-// The temporary name that the next file will have: what a killed process of the same number may have left. It is that
-// of a file that is begun now, and its number the next.
-std::string next_temporary(const fs::path& folder, const std::string& name) {
-    const WholeFile begun(folder / name);
-    const std::string before = "." + name + "." + std::to_string(::getpid()) + ".";
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        const std::string now = entry.path().filename().string();
-        if (now.starts_with(before)) return before + std::to_string(std::stoi(now.substr(before.size())) + 1) + ".tmp";
-    }
-    throw std::logic_error("no temporary file");
-}
-
-}  // namespace
-
-TEST_CASE("writing replaces the old file, and only it") {
-    const OcioVariable none;
-    const TemporaryDirectory folder;
-    write_text(folder / "target.png", "old");
-    fs::create_symlink("target.png", folder / "link.png");
-    write_text(folder / next_temporary(folder.path(), "target.png"), "half");
-    check_writable(folder / "link.png");
-    CHECK(bytes_of(folder / "target.png") == "old");
-    write_image(noise(8, 8), folder / "link.png", metadata, DisplayTransform());
-    CHECK(fs::is_symlink(folder / "link.png"));
-    CHECK(bytes_of(folder / "target.png").substr(1, 3) == "PNG");
-    CHECK(folder.size() == 2);
-
-    check_writable(folder / "new.exr");
-    CHECK(folder.size() == 2);
-
-    const fs::path here = fs::current_path();
-    fs::current_path(folder.path());
-    write_image(noise(8, 8), "bare.exr", metadata, DisplayTransform());
-    fs::current_path(here);
-    CHECK(fs::is_regular_file(folder / "bare.exr"));
-    CHECK(folder.size() == 3);
 }
 
 }  // namespace test_write
