@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "image/luminance.hpp"
-#include "photons.hpp"
 #include "shading/bsdf.hpp"
 #include "shading/fresnel.hpp"
 #include "shading/metals.hpp"
@@ -198,21 +196,8 @@ TEST_CASE("spectral pictures are as bright with photons as by paths alone, with 
     for (const char* const glass :
          {R"("ior": 1.5, "color": [0.9, 0.6, 0.3], "color_distance": 0.5)", R"("glass": "sf11")"}) {
         CAPTURE(glass);
-        check_pictures(
-            [&](bool caustics) {
-                Scene scene = spectral_scene(
-                    R"("a": {"clear": {)" + std::string(glass) +
-                        R"(}}, "floor": {"diffuse": {"color": [0.7, 0.5, 0.4]}})",
-                    R"({"over": [{"set": {"phase": "floor", "of": {"translate": {"by": [0, 0, -1.7], "of": {"box": {"size": [6, 6, 1]}}}}}},
-                                 )" +
-                        ball_of_a + "]}",
-                    R"("lights": [{"sphere": {"centre": [0.6, 0, 3], "radius": 0.4, "radiance": [20, 16, 9]}}],
-                       "camera": {"position": [0, -5, 3], "look_at": [0, 0, -1], "fov": 45},
-                       "render": {"width": 40, "height": 32, "samples": 128})");
-                scene.settings.caustics = caustics;
-                return scene;
-            },
-            1.03, sidak(1e-4, 2), luminance);
+        check_ball_on_floor(R"({"clear": {)" + std::string(glass) + "}}", R"({"diffuse": {"color": [0.7, 0.5, 0.4]}})",
+                            R"({"sphere": {"centre": [0.6, 0, 3], "radius": 0.4, "radiance": [20, 16, 9]}})");
     }
 }
 

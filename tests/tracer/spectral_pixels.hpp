@@ -5,7 +5,8 @@
 
 #include <cmath>
 
-#include "paths.hpp"
+#include "image/luminance.hpp"
+#include "photons.hpp"
 
 namespace phasetree::tracer::tests {
 
@@ -64,5 +65,24 @@ inline const std::string ball_of_a = R"({"set": {"phase": "a", "of": {"sphere": 
 // Between x = 0 and 0.5.
 inline const std::string slab_of_a =
     R"({"set": {"phase": "a", "of": {"translate": {"by": [0.25, 0, 0], "of": {"box": {"size": [0.5, 9, 9]}}}}}})";
+
+// That photons find the light which paths alone find, in the picture of a ball on a floor below one lamp. All three are
+// given as a scene file has them; the ball is clear and bends what lights the floor.
+inline void check_ball_on_floor(const std::string& ball, const std::string& floor, const std::string& lamp) {
+    check_pictures(
+        [&](bool caustics) {
+            Scene scene = spectral_scene(
+                R"("a": )" + ball + R"(, "floor": )" + floor,
+                R"({"over": [{"set": {"phase": "floor", "of": {"translate": {"by": [0, 0, -1.7], "of": {"box": {"size": [6, 6, 1]}}}}}},
+                             )" +
+                    ball_of_a + "]}",
+                R"("lights": [)" + lamp + R"(],
+                   "camera": {"position": [0, -5, 3], "look_at": [0, 0, -1], "fov": 45},
+                   "render": {"width": 40, "height": 32, "samples": 128})");
+            scene.settings.caustics = caustics;
+            return scene;
+        },
+        1.03, sidak(1e-4, 2), luminance);
+}
 
 }  // namespace phasetree::tracer::tests

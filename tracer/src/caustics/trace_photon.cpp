@@ -27,10 +27,10 @@ class PhotonFlight {
           counters_(counters),
           wavelengths_(wavelengths),
           ray_(emitted.ray),
-          now_(wavelengths && wavelengths->is_spectral ? &*wavelengths : nullptr),
+          spectral_(wavelengths && wavelengths->is_spectral ? &*wavelengths : nullptr),
           power_(emitted.power) {
         // A photon of a glowing surface starts at that surface.
-        if (std::holds_alternative<OfGlowingSurface>(emitted.emission.source)) came_from_light_ = true;
+        if (std::holds_alternative<OfGlowingSurface>(emitted.emission.source)) is_lit_ = true;
         // A sampled direction never meets a point, and a shadow ray does not meet it through what bends light.
         if (emitted.emission.is_of_point_light()) quotients_ = {.by_directions = 0, .by_shadow_rays = 0.0f};
     }
@@ -40,8 +40,8 @@ class PhotonFlight {
             const Hit hit = world_.geometry().intersect(ray_, counters_);
             const Surface* surface = std::get_if<Surface>(&hit);
             float distance = surface ? surface->distance : std::numeric_limits<float>::infinity();
-            // Lamps with an extent hide what is behind them. The photon's own lamp can do so once something has bent the
-            // photon's way.
+            // Lamps with an extent hide what is behind them. The photon's own lamp can do so once something has bent
+            // the photon's way.
             const LightSource own = interfaces_ == 0 ? emitted_.emission.source : LightSource{};
             if (const auto lamp = scene_.lights.area_light_in_the_way(ray_.origin, ray_.direction, distance, own)) {
                 surface = nullptr;
@@ -51,16 +51,17 @@ class PhotonFlight {
             // much of that is left there.
             if (photons_follow(interfaces_)) keep_in_medium(distance, traced);
             if (!surface) return;
-            glm::vec3 left = transmittance(medium(), {ray_.origin, ray_.direction, distance, now_}, sampler_);
+            glm::vec3 left = transmittance(medium(), {ray_.origin, ray_.direction, distance, spectral_}, sampler_);
             if (phase_function(medium()) && !chain_survives(left, sampler_)) return;
             power_ *= left;
+            if (power_ == glm::vec3(0.0f)) return;
             if (!is_dispersed_ && surface->optics.get().disperses()) disperse();
-            const Bsdf bsdf = surface->bsdf(now_);
+            const Bsdf bsdf = surface->bsdf(spectral_);
             if (bsdf.passes_through()) {
                 ray_ = surface->transmitted(ray_.direction);
                 continue;
             }
-            if (photons_follow(interfaces_) && !bsdf.is_delta() && came_from_light()) {
+            if (photons_follow(interfaces_) && !bsdf.is_delta() && is_lit()) {
                 auto& photons = surface->far_side ? traced.on_interfaces : traced.on_surfaces;
                 photons.push_back(photon_at(surface->near_side.origin));
             }
@@ -88,7 +89,7 @@ class PhotonFlight {
     void disperse() {
         const Wavelengths& wavelengths = wavelengths_.value();
         power_ = wavelengths.is_spectral ? glm::vec3(power_.x) : for_light(power_, &wavelengths);
-        now_ = &wavelengths;
+        spectral_ = &wavelengths;
         is_dispersed_ = true;
     }
 
@@ -96,20 +97,21 @@ class PhotonFlight {
         const std::optional<PhotonPlacement> placement = PhotonPlacement::in(medium(), half_length_);
         if (!placement) return;
         const float depth = placement->sample(sampler_.next());
-        // The place may lie up to h (half_length_) beyond the end of the photon's line, because it lights points within h
-        // around it, of which some are before the end.
-        if (depth < distance + half_length_ && came_from_light())
+        // The place may lie up to h (half_length_) beyond the end of the photon's line, because it lights points within
+        // h around it, of which some are before the end.
+        if (depth < distance + half_length_ && is_lit())
             traced.in_media.push_back({photon_at(ray_.origin + depth * ray_.direction), depth});
     }
 
-    // Whether nothing is between where the photon started and its light.
-    bool came_from_light() {
-        if (!came_from_light_) {
+    // Whether light comes to where the photon started, with nothing in between. It is looked up once, and only of
+    // photons that are kept.
+    bool is_lit() {
+        if (!is_lit_) {
             const Ray back{emitted_.ray.origin, -emitted_.ray.direction, emitted_.ray.phase, {}, emitted_.ray.in};
             const Visibility light = world_.geometry().visibility(back, emitted_.emission.distance, counters_);
-            came_from_light_ = std::holds_alternative<Escaped>(light);
+            is_lit_ = std::holds_alternative<Escaped>(light);
         }
-        return *came_from_light_;
+        return *is_lit_;
     }
 
     // Sends the photon on from an interface, into one of its directions. Returns false if it ends there.
@@ -120,8 +122,8 @@ class PhotonFlight {
         // A smooth interface has no density of directions, so it needs no second pair of numbers.
         const auto next = bsdf.sample(wo, u_lobe, bsdf.is_delta() ? glm::vec2(0.0f) : sampler_.next2());
         if (!next) return false;
-        // Shadow rays do not pass a mirror, so they find nothing of this photon unless they start at a rough surface that
-        // it met before.
+        // Shadow rays do not pass a mirror, so they find nothing of this photon unless they start at a rough surface
+        // that it met before.
         if (!next->delta)
             multiply_quotients(surface, bsdf, ray_, wo, *next);
         else if (!surface.far_side && !quotients_.by_shadow_rays)
@@ -133,7 +135,7 @@ class PhotonFlight {
         // The BSDF is sampled as if the photon were a path that comes from the camera, so its weight is of radiance
         // that arrives from `after` and leaves into `before`: a refraction scales it by (before/after)². Power is not
         // scaled. What does not disperse, a rough interface or one with a film, bends all light as that of the d line.
-        const Wavelengths* bent_as = surface.optics.get().disperses() ? now_ : nullptr;
+        const Wavelengths* bent_as = surface.optics.get().disperses() ? spectral_ : nullptr;
         const float before = clear_at(scene_, from).ior_for(bent_as);
         const float after = clear_at(scene_, ray_.phase).ior_for(bent_as), ratio = after / before;
         power_ *= next->weight * (ratio * ratio);
@@ -163,22 +165,23 @@ class PhotonFlight {
         const Surface::Side& path_side = next.transmitted ? *surface.far_side : surface.near_side;
         const LightReceiver receiver = receiver_of_passed_light(surface, path_side);
         const float lamp_ior = clear_at(scene_, in.phase).ior;
-        const float factor = rough_factor(next.pdf, lamp_ior, wo.z, clear_at(scene_, path_side.phase).ior, next.wi.z);
-        // A path that comes backwards has next.wi where the photon has wo.
-        const float backwards = bsdf.reverse_pdf(wo, next.wi) / factor;
+        const float photon_density =
+            rough_factor(next.pdf, lamp_ior, wo.z, clear_at(scene_, path_side.phase).ior, next.wi.z);
+        // The density of a path that comes the other way, over the photon's; it has next.wi where the photon has wo.
+        const float path_quotient = bsdf.reverse_pdf(wo, next.wi) / photon_density;
         const auto* point = std::get_if<OfPointLight>(&emitted_.emission.source);
         if (point && interfaces_ == 1) {
             // A shadow ray reaches a point light on a straight line alone, so only from the photon's first interface.
             const float distance =
                 emitted_.emission.distance + glm::length(surface.near_side.origin - emitted_.ray.origin);
             quotients_.by_shadow_rays = scene_.lights.point_light_probability(receiver, point->index) *
-                                        squared_optical_distance(lamp_ior, distance) / factor;
+                                        squared_optical_distance(lamp_ior, distance) / photon_density;
         } else if (quotients_.by_shadow_rays) {
-            quotients_.by_shadow_rays = *quotients_.by_shadow_rays * backwards;
+            quotients_.by_shadow_rays = *quotients_.by_shadow_rays * path_quotient;
         } else {
-            quotients_.by_shadow_rays = scene_.lights.pdf(receiver, -in.direction) / factor;
+            quotients_.by_shadow_rays = scene_.lights.pdf(receiver, -in.direction) / photon_density;
         }
-        quotients_.by_directions *= backwards;
+        quotients_.by_directions *= path_quotient;
     }
 
     const World& world_;
@@ -189,13 +192,15 @@ class PhotonFlight {
     PathCounters& counters_;
     const std::optional<Wavelengths>& wavelengths_;
     Ray ray_;
-    const Wavelengths* now_;  // what its numbers are of; null if they are red, green and blue
+    // The wavelengths whose power the photon carries; null if it carries red, green and blue.
+    const Wavelengths* spectral_;
     glm::vec3 power_;
     bool is_dispersed_ = false;
     // How many interfaces it has met, the present one included, but for those that it passes straight.
     int interfaces_ = 0;
+    // How likely the other techniques are to find the photon's light, relative to the photon itself.
     DensityQuotients quotients_{};
-    std::optional<bool> came_from_light_{};
+    std::optional<bool> is_lit_{};
 };
 
 }  // namespace

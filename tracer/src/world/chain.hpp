@@ -43,9 +43,9 @@ inline bool sends_photons_on(const Bsdf& bsdf, const Surface& surface) {
     return surface.far_side || bsdf.is_metal();
 }
 
-/// Where shadow rays start on a surface that photons go on from, as both paths and photons have it; `of_path`
-/// is the side from which the path comes. What is clear on both
-/// sides gets light from both, so neither is preferred; metal gets it from the side of its normal.
+/// The point to which shadow rays bring light on a surface that photons go on from; `of_path` is the side from which
+/// the path comes. Paths and photons both take it from here, because their weights add up to 1 only if both reckon with
+/// the same odds of each lamp. What is clear on both sides gets light from both, so it has no normal; metal has one.
 inline LightReceiver receiver_of_passed_light(const Surface& surface, const Surface::Side& of_path) {
     return surface.far_side ? LightReceiver(of_path.origin) : LightReceiver(of_path.origin, surface.normal);
 }
