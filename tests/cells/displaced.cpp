@@ -2,8 +2,11 @@
 // whole object finds.
 #include <doctest/doctest.h>
 
+#include <atomic>
+
 #include "phasetree/cells/cells.hpp"
 #include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/box.hpp"
 #include "phasetree/nodes/fields/displace.hpp"
 #include "phasetree/nodes/fields/round_cone.hpp"
 #include "phasetree/nodes/fields/sphere.hpp"
@@ -41,6 +44,19 @@ TEST_CASE("the programs of a displaced solid's cells have no far bounds") {
     MESSAGE(cells.size(), " cells of ", cells.statistics().median_instructions, " to ",
             cells.statistics().most_instructions, " instructions");
     CHECK(cells.statistics().median_instructions <= 5);
+}
+
+// Noise that is this flat and fine saves rays nothing in boxes as small as its features, of which the box's faces have
+// 200 million. A build would take hours to find that for each of them. It asks once for each division whether it is
+// cancelled.
+TEST_CASE("noise much finer than the object is not divided into its features where that saves nothing") {
+    std::atomic<int> divisions{0};
+    const InterfaceCells cells(
+        Set{.phase = Phase{1},
+            .of = Displace{.of = Box{.size = {4, 4, 1}}, .amplitude = 0.0003f, .scale = 0.002f, .octaves = 3}},
+        {.cancelled = [&] { return ++divisions > 20'000; }});
+    MESSAGE(divisions.load(), " divisions");
+    CHECK(cells.size() < 1000);
 }
 
 }  // namespace test_displaced

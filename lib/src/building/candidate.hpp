@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "building/build_context.hpp"
 #include "building/cost_model.hpp"
 #include "building/subdivision_policy.hpp"
@@ -39,6 +41,8 @@ struct BuildNode {
     float cost_ratio = 1;
     float fold_period = Bounds::infinity;     ///< the smallest period of the folds that still may jump: finest_jump()
     float pattern_period = Bounds::infinity;  ///< the size of the smallest features of patterns: finest_pattern()
+    /// What a trial has found of boxes as small as that, here or in a box around this one; nothing without a trial.
+    std::optional<bool> is_small_cheaper{};
     double share = 1;                         ///< about how much of the whole build the subdivision of this box is
     Candidate cell{};                         ///< what the box becomes if it is not divided
 };

@@ -10,21 +10,18 @@
 #include <cmath>
 #include <memory>
 
-#include "building/candidate.hpp"
+#include "building/children.hpp"
 #include "building/quality.hpp"
-#include "building/sub_boxes.hpp"
-#include "evaluation/target.hpp"
+#include "building/trial.hpp"
 #include "pruning/jumps.hpp"
 #include "rewriting/features.hpp"
 #include "rewriting/first_component.hpp"
-#include "rewriting/readable_steps.hpp"
 
 namespace phasetree::building {
 
-using evaluation::active_kernel, evaluation::ValuesAtPoint;
-using pruning::finest_jump, pruning::may_jump, pruning::prune, pruning::RangesInBall, pruning::slopes_in_ball;
+using pruning::finest_jump;
 using rewriting::ArenaScope, rewriting::finest_pattern, rewriting::first_component_first,
-    rewriting::FirstComponentFirst, rewriting::readable_steps, rewriting::ReadableSteps, rewriting::specialised;
+    rewriting::FirstComponentFirst, rewriting::specialised;
 
 namespace {
 
@@ -34,6 +31,9 @@ namespace {
 constexpr int reported_depth = 5;
 // Down to this depth the children of a box are divided in parallel.
 constexpr int parallel_depth = 3;
+
+// A division counts as a gain if it leaves less than this share of the cost.
+constexpr float gain = 0.8f;
 
 // A box in which millions of parts are searched may be divided this often beyond CellOptions::deepest, because rays pay
 // for each search far more than the division takes; unless fewer divisions than usual are wanted, as for a first look,
@@ -121,59 +121,25 @@ CellCosts find_cells(const BuildNode& node, const BuildContext& context, Worker&
     return add_cell(node, worker);
 }
 
-// Evaluates a node's program at the centres of boxes, one in each lane. The result reads lane 0, which has the values
-// for the first box; Division::prepare_child() reads the lanes of the others.
-ValuesAtPoint values_at_centres(const BuildNode& node, const SubBoxes& boxes, Worker& worker) {
-    SharedConstants& constants = worker.pool.constants();
-    std::size_t count = 0;
-    for (const Specialisation& s : node.specialisations) count += s.data.size();
-    worker.specialised.clear();
-    const WorkingProgram program = specialised(node.program, node.specialisations, worker.specialised, worker.scratch,
-                                               constants.first_behind(worker.number, count));
-    const ReadableSteps steps = readable_steps(program, worker.scratch);
-    static_assert(batch_size >= SubBoxes::most, "each child has a lane of its own");
-    BatchOfFloats x, y, z;
-    for (std::size_t i = 0; i < batch_size; ++i) {
-        const glm::vec3 c = boxes.box[std::min(i, boxes.count - 1)].centre();
-        x[i] = c.x;
-        y[i] = c.y;
-        z[i] = c.z;
-    }
-    const std::span<BatchOfFloats> registers = worker.scratch.allocate<BatchOfFloats>(steps.slots);
-    const float* const all = constants.with(worker.specialised, worker.number, worker.constants);
-    active_kernel().evaluate(steps.routine(all), x.lane.data(), y.lane.data(), z.lane.data(),
-                             registers.data()->lane.data(), nullptr);
-    return {registers.data(), steps.slot, 0};
-}
-
 // The division of one node: its children, and who finds their cells.
 class Division {
   public:
     Division(const BuildNode& node, const BuildContext& context, Worker& worker)
-        : node_(node),
-          context_(context),
-          worker_(worker),
-          boxes_(node.box),
-          values_(values_at_centres(node, boxes_, worker)),
-          children_(worker.scratch.allocate<BuildNode>(boxes_.count)),
-          has_jumps_(context.program.has_folds && may_jump(node.program)) {
+        : node_(node), context_(context), worker_(worker), children_(node, context, worker) {
         if (node.depth < parallel_depth)
-            for (std::size_t i = 0; i < boxes_.count; ++i) borrowed_.push_back(worker.pool.borrow());
+            for (std::size_t i = 0; i < children_.count(); ++i) borrowed_.push_back(worker.pool.borrow());
     }
 
     CellCosts run() {
-        for_each_child([&](std::size_t i, Worker& own) { is_left_[i] = prepare_child(i, own); });
-        left_count_ = std::ranges::count(is_left_, true);
+        for_each_child([&](std::size_t i, Worker& own) { children_.prepare(i, own); });
+        left_count_ = children_.left_count();
         // If a child is left, the shares of the children are reported instead, each where its cells are found.
         if (left_count_ == 0 && node_.depth < reported_depth) context_.progress.add(node_.share);
-        float cost = cost_model::traversal * surface(node_.box);
-        for (std::size_t i = 0; i < boxes_.count; ++i)
-            if (is_left_[i]) cost += children_[i].cell.cost;
-        cost_ratio_ = node_.cost_ratio * cost / node_.cell.cost;
+        cost_ratio_ = node_.cost_ratio * children_.cost() / node_.cell.cost;
 
         std::array<CellCosts, SubBoxes::most> costs{};
         for_each_child([&](std::size_t i, Worker& own) {
-            if (is_left_[i]) costs[i] = find_cells_of_child(children_[i], own);
+            if (children_.is_left(i)) costs[i] = find_cells_of_child(children_[i], own);
         });
         for (const WorkerPool::Borrowed& own : borrowed_) {
             worker_.cells.append(own->cells);
@@ -193,37 +159,16 @@ class Division {
     template <class F>
     void for_each_child(F&& f) {
         if (!borrowed_.empty())
-            tbb::parallel_for(std::size_t{0}, boxes_.count, [&](std::size_t i) { f(i, *borrowed_[i]); });
+            tbb::parallel_for(std::size_t{0}, children_.count(), [&](std::size_t i) { f(i, *borrowed_[i]); });
         else
-            for (std::size_t i = 0; i < boxes_.count; ++i) f(i, worker_);
-    }
-
-    // Makes a child ready: its program is pruned by the values in a ball around its box, and then in the box. False if
-    // no ray can meet an interface there.
-    bool prepare_child(std::size_t i, Worker& own) {
-        const ArenaScope scope(own.scratch);
-        const float radius = 0.5f * boxes_.box[i].inflated(context_.reach).diagonal() * (1 + 1e-5f);
-        const ValuesAtPoint centre{values_.registers, values_.slot, i};
-        const std::span<const float> slope =
-            has_jumps_ ? slopes_in_ball(node_.program, centre, radius, context_.program, own.scratch)
-                       : node_.program.lipschitz;
-        const RangesInBall ranges{centre, slope, radius, context_.program.value_error};
-        std::span<const RequiredOfLocal> required;
-        const auto program = prune(node_.program, ranges, context_.program, own.arenas(), required);
-        if (!program) return false;
-        BuildNode& child = *std::construct_at(
-            &children_[i], BuildNode{boxes_.box[i], *program, node_.specialisations, required, node_.depth + 1});
-        if (std::isfinite(node_.fold_period))
-            child.fold_period = finest_jump(child.program, context_.program.constants);
-        if (std::isfinite(node_.pattern_period))
-            child.pattern_period = finest_pattern(child.program, context_.program.constants);
-        return prepare(child, context_, own);
+            for (std::size_t i = 0; i < children_.count(); ++i) f(i, worker_);
     }
 
     CellCosts find_cells_of_child(BuildNode& child, Worker& own) const {
-        const bool is_gain = cost_ratio_ < 0.8f;
+        const bool is_gain = cost_ratio_ < gain;
         child.share = node_.share / static_cast<double>(left_count_);
-        child.futile_divisions = is_gain || is_too_coarse(child) ? 0 : node_.futile_divisions + 1;
+        child.futile_divisions =
+            is_gain || is_too_coarse(child) || may_show_pattern(child, own) ? 0 : node_.futile_divisions + 1;
         child.cost_ratio = is_gain ? 1.f : cost_ratio_;
         return find_cells(child, context_, own);
     }
@@ -237,20 +182,23 @@ class Division {
         const LinearBound& bound = child.cell.facts.bound;
         const bool is_uneven =
             bound.slack < Bounds::infinity && bound.spread > child.policy.uneven * glm::length(bound.normal);
-        // Nothing may be known of a pattern until boxes are smaller than its features.
-        const bool is_unknown = !(bound.spread < 1) && diagonal > 0.5f * child.pattern_period;
-        return child.cell.is_searched || diagonal > large || is_unknown ||
+        return child.cell.is_searched || diagonal > large ||
                (is_uneven && diagonal > child.policy.fine * context_.size);
+    }
+    // Whether nothing is known of a pattern until boxes are smaller than its features, and it is worth going there. A
+    // trial tells the latter, once for a box and all in it, if that is many divisions away.
+    bool may_show_pattern(BuildNode& child, Worker& own) const {
+        if (!is_pattern_unknown(child)) return false;
+        constexpr float far = 32;  // times as large as boxes in which the pattern is known
+        const bool is_far = child.box.diagonal() > far * known_share_of_period * child.pattern_period;
+        if (is_far && !child.is_small_cheaper) child.is_small_cheaper = may_gain_by_known_pattern(child, context_, own);
+        return child.is_small_cheaper.value_or(true);
     }
 
     const BuildNode& node_;
     const BuildContext& context_;
     Worker& worker_;
-    SubBoxes boxes_;
-    ValuesAtPoint values_;  // at the centre of the first box; those for the other boxes are in the other lanes
-    std::span<BuildNode> children_;
-    bool has_jumps_;
-    std::array<bool, SubBoxes::most> is_left_{};  // whether a ray can meet an interface in a child
+    Children children_;
     std::ptrdiff_t left_count_ = 0;
     float cost_ratio_ = 1;                        // BuildNode::cost_ratio after this division
     std::vector<WorkerPool::Borrowed> borrowed_;  // one for each child; none if they are not divided in parallel

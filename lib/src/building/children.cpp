@@ -1,0 +1,87 @@
+#include "building/children.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "evaluation/target.hpp"
+#include "pruning/jumps.hpp"
+#include "rewriting/features.hpp"
+#include "rewriting/readable_steps.hpp"
+
+namespace phasetree::building {
+
+using evaluation::active_kernel, evaluation::ValuesAtPoint;
+using pruning::finest_jump, pruning::may_jump, pruning::prune, pruning::RangesInBall, pruning::slopes_in_ball;
+using rewriting::ArenaScope, rewriting::finest_pattern, rewriting::readable_steps, rewriting::ReadableSteps,
+    rewriting::specialised;
+
+namespace {
+
+// Evaluates a node's program at the centres of boxes, one in each lane. The result reads lane 0, which has the values
+// for the first box; Children::prepare() reads the lanes of the others.
+ValuesAtPoint values_at_centres(const BuildNode& node, const SubBoxes& boxes, Worker& worker) {
+    SharedConstants& constants = worker.pool.constants();
+    std::size_t count = 0;
+    for (const Specialisation& s : node.specialisations) count += s.data.size();
+    worker.specialised.clear();
+    const WorkingProgram program = specialised(node.program, node.specialisations, worker.specialised, worker.scratch,
+                                               constants.first_behind(worker.number, count));
+    const ReadableSteps steps = readable_steps(program, worker.scratch);
+    static_assert(batch_size >= SubBoxes::most, "each child has a lane of its own");
+    BatchOfFloats x, y, z;
+    for (std::size_t i = 0; i < batch_size; ++i) {
+        const glm::vec3 c = boxes.box[std::min(i, boxes.count - 1)].centre();
+        x[i] = c.x;
+        y[i] = c.y;
+        z[i] = c.z;
+    }
+    const std::span<BatchOfFloats> registers = worker.scratch.allocate<BatchOfFloats>(steps.slots);
+    const float* const all = constants.with(worker.specialised, worker.number, worker.constants);
+    active_kernel().evaluate(steps.routine(all), x.lane.data(), y.lane.data(), z.lane.data(),
+                             registers.data()->lane.data(), nullptr);
+    return {registers.data(), steps.slot, 0};
+}
+
+}  // namespace
+
+Children::Children(const BuildNode& parent, const BuildContext& context, Worker& worker)
+    : parent_(parent),
+      context_(context),
+      boxes_(parent.box),
+      values_(values_at_centres(parent, boxes_, worker)),
+      nodes_(worker.scratch.allocate<BuildNode>(boxes_.count)),
+      has_jumps_(context.program.has_folds && may_jump(parent.program)) {}
+
+void Children::prepare(std::size_t i, Worker& own) {
+    const ArenaScope scope(own.scratch);
+    const float radius = 0.5f * boxes_.box[i].inflated(context_.reach).diagonal() * (1 + 1e-5f);
+    const ValuesAtPoint centre{values_.registers, values_.slot, i};
+    const std::span<const float> slope =
+        has_jumps_ ? slopes_in_ball(parent_.program, centre, radius, context_.program, own.scratch)
+                   : parent_.program.lipschitz;
+    const RangesInBall ranges{centre, slope, radius, context_.program.value_error};
+    std::span<const RequiredOfLocal> required;
+    const auto program = prune(parent_.program, ranges, context_.program, own.arenas(), required);
+    if (!program) return;
+    BuildNode& child = *std::construct_at(
+        &nodes_[i], BuildNode{boxes_.box[i], *program, parent_.specialisations, required, parent_.depth + 1});
+    if (std::isfinite(parent_.fold_period)) child.fold_period = finest_jump(child.program, context_.program.constants);
+    if (std::isfinite(parent_.pattern_period))
+        child.pattern_period = finest_pattern(child.program, context_.program.constants);
+    child.is_small_cheaper = parent_.is_small_cheaper;
+    is_left_[i] = building::prepare(child, context_, own);
+}
+
+std::ptrdiff_t Children::left_count() const {
+    return std::ranges::count(is_left_, true);
+}
+
+float Children::cost() const {
+    float sum = cost_model::traversal * surface(parent_.box);
+    for (std::size_t i = 0; i < boxes_.count; ++i)
+        if (is_left_[i]) sum += nodes_[i].cell.cost;
+    return sum;
+}
+
+}  // namespace phasetree::building
