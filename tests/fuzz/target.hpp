@@ -45,6 +45,7 @@ inline void promised(bool holds, const char* promise) {
 void run_balls(Bytes);
 void run_calls(Bytes);
 void run_color_config(Bytes);
+void run_font(Bytes);
 void run_image(Bytes);
 void run_lines(Bytes);
 void run_mesh(Bytes);

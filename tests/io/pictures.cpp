@@ -53,6 +53,11 @@ Phased read_example(const std::filesystem::path& example) {
                                   grid.numbers = {1};
                                   grid.voxels = {0};
                                   return grid;
+                              },
+                              nullptr,
+                              [](const std::filesystem::path& font, const std::string&) {
+                                  if (!std::filesystem::exists(font)) throw std::runtime_error("there is no such file");
+                                  return TextOutlines{{{1, 1, {{0, 0, {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}}}}}};
                               }};
     return read_tree(Document::from_text(scene, (folder() / "studio.json").string()), readers).object;
 }

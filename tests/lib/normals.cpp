@@ -61,6 +61,26 @@ FromFile<SirenNetwork> ball_like_network() {
     file.content = std::make_shared<const SirenNetwork>(std::move(network));
     return file;
 }
+/// An octagon with a square hole.
+FromFile<TextOutlines> octagonal_letter() {
+    const auto contour = [](std::vector<glm::vec2> corners) {
+        TextOutlines::Contour points;
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            points.push_back(corners[i]);
+            points.push_back(0.5f * (corners[i] + corners[(i + 1) % corners.size()]));
+        }
+        return points;
+    };
+    TextOutlines text;
+    text.lines.push_back({1, 1, {{0, 0, {}}}});
+    text.lines[0].letters[0].contours = {
+        contour({{1, -0.5f}, {1, 0.5f}, {0.5f, 1}, {-0.5f, 1}, {-1, 0.5f}, {-1, -0.5f}, {-0.5f, -1}, {0.5f, -1}}),
+        contour({{0.25f, -0.25f}, {-0.25f, -0.25f}, {-0.25f, 0.25f}, {0.25f, 0.25f}})};
+    FromFile<TextOutlines> file;
+    file.content = std::make_shared<const TextOutlines>(std::move(text));
+    return file;
+}
+
 FromFile<HeightGrid> symmetric_grid() {
     FromFile<HeightGrid> file;
     file.content = std::make_shared<const HeightGrid>(HeightGrid{3, 3, {0, 0.5f, 0, 0.5f, 1, 0.5f, 0, 0.5f, 0}});
@@ -115,6 +135,7 @@ Solids every_primitive() {
     s.add(Heightfield{.size = 1, .amplitude = 0.25f});
     s.add(Polygon{.points = {{-0.5f, -0.5f}, {0.5f, -0.5f}, {0.5f, 0.5f}, {0, 0.25f}, {-0.5f, 0.5f}}});
     s.add(Bezier{.points = {{-0.5f, 0}, {0, 1}, {0.5f, 0}}, .thickness = 0.25f});
+    s.add(Text{.file = octagonal_letter(), .size = 0.5f});
     return s;
 }
 

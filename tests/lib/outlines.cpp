@@ -5,7 +5,8 @@
 #include "phasetree/model/handle.hpp"
 #include "phasetree/nodes/profiles/bezier.hpp"
 #include "phasetree/nodes/profiles/polygon.hpp"
-#include "support/random_tree.hpp"
+#include "phasetree/nodes/profiles/text.hpp"
+#include "support/random_text.hpp"
 #include "support/set_algebra/outlines.hpp"
 
 namespace test_outlines {
@@ -52,6 +53,10 @@ void compare(const Node& n, Random& rng, Comparison& c) {
     }
 }
 
+struct BoxComparison {
+    std::size_t boxes = 0, pieces = 0, heights = 0, points = 0, inside = 0, different = 0;
+};
+
 }  // namespace
 
 TEST_CASE("a polygon's distance is that to its edges, negative where they are seen all around") {
@@ -91,6 +96,103 @@ TEST_CASE("a Bezier shape's distance is that of a search along its curves") {
     MESSAGE("largest error ", c.largest_error);
     CHECK(c.inside > c.points / 50);
     CHECK(c.outside_of_bounds == 0);
+}
+
+TEST_CASE("a text's distance is that to its strokes, each without its holes") {
+    Random rng(193);
+    double largest_error = 0;
+    std::size_t points = 0, inside = 0, outside_of_bounds = 0;
+    for (int shape = 0; shape < 300; ++shape) {
+        Text n{.size = rng.uniform(0.3f, 2),
+               .align = rng.chance(0.5) ? 0.5f : rng.uniform(0, 1),
+               .spacing = rng.chance(0.5) ? 0.f : rng.uniform(-0.2f, 1),
+               .line_height = rng.uniform(0.5f, 2)};
+        n.file.content = std::make_shared<const TextOutlines>(random_text(rng));
+        n.prepare();
+        const Field field = n;
+        BoundsQuery query;
+        const Bounds box = n.bounds(query, 0.1f);
+        for (int i = 0; i < 100; ++i) {
+            const glm::vec3 p = rng.in(Bounds{n.box.low - 0.3f, n.box.high + 0.3f});
+            const double expected = oracle::signed_value(n, glm::dvec3(p));
+            const double error = std::abs(distance(field, p) - expected);
+            ++points;
+            inside += expected < 0;
+            outside_of_bounds += expected < 0.1 - 1e-5 && !box.contains(p);
+            largest_error = std::max(largest_error, error / (1 + glm::length(p)));
+        }
+    }
+    MESSAGE("largest error ", largest_error);
+    CHECK(largest_error < 1e-6);
+    CHECK(inside > points / 20);
+    CHECK(outside_of_bounds == 0);
+}
+
+// Halves and thirds of boxes: the pieces of one are sought among those of the one around it.
+template <class Primitive>
+void compare_in_boxes(const Primitive& primitive, const Bounds& whole, Random& rng, BoxComparison& c) {
+    const float* const data = primitive.data().data();
+    std::vector<float> around;
+    for (Bounds box = whole; box.diagonal() > 0.01f * whole.diagonal();) {
+        PointRange range;
+        for (int i = 0; i < 3; ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            range.centre[k] = 0.5 * (static_cast<double>(box.low[i]) + static_cast<double>(box.high[i]));
+            range.half_extents[k] = 0.5 * (static_cast<double>(box.high[i]) - static_cast<double>(box.low[i]));
+        }
+        std::vector<float> few;
+        if (Primitive::specialise(data, range, around, few)) {
+            ++c.boxes;
+            REQUIRE(OutlineInBox::Specialised::is_sound(few));
+            REQUIRE(OutlineInBox::Specialised::floats(few.data()) == few.size());
+            c.pieces += static_cast<std::size_t>(few[0]);
+            c.heights += few[3] > 0;
+            for (int i = 0; i < 30; ++i) {
+                glm::vec3 p = rng.in(box);
+                // The box's sides, and heights at which pieces end.
+                if (i % 3 == 0) p.x = rng.chance(0.5) ? box.low.x : box.high.x;
+                if (i % 4 == 0) p.y = rng.chance(0.5) ? box.low.y : box.high.y;
+                if (i % 5 == 0) {
+                    const auto piece = static_cast<std::size_t>(rng.below(static_cast<int>(data[0])));
+                    const float y = data[OutlineInBox::head + OutlinePieces::floats * piece + 1];
+                    if (y >= box.low.y && y <= box.high.y) p.y = y;
+                }
+                const Vec3<float> q{p.x, p.y, p.z};
+                const float of_all = Primitive::distance(data, q);
+                ++c.points;
+                c.different += !(OutlineInBox::Specialised::distance(few.data(), q) == of_all);
+                c.inside += of_all < 0;
+            }
+            around = few;
+        }
+        const float share = rng.chance(0.5) ? 0.5f : 0.33f;
+        const glm::vec3 extent = share * box.extent();
+        box.low += (box.extent() - extent) * glm::vec3(rng.uniform(0, 1), rng.uniform(0, 1), 0.5f);
+        box.high = box.low + extent;
+    }
+}
+
+TEST_CASE("in a box the few pieces that matter there give the same distances to the last bit") {
+    Random rng(194);
+    BoxComparison c;
+    for (int shape = 0; shape < (long_tests() ? 20'000 : 400); ++shape) {
+        Bezier curve;
+        for (int i = 8 + 2 * rng.below(12); i-- > 0;) curve.points.push_back(random_corner(rng));
+        if (rng.chance(0.2)) curve.thickness = 0.05f;
+        curve.prepare();
+        compare_in_boxes(curve, Bounds::centred(glm::vec3(1.5f)), rng, c);
+        Text text{.size = rng.uniform(0.3f, 2)};
+        text.file.content = std::make_shared<const TextOutlines>(random_text(rng));
+        text.prepare();
+        for (const Text::Stroke& stroke : text.strokes)
+            compare_in_boxes(stroke, Bounds{text.box.low - 0.1f, text.box.high + 0.1f}, rng, c);
+    }
+    MESSAGE(c.points, " points in ", c.boxes, " boxes of ",
+            static_cast<double>(c.pieces) / static_cast<double>(c.boxes), " pieces; ", c.heights,
+            " of them with heights");
+    CHECK(c.different == 0);
+    CHECK(c.inside > c.points / 20);
+    CHECK(c.heights > c.boxes / 100);
 }
 
 TEST_CASE("what is no outline is refused") {

@@ -55,7 +55,7 @@ TEST_CASE("a tree of any node, written and read again, records into the same pro
             ++of_kind;
         }
         const bool is_of_file = kind.name == "siren" || kind.name == "height_map" || kind.name == "mesh" ||
-                                kind.name == "volume" || kind.name == "labels";
+                                kind.name == "volume" || kind.name == "labels" || kind.name == "text";
         CHECK((of_kind > 0 || is_of_file));
         read += of_kind;
     }

@@ -20,6 +20,7 @@
 #include "phasetree/nodes/fields/sphere.hpp"
 #include "phasetree/nodes/phased/intersect_shape.hpp"
 #include "support/random_mesh.hpp"
+#include "support/random_text.hpp"
 #include "support/random_tree.hpp"
 #include "support/random_voxels.hpp"
 
@@ -130,6 +131,8 @@ void fill(Random& rng, Value& value, const Parameter& p, int depth, bool needs_b
             if (has_phases) list.phases.push_back(static_cast<std::uint8_t>(rng.below(2)));
         }
         value.content = std::make_shared<const BallList>(std::move(list));
+    } else if constexpr (std::is_same_v<Value, FromFile<TextOutlines>>) {
+        value = held_content(random_text(rng));
     } else if constexpr (std::is_same_v<Value, FromFile<VoxelGrid>>) {
         value = held_content(random_level_set(rng));
     } else if constexpr (std::is_same_v<Value, FromFile<LabelGrid>>) {

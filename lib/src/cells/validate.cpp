@@ -135,6 +135,8 @@ class Validation {
             return Mesh::Specialised::is_sound(constants_.subspan(at));
         if (static_cast<Op>(op) == program::op_of<Balls::Specialised>())
             return Balls::Specialised::is_sound(constants_.subspan(at));
+        if (static_cast<Op>(op) == program::op_of<OutlineInBox::Specialised>())
+            return OutlineInBox::Specialised::is_sound(constants_.subspan(at));
         if (traits(static_cast<Op>(op)).is_specialised) return is_list_of_sites(at);
         return std::ranges::binary_search(object_data_, std::pair{op, at});
     }

@@ -93,6 +93,9 @@ class NodeFiles {
         } else if constexpr (std::is_same_v<Content, LabelGrid>) {
             if (!readers_.label_grid) throw std::runtime_error("this program reads neither OpenVDB files nor images");
             return readers_.label_grid(path, part);
+        } else if constexpr (std::is_same_v<Content, TextOutlines>) {
+            if (!readers_.text_outlines) throw std::runtime_error("this program reads no fonts");
+            return readers_.text_outlines(path, part);
         } else {
             if (!readers_.height_grid) throw std::runtime_error("this program reads no images");
             return readers_.height_grid(path);
@@ -106,7 +109,7 @@ class NodeFiles {
     template <class Content>
     using Known = std::map<std::pair<std::string, std::string>, std::shared_ptr<const Content>>;
     std::tuple<Known<SirenNetwork>, Known<HeightGrid>, Known<TriangleMesh>, Known<VoxelGrid>, Known<LabelGrid>,
-               Known<BallList>>
+               Known<BallList>, Known<TextOutlines>>
         known_;
 };
 

@@ -35,7 +35,12 @@ LabelGrid some_labels(const std::filesystem::path&, const std::string&) {
     return grid;
 }
 
-const FileReaders readers{.height_grid = some_heights, .level_set = some_level_set, .label_grid = some_labels};
+TextOutlines some_text(const std::filesystem::path&, const std::string&) {
+    return {{{.width = 1, .places = 1, .letters = {{0, 0, {{{0, 0}, {0.5f, -0.25f}, {1, 0}, {1, 1}}}}}}}};
+}
+
+const FileReaders readers{
+    .height_grid = some_heights, .level_set = some_level_set, .label_grid = some_labels, .text_outlines = some_text};
 
 // Files are sought beside the gallery's scenes.
 Document document_of(std::string_view text) {

@@ -39,12 +39,15 @@ inline double seen(const dvec2& p, const Quadratic& q, int depth = 0) {
     const auto halves = q.halves();
     return seen(p, halves[0], depth + 1) + seen(p, halves[1], depth + 1);
 }
-inline double to_curves(const Bezier& n, const dvec2& p) {
+inline double to_curves(const std::vector<Quadratic>& all, const dvec2& p) {
     double squared = absent;
-    for (const Quadratic& q : curves(n)) {
+    for (const Quadratic& q : all) {
         squared = std::min(squared, least([&](double t) { return glm::dot(q.at(t) - p, q.at(t) - p); }, 0, 1));
     }
     return std::sqrt(squared);
+}
+inline double to_curves(const Bezier& n, const dvec2& p) {
+    return to_curves(curves(n), p);
 }
 inline bool member(const Bezier& n, const dvec3& p) {
     if (n.thickness > 0) return 2 * to_curves(n, p) < n.thickness;
@@ -56,6 +59,55 @@ inline double signed_value(const Bezier& n, const dvec3& p) {
     const double d = to_curves(n, p);
     if (n.thickness > 0) return d - n.thickness / 2.0;
     return member(n, p) ? -d : d;
+}
+
+/// The contours of a text where they stand, each letter's strokes by themselves: tests' texts (random_text.hpp) have
+/// the holes of a stroke behind its outer contour.
+inline std::vector<std::vector<std::vector<Quadratic>>> strokes(const Text& n) {
+    std::vector<std::vector<std::vector<Quadratic>>> all;
+    double y = 0;
+    for (const TextOutlines::Line& line : n.file.content->lines) {
+        const double gaps = std::max(0, line.places - 1), begin = -(line.width + gaps * n.spacing) * n.align;
+        for (const TextOutlines::Letter& letter : line.letters) {
+            const auto area = [&](const TextOutlines::Contour& c) {
+                double sum = 0;
+                for (std::size_t i = 0; i < c.size(); ++i) {
+                    const dvec2 a(c[i]), b(c[(i + 1) % c.size()]);
+                    sum += a.x * b.y - a.y * b.x;
+                }
+                return sum;
+            };
+            for (const TextOutlines::Contour& contour : letter.contours) {
+                const bool is_hole = area(contour) * area(letter.contours.front()) < 0;
+                if (!is_hole) all.emplace_back();
+                std::vector<Quadratic>& curves = all.back().emplace_back();
+                const auto placed = [&](std::size_t i) {
+                    return static_cast<double>(n.size) *
+                           (dvec2(begin + letter.x + letter.place * static_cast<double>(n.spacing), y) +
+                            dvec2(contour[i % contour.size()]));
+                };
+                for (std::size_t i = 0; i < contour.size(); i += 2)
+                    curves.push_back({placed(i), placed(i + 1), placed(i + 2)});
+            }
+        }
+        y -= n.line_height;
+    }
+    return all;
+}
+inline double signed_value(const Text& n, const dvec3& p) {
+    double d = absent;
+    for (const std::vector<std::vector<Quadratic>>& stroke : strokes(n)) {
+        double angle = 0, away = absent;
+        for (const std::vector<Quadratic>& contour : stroke) {
+            for (const Quadratic& q : contour) angle += seen(p, q);
+            away = std::min(away, to_curves(contour, p));
+        }
+        d = std::min(d, is_around(angle) ? -away : away);
+    }
+    return d;
+}
+inline bool member(const Text& n, const dvec3& p) {
+    return signed_value(n, p) < 0;
 }
 
 }  // namespace phasetree::tests::oracle

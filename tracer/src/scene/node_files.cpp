@@ -2,6 +2,7 @@
 
 #include "image/read_image.hpp"
 #include "scene/read_parts.hpp"
+#include "text/read_text.hpp"
 #include "volume/read_volume.hpp"
 
 namespace phasetree::tracer {
@@ -24,7 +25,8 @@ FileReaders file_readers() {
     return {.height_grid = read_height_grid,
             .level_set = read_level_set,
             .label_grid = read_label_grid,
-            .label_files = layers_of_stack};
+            .label_files = layers_of_stack,
+            .text_outlines = read_text};
 }
 
 }  // namespace phasetree::tracer

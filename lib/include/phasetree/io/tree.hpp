@@ -15,6 +15,7 @@
 #include "phasetree/nodes/fields/siren_network.hpp"
 #include "phasetree/nodes/fields/voxel_grid.hpp"
 #include "phasetree/nodes/phased/label_grid.hpp"
+#include "phasetree/nodes/profiles/text_outlines.hpp"
 
 namespace phasetree {
 
@@ -33,7 +34,7 @@ struct SceneTree {
     Phased object;
 };
 
-/// What reads the files that nodes name. This library knows neither images nor OpenVDB; whoever does gives it readers
+/// What reads the files that nodes name. This library knows no images, OpenVDB or fonts; whoever does gives it readers
 /// for them. A reader throws any std::exception whose what() says what is wrong with the file. `grid` is the name of
 /// the grid that is wanted of a file that may hold several, or empty.
 struct FileReaders {
@@ -42,6 +43,8 @@ struct FileReaders {
     std::function<LabelGrid(const std::filesystem::path&, const std::string& grid)> label_grid{};
     /// The files that the name of a label grid stands for, such as the images of a stack. Without it, it is one file's.
     std::function<std::vector<std::filesystem::path>(const std::filesystem::path&)> label_files{};
+    /// What the letters of a font make of a text.
+    std::function<TextOutlines(const std::filesystem::path& font, const std::string& text)> text_outlines{};
 };
 
 /// The weights of a network: {"radius": R, "layers": [{"weights": [[…], …], "bias": […]}, …]}. Throws SceneError, which

@@ -94,6 +94,7 @@
 #include "phasetree/nodes/profiles/rectangle.hpp"
 #include "phasetree/nodes/profiles/revolve.hpp"
 #include "phasetree/nodes/profiles/star.hpp"
+#include "phasetree/nodes/profiles/text.hpp"
 #include "phasetree/nodes/proxies/bounding_volume.hpp"
 #include "phasetree/nodes/proxies/level_of_detail.hpp"
 #include "phasetree/nodes/proxies/proxy.hpp"
@@ -119,7 +120,7 @@ using PlainFields =
              SchwarzP, SchwarzD, Displace, FieldInstances, FieldPolarArray, FieldGrid, Polyline, FieldEndlessGrid, Blob,
              VoronoiCells, Siren, HeightMap, Mesh, Volume, FieldFibonacciDisk, FieldFibonacciSphere, FieldScatter,
              Extrude, Revolve, Circle, Rectangle, Star, Slab, BoxFrame, Bowl, Dodecahedron, Icosahedron, Helix,
-             Heightfield, Polygon, Bezier, Formula, Polyhedron, Balls, FieldBoundingVolume, FieldProxy,
+             Heightfield, Polygon, Bezier, Text, Formula, Polyhedron, Balls, FieldBoundingVolume, FieldProxy,
              FieldLevelOfDetail>;
 
 using Objects =

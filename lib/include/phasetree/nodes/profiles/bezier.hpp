@@ -1,25 +1,14 @@
 #pragma once
 
-#include <array>
-#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <vector>
 
 #include "phasetree/math/support.hpp"
-#include "phasetree/nodes/fields/profile.hpp"
+#include "phasetree/nodes/profiles/outline_in_box.hpp"
 
 namespace phasetree {
 
-/// A curve is cut into pieces B(t) = s + 2bt + at², t in [0, 1], on which it becomes faster (a·b ≥ 0), by a factor of
-/// two at most, and y is monotone. A point m = s − p away from a piece's start is nearest at an end or where
-///     h(t) = (B − p)·B′/2 = a² t³ + 3 a·b t² + (2b² + a·m) t + b·m
-/// vanishes and rises. h is convex for t ≥ 0, so only its last root is a minimum, and from the right of it Halley's
-/// steps approach it without passing. Five reach it: where they converge slowest, in the curve's centre of curvature, h
-/// has its three roots in one, an error t − r halves each time, and the distance depends on its fourth power.
-///
-/// A point is inside if a ray from it along +x crosses the outline an odd number of times. A piece counts once for
-/// low ≤ y < high, with the same numbers where two pieces meet; where t is ill-determined, at a level tangent, the
-/// point of the curve that it leads to is still at the height of p.
+/// outline_pieces.hpp has the equation, outline_in_box.hpp the data.
 struct Bezier {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"bezier", "",
@@ -30,8 +19,7 @@ struct Bezier {
     static constexpr std::size_t most_points = 2048;
     std::vector<glm::vec2> points{};
     float thickness = 0;
-    /// Derived: the number of pieces and half the thickness; then for each piece ten numbers,
-    ///     s.x, s.y, y of its end, b.x, b.y, a.x, a.y, a², 3 a·b, 2 b².
+    /// Derived, as OutlineInBox has it.
     std::vector<float> table{};
 
     template <class V>
@@ -54,53 +42,23 @@ struct Bezier {
         for (const glm::vec2& v : points)
             if (std::abs(v.x) > 1e9f || std::abs(v.y) > 1e9f)
                 throw ModelError("bezier: its points must be within 1e9 m of the origin");
-        const std::vector<Piece> all = pieces();
-        if (all.empty()) throw ModelError("bezier: all of its points are the same");
-        table = {static_cast<float>(all.size()), thickness * 0.5f};
-        for (const Piece& piece : all) {
-            const glm::dvec2 a = piece.a(), b = piece.b();
-            for (const double v : {piece.start.x, piece.start.y, piece.end.y, b.x, b.y, a.x, a.y, glm::dot(a, a),
-                                   3 * glm::dot(a, b), 2 * glm::dot(b, b)})
-                table.push_back(static_cast<float>(v));
-        }
+        table = {0.f, thickness * 0.5f};
+        std::size_t pieces = 0;
+        for_each_curve(points, [&](const QuadraticCurve& curve) { pieces += OutlinePieces::append(curve, table); });
+        if (pieces == 0) throw ModelError("bezier: all of its points are the same");
+        table[0] = static_cast<float>(pieces);
     }
     std::span<const float> data() const { return table; }
     template <class T>
     static T distance(const float* data, const Vec3<T>& p) {
-        const T zero(0.f), one(1.f);
-        T nearest(3e38f), sign(1.f);
-        const int count = static_cast<int>(data[0]);
-        const float half_thickness = data[1];
-        data += 2;
-        for (int i = 0; i < count; ++i, data += 10) {
-            const float bx = data[3], by = data[4], ax = data[5], ay = data[6];
-            const float a_squared = data[7], three_ab = data[8];
-            const T mx = data[0] - p.x, my = data[1] - p.y;
-            const T linear = mx * ax + my * ay + data[9], constant = mx * bx + my * by;
-            // Halley's steps from the right end to the last root of h. Where h does not rise the right end is tried.
-            T t = one;
-            for (int k = 0; k < 5; ++k) {
-                const T h = ((t * a_squared + three_ab) * t + linear) * t + constant;
-                const T slope = (t * (3.f * a_squared) + 2.f * three_ab) * t + linear;
-                const T bend = t * (3.f * a_squared) + three_ab;  // h″/2
-                const T next = t - h * slope / max(slope * slope - h * bend, T(1e-30f));
-                t = select(less(zero, slope), clamp(next, zero, one), one);
-            }
-            const T dx = mx + (t * ax + 2.f * bx) * t, dy = my + (t * ay + 2.f * by) * t;
-            nearest = min(nearest, min(mx * mx + my * my, dx * dx + dy * dy));
-            if (half_thickness > 0) continue;
-
-            // Where the piece is at the height of p: the root of a.y t² + 2 b.y t + m.y in [0, 1]. Of the two forms of
-            // the solution this one does not subtract what is nearly equal. The ray crosses a piece at a larger x.
-            const bool up = data[2] > data[1];
-            const float low = up ? data[1] : data[2], high = up ? data[2] : data[1];
-            const T root = sqrt(max(by * by - my * ay, zero));
-            const T s = min(abs(my) / max(root + std::abs(by), T(1e-30f)), one);
-            const T beyond = mx + (s * ax + 2.f * bx) * s;
-            const T crossed = select(less(zero, beyond), -sign, sign);
-            sign = select(less(p.y, T(low)), sign, select(less(p.y, T(high)), crossed, sign));
-        }
-        return sqrt(nearest) * sign - half_thickness;
+        return OutlineInBox::distance(data, p);
+    }
+    using Specialised = OutlineInBox::Specialised;
+    using Parts = TypeList<Specialised>;
+    static constexpr unsigned search_half_instructions = OutlineInBox::search_half_instructions;
+    static bool specialise(const float* data, const PointRange& range, std::span<const float> of,
+                           std::vector<float>& floats) {
+        return OutlineInBox::specialise(data, range, of, floats);
     }
     double support(const glm::dvec3& d, float level) const {
         // A curve lies between its control points.
@@ -112,76 +70,9 @@ struct Bezier {
     }
     Bounds bounds(BoundsQuery&, float level) const {
         Bounds b;
-        for_each_curve([&](const Piece& curve) {
-            const glm::dvec2 way = curve.b(), bend = curve.a();
-            for (const double t : {0.0, 1.0, -way.x / bend.x, -way.y / bend.y}) {
-                if (!(t >= 0 && t <= 1)) continue;
-                const glm::vec3 at(curve.at(t), 0);
-                b = unite(b, {at, at});
-            }
-        });
+        for_each_curve(points, [&](const QuadraticCurve& curve) { b = unite(b, curve.bounds()); });
         const float rounding = 2e-7f * (glm::length(b.centre()) + b.diagonal());
         return detail::at_every_height(b, rounding + thickness * 0.5f + level);
-    }
-
-  private:
-    /// A quadratic curve by its control points.
-    struct Piece {
-        glm::dvec2 start, control, end;
-
-        glm::dvec2 a() const { return start - 2.0 * control + end; }
-        glm::dvec2 b() const { return control - start; }
-        glm::dvec2 at(double t) const { return start + t * (2.0 * b() + t * a()); }
-        /// The part of the curve from one parameter to another, by blossoming.
-        Piece part(double from, double to) const {
-            return {at(from), start + (from + to) * b() + from * to * a(), at(to)};
-        }
-    };
-
-    template <class F>
-    void for_each_curve(F&& f) const {
-        for (std::size_t i = 0; i + 1 < points.size(); i += 2) {
-            const Piece curve{points[i], points[i + 1], points[(i + 2) % points.size()]};
-            if (curve.start != curve.control || curve.start != curve.end) f(curve);
-        }
-    }
-    std::vector<Piece> pieces() const {
-        std::vector<Piece> result;
-        for_each_curve([&](const Piece& curve) {
-            const glm::dvec2 a = curve.a(), b = curve.b();
-            const double slowest = glm::dot(a, a) > 0 ? -glm::dot(a, b) / glm::dot(a, a) : -1;
-            // The parameters at which the speed is 2ᵏ times the least.
-            std::vector<double> cuts{0, 1, slowest, -b.y / a.y};
-            const double least = glm::length(b + slowest * a), per_t = glm::length(a);
-            for (double ratio = 2; least > 0 && ratio < 2e6; ratio *= 2) {
-                const double away = least * std::sqrt(ratio * ratio - 1) / per_t;
-                cuts.insert(cuts.end(), {slowest - away, slowest + away});
-            }
-            std::erase_if(cuts, [](double t) { return !(t >= 0 && t <= 1); });
-            std::sort(cuts.begin(), cuts.end());
-            glm::vec2 from(curve.start);
-            for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
-                Piece piece = curve.part(cuts[i], cuts[i + 1]);
-                const glm::vec2 to(piece.end);
-                if (to == from) continue;
-                // Pieces that meet have the same floats there.
-                piece.start = from;
-                piece.end = to;
-                from = to;
-                result.push_back(towards_faster(piece));
-            }
-        });
-        return result;
-    }
-    /// The same piece, with its ends exchanged if it is slower at the second one. Pieces are cut where the speed has
-    /// doubled; if it grows by a factor above √5 all the same, the piece starts where the curve turns back on itself,
-    /// or the growth is due to rounding. Such a piece is straight, and is given a constant speed.
-    static Piece towards_faster(Piece piece) {
-        const auto squared = [](const glm::dvec2& v) { return glm::dot(v, v); };
-        if (squared(piece.end - piece.control) < squared(piece.b())) std::swap(piece.start, piece.end);
-        if (squared(piece.end - piece.control) > 5 * squared(piece.b()))
-            piece.control = (piece.start + piece.end) * 0.5;
-        return piece;
     }
 };
 

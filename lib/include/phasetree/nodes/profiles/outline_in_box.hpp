@@ -1,0 +1,54 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "phasetree/math/point_range.hpp"
+#include "phasetree/nodes/profiles/outline_pieces.hpp"
+
+namespace phasetree {
+
+/// An outline as it is a primitive with data: the number of its pieces, half of its thickness, which is 0 for one that
+/// is filled, and the pieces (OutlinePieces). In a small box few pieces matter; see LocalDataPrimitive.
+///
+/// The nearest is one of few. Whether a point is inside depends on all pieces to the right of it, but of those that are
+/// to the right of the whole box only the heights of their ends count. As pieces meet at their ends, most of these
+/// cancel; of the others those within the heights of the box are kept, and each turns inside and outside around for all
+/// points that are at least as high.
+struct OutlineInBox {
+    static constexpr std::size_t head = 2;  ///< floats of a whole outline before its pieces
+
+    /// The data of the specialised primitive: the number of pieces, half of the thickness, −1 if the lowest points of
+    /// the box would be inside without its pieces and 1 if not, the number of heights, the heights, and the pieces.
+    struct Specialised {
+        static constexpr std::size_t head = 4;
+        std::vector<float> values{};
+
+        std::span<const float> data() const { return values; }
+        static std::size_t floats(const float* data) {
+            return head + static_cast<std::size_t>(data[3]) + static_cast<std::size_t>(data[0]) * OutlinePieces::floats;
+        }
+        static unsigned half_instructions(const float* data);
+        template <class T>
+        static T distance(const float* data, const Vec3<T>& p) {
+            const int heights = static_cast<int>(data[3]);
+            T sign(data[2]);
+            for (int i = 0; i < heights; ++i)
+                sign = select(less(p.y, T(data[head + static_cast<std::size_t>(i)])), sign, -sign);
+            return OutlinePieces::distance(data + head + heights, static_cast<int>(data[0]), data[1] > 0, p, sign) -
+                   data[1];
+        }
+        static bool is_sound(std::span<const float>);
+    };
+
+    template <class T>
+    static T distance(const float* data, const Vec3<T>& p) {
+        return OutlinePieces::distance(data + head, static_cast<int>(data[0]), data[1] > 0, p, T(1.f)) - data[1];
+    }
+    /// A rough estimate of the cost of a letter of forty pieces for eight points, in halves of a simple instruction's.
+    static constexpr unsigned search_half_instructions = 6000;
+    static bool specialise(const float* data, const PointRange& range, std::span<const float> of,
+                           std::vector<float>& floats);
+};
+
+}  // namespace phasetree

@@ -1,0 +1,151 @@
+#pragma once
+
+#include <array>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <span>
+#include <vector>
+
+#include "phasetree/nodes/fields/profile.hpp"
+
+namespace phasetree {
+
+/// A quadratic Bézier curve B(t), t in [0, 1], by its control points.
+struct QuadraticCurve {
+    glm::dvec2 start, control, end;
+
+    /// B(t) = start + 2 b t + a t².
+    glm::dvec2 a() const { return start - 2.0 * control + end; }
+    glm::dvec2 b() const { return control - start; }
+    glm::dvec2 at(double t) const { return start + t * (2.0 * b() + t * a()); }
+    /// The part of the curve from one parameter to another, by blossoming.
+    QuadraticCurve part(double from, double to) const {
+        return {at(from), start + (from + to) * b() + from * to * a(), at(to)};
+    }
+    bool is_point() const { return start == control && start == end; }
+    /// The least box around it, at z = 0.
+    Bounds bounds() const {
+        Bounds box;
+        const glm::dvec2 way = b(), bend = a();
+        for (const double t : {0.0, 1.0, -way.x / bend.x, -way.y / bend.y}) {
+            if (!(t >= 0 && t <= 1)) continue;
+            const glm::vec3 place(at(t), 0);
+            box = unite(box, {place, place});
+        }
+        return box;
+    }
+};
+
+/// The curves of an outline, each cut into pieces B(t) = s + 2bt + at², t in [0, 1], on which it becomes faster
+/// (a·b ≥ 0), by a factor of two at most, and y is monotone. A point m = s − p away from a piece's start is nearest at
+/// an end or where
+///     h(t) = (B − p)·B′/2 = a² t³ + 3 a·b t² + (2b² + a·m) t + b·m
+/// vanishes and rises. h is convex for t ≥ 0, so only its last root is a minimum, and from the right of it Halley's
+/// steps approach it without passing. Five reach it: where they converge slowest, in the curve's centre of curvature, h
+/// has its three roots in one, an error t − r halves each time, and the distance depends on its fourth power. Where the
+/// piece is straight h is linear, and one step finds its root.
+///
+/// A point is inside if a ray from it along +x crosses the outline an odd number of times. A piece counts once for
+/// low ≤ y < high, with the same numbers where two pieces meet; where t is ill-determined, at a level tangent, the
+/// point of the curve that it leads to is still at the height of p.
+class OutlinePieces {
+  public:
+    /// Each piece has ten floats: s.x, s.y, y of its end, b.x, b.y, a.x, a.y, a², 3 a·b, 2 b².
+    static constexpr std::size_t floats = 10;
+
+    /// Appends the pieces of a curve that is no point to a table, and returns their number.
+    static std::size_t append(const QuadraticCurve& curve, std::vector<float>& table) {
+        const glm::dvec2 a = curve.a(), b = curve.b();
+        const double slowest = glm::dot(a, a) > 0 ? -glm::dot(a, b) / glm::dot(a, a) : -1;
+        // The parameters at which the speed is 2ᵏ times the least.
+        std::vector<double> cuts{0, 1, slowest, -b.y / a.y};
+        const double least = glm::length(b + slowest * a), per_t = glm::length(a);
+        for (double ratio = 2; least > 0 && ratio < 2e6; ratio *= 2) {
+            const double away = least * std::sqrt(ratio * ratio - 1) / per_t;
+            cuts.insert(cuts.end(), {slowest - away, slowest + away});
+        }
+        std::erase_if(cuts, [](double t) { return !(t >= 0 && t <= 1); });
+        std::sort(cuts.begin(), cuts.end());
+        std::size_t count = 0;
+        glm::vec2 from(curve.start);
+        for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+            QuadraticCurve piece = curve.part(cuts[i], cuts[i + 1]);
+            const glm::vec2 to(piece.end);
+            if (to == from) continue;
+            // Pieces that meet have the same floats there.
+            piece.start = from;
+            piece.end = to;
+            from = to;
+            append_piece(towards_faster(piece), table);
+            ++count;
+        }
+        return count;
+    }
+
+    /// The distance to so many pieces, negative inside unless they are a line, which has no inside. `sign` is what it
+    /// would be at p if there were none of these pieces.
+    template <class T>
+    static T distance(const float* data, int count, bool is_line, const Vec3<T>& p, T sign) {
+        const T zero(0.f), one(1.f);
+        T nearest(3e38f);
+        for (int i = 0; i < count; ++i, data += floats) {
+            const float bx = data[3], by = data[4], ax = data[5], ay = data[6];
+            const float a_squared = data[7], three_ab = data[8];
+            const T mx = data[0] - p.x, my = data[1] - p.y;
+            const T linear = mx * ax + my * ay + data[9], constant = mx * bx + my * by;
+            // Halley's steps from the right end to the last root of h. Where h does not rise the right end is tried.
+            T t = one;
+            const int steps = a_squared > 0 ? 5 : 1;
+            for (int k = 0; k < steps; ++k) {
+                const T h = ((t * a_squared + three_ab) * t + linear) * t + constant;
+                const T slope = (t * (3.f * a_squared) + 2.f * three_ab) * t + linear;
+                const T bend = t * (3.f * a_squared) + three_ab;  // h″/2
+                const T next = t - h * slope / max(slope * slope - h * bend, T(1e-30f));
+                t = select(less(zero, slope), clamp(next, zero, one), one);
+            }
+            const T dx = mx + (t * ax + 2.f * bx) * t, dy = my + (t * ay + 2.f * by) * t;
+            nearest = min(nearest, min(mx * mx + my * my, dx * dx + dy * dy));
+            if (is_line) continue;
+
+            // Where the piece is at the height of p: the root of a.y t² + 2 b.y t + m.y in [0, 1]. Of the two forms of
+            // the solution this one does not subtract what is nearly equal. The ray crosses a piece at a larger x.
+            const bool up = data[2] > data[1];
+            const float low = up ? data[1] : data[2], high = up ? data[2] : data[1];
+            const T root = sqrt(max(by * by - my * ay, zero));
+            const T s = min(abs(my) / max(root + std::abs(by), T(1e-30f)), one);
+            const T beyond = mx + (s * ax + 2.f * bx) * s;
+            const T crossed = select(less(zero, beyond), -sign, sign);
+            sign = select(less(p.y, T(low)), sign, select(less(p.y, T(high)), crossed, sign));
+        }
+        return sqrt(nearest) * sign;
+    }
+
+  private:
+    static void append_piece(const QuadraticCurve& piece, std::vector<float>& table) {
+        const glm::dvec2 a = piece.a(), b = piece.b();
+        for (const double v : {piece.start.x, piece.start.y, piece.end.y, b.x, b.y, a.x, a.y, glm::dot(a, a),
+                               3 * glm::dot(a, b), 2 * glm::dot(b, b)})
+            table.push_back(static_cast<float>(v));
+    }
+    /// The same piece, with its ends exchanged if it is slower at the second one. Pieces are cut where the speed has
+    /// doubled; if it grows by a factor above √5 all the same, the piece starts where the curve turns back on itself,
+    /// or the growth is due to rounding. Such a piece is straight, and is given a constant speed.
+    static QuadraticCurve towards_faster(QuadraticCurve piece) {
+        const auto squared = [](const glm::dvec2& v) { return glm::dot(v, v); };
+        if (squared(piece.end - piece.control) < squared(piece.b())) std::swap(piece.start, piece.end);
+        if (squared(piece.end - piece.control) > 5 * squared(piece.b()))
+            piece.control = (piece.start + piece.end) * 0.5;
+        return piece;
+    }
+};
+
+/// The curves of an outline by its points: one on the curve, then a control point, and so on. An even number is closed.
+template <class F>
+void for_each_curve(std::span<const glm::vec2> points, F&& f) {
+    for (std::size_t i = 0; i + 1 < points.size(); i += 2) {
+        const QuadraticCurve curve{points[i], points[i + 1], points[(i + 2) % points.size()]};
+        if (!curve.is_point()) f(curve);
+    }
+}
+
+}  // namespace phasetree

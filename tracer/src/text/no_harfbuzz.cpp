@@ -1,0 +1,18 @@
+// What stands in for harfbuzz.cpp where the library is missing.
+#include <stdexcept>
+
+#include "text/read_text.hpp"
+
+namespace phasetree::tracer {
+
+TextOutlines read_text(const std::filesystem::path& font, const std::string&) {
+    throw std::runtime_error("cannot use the font \"" + font.string() +
+                             "\": this phasetree was built without HarfBuzz: install libharfbuzz-dev, or the library "
+                             "from harfbuzz.github.io, and build again");
+}
+
+bool can_read_fonts() {
+    return false;
+}
+
+}  // namespace phasetree::tracer
