@@ -108,6 +108,10 @@ template <class Search, class Equation, class Otherwise>
 Dual found_equation(const Vec3<Dual>& p, const Search& search, const Equation& equation, const Otherwise&) {
     return equation(search(Vec3<float>{p.x.value(), p.y.value(), p.z.value()}), p);
 }
+template <class Search, class Equation, class Otherwise>
+Dual equation_for_derivatives(const Vec3<Dual>& p, const Search& search, const Equation& equation, const Otherwise&) {
+    return equation(search(Vec3<float>{p.x.value(), p.y.value(), p.z.value()}), p);
+}
 template <std::size_t count, class Search, class Equation, class Otherwise>
 Dual gathered_equation(const Vec3<Dual>& p, const Search& search, const Equation& equation, const Otherwise&) {
     std::array<float, count> numbers;

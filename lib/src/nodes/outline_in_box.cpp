@@ -110,6 +110,17 @@ bool OutlineInBox::specialise(const float* data, const PointRange& range, std::s
     return true;
 }
 
+float OutlineInBox::spacing(const float* data) {
+    const Outline outline = Outline::whole(data);
+    double length = 0;
+    for (std::size_t i = 0; i < outline.pieces.size(); i += piece_floats) {
+        const float* const p = &outline.pieces[i];
+        length += std::hypot(2.0 * static_cast<double>(p[3]) + static_cast<double>(p[5]),
+                             2.0 * static_cast<double>(p[4]) + static_cast<double>(p[6]));
+    }
+    return static_cast<float>(length * piece_floats / static_cast<double>(outline.pieces.size()));
+}
+
 unsigned OutlineInBox::Specialised::half_instructions(const float* data) {
     const Outline outline = Outline::in_box(data);
     unsigned work = 8 + 4 * static_cast<unsigned>(outline.heights.size());

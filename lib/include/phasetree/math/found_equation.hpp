@@ -25,4 +25,11 @@ float gathered_equation(const Vec3<float>& p, const Search& search, const Equati
     return equation(numbers, p);
 }
 
+/// Where a loop is no hardship, but its derivatives are: it is otherwise(p) for all number types but those that carry
+/// derivatives, which are given equation(search(p), p).
+template <class T, class Search, class Equation, class Otherwise>
+T equation_for_derivatives(const Vec3<T>& p, const Search&, const Equation&, const Otherwise& otherwise) {
+    return otherwise(p);
+}
+
 }  // namespace phasetree

@@ -55,6 +55,7 @@ struct Bezier {
     }
     using Specialised = OutlineInBox::Specialised;
     using Parts = TypeList<Specialised>;
+    static float spacing(const float* data) { return OutlineInBox::spacing(data); }
     static constexpr unsigned search_half_instructions = OutlineInBox::search_half_instructions;
     static bool specialise(const float* data, const PointRange& range, std::span<const float> of,
                            std::vector<float>& floats) {

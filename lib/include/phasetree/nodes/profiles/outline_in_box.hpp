@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "phasetree/math/found_equation.hpp"
 #include "phasetree/math/point_range.hpp"
 #include "phasetree/nodes/profiles/outline_pieces.hpp"
 
@@ -31,11 +32,25 @@ struct OutlineInBox {
         static unsigned half_instructions(const float* data);
         template <class T>
         static T distance(const float* data, const Vec3<T>& p) {
-            const int heights = static_cast<int>(data[3]);
-            T sign(data[2]);
-            for (int i = 0; i < heights; ++i)
-                sign = select(less(p.y, T(data[head + static_cast<std::size_t>(i)])), sign, -sign);
-            return OutlinePieces::distance(data + head + heights, static_cast<int>(data[0]), data[1] > 0, p, sign) -
+            const auto count = static_cast<int>(data[0]), heights = static_cast<int>(data[3]);
+            const float* const pieces = data + head + heights;
+            const bool is_line = data[1] > 0;
+            const auto sign_without_pieces = [&]<class U>(const Vec3<U>& q) {
+                U sign(data[2]);
+                for (const float* y = data + head; y != pieces; ++y) sign = select(less(q.y, U(*y)), sign, -sign);
+                return sign;
+            };
+            return equation_for_derivatives(
+                       p,
+                       [&](const Vec3<float>& q) {
+                           return OutlinePieces::find(pieces, count, is_line, q, sign_without_pieces(q));
+                       },
+                       [](const OutlinePieces::Found& found, const auto& q) {
+                           return OutlinePieces::distance_by(found, q);
+                       },
+                       [&](const auto& q) {
+                           return OutlinePieces::distance(pieces, count, is_line, q, sign_without_pieces(q));
+                       }) -
                    data[1];
         }
         static bool is_sound(std::span<const float>);
@@ -43,10 +58,23 @@ struct OutlineInBox {
 
     template <class T>
     static T distance(const float* data, const Vec3<T>& p) {
-        return OutlinePieces::distance(data + head, static_cast<int>(data[0]), data[1] > 0, p, T(1.f)) - data[1];
+        const auto count = static_cast<int>(data[0]);
+        const float* const pieces = data + head;
+        const bool is_line = data[1] > 0;
+        return equation_for_derivatives(
+                   p, [&](const Vec3<float>& q) { return OutlinePieces::find(pieces, count, is_line, q, 1); },
+                   [](const OutlinePieces::Found& found, const auto& q) {
+                       return OutlinePieces::distance_by(found, q);
+                   },
+                   [&]<class U>(const Vec3<U>& q) {
+                       return OutlinePieces::distance(pieces, count, is_line, q, U(1.f));
+                   }) -
+               data[1];
     }
     /// A rough estimate of the cost of a letter of forty pieces for eight points, in halves of a simple instruction's.
     static constexpr unsigned search_half_instructions = 6000;
+    /// The mean length of a piece.
+    static float spacing(const float* data);
     static bool specialise(const float* data, const PointRange& range, std::span<const float> of,
                            std::vector<float>& floats);
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <span>
@@ -86,41 +87,71 @@ class OutlinePieces {
     /// would be at p if there were none of these pieces.
     template <class T>
     static T distance(const float* data, int count, bool is_line, const Vec3<T>& p, T sign) {
-        const T zero(0.f), one(1.f);
         T nearest(3e38f);
         for (int i = 0; i < count; ++i, data += floats) {
-            const float bx = data[3], by = data[4], ax = data[5], ay = data[6];
-            const float a_squared = data[7], three_ab = data[8];
-            const T mx = data[0] - p.x, my = data[1] - p.y;
-            const T linear = mx * ax + my * ay + data[9], constant = mx * bx + my * by;
-            // Halley's steps from the right end to the last root of h. Where h does not rise the right end is tried.
-            T t = one;
-            const int steps = a_squared > 0 ? 5 : 1;
-            for (int k = 0; k < steps; ++k) {
-                const T h = ((t * a_squared + three_ab) * t + linear) * t + constant;
-                const T slope = (t * (3.f * a_squared) + 2.f * three_ab) * t + linear;
-                const T bend = t * (3.f * a_squared) + three_ab;  // h″/2
-                const T next = t - h * slope / max(slope * slope - h * bend, T(1e-30f));
-                t = select(less(zero, slope), clamp(next, zero, one), one);
-            }
-            const T dx = mx + (t * ax + 2.f * bx) * t, dy = my + (t * ay + 2.f * by) * t;
-            nearest = min(nearest, min(mx * mx + my * my, dx * dx + dy * dy));
-            if (is_line) continue;
-
-            // Where the piece is at the height of p: the root of a.y t² + 2 b.y t + m.y in [0, 1]. Of the two forms of
-            // the solution this one does not subtract what is nearly equal. The ray crosses a piece at a larger x.
-            const bool up = data[2] > data[1];
-            const float low = up ? data[1] : data[2], high = up ? data[2] : data[1];
-            const T root = sqrt(max(by * by - my * ay, zero));
-            const T s = min(abs(my) / max(root + std::abs(by), T(1e-30f)), one);
-            const T beyond = mx + (s * ax + 2.f * bx) * s;
-            const T crossed = select(less(zero, beyond), -sign, sign);
-            sign = select(less(p.y, T(low)), sign, select(less(p.y, T(high)), crossed, sign));
+            const Way<T> way = way_to(data, p);
+            nearest = min(nearest, min(way.squared_to_start, way.x * way.x + way.y * way.y));
+            if (!is_line) sign = sign_beyond(data, p, sign);
         }
         return sqrt(nearest) * sign;
     }
 
+    /// The distance at a point and its gradient there. On a curve that is across it. So it is known as well on the
+    /// outline as elsewhere, where from the way to the nearest point it would not be.
+    struct Found {
+        float distance;
+        glm::vec2 at, gradient;
+    };
+    static Found find(const float* data, int count, bool is_line, const Vec3<float>& p, float sign);
+    /// The same as an equation about the point.
+    template <class T>
+    static T distance_by(const Found& found, const Vec3<T>& p) {
+        return found.distance + ((p.x - found.at.x) * found.gradient.x + (p.y - found.at.y) * found.gradient.y);
+    }
+
   private:
+    /// The squared distance to the start of a piece; and the way to the point of it that is nearest, unless the start
+    /// is, with its parameter.
+    template <class T>
+    struct Way {
+        T squared_to_start, x, y, t;
+    };
+    template <class T>
+    static Way<T> way_to(const float* data, const Vec3<T>& p) {
+        const T zero(0.f), one(1.f);
+        const float bx = data[3], by = data[4], ax = data[5], ay = data[6];
+        const float a_squared = data[7], three_ab = data[8];
+        const T mx = data[0] - p.x, my = data[1] - p.y;
+        const T linear = mx * ax + my * ay + data[9], constant = mx * bx + my * by;
+        // Halley's steps from the right end to the last root of h. Where h does not rise the right end is tried.
+        T t = one;
+        const int steps = a_squared > 0 ? 5 : 1;
+        for (int k = 0; k < steps; ++k) {
+            const T h = ((t * a_squared + three_ab) * t + linear) * t + constant;
+            const T slope = (t * (3.f * a_squared) + 2.f * three_ab) * t + linear;
+            const T bend = t * (3.f * a_squared) + three_ab;  // h″/2
+            const T next = t - h * slope / max(slope * slope - h * bend, T(1e-30f));
+            t = select(less(zero, slope), clamp(next, zero, one), one);
+        }
+        return {mx * mx + my * my, mx + (t * ax + 2.f * bx) * t, my + (t * ay + 2.f * by) * t, t};
+    }
+    /// The sign, turned around if a ray along +x crosses the piece.
+    template <class T>
+    static T sign_beyond(const float* data, const Vec3<T>& p, T sign) {
+        const T zero(0.f), one(1.f);
+        const float bx = data[3], by = data[4], ax = data[5], ay = data[6];
+        const T mx = data[0] - p.x, my = data[1] - p.y;
+        // Where the piece is at the height of p: the root of a.y t² + 2 b.y t + m.y in [0, 1]. Of the two forms of the
+        // solution this one does not subtract what is nearly equal. The ray crosses a piece at a larger x.
+        const bool up = data[2] > data[1];
+        const float low = up ? data[1] : data[2], high = up ? data[2] : data[1];
+        const T root = sqrt(max(by * by - my * ay, zero));
+        const T s = min(abs(my) / max(root + std::abs(by), T(1e-30f)), one);
+        const T beyond = mx + (s * ax + 2.f * bx) * s;
+        const T crossed = select(less(zero, beyond), -sign, sign);
+        return select(less(p.y, T(low)), sign, select(less(p.y, T(high)), crossed, sign));
+    }
+
     static void append_piece(const QuadraticCurve& piece, std::vector<float>& table) {
         const glm::dvec2 a = piece.a(), b = piece.b();
         for (const double v : {piece.start.x, piece.start.y, piece.end.y, b.x, b.y, a.x, a.y, glm::dot(a, a),
@@ -146,6 +177,34 @@ void for_each_curve(std::span<const glm::vec2> points, F&& f) {
         const QuadraticCurve curve{points[i], points[i + 1], points[(i + 2) % points.size()]};
         if (!curve.is_point()) f(curve);
     }
+}
+
+inline OutlinePieces::Found OutlinePieces::find(const float* data, int count, bool is_line, const Vec3<float>& p,
+                                                float sign) {
+    float nearest = 3e38f;
+    glm::vec2 away(0), tangent(0);  // from the nearest point; none at an end
+    for (int i = 0; i < count; ++i, data += floats) {
+        const Way<float> way = way_to(data, p);
+        const float squared = way.x * way.x + way.y * way.y;
+        if (way.squared_to_start < nearest) {
+            nearest = way.squared_to_start;
+            away = {p.x - data[0], p.y - data[1]};
+            tangent = glm::vec2(0);
+        }
+        if (squared < nearest) {
+            nearest = squared;
+            away = {-way.x, -way.y};
+            const bool is_end = !(way.t > 0 && way.t < 1);
+            tangent = is_end ? glm::vec2(0) : glm::vec2(data[3], data[4]) + way.t * glm::vec2(data[5], data[6]);
+        }
+        if (!is_line) sign = sign_beyond(data, p, sign);
+    }
+    const float length = std::sqrt(nearest);
+    glm::vec2 across(-tangent.y, tangent.x);
+    if (glm::dot(across, away) < 0) across = -across;
+    if (tangent == glm::vec2(0)) across = away;
+    const float size = glm::length(across);
+    return {length * sign, {p.x, p.y}, size > 0 ? sign / size * across : glm::vec2(0)};
 }
 
 }  // namespace phasetree
