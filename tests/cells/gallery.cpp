@@ -20,7 +20,8 @@ TEST_CASE("the nearest crossing over all cells is the whole object's in the gall
     int scenes = 0;
     for (const auto& entry : std::filesystem::directory_iterator(source_directory() + "/scenes")) {
         if (entry.path().extension() != ".json" || entry.path().stem() == "scene.schema") continue;
-        if (entry.path().stem() == "pomegranate") continue;  // of images, which this library does not read
+        // Of images and of a font, which this library does not read.
+        if (entry.path().stem() == "pomegranate" || entry.path().stem() == "letters") continue;
         const std::string path = entry.path().string();
         CAPTURE(path);
         Random rng(15);  // files come in any order

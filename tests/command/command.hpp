@@ -138,8 +138,7 @@ class Shell {
 
 // A scene that renders quickly; the parts may be replaced.
 struct SceneText {
-    std::string phases =
-        R"({"glass": {"clear": {"ior": 1.5}}, "water": {"clear": {"ior": 1.33}}, "wood": {"diffuse": {"color": [0.5, 0.4, 0.3]}}})";
+    std::string phases;  // without any, those that the tree and the shapes name
     std::string shapes = R"({"ball": {"sphere": {"radius": 1}}})";
     std::string tree = R"({"set": {"phase": "glass", "of": "ball"}})";
     std::string lights = R"([{"constant": {}}])";
@@ -147,8 +146,18 @@ struct SceneText {
     std::string rest = R"("render": {"width": 24, "height": 16, "samples": 2})";
 
     std::string text() const {
-        return "{\"version\": 1,\n\"phases\": " + phases + ",\n\"shapes\": " + shapes + ",\n\"tree\": " + tree +
-               ",\n\"lights\": " + lights + ",\n\"camera\": " + camera + (rest.empty() ? "" : ",\n" + rest) + "}\n";
+        return "{\"version\": 1,\n\"phases\": " + (phases.empty() ? named_phases() : phases) +
+               ",\n\"shapes\": " + shapes + ",\n\"tree\": " + tree + ",\n\"lights\": " + lights +
+               ",\n\"camera\": " + camera + (rest.empty() ? "" : ",\n" + rest) + "}\n";
+    }
+
+  private:
+    std::string named_phases() const {
+        std::string all = R"("glass": {"clear": {"ior": 1.5}})";
+        const auto is_named = [&](const char* name) { return (tree + shapes).find(name) != std::string::npos; };
+        if (is_named("\"water\"")) all += R"(, "water": {"clear": {"ior": 1.33}})";
+        if (is_named("\"wood\"")) all += R"(, "wood": {"diffuse": {"color": [0.5, 0.4, 0.3]}})";
+        return "{" + all + "}";
     }
 };
 

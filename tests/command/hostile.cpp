@@ -113,6 +113,8 @@ class WrongScenes {
     // Keys, kinds and numbers.
     void add_keys_and_numbers() {
         rest("unknown key", "did you mean \"background\"", R"("backgruond": [0, 0, 0])");
+        rest("setting of the image in the scene", "\"samples\" stands in \"render\"", R"("samples": 3)");
+        rest("setting of the camera in the scene", "\"fov\" stands in \"camera\"", R"("fov": 3)");
         rest("a key twice", "lights", R"("lights": [])");
         ball("misspelt parameter", "did you mean \"radius\"", R"({"sphere": {"raduis": 1}})");
         ball("misspelt node", "did you mean \"sphere\"", R"({"shpere": {"radius": 1}})");

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string only_tree = R"({"version": 1, "phases": {"glass": {"clear": {"ior": 1.5}}, "wood": 0},
+const std::string only_tree = R"({"version": 1, "phases": {"glass": 0},
 "tree": )";
 
 std::string tree_of(const std::string& shape, const std::string& more = "") {
@@ -216,6 +216,18 @@ TEST_CASE("an object of which nothing is left is worth a sentence") {
         CHECK(o.err.find("warning: the object is empty") != std::string::npos);
     }
     CHECK(std::filesystem::exists(shell.directory / "b.exr"));
+}
+
+TEST_CASE("check warns of a phase that is declared and nowhere") {
+    const Shell shell;
+    const std::string tree = R"(, "tree": {"set": {"phase": "a", "of": {"sphere": {"radius": 1}}}}})";
+    write_text(shell.directory / "one.json", R"({"version": 1, "phases": {"a": {"clear": {"ior": 1.5}}})" + tree);
+    write_text(shell.directory / "two.json",
+               R"({"version": 1, "phases": {"a": {"clear": {"ior": 1.5}}, "b": {"clear": {"ior": 1.3}}})" + tree);
+    const Outcome all = shell.run({"check", "one.json"}), some = shell.run({"check", "two.json"});
+    CHECK(all.err == "");
+    CHECK(some.code == all.code);
+    CHECK(some.err.starts_with("two.json:1:57: warning: the phase \"b\" is declared, and is nowhere\n"));
 }
 
 }  // namespace test_outcomes

@@ -211,7 +211,9 @@ TEST_CASE("eval: phases and distances, in full precision") {
 
 TEST_CASE("eval leaves phases that are nowhere empty") {
     const Shell shell;
-    write_text(shell.directory / "scene.json", SceneText().text());
+    SceneText scene;
+    scene.phases = R"({"glass": {"clear": {"ior": 1.5}}, "water": {"clear": {}}, "wood": {"diffuse": {}}})";
+    write_text(shell.directory / "scene.json", scene.text());
     const Outcome o = shell.run({"eval", "scene.json"}, "0 0 0.5\n");
     CHECK(o.code == 0);
     CHECK(o.out == "x,y,z,phase,phi.vacuum,phi.glass,phi.water,phi.wood\n0,0,0.5,glass,0.5,-0.5,,\n");

@@ -51,7 +51,9 @@ TEST_CASE("wrong arguments: one error, exit code 2, nothing left behind") {
         {{"--stats", "nowhere/stats.json"}, "nowhere/stats.json"},
         {{"--stats", "."}, "cannot write \".\": it is a directory"},
         {{"--stats", "/dev/null"}, "it is not a regular file"},
-        {{"--nonsense"}, "--nonsense"},
+        {{"--nonsense"}, "phasetree render: there is no option --nonsense\nRun with --help"},
+        {{"--sample", "3"}, "there is no option --sample; did you mean --spp?"},
+        {{"--threds=3"}, "there is no option --threds; did you mean --threads?"},
         {{"another.json"}, "another.json"}};
     const Shell shell;
     write_text(shell.directory / "scene.json", SceneText().text());

@@ -1039,9 +1039,6 @@ class Expression:
     It stands for a field wherever one is needed, glass(x**2 + y**2 - 1), and is the solid where it is negative.
     within(low, high) cuts that to a box, which formulas need whose slope grows without bound. Floats of the formula are
     those of single precision; it is divided by a bound of its slope, which is found when the field is made."""
-    @property
-    def text(self):
-        r"""The formula as a scene file has it."""
     def within(self, low, high):
         r"""The same, cut to the box with these corners; a number stands for the same along each axis."""
     def field(self):
@@ -1767,6 +1764,19 @@ def bezier(points: Sequence[Sequence[float]] | np.ndarray, thickness: float | No
 
     points: [x, y] of a point on the curve, then of a control point, and so on. An even number is a closed curve, an odd one ends on its last point. (list of [x, y]s in m)
     thickness: Width of a line along the curve; 0 fills a closed curve, even-odd where it crosses itself. (number in m; zero or more; default 0)
+    """
+
+def text(text: str | Expression, file: str | PathLike[str], size: float | None = ..., align: float | None = ..., spacing: float | None = ..., line_height: float | None = ...) -> Field:
+    r"""Letters of a font, for extruding; the same at every z, exact where no two letters overlap. The first line stands on y = 0 and lines follow downwards.
+
+        min over the letters of ± min over their curves of |p − B(t)|
+
+    text: What is written; \n begins another line. (text)
+    file: The font: TrueType or OpenType (.ttf, .otf). (name of a file)
+    size: The font's em: capitals are about 0.7 of it high. (number in m; positive; default 1)
+    align: What of each line is at x = 0: its beginning at 0, its middle at 0.5, its end at 1. (number; at least 0 and at most 1; default 0)
+    spacing: More room behind each letter than the font leaves; less, if it is negative. (number in em; at least -1 and at most 100; default 0)
+    line_height: From one line to the next. (number in em; positive; default 1.2)
     """
 
 def formula(text: str | Expression, bounds: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Field:

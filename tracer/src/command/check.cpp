@@ -6,6 +6,7 @@
 #include "command/overlap_report.hpp"
 #include "command/streams.hpp"
 #include "command/unplaced_report.hpp"
+#include "command/unused_phases.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/trace/tracer.hpp"
@@ -15,9 +16,18 @@ namespace phasetree::tracer {
 
 namespace {
 
+// The phases of one object, or of many that stand somewhere.
+PhaseSet phases_of(const Phased& object, const PlacedObjects& placed) {
+    if (placed.empty()) return phases(object);
+    PhaseSet all{};
+    for (const PlacedObject& o : placed.objects) all = all | phases(o.tree);
+    return all;
+}
+
 // A scene without a camera is a tree for all that does not render. Says what it is good for.
 int check_without_camera(const Document& document, const std::string& shown) {
     const SceneModel model = read_scene_without_camera(document);
+    warn_of_unused_phases(document, model.phases, phases_of(model.object, model.placed));
     if (!model.placed.empty()) {
         warn_of_unplaced_groups(document, model.placed);
         warn_of_overlaps(document, model.placed);
@@ -45,6 +55,7 @@ int check(const SceneFile& file) {
     if (document.root().is_object() && !document.root().find("camera"))
         return check_without_camera(document, file.shown());
     const Scene scene = load_scene(document);
+    warn_of_unused_phases(document, scene.phases, phases_of(scene.object, scene.placed));
     if (!scene.placed.empty()) {
         warn_of_unplaced_groups(document, scene.placed);
         warn_of_overlaps(document, scene.placed);

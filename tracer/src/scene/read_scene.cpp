@@ -13,9 +13,26 @@ namespace phasetree::tracer {
 
 namespace {
 
+// A setting of the image or of the camera is easily written one level too high.
+void refuse_misplaced_settings(ObjectReader& root) {
+    for (const Value member : root.document().root()) {
+        const std::string_view key = member.key();
+        const auto refuse = [&](const char* part) {
+            throw root.document().error(member.key_offset(),
+                                        fmt::format("\"{}\" stands in \"{}\", not in the scene itself", key, part));
+        };
+        ImageParameters::parameters([&](auto, const Parameter& p) {
+            if (p.name == key) refuse("render");
+        });
+        for (const char* const name : {"position", "look_at", "fov"})
+            if (key == name) refuse("camera");
+    }
+}
+
 // The parts that the file has, whether they are needed or not: a tree alone is good for something, too.
 FileParts parts_of(ObjectReader& root) {
     FileParts::parameters([&](auto, const auto& p) { root.allow({p.name}); });
+    refuse_misplaced_settings(root);
     root.finish();
     FileParts parts;
     FileParts::parameters([&](auto part, const auto& p) { parts.*part = root.value(p.name); });
