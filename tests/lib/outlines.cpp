@@ -181,6 +181,14 @@ TEST_CASE("in a box the few pieces that matter there give the same distances to 
         if (rng.chance(0.2)) curve.thickness = 0.05f;
         curve.prepare();
         compare_in_boxes(curve, Bounds::centred(glm::vec3(1.5f)), rng, c);
+        Polygon star;
+        const int corners = 5 + rng.below(20);
+        for (int i = 0; i < corners; ++i) {
+            const float angle = 6.2831853f * static_cast<float>(i) / static_cast<float>(corners);
+            star.points.push_back(rng.uniform(0.3f, 1.2f) * glm::vec2(std::cos(angle), std::sin(angle)));
+        }
+        star.prepare();
+        compare_in_boxes(star, Bounds::centred(glm::vec3(1.5f)), rng, c);
         Text text{.size = rng.uniform(0.3f, 2)};
         text.file.content = std::make_shared<const TextOutlines>(random_text(rng));
         text.prepare();

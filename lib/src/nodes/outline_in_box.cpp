@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t piece_floats = OutlinePieces::floats;
 // The work for one piece, in halves of a simple instruction's.
-constexpr unsigned work_of_curved = 200, work_of_straight = 100;
+constexpr unsigned work_of_curved = 200, work_of_straight = 60;
 
 // An outline, or what is left of it in a box around this one.
 struct Outline {
@@ -125,7 +125,7 @@ unsigned OutlineInBox::Specialised::half_instructions(const float* data) {
     const Outline outline = Outline::in_box(data);
     unsigned work = 8 + 4 * static_cast<unsigned>(outline.heights.size());
     for (std::size_t i = 0; i < outline.pieces.size(); i += piece_floats)
-        work += outline.pieces[i + 7] > 0 ? work_of_curved : work_of_straight;
+        work += OutlinePieces::is_straight(&outline.pieces[i]) ? work_of_straight : work_of_curved;
     return work;
 }
 

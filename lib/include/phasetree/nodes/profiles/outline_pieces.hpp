@@ -43,8 +43,8 @@ struct QuadraticCurve {
 ///     h(t) = (B − p)·B′/2 = a² t³ + 3 a·b t² + (2b² + a·m) t + b·m
 /// vanishes and rises. h is convex for t ≥ 0, so only its last root is a minimum, and from the right of it Halley's
 /// steps approach it without passing. Five reach it: where they converge slowest, in the curve's centre of curvature, h
-/// has its three roots in one, an error t − r halves each time, and the distance depends on its fourth power. Where the
-/// piece is straight h is linear, and one step finds its root.
+/// has its three roots in one, an error t − r halves each time, and the distance depends on its fourth power. Where a
+/// piece is straight, as those of polygons are, h is linear.
 ///
 /// A point is inside if a ray from it along +x crosses the outline an odd number of times. A piece counts once for
 /// low ≤ y < high, with the same numbers where two pieces meet; where t is ill-determined, at a level tangent, the
@@ -109,6 +109,8 @@ class OutlinePieces {
         return found.distance + ((p.x - found.at.x) * found.gradient.x + (p.y - found.at.y) * found.gradient.y);
     }
 
+    static bool is_straight(const float* piece) { return !(piece[7] > 0); }
+
   private:
     /// The squared distance to the start of a piece; and the way to the point of it that is nearest, unless the start
     /// is, with its parameter.
@@ -122,11 +124,15 @@ class OutlinePieces {
         const float bx = data[3], by = data[4], ax = data[5], ay = data[6];
         const float a_squared = data[7], three_ab = data[8];
         const T mx = data[0] - p.x, my = data[1] - p.y;
-        const T linear = mx * ax + my * ay + data[9], constant = mx * bx + my * by;
+        const T constant = mx * bx + my * by;
+        if (is_straight(data)) {
+            const T t = clamp(-constant * (1 / data[9]), zero, one);
+            return {mx * mx + my * my, mx + t * (2.f * bx), my + t * (2.f * by), t};
+        }
         // Halley's steps from the right end to the last root of h. Where h does not rise the right end is tried.
+        const T linear = mx * ax + my * ay + data[9];
         T t = one;
-        const int steps = a_squared > 0 ? 5 : 1;
-        for (int k = 0; k < steps; ++k) {
+        for (int k = 0; k < 5; ++k) {
             const T h = ((t * a_squared + three_ab) * t + linear) * t + constant;
             const T slope = (t * (3.f * a_squared) + 2.f * three_ab) * t + linear;
             const T bend = t * (3.f * a_squared) + three_ab;  // h″/2
@@ -145,9 +151,15 @@ class OutlinePieces {
         // solution this one does not subtract what is nearly equal. The ray crosses a piece at a larger x.
         const bool up = data[2] > data[1];
         const float low = up ? data[1] : data[2], high = up ? data[2] : data[1];
-        const T root = sqrt(max(by * by - my * ay, zero));
-        const T s = min(abs(my) / max(root + std::abs(by), T(1e-30f)), one);
-        const T beyond = mx + (s * ax + 2.f * bx) * s;
+        T beyond;
+        if (is_straight(data)) {
+            const T s = min(abs(my) * (0.5f / std::max(std::abs(by), 1e-30f)), one);
+            beyond = mx + s * (2.f * bx);
+        } else {
+            const T root = sqrt(max(by * by - my * ay, zero));
+            const T s = min(abs(my) / max(root + std::abs(by), T(1e-30f)), one);
+            beyond = mx + (s * ax + 2.f * bx) * s;
+        }
         const T crossed = select(less(zero, beyond), -sign, sign);
         return select(less(p.y, T(low)), sign, select(less(p.y, T(high)), crossed, sign));
     }

@@ -4,14 +4,11 @@
 #include <vector>
 
 #include "phasetree/math/support.hpp"
-#include "phasetree/nodes/fields/profile.hpp"
+#include "phasetree/nodes/profiles/outline_in_box.hpp"
 
 namespace phasetree {
 
-/// The distance is that to the nearest edge. A point is inside if a ray from it along +x crosses the outline an odd
-/// number of times.
-/// An edge counts for low ≤ y < high, with the same numbers where two edges meet; so a crossing is missed or counted
-/// twice only where the side of an edge is a matter of rounding, on the outline itself.
+/// Its edges are straight pieces of an outline: outline_pieces.hpp has the equation, outline_in_box.hpp the data.
 struct Polygon {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"polygon", "", "± min over the edges of |p − a − clamp((p − a)·e/e², 0, 1) e|",
@@ -19,8 +16,7 @@ struct Polygon {
                                    "exact."};
     static constexpr std::size_t most_points = 4096;
     std::vector<glm::vec2> points{};
-    std::vector<float> table{};  ///< derived: the number of edges, and for each its start, vector, y of its end and 1
-                                 ///< over the squared length
+    std::vector<float> table{};  ///< derived, as OutlineInBox has it
 
     template <class V>
     static void parameters(V&& v) {
@@ -42,32 +38,25 @@ struct Polygon {
                 if (cross_or_touch(i, j))
                     throw ModelError("polygon: the edges from its points " + std::to_string(i + 1) + " and " +
                                      std::to_string(j + 1) + " cross or touch");
-        table = {static_cast<float>(points.size())};
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            const glm::vec2 a = points[i], b = at(i + 1);
-            const double x = static_cast<double>(b.x) - a.x, y = static_cast<double>(b.y) - a.y;
-            table.insert(table.end(), {a.x, a.y, static_cast<float>(x), static_cast<float>(y), b.y,
-                                       static_cast<float>(1 / (x * x + y * y))});
+        table = {0.f, 0.f};
+        std::size_t pieces = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            const glm::dvec2 start(at(i)), end(at(i + 1));
+            pieces += OutlinePieces::append({start, 0.5 * (start + end), end}, table);
         }
+        table[0] = static_cast<float>(pieces);
     }
     std::span<const float> data() const { return table; }
     template <class T>
     static T distance(const float* data, const Vec3<T>& p) {
-        const T zero(0.f), one(1.f);
-        T nearest(3e38f), sign(1.f);
-        const int count = static_cast<int>(*data++);
-        for (int i = 0; i < count; ++i, data += 6) {
-            const float ex = data[2], ey = data[3], end = data[4];
-            const T x = p.x - data[0], y = p.y - data[1];
-            const T t = clamp((x * ex + y * ey) * data[5], zero, one);
-            const T dx = x - t * ex, dy = y - t * ey;
-            nearest = min(nearest, dx * dx + dy * dy);
-            const T left = end > data[1] ? y * ex - x * ey : x * ey - y * ex;
-            const float low = end > data[1] ? data[1] : end, high = end > data[1] ? end : data[1];
-            const T crossed = select(less(zero, left), -sign, sign);
-            sign = select(less(p.y, T(low)), sign, select(less(p.y, T(high)), crossed, sign));
-        }
-        return sqrt(nearest) * sign;
+        return OutlineInBox::distance(data, p);
+    }
+    using Specialised = OutlineInBox::Specialised;  // Bezier names it as a part
+    static constexpr unsigned search_half_instructions = 2000;
+    static float spacing(const float* data) { return OutlineInBox::spacing(data); }
+    static bool specialise(const float* data, const PointRange& range, std::span<const float> of,
+                           std::vector<float>& floats) {
+        return OutlineInBox::specialise(data, range, of, floats);
     }
     double support(const glm::dvec3& d, float level) const {
         double most = -std::numeric_limits<double>::infinity();
