@@ -19,13 +19,15 @@ TEST_CASE("rough conductor: directions follow the pdf, weights the function, and
     struct Case {
         float roughness;
         double theta;
+        float aspect = 1.0f;
     };
-    constexpr Case cases[] = {{0.3f, 0.0}, {0.4f, 60.0}, {0.5f, 86.0}, {1.0f, 30.0}};
+    constexpr Case cases[] = {{0.3f, 0.0}, {0.4f, 60.0}, {0.5f, 86.0}, {1.0f, 30.0}, {0.6f, 50.0, 0.4f}};
     const Metal copper = *find_metal("copper");
     const double significance = sidak(1e-4, 2 * std::size(cases));
     for (const Case& c : cases) {
         CAPTURE(c.theta);
-        const ConductorSurface surface(1.0f, copper.eta, copper.k, ValueRange{c.roughness, c.roughness});
+        const ConductorSurface surface(1.0f, copper.eta, copper.k, ValueRange{c.roughness, c.roughness}, {}, {},
+                                       c.aspect);
         const tracer::Bsdf bsdf(RoughConductorBsdf(surface, c.roughness));
         const BsdfReport report = examine(bsdf, direction(c.theta), 21);
         CHECK(report.directions > significance);
@@ -41,15 +43,17 @@ TEST_CASE("rough conductor: directions follow the pdf, weights the function, and
 
 TEST_CASE("rough conductor: reciprocal") {
     const Metal gold = *find_metal("gold");
-    const ConductorSurface surface(1.0f, gold.eta, gold.k, ValueRange{0.3f, 0.3f});
-    const tracer::Bsdf bsdf(RoughConductorBsdf(surface, 0.3f));
-    Uniform uniform(23);
-    for (int i = 0; i < 1000; ++i) {
-        const glm::vec3 a = tracer::square_to_cosine_hemisphere({uniform(), uniform()});
-        const glm::vec3 b = tracer::square_to_cosine_hemisphere({uniform(), uniform()});
-        const glm::vec3 there = bsdf.evaluate(a, b) / b.z;
-        const glm::vec3 back = bsdf.evaluate(b, a) / a.z;
-        CHECK(glm::length(there - back) <= 1e-4f * glm::length(there));
+    for (const float aspect : {1.0f, 0.2f}) {
+        const ConductorSurface surface(1.0f, gold.eta, gold.k, ValueRange{0.3f, 0.3f}, {}, {}, aspect);
+        const tracer::Bsdf bsdf(RoughConductorBsdf(surface, 0.3f));
+        Uniform uniform(23);
+        for (int i = 0; i < 1000; ++i) {
+            const glm::vec3 a = tracer::square_to_cosine_hemisphere({uniform(), uniform()});
+            const glm::vec3 b = tracer::square_to_cosine_hemisphere({uniform(), uniform()});
+            const glm::vec3 there = bsdf.evaluate(a, b) / b.z;
+            const glm::vec3 back = bsdf.evaluate(b, a) / a.z;
+            CHECK(glm::length(there - back) <= 1e-4f * glm::length(there));
+        }
     }
 }
 

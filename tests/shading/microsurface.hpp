@@ -23,7 +23,9 @@ namespace phasetree::tests {
 
 class Microsurface {
   public:
-    explicit Microsurface(float alpha) : alpha_(alpha), ggx_(alpha) {}
+    explicit Microsurface(float alpha) : Microsurface(alpha, alpha) {}
+    // Of brushed metal with strokes along x.
+    Microsurface(float along_x, float along_y) : along_x_(along_x), along_y_(along_y), ggx_(along_x, along_y) {}
 
     // How light that comes from wo leaves again. `bounces` counts its reflections at normals; `transmitted` says on
     // which side it leaves, of a dielectric with that relative index; nothing if it takes longer than a thousand.
@@ -82,8 +84,9 @@ class Microsurface {
   private:
     double lambda(const glm::vec3& w) const {
         const double z = static_cast<double>(w.z);
-        const double tan2 =
-            std::max(0.0, 1.0 - z * z) / (z * z) * static_cast<double>(alpha_) * static_cast<double>(alpha_);
+        const double x = static_cast<double>(along_x_) * static_cast<double>(w.x) / z;
+        const double y = static_cast<double>(along_y_) * static_cast<double>(w.y) / z;
+        const double tan2 = x * x + y * y;
         return 0.5 * (std::copysign(std::sqrt(1.0 + tan2), z) - 1.0);
     }
 
@@ -98,7 +101,7 @@ class Microsurface {
         return 2.0 * std::clamp(below / std::pow(1.0 - u, 1.0 / l), 0.0, 1.0) - 1.0;
     }
 
-    float alpha_;
+    float along_x_, along_y_;
     tracer::Ggx ggx_;
 };
 

@@ -102,16 +102,31 @@ TEST_CASE("warp: uniform disk") {
 }
 
 TEST_CASE("GGX: visible normals follow their density") {
-    const Ggx ggx(0.4f);
     const glm::vec3 o = direction(70.0);
-    check([&](const glm::vec2& u) { return ggx.sample_visible_normal(o, u); },
-          [&](const glm::vec3& m) { return m.z > 0.0f ? ggx.visible_normal_pdf(o, m) : 0.0f; });
+    for (const Ggx& ggx : {Ggx(0.4f), Ggx(0.2f, 0.6f)})
+        check([&](const glm::vec2& u) { return ggx.sample_visible_normal(o, u); },
+              [&](const glm::vec3& m) { return m.z > 0.0f ? ggx.visible_normal_pdf(o, m) : 0.0f; });
+}
+
+TEST_CASE("GGX: with two roughnesses the slopes are Student's, each over its own roughness") {
+    constexpr double a = 0.1, b = 0.35;
+    const Ggx ggx(static_cast<float>(a), static_cast<float>(b));
+    for (const double theta : {0.0, 3.0, 20.0, 60.0}) {
+        for (const double phi : {0.0, 40.0, 90.0}) {
+            const glm::dvec3 m(direction(theta, phi));
+            const double x = m.x / m.z / a, y = m.y / m.z / b;
+            const double of_slopes = 1 / (std::numbers::pi * a * b * (1 + x * x + y * y) * (1 + x * x + y * y));
+            const double z2 = m.z * m.z;
+            const auto found = static_cast<double>(ggx.distribution(glm::vec3(m)));
+            CHECK(found == doctest::Approx(of_slopes / (z2 * z2)).epsilon(1e-5));
+        }
+    }
 }
 
 TEST_CASE(
     "GGX: the projected area of all microfacets is that of the surface, and of the visible ones that of the view") {
-    for (const float alpha : {0.2f, 0.5f, 1.0f}) {
-        const Ggx ggx(alpha);
+    for (const glm::vec2 alpha : {glm::vec2(0.2f), glm::vec2(0.5f), glm::vec2(1.0f), glm::vec2(0.3f, 0.8f)}) {
+        const Ggx ggx(alpha.x, alpha.y);
         const double area = total(
             integrate_cells([&](const glm::vec3& m) { return m.z > 0.0f ? ggx.distribution(m) * m.z : 0.0f; }, 128));
         CHECK(area == doctest::Approx(1.0).epsilon(1e-3));
@@ -122,7 +137,7 @@ TEST_CASE(
                     return m.z > 0.0f ? ggx.masking(o) * std::max(0.0f, glm::dot(o, m)) * ggx.distribution(m) : 0.0f;
                 },
                 128));
-            CAPTURE(alpha);
+            CAPTURE(alpha.x);
             CAPTURE(theta);
             CHECK(visible == doctest::Approx(static_cast<double>(o.z)).epsilon(2e-3));
         }

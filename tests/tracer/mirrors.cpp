@@ -43,7 +43,7 @@ TEST_CASE("a point light before a flat mirror lights the floor twice, the second
     CHECK(mean_p_value(found, direct + planted * mirrored, 2e-3 * mirrored) < significance);
 }
 
-TEST_CASE("photons and paths find the same light by mirrors, rough metal, bumps, and glass on the way") {
+TEST_CASE("photons and paths find the same light by mirrors, rough and brushed metal, bumps, and glass on the way") {
     // Two lamps on either side: how likely each is sampled depends on the normal where shadow rays start.
     struct Case {
         std::string name;
@@ -55,9 +55,11 @@ TEST_CASE("photons and paths find the same light by mirrors, rough metal, bumps,
         R"(, "bump": {"field": {"of": {"translate": {"by": [0, 0, -50], "of": {"box": {"size": [100, 100, 100]}}}},
              "ramp": [[-1, [0, 0, 0]], [1, [1, 1, 1]]]}}, "bump_height": 1)";
     const std::string rough = R"(, "roughness": 0.25)";
-    for (const Case& c : {Case{"a mirror", "", ""}, Case{"rough metal", rough, ""}, Case{"bumps", bumps, ""},
-                          Case{"rough metal with bumps", rough + bumps, ""}, Case{"glass", "", R"("ior": 1.5)"},
-                          Case{"rough glass", "", R"("ior": 1.5, "roughness": 0.3)"}}) {
+    const std::string brushed = R"(, "grain_around": [0, 0, 1], "grain_aspect": 0.3)";
+    for (const Case& c :
+         {Case{"a mirror", "", ""}, Case{"rough metal", rough, ""}, Case{"brushed metal", rough + brushed, ""},
+          Case{"bumps", bumps, ""}, Case{"rough metal with bumps", rough + bumps, ""},
+          Case{"glass", "", R"("ior": 1.5)"}, Case{"rough glass", "", R"("ior": 1.5, "roughness": 0.3)"}}) {
         CAPTURE(c.name);
         const std::string ball =
             c.glass.empty()
@@ -81,7 +83,31 @@ TEST_CASE("photons and paths find the same light by mirrors, rough metal, bumps,
                 scene.settings.photon_radius = long_form ? 0.15f : 0.3f;
                 return scene;
             },
-            planted, sidak(1e-4, 2 * 6));
+            planted, sidak(1e-4, 2 * 7));
+    }
+}
+
+TEST_CASE("photons and paths find the same light by brushed metal, whichever way its strokes run") {
+    // Upright strokes throw the lamp's light to both sides, level ones up and down, so that the place is lit otherwise.
+    for (const std::string along : {"[0, 1, 0]", "[0, 0, 1]"}) {
+        CAPTURE(along);
+        check_pictures(
+            [&](bool caustics) {
+                Scene scene = scene_of(
+                    R"("floor": {"diffuse": {"color": [0.1, 0.1, 0.1]}}, "wall": {)" + white_metal +
+                        R"(, "roughness": 0.3, "grain_aspect": 0.2, "grain_along": )" + along + "}}",
+                    R"({"over": [{"set": {"phase": "wall", "of": {"translate": {"by": [-1.1, 0, 1], "of": {"box": {"size": [0.2, 5, 2]}}}}}}, )" +
+                        floor_below + "]}",
+                    R"("lights": [{"spot": {"position": [0.5, 0, 1.5], "target": [-1, 0, 0.7], "cone": 30, "intensity": 30}}],
+                       "camera": {"position": [2.5, 2.5, 2.5], "look_at": [0.2, 0.9, 0], "fov": 12},
+                       "render": {"width": 16, "height": 16})");
+                scene.settings.caustics = caustics;
+                scene.settings.samples = long_form ? 4000 : 120;
+                scene.settings.photons = long_form ? 32 : 8;
+                scene.settings.photon_radius = long_form ? 0.1f : 0.2f;
+                return scene;
+            },
+            long_form ? 1.05 : 1.25, sidak(1e-4, 2 * 2));
     }
 }
 

@@ -129,6 +129,11 @@ inline void tell(std::vector<float>& told, const tracer::Material& material) {
                 told.push_back(m.bump ? m.bump->height : 0);
                 if (m.bump) tell(told, m.bump->texture);
             }
+            if constexpr (requires { m.grain; }) {
+                tell(told, m.grain ? m.grain->axis : glm::vec3(0));
+                tell(told, m.grain && m.grain->through ? *m.grain->through : glm::vec3(-1));
+                told.push_back(m.grain ? m.grain->aspect : 1);
+            }
             if constexpr (requires { m.color; }) tell(told, m.color);
             if constexpr (requires { m.light; }) {
                 tell(told, m.light);
@@ -249,7 +254,13 @@ inline std::vector<Case> cases_of_materials() {
     const std::string index = R"("eta": [1, 2, 3], "k": [2, 3, 4])";
     material("conductor", R"("metal": "gold")",
              bumped(R"("metal": "gold")",
-                    {{"eta", index}, {"k", index}, {"film_ior", R"("metal": "gold", "film_thickness": 300)"}}));
+                    {{"eta", index},
+                     {"k", index},
+                     {"film_ior", R"("metal": "gold", "film_thickness": 300)"},
+                     {"grain_along", R"("metal": "gold", "roughness": 0.3)"},
+                     {"grain_around", R"("metal": "gold", "roughness": 0.3)"},
+                     {"grain_through", R"("metal": "gold", "roughness": 0.3, "grain_around": [0, 0, 1])"},
+                     {"grain_aspect", R"("metal": "gold", "roughness": 0.3, "grain_along": [1, 0, 0])"}}));
     material(
         "coated", R"("color": [0.1, 0.2, 0.3])",
         bumped(R"("color": [0.1, 0.2, 0.3])", {{"film_ior", R"("color": [0.1, 0.2, 0.3], "film_thickness": 300)"}}));

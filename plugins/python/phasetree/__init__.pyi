@@ -2530,13 +2530,17 @@ class materials:
         bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
         """
     @staticmethod
-    def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold", "iron", "nickel", "silver", "titanium", "tungsten", "aluminum"] | None = ..., eta: Sequence[float] | np.ndarray | None = ..., k: Sequence[float] | np.ndarray | None = ..., roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ...) -> Material:
+    def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold", "iron", "nickel", "silver", "titanium", "tungsten", "aluminum"] | None = ..., eta: Sequence[float] | np.ndarray | None = ..., k: Sequence[float] | np.ndarray | None = ..., roughness: float | Number | None = ..., grain_along: Sequence[float] | np.ndarray | None = ..., grain_around: Sequence[float] | np.ndarray | None = ..., grain_through: Sequence[float] | np.ndarray | None = ..., grain_aspect: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ...) -> Material:
         r"""Metal: one of the measured ones, or with a complex index η + ik of one's own.
 
         metal: A measured metal. (`"aluminium"`, `"brass"`, `"chromium"`, `"copper"`, `"gold"`, `"iron"`, `"nickel"`, `"silver"`, `"titanium"`, `"tungsten"`, `"aluminum"`; default none)
         eta: η for red, green and blue; needed unless a metal is named. ([r, g, b]; positive; default none)
         k: k for red, green and blue; needed unless a metal is named. ([r, g, b]; zero or more; default none)
         roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
+        grain_along: Brushed metal: the direction of its strokes, which is projected onto the surface. The roughness is that across them. ([x, y, z], not all zero; default none)
+        grain_around: In place of it, of metal that was turned on a lathe: the direction of the axis around which the strokes run. ([x, y, z], not all zero; default none)
+        grain_through: With an axis: a point of it, in the object's own space; the origin without. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
+        grain_aspect: With a grain: the roughness along the strokes over that across; 0.2 without. (number; at least 0.1 and at most 1; default none)
         film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
         bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45° to 55°. (colour or texture; default none)
@@ -2601,13 +2605,17 @@ def diffuse(color: Sequence[float] | str | Texture, roughness: float | Number | 
     bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
     """
 
-def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold", "iron", "nickel", "silver", "titanium", "tungsten", "aluminum"] | None = ..., eta: Sequence[float] | np.ndarray | None = ..., k: Sequence[float] | np.ndarray | None = ..., roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ...) -> Material:
+def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold", "iron", "nickel", "silver", "titanium", "tungsten", "aluminum"] | None = ..., eta: Sequence[float] | np.ndarray | None = ..., k: Sequence[float] | np.ndarray | None = ..., roughness: float | Number | None = ..., grain_along: Sequence[float] | np.ndarray | None = ..., grain_around: Sequence[float] | np.ndarray | None = ..., grain_through: Sequence[float] | np.ndarray | None = ..., grain_aspect: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ...) -> Material:
     r"""Metal: one of the measured ones, or with a complex index η + ik of one's own.
 
     metal: A measured metal. (`"aluminium"`, `"brass"`, `"chromium"`, `"copper"`, `"gold"`, `"iron"`, `"nickel"`, `"silver"`, `"titanium"`, `"tungsten"`, `"aluminum"`; default none)
     eta: η for red, green and blue; needed unless a metal is named. ([r, g, b]; positive; default none)
     k: k for red, green and blue; needed unless a metal is named. ([r, g, b]; zero or more; default none)
     roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
+    grain_along: Brushed metal: the direction of its strokes, which is projected onto the surface. The roughness is that across them. ([x, y, z], not all zero; default none)
+    grain_around: In place of it, of metal that was turned on a lathe: the direction of the axis around which the strokes run. ([x, y, z], not all zero; default none)
+    grain_through: With an axis: a point of it, in the object's own space; the origin without. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
+    grain_aspect: With a grain: the roughness along the strokes over that across; 0.2 without. (number; at least 0.1 and at most 1; default none)
     film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
     bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45° to 55°. (colour or texture; default none)

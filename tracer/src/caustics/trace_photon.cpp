@@ -121,7 +121,7 @@ class PhotonFlight {
 
     // Sends the photon on from an interface, into one of its directions. Returns false if it ends there.
     bool scatter(const Surface& surface, const Bsdf& bsdf) {
-        const Frame frame(surface.normal);
+        const Frame frame = surface.frame();
         const glm::vec3 wo = frame.to_local(-ray_.direction);
         const float u_lobe = sampler_.next();
         // A smooth interface has no density of directions, so it needs no more than the number that chooses the lobe.

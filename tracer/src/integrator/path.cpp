@@ -170,7 +170,7 @@ class Path {
     bool scatter_and_continue(const Surface& surface, const Bsdf& unguided) {
         ++counters_.interactions;
         is_camera_ray_ = false;
-        const Frame frame(surface.normal);
+        const Frame frame = surface.frame();
         const GuidedBsdf bsdf(unguided, frame, frame.to_local(-ray_.direction), guiding_.at(surface, unguided));
         LightProposal proposal;
         const auto per_line_density_of = [&](const glm::vec3& wi) {

@@ -93,7 +93,7 @@ Arrival trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSa
             continue;
         }
         if (sampled.is_of_point_light() || !is_link(bsdf, *surface) || ++length > longest_chain) return arrival;
-        const Frame frame(surface->normal);
+        const Frame frame = surface->frame();
         // A smooth interface has no lobe to choose a direction in, so the two numbers do not matter.
         const auto next = bsdf.sample(frame.to_local(-ray.direction), context.sampler.next(), glm::vec2(0.0f));
         if (!next) return arrival;

@@ -1,11 +1,12 @@
 // The GGX (Trowbridge-Reitz) distribution of microfacet normals, with Smith's masking and shadowing.
 //
-//   D(m)      = α² / (π (m.x² + m.y² + α² m.z²)²)
-//   G₁(w)     = 2 |w.z| / (|w.z| + √(w.z² + α² (1 − w.z²)))
+//   D(m)      = 1 / (π a b (m.x²/a² + m.y²/b² + m.z²)²)
+//   G₁(w)     = 2 |w.z| / (|w.z| + √(a² w.x² + b² w.y² + w.z²))
 //   G₂(o, i)  = 1 / (1 + Λ(o) + Λ(i)) for reflection (heights correlated), G₁(o) G₁(i) for transmission
 //   D_o(m)    = G₁(o) max(0, o·m) D(m) / o.z, the density of the normals that `o` sees
 //
-// α is the roughness; m.z > 0 and o.z > 0.
+// a and b are the roughness along x and along y, which differ on brushed metal and are one α elsewhere; m.z > 0 and
+// o.z > 0.
 //
 // References: Walter, Marschner, Li & Torrance, Microfacet Models for Refraction through Rough Surfaces, EGSR 2007;
 // Heitz, Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs, JCGT 3(2), 2014; Dupuy & Benyoub,
@@ -24,13 +25,13 @@ namespace phasetree::tracer {
 
 class Ggx {
   public:
-    explicit Ggx(float alpha) : alpha_(alpha), alpha2_(alpha * alpha) {}
-
-    float alpha() const { return alpha_; }
+    explicit Ggx(float alpha) : Ggx(alpha, alpha) {}
+    Ggx(float along_x, float along_y) : a_(along_x), b_(along_y) {}
 
     float distribution(const glm::vec3& m) const {
-        const float stretched = m.x * m.x + m.y * m.y + alpha2_ * m.z * m.z;
-        return alpha2_ / (pi * stretched * stretched);
+        const float x = b_ * m.x, y = a_ * m.y, z = a_ * b_ * m.z;
+        const float stretched = x * x + y * y + z * z;
+        return a_ * b_ * (a_ * b_ / stretched) * (a_ * b_ / stretched) / pi;
     }
 
     float masking(const glm::vec3& w) const { return 2.0f * std::abs(w.z) / (std::abs(w.z) + slope_term(w)); }
@@ -53,10 +54,10 @@ class Ggx {
     /// A normal that `o` sees. The normals seen on the stretched, hemispherical surface are halfway between `o` and a
     /// direction uniform on a spherical cap.
     glm::vec3 sample_visible_normal(const glm::vec3& o, const glm::vec2& u) const {
-        const glm::vec3 stretched = glm::normalize(glm::vec3{alpha_ * o.x, alpha_ * o.y, o.z});
+        const glm::vec3 stretched = glm::normalize(glm::vec3{a_ * o.x, b_ * o.y, o.z});
         const glm::vec3 cap = square_to_uniform_cone({u.y, u.x}, 1.0f + stretched.z);
         const glm::vec3 half = cap + stretched;
-        const glm::vec3 normal{alpha_ * half.x, alpha_ * half.y, std::max(1e-9f, half.z)};
+        const glm::vec3 normal{a_ * half.x, b_ * half.y, std::max(1e-9f, half.z)};
         return glm::normalize(normal);
     }
 
@@ -67,12 +68,11 @@ class Ggx {
 
   private:
     float slope_term(const glm::vec3& w) const {
-        const float z2 = w.z * w.z;
-        return std::sqrt(z2 + alpha2_ * std::max(0.0f, 1.0f - z2));
+        const float x = a_ * w.x, y = b_ * w.y;
+        return std::sqrt(x * x + y * y + w.z * w.z);
     }
 
-    float alpha_;
-    float alpha2_;
+    float a_, b_;
 };
 
 }  // namespace phasetree::tracer

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <glm/geometric.hpp>
 #include <stdexcept>
 
 #include "phasetree/io/read_kind.hpp"
@@ -30,6 +31,27 @@ std::optional<Bump> BumpParameters::bump() const {
                              ParameterError::Place::key);
     if (!bump_texture || *bump_height == 0.0f) return std::nullopt;
     return Bump{*bump_texture, *bump_height};
+}
+
+std::optional<Grain> GrainParameters::grain(const Number& roughness) const {
+    const auto wrong = [](const char* key, const char* what) {
+        throw ParameterError(key, what, ParameterError::Place::key);
+    };
+    if (grain_along && grain_around)
+        wrong("grain_around", "strokes run either along a direction or around an axis; give one of the two");
+    if (grain_through && !grain_around)
+        wrong("grain_through", "\"grain_through\" is a point of the axis \"grain_around\", which is missing");
+    if (!grain_along && !grain_around) {
+        if (grain_aspect) wrong("grain_aspect", "\"grain_aspect\" needs a grain: \"grain_along\" or \"grain_around\"");
+        return std::nullopt;
+    }
+    const char* const key = grain_along ? "grain_along" : "grain_around";
+    if (is_smooth(greatest_of(roughness)))
+        wrong(key, "strokes are seen on rough metal alone: give it a \"roughness\", which is that across them");
+    Grain grain{.axis = glm::normalize(grain_along ? *grain_along : *grain_around)};
+    if (grain_around) grain.through = grain_through.value_or(glm::vec3(0.0f));
+    if (grain_aspect) grain.aspect = *grain_aspect;
+    return grain;
 }
 
 std::optional<Dispersion> ClearParameters::dispersion() const {
@@ -67,12 +89,12 @@ Conductor ConductorParameters::made() const {
                              ParameterError::Place::key);
     if (metal) {
         const Metal found = find_metal(*metal).value();
-        return {found.eta, found.k, roughness, film(), found.spectrum, bump()};
+        return {found.eta, found.k, roughness, film(), found.spectrum, bump(), grain(roughness)};
     }
     if (!eta && !k) throw std::invalid_argument("the conductor material needs a \"metal\", or \"eta\" and \"k\"");
     if (!eta) throw ParameterError("eta", "is missing");
     if (!k) throw ParameterError("k", "is missing");
-    return {*eta, *k, roughness, film(), {}, bump()};
+    return {*eta, *k, roughness, film(), {}, bump(), grain(roughness)};
 }
 
 Material read_material(const Document& document, Value value) {

@@ -180,7 +180,35 @@ struct DiffuseParameters : BumpParameters {
 
 std::vector<std::string_view> names_of_metals();
 
-struct ConductorParameters : FilmParameters, BumpParameters {
+// What brushed metal has of a grain.
+struct GrainParameters {
+    std::optional<glm::vec3> grain_along{};
+    std::optional<glm::vec3> grain_around{};
+    std::optional<glm::vec3> grain_through{};
+    std::optional<float> grain_aspect{};
+
+    template <class P, class V>
+    static void grain_parameters(V&& v) {
+        v(&P::grain_along, DirectionParameter{{"grain_along", "",
+                                               "Brushed metal: the direction of its strokes, which is projected onto "
+                                               "the surface. The roughness is that across them.",
+                                               limits::any, true}});
+        v(&P::grain_around, DirectionParameter{{"grain_around", "",
+                                                "In place of it, of metal that was turned on a lathe: the direction of "
+                                                "the axis around which the strokes run.",
+                                                limits::any, true}});
+        v(&P::grain_through,
+          Parameter{"grain_through", "m", "With an axis: a point of it, in the object's own space; the origin without.",
+                    Limits{.low = -farthest, .high = farthest}, true});
+        v(&P::grain_aspect,
+          Parameter{"grain_aspect", "", "With a grain: the roughness along the strokes over that across; 0.2 without.",
+                    Limits{.low = 0.1f, .high = 1}, true});
+    }
+    /// `roughness` is that of the metal. Throws ParameterError for what does not fit together.
+    std::optional<Grain> grain(const Number& roughness) const;
+};
+
+struct ConductorParameters : FilmParameters, BumpParameters, GrainParameters {
     static constexpr KindInfo info{"conductor",
                                    "Metal: one of the measured ones, or with a complex index η + ik of one's own."};
 
@@ -198,6 +226,7 @@ struct ConductorParameters : FilmParameters, BumpParameters {
         v(&P::k, RgbParameter{{"k", "", "k for red, green and blue; needed unless a metal is named.",
                                limits::non_negative, true}});
         v(&P::roughness, roughness_parameter);
+        grain_parameters<P>(v);
         film_parameters<P>(v);
         bump_parameters<P>(v);
     }

@@ -11,6 +11,14 @@ namespace phasetree::tracer {
 class Frame {
   public:
     explicit Frame(const glm::vec3& normal) : normal_(normal), basis_(normal) {}
+    /// Local x is the projection of `along`, of any length; where it has none, as of the other constructor.
+    Frame(const glm::vec3& normal, const glm::vec3& along) : Frame(normal) {
+        const glm::vec3 x = along - glm::dot(along, normal) * normal;
+        const float squared = glm::dot(x, x);
+        if (!(squared > least_projection * glm::dot(along, along))) return;
+        basis_.tangent = x / glm::sqrt(squared);
+        basis_.bitangent = glm::cross(normal, basis_.tangent);
+    }
 
     glm::vec3 to_local(const glm::vec3& world) const {
         return {glm::dot(world, basis_.tangent), glm::dot(world, basis_.bitangent), glm::dot(world, normal_)};
@@ -21,6 +29,9 @@ class Frame {
     const glm::vec3& normal() const { return normal_; }
 
   private:
+    // The square of the sine below which a projection is mostly rounding.
+    static constexpr float least_projection = 1e-8f;
+
     glm::vec3 normal_;
     support::OrthonormalBasis<glm::vec3> basis_;
 };

@@ -45,9 +45,9 @@ Interface::Optics optics_of(const Clear& from, const Clear& to, SharedSurfaces& 
 }
 
 Interface::Optics optics_of(const Clear& from, const Conductor& to, SharedSurfaces& shared) {
-    return Interface::MetalOptics{
-        shared.conductor(from.ior, to.eta, to.k, rough_part(range_of(to.roughness)), film_of(to.film), to.spectrum),
-        to.roughness, thickness_of(to.film)};
+    return Interface::MetalOptics{shared.conductor(from.ior, to.eta, to.k, rough_part(range_of(to.roughness)),
+                                                   film_of(to.film), to.spectrum, to.grain ? to.grain->aspect : 1.0f),
+                                  to.roughness, thickness_of(to.film), to.grain};
 }
 
 Interface::Optics optics_of(const Clear&, const Diffuse& to, SharedSurfaces&) {
@@ -126,6 +126,11 @@ Interface Interface::between(const Material& from, const Material& to, SharedSur
                 return Interface(optics_of(*clear, material, shared));
         },
         to);
+}
+
+const Grain* Interface::grain() const {
+    const MetalOptics* metal = std::get_if<MetalOptics>(&optics_);
+    return metal && metal->grain ? &*metal->grain : nullptr;
 }
 
 bool Interface::disperses() const {

@@ -37,6 +37,8 @@ class Interface {
     Bsdf at(const TexturePoint& point, const Wavelengths* wavelengths = nullptr) && = delete;
     /// The bumps of the surface, if it has any.
     const Bump* bump() const { return bump_ ? &*bump_ : nullptr; }
+    /// The grain of its surface, if it has any: then local x of a BSDF is along it.
+    const Grain* grain() const;
     /// Whether it refracts light of different wavelengths differently.
     bool disperses() const;
 
@@ -64,6 +66,7 @@ class Interface {
         std::shared_ptr<const ConductorSurface> surface;
         Number roughness;
         Number thickness;
+        std::optional<Grain> grain;
     };
     struct DiffuseOptics {
         std::shared_ptr<const Texture> color;

@@ -1,8 +1,8 @@
 // What a scene says of a phase or a mesh, as plain values. A material is the optics of a surface, and of a clear one
 // also the medium inside: light travels in phases of clear materials, and ends at the surface of all others.
 //
-// `roughness` is, but for what is diffuse, the α of GGX: 0 is polished, 0.1 satin, 0.5 matt. Below 0.001 a surface is
-// treated as perfectly smooth, which no eye tells apart. What the surface between two materials does is in
+// `roughness` is, but for what is diffuse, the α of GGX: 0 is polished, 0.1 satin, 0.5 matt; roughness.hpp says below
+// which a surface is treated as perfectly smooth. What the surface between two materials does is in
 // interface.hpp.
 #pragma once
 
@@ -15,19 +15,15 @@
 
 #include "media/medium.hpp"
 #include "shading/bump.hpp"
+#include "shading/grain.hpp"
 #include "shading/metals.hpp"
+#include "shading/roughness.hpp"
 #include "shading/texture/number.hpp"
 #include "shading/texture/texture.hpp"
 #include "spectrum/dispersion.hpp"
 #include "spectrum/light_spectrum.hpp"
 
 namespace phasetree::tracer {
-
-/// The least roughness that is not treated as none.
-inline constexpr float least_roughness = 1e-3f;
-inline bool is_smooth(float roughness) {
-    return !(roughness >= least_roughness);
-}
 
 /// A film of some hundred nanometres on a surface, which shows colours by interference: thin_film.hpp.
 struct SurfaceFilm {
@@ -63,6 +59,7 @@ struct Conductor {
     std::optional<SurfaceFilm> film{};
     std::span<const MetalPoint> spectrum{};  ///< of a measured one, for light of wavelengths; it stays where it is
     std::optional<Bump> bump{};
+    std::optional<Grain> grain{};  ///< then `roughness` is that across it
 };
 
 /// A diffuse base under a clear coat: varnished or glazed.

@@ -33,9 +33,9 @@ std::shared_ptr<const DielectricSurface> SharedSurfaces::dielectric(float ior_fr
 std::shared_ptr<const ConductorSurface> SharedSurfaces::conductor(float ior, const glm::vec3& eta, const glm::vec3& k,
                                                                   const std::optional<ValueRange>& roughness,
                                                                   const std::optional<FilmOfSurface>& film,
-                                                                  std::span<const MetalPoint> spectrum) {
-    return found_or_made(conductors_, Conductor{ior, eta, k, roughness, film, spectrum.data()}, [&] {
-        return std::make_shared<const ConductorSurface>(ior, eta, k, roughness, film, spectrum);
+                                                                  std::span<const MetalPoint> spectrum, float aspect) {
+    return found_or_made(conductors_, Conductor{ior, eta, k, roughness, film, spectrum.data(), aspect}, [&] {
+        return std::make_shared<const ConductorSurface>(ior, eta, k, roughness, film, spectrum, aspect);
     });
 }
 

@@ -26,7 +26,7 @@ class SharedSurfaces {
     std::shared_ptr<const ConductorSurface> conductor(float ior, const glm::vec3& eta, const glm::vec3& k,
                                                       const std::optional<ValueRange>& roughness,
                                                       const std::optional<FilmOfSurface>& film,
-                                                      std::span<const MetalPoint> spectrum);
+                                                      std::span<const MetalPoint> spectrum, float aspect = 1.0f);
     std::shared_ptr<const CoatingAlbedo> coating(float ior_from, float ior_coat, const ValueRange& roughness,
                                                  const std::optional<FilmOfSurface>& film);
 
@@ -44,6 +44,7 @@ class SharedSurfaces {
         std::optional<ValueRange> roughness;
         std::optional<FilmOfSurface> film;
         const MetalPoint* spectrum;
+        float aspect;
         bool operator==(const Conductor&) const = default;
     };
     struct Coating {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <variant>
 
+#include "shading/frame.hpp"
 #include "shading/interface.hpp"
 #include "world/ray.hpp"
 
@@ -38,6 +39,10 @@ struct Surface {
     std::uint32_t object;                            ///< the objects of phases come first, then the meshes
     std::optional<Phase> entered;                    ///< the phase behind, clear or opaque; none behind a mesh
     TexturePoint place;                              ///< in the space of what was met
+    std::optional<glm::vec3> along_grain{};          ///< in the scene's space, if the surface has a grain (grain.hpp)
+
+    /// The space of its BSDF: local z is the shading normal, and x is along the grain, if it has any.
+    Frame frame() const { return along_grain ? Frame(normal, *along_grain) : Frame(normal); }
 
     /// For light of these wavelengths, or for red, green and blue; it must not outlive the wavelengths.
     Bsdf bsdf(const Wavelengths* wavelengths = nullptr) const { return optics.get().at(place, wavelengths); }

@@ -153,6 +153,10 @@ Surface TracedGeometry::surface_of_several(const Ray& ray, const Met& met, doubl
         const glm::vec3 in_scene(glm::normalize(in_object * shown.copy.to_object.matrix));
         surface.normal = turned_to_ray(in_scene, surface.geometric_normal, ray.direction);
     }
+    if (const Grain* grain = surface.optics.get().grain()) {
+        const glm::dvec3 in_object(grain->direction_at(surface.place));
+        surface.along_grain = glm::vec3(glm::normalize(glm::inverse(shown.copy.to_object.matrix) * in_object));
+    }
     return surface;
 }
 

@@ -229,6 +229,7 @@ Surface TracedGeometry::surface_of_object(const Ray& ray, const embree::Query& q
     if (is_clear(scene_.materials[c.to.index])) surface.far_side = {c.p_out, c.to};
     if (const Bump* bump = surface.optics.get().bump())
         surface.normal = turned_to_ray(bump->normal_at(surface.place), surface.geometric_normal, ray.direction);
+    if (const Grain* grain = surface.optics.get().grain()) surface.along_grain = grain->direction_at(surface.place);
     return surface;
 }
 
@@ -253,16 +254,18 @@ Surface TracedGeometry::surface_of_mesh(const Ray& ray, const RTCRayHit& hit) co
     const TexturePoint place(origin, shading, coordinates_at(mesh, hit));
     const Interface& optics = mesh_interfaces_[index * scene_.materials.size() + ray.phase.index];
     if (const Bump* bump = optics.bump()) shading = turned_to_ray(bump->normal_at(place), flat, ray.direction);
-    return {.distance = hit.ray.tfar,
-            .normal = shading,
-            .geometric_normal = flat,
-            .near_side = {origin, ray.phase, ray.in},
-            .far_side = std::nullopt,
-            .optics = optics,
-            .hint = {},
-            .object = first_mesh_ + static_cast<std::uint32_t>(index),
-            .entered = std::nullopt,
-            .place = place};
+    Surface surface{.distance = hit.ray.tfar,
+                    .normal = shading,
+                    .geometric_normal = flat,
+                    .near_side = {origin, ray.phase, ray.in},
+                    .far_side = std::nullopt,
+                    .optics = optics,
+                    .hint = {},
+                    .object = first_mesh_ + static_cast<std::uint32_t>(index),
+                    .entered = std::nullopt,
+                    .place = place};
+    if (const Grain* grain = optics.grain()) surface.along_grain = grain->direction_at(place);
+    return surface;
 }
 
 CellStatistics TracedGeometry::statistics() const {

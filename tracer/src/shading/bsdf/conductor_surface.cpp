@@ -5,22 +5,26 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "sampling/ggx.hpp"
 #include "shading/bsdf/visible_normals.hpp"
 #include "shading/fresnel.hpp"
+#include "shading/roughness.hpp"
 
 namespace phasetree::tracer {
 
 namespace {
 
 // Of a metal that reflects everything: the part of the light that is not shadowed on its way out.
-LossTable losses_of(float alpha) {
-    const Ggx ggx(alpha);
-    return LossTable([&](float cos_theta) {
-        return mean_over_visible_normals(ggx, cos_theta, [&](const glm::vec3& wo, const glm::vec3& m) {
-            const glm::vec3 wi = 2.0f * glm::dot(wo, m) * m - wo;
-            return glm::vec3(wi.z > 0.0f ? ggx.shadowing_of_reflected(wo, wi) : 0.0f);
-        });
+LossTable losses_of(const Ggx& ggx, bool has_grain) {
+    const auto leaves = [&](const glm::vec3& wo, const glm::vec3& m) {
+        const glm::vec3 wi = 2.0f * glm::dot(wo, m) * m - wo;
+        return glm::vec3(wi.z > 0.0f ? ggx.shadowing_of_reflected(wo, wi) : 0.0f);
+    };
+    if (!has_grain)
+        return LossTable([&](float cos_theta) { return mean_over_visible_normals(ggx, cos_theta, leaves); });
+    return LossTable([&](float cos_theta, float sin_phi) {
+        const float sine = std::sqrt(std::max(0.0f, 1.0f - cos_theta * cos_theta));
+        const glm::vec3 wo{sine * std::sqrt(std::max(0.0f, 1.0f - sin_phi * sin_phi)), sine * sin_phi, cos_theta};
+        return mean_over_visible_normals(ggx, wo, leaves);
     });
 }
 
@@ -49,8 +53,8 @@ constexpr int spectrum_nodes = 81;
 
 ConductorSurface::ConductorSurface(float ior, const glm::vec3& eta, const glm::vec3& k,
                                    const std::optional<ValueRange>& roughness, const std::optional<FilmOfSurface>& film,
-                                   std::span<const MetalPoint> spectrum)
-    : ior_(ior), eta_(eta / ior), k_(k / ior) {
+                                   std::span<const MetalPoint> spectrum, float aspect)
+    : ior_(ior), aspect_(aspect), eta_(eta / ior), k_(k / ior) {
     if (film) film_.emplace(ThinFilm::Layers{ior, film->ior, eta, k}, film->thickness.least, film->thickness.greatest);
     // An index for red, green and blue is taken to be that at the wavelengths for which those of metals are given.
     const std::array<MetalPoint, 3> by_colours{{{450, eta.z, k.z}, {550, eta.y, k.y}, {650, eta.x, k.x}}};
@@ -63,8 +67,12 @@ ConductorSurface::ConductorSurface(float ior, const glm::vec3& eta, const glm::v
         spectrum_.push_back(at);
     }
     if (!roughness) return;
-    losses_.emplace(*roughness, losses_of);
+    losses_.emplace(*roughness, [&](float alpha) { return losses_of(microfacets(alpha, aspect), aspect != 1.0f); });
     mean_reflectance_ = mean_over_cosine([&](float mu) { return fresnel_conductor(mu, eta_, k_); });
+}
+
+Ggx ConductorSurface::microfacets(float roughness, float aspect) {
+    return {std::min(roughness, std::max(aspect * roughness, least_roughness)), roughness};
 }
 
 ConductorSurface::AtWavelength ConductorSurface::at(float nanometres) const {
@@ -97,7 +105,7 @@ ConductorSurface::Multiple ConductorSurface::multiple(float roughness, float thi
     glm::vec3 f = for_light(film_ ? film_->average(thickness) : mean_reflectance_, wavelengths);
     if (!film_ && has_spectrum_for(wavelengths))
         for (int i = 0; i < 3; ++i) f[i] = at(wavelengths->nanometres[i]).mean_reflectance;
-    const float q = gets_away(roughness);
+    const float q = gets_away(roughness * std::sqrt(aspect_));
     return {losses, f * f * q / (1.0f - f * (1.0f - q))};
 }
 

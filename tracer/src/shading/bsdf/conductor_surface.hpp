@@ -6,7 +6,8 @@
 // the sum over the second, third … scattering, of each of which F̄ is left, Fresnel's reflectance under uniform light,
 // and the part q of the light gets away. So the colour of a rough metal is deeper than that of a polished one. We
 // fitted q to walks on the microsurface: the light that meets the surface again gets away more readily than that which
-// comes from outside, of which the part 1 − L̄ does.
+// comes from outside, of which the part 1 − L̄ does. Of brushed metal α is here the geometric mean of the
+// roughnesses along its strokes and across; walks on such a microsurface agree with it.
 //
 // At wavelengths the index is that of the metal's spectrum, which is kept every few nanometres. What a film on a rough
 // metal makes of F̄ is taken from its colours there.
@@ -19,6 +20,7 @@
 #include <span>
 #include <vector>
 
+#include "sampling/ggx.hpp"
 #include "shading/bsdf/film_of_surface.hpp"
 #include "shading/bsdf/lost_energy.hpp"
 #include "shading/metals.hpp"
@@ -30,12 +32,16 @@ namespace phasetree::tracer {
 class ConductorSurface {
   public:
     /// The index η + ik is that against vacuum, as is `ior` of the clear medium in front. `roughness` is that of GGX,
-    /// for a surface that is rough somewhere.
+    /// for a surface that is rough somewhere; with a grain, it is that across the grain, and `aspect` times it the one
+    /// along (shading/grain.hpp).
     /// `spectrum` is the same index by wavelength, if it is known; without it that of blue, green and red is taken to
     /// be the index at 450, 550 and 650 nm, between which it is linear.
     ConductorSurface(float ior, const glm::vec3& eta, const glm::vec3& k,
                      const std::optional<ValueRange>& roughness = {}, const std::optional<FilmOfSurface>& film = {},
-                     std::span<const MetalPoint> spectrum = {});
+                     std::span<const MetalPoint> spectrum = {}, float aspect = 1.0f);
+
+    /// Its microfacets at a place of that roughness; local x is along the grain.
+    Ggx microfacets(float roughness) const { return microfacets(roughness, aspect_); }
 
     /// For light of wavelengths, or for red, green and blue.
     glm::vec3 fresnel(float cos_theta, float thickness, const Wavelengths* wavelengths = nullptr) const;
@@ -56,7 +62,9 @@ class ConductorSurface {
     AtWavelength at(float nanometres) const;
     bool has_spectrum_for(const Wavelengths* wavelengths) const { return wavelengths && wavelengths->is_spectral; }
 
-    float ior_;
+    static Ggx microfacets(float roughness, float aspect);
+
+    float ior_, aspect_;
     glm::vec3 eta_, k_;  ///< relative to the medium in front
     std::optional<ThinFilm> film_;
     std::optional<LossTables> losses_;

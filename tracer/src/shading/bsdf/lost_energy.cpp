@@ -3,18 +3,86 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <utility>
 
 #include "sampling/warps.hpp"
 #include "shading/bsdf/lobes.hpp"
 
 namespace phasetree::tracer {
 
-LossTable::LossTable(const std::function<glm::vec3(float)>& directional_albedo) {
-    const auto cosine_at = [](double t) { return static_cast<float>(t * t); };
+namespace {
+
+float cosine_at(double t) {
+    return static_cast<float>(t * t);
+}
+
+// 1 − E at all nodes of μ.
+template <std::size_t nodes, class Albedo>
+std::array<glm::vec3, nodes> row_of(const Albedo& albedo) {
+    std::array<glm::vec3, nodes> row;
     for (std::size_t i = 0; i < nodes; ++i) {
         const float mu = cosine_at(static_cast<double>(i) / (nodes - 1));
-        loss_[i] = glm::clamp(1.0f - directional_albedo(std::max(1e-4f, mu)), 0.0f, 1.0f);
+        row[i] = glm::clamp(1.0f - albedo(std::max(1e-4f, mu)), 0.0f, 1.0f);
     }
+    return row;
+}
+
+// A place among rows for some |sin φ|, dense near 0, where the roughness along a direction changes the fastest if there
+// is much less of it along the grain than across.
+struct AzimuthPlace {
+    std::size_t below;
+    float part;
+};
+AzimuthPlace azimuth_place(float sin_phi, std::size_t rows) {
+    const float position = std::sqrt(std::min(sin_phi, 1.0f)) * static_cast<float>(rows - 1);
+    const std::size_t below = std::min(static_cast<std::size_t>(position), rows - 2);
+    return {below, position - static_cast<float>(below)};
+}
+
+// At a part of the way from b to c, which lie between a and d: Catmull and Rom's cubic.
+glm::vec3 cubic_through(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& d, float part) {
+    return b + 0.5f * part * (c - a + part * (2.0f * a - 5.0f * b + 4.0f * c - d + part * (3.0f * (b - c) + d - a)));
+}
+
+}  // namespace
+
+LossTable::LossTable(const std::function<glm::vec3(float)>& directional_albedo) {
+    const Row row = row_of<nodes>(directional_albedo);
+    *this = LossTable(std::vector<Row>{row}, row);
+}
+
+LossTable::LossTable(const std::function<glm::vec3(float, float)>& directional_albedo) {
+    constexpr std::size_t coarse = 13, between = (azimuths - 1) / (coarse - 1);
+    std::vector<Row> known;
+    for (std::size_t k = 0; k < coarse; ++k) {
+        const float root = static_cast<float>(k) / (coarse - 1), sin_phi = root * root;
+        known.push_back(row_of<nodes>([&](float mu) { return directional_albedo(mu, sin_phi); }));
+    }
+    std::vector<Row> rows(azimuths);
+    for (std::size_t k = 0; k < azimuths; ++k) {
+        const std::size_t below = std::min(k / between, coarse - 2);
+        const float part = static_cast<float>(k - between * below) / between;
+        for (std::size_t j = 0; j < nodes; ++j) {
+            const glm::vec3 &b = known[below][j], &c = known[below + 1][j];
+            const glm::vec3 a = below > 0 ? known[below - 1][j] : 2.0f * b - c;
+            const glm::vec3 d = below + 2 < coarse ? known[below + 2][j] : 2.0f * c - b;
+            rows[k][j] = glm::clamp(cubic_through(a, b, c, d, part), 0.0f, 1.0f);
+        }
+    }
+    // Evenly over a quarter of a turn, which is like the others.
+    constexpr int steps = 1024;
+    Row mean;
+    mean.fill(glm::vec3(0.0f));
+    for (int i = 0; i < steps; ++i) {
+        const auto [below, part] =
+            azimuth_place(std::sin(0.5f * pi * (static_cast<float>(i) + 0.5f) / steps), azimuths);
+        for (std::size_t j = 0; j < nodes; ++j)
+            mean[j] += glm::mix(rows[below][j], rows[below + 1][j], part) / float{steps};
+    }
+    *this = LossTable(std::move(rows), mean);
+}
+
+LossTable::LossTable(std::vector<Row> rows, const Row& mean) : rows_(std::move(rows)) {
     // The midpoint rule in t = √μ; 2μ dμ = 4t³ dt.
     constexpr int steps = 32;
     glm::dvec3 sum(0.0);
@@ -25,7 +93,7 @@ LossTable::LossTable(const std::function<glm::vec3(float)>& directional_albedo) 
         for (int i = 0; i < steps; ++i) {
             const double t = (static_cast<double>(bin) + (i + 0.5) / steps) / (nodes - 1);
             const double dmu2 = 4.0 * t * t * t / (static_cast<double>(steps) * (nodes - 1));
-            in_bin += dmu2 * glm::dvec3(at(cosine_at(t)));
+            in_bin += dmu2 * glm::dvec3(at(mean, cosine_at(t)));
             weight += dmu2;
         }
         sum += in_bin;
@@ -44,10 +112,21 @@ LossTable::LossTable(const std::function<glm::vec3(float)>& directional_albedo) 
     for (float& below : cumulative_) below /= total;
 }
 
-glm::vec3 LossTable::at(float cos_theta) const {
+glm::vec3 LossTable::at(const Row& row, float cos_theta) {
     const float position = std::sqrt(std::clamp(cos_theta, 0.0f, 1.0f)) * static_cast<float>(nodes - 1);
     const std::size_t below = std::min(static_cast<std::size_t>(position), nodes - 2);
-    return glm::mix(loss_[below], loss_[below + 1], position - static_cast<float>(below));
+    return glm::mix(row[below], row[below + 1], position - static_cast<float>(below));
+}
+
+glm::vec3 LossTable::at(float cos_theta) const {
+    return at(rows_.front(), cos_theta);
+}
+
+glm::vec3 LossTable::at(const glm::vec3& w) const {
+    if (rows_.size() == 1) return at(w.z);
+    const float sine = std::sqrt(w.x * w.x + w.y * w.y);
+    const auto [below, part] = azimuth_place(sine > 0.0f ? std::abs(w.y) / sine : 0.0f, rows_.size());
+    return glm::mix(at(rows_[below], w.z), at(rows_[below + 1], w.z), part);
 }
 
 glm::vec3 LossTable::sample(const glm::vec2& u) const {
@@ -86,6 +165,10 @@ LossTables::At LossTables::at(float roughness) const {
 
 glm::vec3 LossTables::At::at(float cos_theta) const {
     return glm::mix(below_->at(cos_theta), above_->at(cos_theta), part_);
+}
+
+glm::vec3 LossTables::At::at(const glm::vec3& w) const {
+    return glm::mix(below_->at(w), above_->at(w), part_);
 }
 
 glm::vec3 LossTables::At::average() const {

@@ -12,7 +12,7 @@ namespace phasetree::tracer {
 RoughConductorBsdf::RoughConductorBsdf(const ConductorSurface& surface, float roughness, float thickness,
                                        const Wavelengths* wavelengths)
     : surface_(&surface),
-      ggx_(roughness),
+      ggx_(surface.microfacets(roughness)),
       thickness_(thickness),
       wavelengths_(wavelengths),
       multiple_(surface.multiple(roughness, thickness, wavelengths)) {}
@@ -20,10 +20,10 @@ RoughConductorBsdf::RoughConductorBsdf(const ConductorSurface& surface, float ro
 RoughConductorBsdf::Scattered RoughConductorBsdf::scattered(const glm::vec3& wo, const glm::vec3& wi,
                                                             const glm::vec3& m) const {
     const float cos_o = glm::dot(wo, m);
-    const float lost = multiple_.losses.at(wo.z).x;
+    const float lost = multiple_.losses.at(wo).x;
     const float average = std::max(multiple_.losses.average().x, 1e-30f);
     const float once = 0.25f * ggx_.distribution(m) * ggx_.reflection_visibility(wo, wi) * wi.z;
-    const float again = lost * multiple_.losses.at(wi.z).x / average * cosine_hemisphere_pdf(wi.z);
+    const float again = lost * multiple_.losses.at(wi).x / average * cosine_hemisphere_pdf(wi.z);
     return {surface_->fresnel(cos_o, thickness_, wavelengths_) * once + multiple_.reflected * again,
             (1.0f - lost) * ggx_.visible_normal_pdf(wo, m) / (4.0f * cos_o) + lost * multiple_.losses.pdf(wi.z)};
 }
@@ -31,7 +31,7 @@ RoughConductorBsdf::Scattered RoughConductorBsdf::scattered(const glm::vec3& wo,
 std::optional<BsdfSample> RoughConductorBsdf::sample(const glm::vec3& wo, float u_lobe, const glm::vec2& u) const {
     if (!(wo.z > 0.0f)) return std::nullopt;
     glm::vec3 m, wi;
-    if (u_lobe < multiple_.losses.at(wo.z).x) {
+    if (u_lobe < multiple_.losses.at(wo).x) {
         wi = multiple_.losses.sample(u);
         m = glm::normalize(wo + wi);
     } else {

@@ -1,6 +1,7 @@
 // A rough metal: GGX microfacets, f = F D G₂ / (4 |o.z| |i.z|), with Fresnel's equations for the complex index η + ik
 // relative to the clear medium it touches, and what is scattered more than once,
-// f = c (1 − E(o)) (1 − E(i)) / (π L̄), by lost_energy.hpp with c as conductor_surface.hpp has it.
+// f = c (1 − E(o)) (1 − E(i)) / (π L̄), by lost_energy.hpp with c as conductor_surface.hpp has it. If the metal has a
+// grain, local x is along it.
 //
 // References: Cook & Torrance, A Reflectance Model for Computer Graphics, 1982; Walter et al. 2007 (see ggx.hpp).
 #pragma once

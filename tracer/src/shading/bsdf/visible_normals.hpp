@@ -12,22 +12,36 @@
 
 namespace phasetree::tracer {
 
-/// `function(wo, m)` gives a glm::vec3, and `wo` is at that angle to the surface's normal. What it gives must be the
-/// same on both sides of the plane of wo and the normal.
+/// A lattice of as many points as one of Fibonacci's numbers, and the one before.
+struct FibonacciLattice {
+    std::uint32_t samples, before;
+};
+
+/// `function(wo, m)` gives a glm::vec3; the normals are those of a part of the azimuths, from 0 to `turns`.
 template <class Function>
-glm::vec3 mean_over_visible_normals(const Ggx& ggx, float cos_theta, const Function& function) {
-    // A lattice of two successive Fibonacci numbers. Its first coordinate is the azimuth of the normal, of which one
-    // side of the plane is enough: the other mirrors it, so that this is as good as twice as many points all around.
-    constexpr std::uint32_t samples = 2584, before = 1597;
-    const glm::vec3 wo{std::sqrt(std::max(0.0f, 1.0f - cos_theta * cos_theta)), 0.0f, cos_theta};
+glm::vec3 mean_over_visible_normals(const Ggx& ggx, const glm::vec3& wo, const Function& function,
+                                    const FibonacciLattice& lattice = {4181, 2584}, float turns = 1.0f) {
+    const auto [samples, before] = lattice;
     glm::dvec3 sum(0.0);
     for (std::uint32_t i = 0; i < samples; ++i) {
-        const glm::vec2 u{0.5f * (static_cast<float>(i) + 0.5f) / samples,
-                          static_cast<float>(i * before % samples) / samples};
+        // The lattice's first coordinate is the azimuth of the normal.
+        const auto number = static_cast<float>(samples);
+        const glm::vec2 u{turns * (static_cast<float>(i) + 0.5f) / number,
+                          static_cast<float>(i * before % samples) / number};
         const glm::vec3 m = ggx.sample_visible_normal(wo, u);
         if (glm::dot(wo, m) > 0.0f) sum += glm::dvec3(function(wo, m));
     }
     return glm::vec3(sum / static_cast<double>(samples));
+}
+
+/// `function(wo, m)` gives a glm::vec3. The surface has no grain, `wo` is at that angle to its normal, and what the
+/// function gives must be the same on both sides of the plane of wo and the normal.
+template <class Function>
+glm::vec3 mean_over_visible_normals(const Ggx& ggx, float cos_theta, const Function& function) {
+    // Of the normal's azimuth one side of the plane is enough: the other mirrors it, so that this is as good as twice
+    // as many points all around.
+    const glm::vec3 wo{std::sqrt(std::max(0.0f, 1.0f - cos_theta * cos_theta)), 0.0f, cos_theta};
+    return mean_over_visible_normals(ggx, wo, function, {2584, 1597}, 0.5f);
 }
 
 }  // namespace phasetree::tracer
