@@ -7,8 +7,8 @@
 #include "phasetree/cells/cells.hpp"
 #include "phasetree/io/tree.hpp"
 #include "phasetree/model/handle.hpp"
-#include "source_directory.hpp"
 #include "support/compared_crossings.hpp"
+#include "support/gallery.hpp"
 
 namespace test_gallery {
 
@@ -18,12 +18,8 @@ using namespace phasetree::tests;
 TEST_CASE("the nearest crossing over all cells is the whole object's in the gallery's scenes") {
     Compared all;
     int scenes = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(source_directory() + "/scenes")) {
-        if (entry.path().extension() != ".json" || entry.path().stem() == "scene.schema") continue;
-        // Of images and of a font, which this library does not read.
-        if (entry.path().stem() == "pomegranate" || entry.path().stem() == "letters") continue;
-        const std::string path = entry.path().string();
-        CAPTURE(path);
+    for (const std::filesystem::path& path : gallery_of_the_library()) {
+        CAPTURE(path.string());
         Random rng(15);  // files come in any order
         const std::size_t before = all.different;
         compare_crossings(read_tree(Document::from_file(path)).object, {}, long_tests() ? 2000 : 40, rng, all);

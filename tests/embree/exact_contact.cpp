@@ -19,6 +19,7 @@
 #include "phasetree/model/handle.hpp"
 #include "phasetree_support/temporary_directory.hpp"
 #include "source_directory.hpp"
+#include "support/gallery.hpp"
 #include "support/random_tree.hpp"
 
 namespace test_exact_contact {
@@ -282,14 +283,11 @@ TEST_CASE("no phase of the gallery is thinner than its author says") {
     const Device device;
     const int count = long_tests() ? 100'000 : 4000;
     std::size_t scenes = 0, seen = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(source_directory() + "/scenes")) {
-        if (entry.path().extension() != ".json" || entry.path().stem() == "scene.schema") continue;
-        if (entry.path().stem() == "drinks_in_the_sun") continue;  // the same object, which the next test case says
-        // Of images and of a font, which this library does not read.
-        if (entry.path().stem() == "pomegranate" || entry.path().stem() == "letters") continue;
+    for (const std::filesystem::path& path : gallery_of_the_library()) {
+        if (path.stem() == "drinks_in_the_sun") continue;  // the same object, which the next test case says
         ++scenes;
-        const std::string scene = entry.path().stem().string();
-        const auto all = films(device, read_tree(Document::from_file(entry.path())), count);
+        const std::string scene = path.stem().string();
+        const auto all = films(device, read_tree(Document::from_file(path)), count);
         for (const Meant& m : meant) {
             if (m.scene != scene) continue;
             for (const Film& one : m.films) {
