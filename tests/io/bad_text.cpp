@@ -37,6 +37,26 @@ std::vector<Bad> structure() {
         {"{\r\n\"a\":\r\n[1,\r\n2", 4, 2, "the file ends inside an array that was opened at line 3"},
         {"{\r\"a\":\r[1,\r2", 4, 2, "the file ends inside an array that was opened at line 3"},
         {"[1, [2], ", 1, 9, "the file ends inside an array that was opened at line 1"},
+        // Where the indentation tells more than the end does.
+        {"{\n  \"a\": {\"b\": {\"c\": 1},\n  \"d\": 2\n}\n", 4, 2,
+         "the file ends inside an object that was opened at line 1; by the indentation, line 2 lacks a '}'"},
+        {"{\n  \"a\": {\n    \"b\": 1,\n    \"c\": [2, 3],\n  \"d\": {\"e\": 4}\n}", 6, 2,
+         "the file ends inside an object that was opened at line 1; by the indentation, line 4 lacks a '}'"},
+        {"{\n  \"a\": [[1, 2], [3, 4],\n  \"b\": 5\n}", 3, 6,
+         "expected ',' or ']', found ':'; by the indentation, line 2 lacks a ']'"},
+        {"{\n  \"a\": [\n    {\"b\": [1, {\"c\": 2}]},\n    {\"b\": [{\"c\": 2},\n    {\"b\": [3]}\n  ],\n  \"d\": "
+         "5\n}",
+         8, 2, "the file ends inside an array that was opened at line 2; by the indentation, line 4 lacks a ']'"},
+        {"{\n  \"a\": [\n    {\"b\": {\"c\": 2},\n    \"d\"\n  ]\n}", 5, 3,
+         "expected ':' after the key \"d\", found ']'; by the indentation, line 3 lacks a '}'"},
+        {"{\n  \"a\": [\n    {\"b\": {\"c\": 2},\n    {\"d\": 3}\n  ]\n}", 4, 5,
+         "expected a key in double quotes, found '{'"},
+        {"{\n  \"a\": {\n    \"b\": {\"c\": 2}},\n    \"d\": {\"e\": 3}\n  },\n  \"f\": 4\n}", 5, 4,
+         "expected the end of the file, found ','; by the indentation, line 3 has a '}' too many"},
+        // Texts whose indentation says nothing.
+        {"{\n\"a\": {\"b\": {\"c\": 1},\n\"d\": 2\n}\n", 4, 2,
+         "the file ends inside an object that was opened at line 1; by the indentation, line 2 lacks a '}'"},
+        {"{\n\"a\": {\n\"b\": 1,\n\"d\": 2\n}\n", 5, 2, "the file ends inside an object that was opened at line 1"},
         // Brackets, commas, colons.
         {"}", 1, 1, "expected a value, found '}'"},
         {"{\"a\": }", 1, 7, "expected a value, found '}'"},

@@ -16,10 +16,14 @@ using namespace phasetree::tests;
 
 namespace {
 
-/// On a raster of quarters as often as not: level edges, equal heights, repeated points.
+/// On a raster of quarters as often as not: level edges, equal heights, repeated points. Some coordinates are such as
+/// r cos(π/2) leaves in place of zero.
 glm::vec2 random_corner(Random& rng) {
-    const glm::vec2 v(rng.uniform(-1, 1), rng.uniform(-1, 1));
-    return rng.chance(0.4) ? glm::round(v * 4.f) / 4.f : v;
+    glm::vec2 v(rng.uniform(-1, 1), rng.uniform(-1, 1));
+    if (rng.chance(0.4)) v = glm::round(v * 4.f) / 4.f;
+    for (int i = 0; i < 2; ++i)
+        if (rng.chance(0.1)) v[i] = std::pow(10.f, rng.uniform(-21, -8)) * (rng.chance(0.5) ? 1.f : -1.f);
+    return v;
 }
 
 struct Comparison {

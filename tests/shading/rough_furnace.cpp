@@ -10,6 +10,7 @@
 #include "sampling/sobol.hpp"
 #include "shading/fresnel.hpp"
 #include "shading/metals.hpp"
+#include "shading/roughness.hpp"
 
 namespace test_rough_furnace {
 
@@ -28,6 +29,8 @@ namespace {
 constexpr float roughnesses[] = {0.001f, 0.05f, 0.2f, 0.5f, 1.0f};
 constexpr double angles[] = {0.0, 40.0, 70.0, 80.0, 86.0, 89.0, 89.9};
 constexpr double tolerance = 0.001;
+// Where what is lost is interpolated between roughnesses or azimuths; the most is at 89.9° and small roughness.
+constexpr double tolerance_between = 0.002;
 
 // The mean weight in a furnace of radiance 1, of which a medium of index η has η²: `square` is that of the other side's
 // over this side's.
@@ -51,7 +54,7 @@ double worst(const tracer::Bsdf& bsdf, double square = 1.0, double scale = 1.0, 
     double most = 0.0;
     for (const double theta : angles) {
         const double off = std::abs(scale * furnace(bsdf, direction(theta, phi), square).x - 1.0);
-        if (scale == 1.0 && !(off <= tolerance)) MESSAGE(theta << "°: off by " << off);
+        if (scale == 1.0 && !(off <= tolerance_between)) MESSAGE(theta << "°: off by " << off);
         most = std::max(most, off);
     }
     return most;
@@ -71,14 +74,14 @@ TEST_CASE("rough furnace: a metal that absorbs nothing is white at every roughne
 
 TEST_CASE("rough furnace: brushed metal that absorbs nothing is white from along its grain, across, and between") {
     for (const float aspect : {0.1f, 0.2f, 0.6f}) {
-        for (const float roughness : {0.001f, 0.2f, 1.0f}) {
+        for (const float roughness : {0.004f, 0.02f, 0.2f, 1.0f}) {
             CAPTURE(aspect);
             CAPTURE(roughness);
             const ConductorSurface surface(1.0f, glm::vec3(1.0f), all_reflecting, ValueRange{roughness, roughness}, {},
                                            {}, aspect);
             for (const double phi : {0.0, 3.0, 25.0, 63.0, 90.0}) {
                 CAPTURE(phi);
-                CHECK(worst(RoughConductorBsdf(surface, roughness), 1.0, 1.0, phi) < tolerance);
+                CHECK(worst(RoughConductorBsdf(surface, roughness), 1.0, 1.0, phi) < tolerance_between);
             }
         }
     }
@@ -99,15 +102,15 @@ TEST_CASE("rough furnace: glass is white from both sides, at every roughness, an
 }
 
 TEST_CASE("rough furnace: surfaces whose roughness varies are as white between the tables") {
-    const ValueRange range{0.0f, 1.0f};
+    const ValueRange range{tracer::least_roughness, 1.0f};  // as interfaces make it
     const ConductorSurface metal(1.0f, glm::vec3(1.0f), all_reflecting, range);
     const DielectricSurface glass(1.0f, 1.5f, range);
     const CoatingAlbedo coating(DielectricSurface(1.0f, 1.5f), range, {});
-    for (const float roughness : {0.02f, 0.09f, 0.28f, 0.53f, 0.97f}) {
+    for (const float roughness : {0.0013f, 0.004f, 0.0091f, 0.0205f, 0.09f, 0.28f, 0.53f, 0.97f}) {
         CAPTURE(roughness);
-        CHECK(worst(RoughConductorBsdf(metal, roughness)) < tolerance);
-        CHECK(worst(RoughDielectricBsdf(glass, roughness), 2.25) < tolerance);
-        CHECK(worst(CoatedDiffuseBsdf(coating.at(roughness), glm::vec3(1.0f))) < tolerance);
+        CHECK(worst(RoughConductorBsdf(metal, roughness)) < tolerance_between);
+        CHECK(worst(RoughDielectricBsdf(glass, roughness), 2.25) < tolerance_between);
+        CHECK(worst(CoatedDiffuseBsdf(coating.at(roughness), glm::vec3(1.0f))) < tolerance_between);
     }
 }
 

@@ -108,7 +108,8 @@ TEST_CASE("GGX: visible normals follow their density") {
               [&](const glm::vec3& m) { return m.z > 0.0f ? ggx.visible_normal_pdf(o, m) : 0.0f; });
 }
 
-TEST_CASE("GGX: with two roughnesses the slopes are Student's, each over its own roughness") {
+TEST_CASE(
+    "GGX: with two roughnesses the slopes follow the bivariate Student's t distribution, each over its own roughness") {
     constexpr double a = 0.1, b = 0.35;
     const Ggx ggx(static_cast<float>(a), static_cast<float>(b));
     for (const double theta : {0.0, 3.0, 20.0, 60.0}) {

@@ -120,9 +120,12 @@ TEST_CASE("a cubic curve is followed within its tolerance, with hardly a kink") 
     double farthest = 0, sharpest = 1;
     glm::dvec2 before(0.0);
     int curves = 0;
+    glm::dvec2 last(0.0);
     for_each_curve(pen.contours[0], [&](const QuadraticCurve& curve) {
         // The last two are the straight lines.
         if (static_cast<std::size_t>(++curves) > pen.contours[0].size() / 2 - 2) return;
+        if (curves > 1) CHECK(curve.start == last);
+        last = curve.end;
         if (curves > 1) sharpest = std::min(sharpest, glm::dot(before, glm::normalize(curve.b())));
         before = glm::normalize(curve.end - curve.control);
         for (int i = 0; i <= 20; ++i) {
@@ -138,6 +141,7 @@ TEST_CASE("a cubic curve is followed within its tolerance, with hardly a kink") 
     });
     MESSAGE((curves - 2), " curves, at most ", farthest, " away, cosine of the sharpest kink ", sharpest);
     CHECK(farthest < 2e-4);
+    CHECK(glm::length(last - p3) < 1e-6);
     // Half a degree, where the curve turns from left to right.
     CHECK(sharpest > 1 - 4e-5);
     CHECK(curves < 20);

@@ -3,10 +3,9 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <fstream>
+#include <numbers>
 
 #include "paths.hpp"
-#include "phasetree_support/temporary_directory.hpp"
 
 namespace test_grain {
 
@@ -43,6 +42,23 @@ bool are_parallel(const glm::vec3& a, const glm::vec3& b) {
 
 }  // namespace
 
+TEST_CASE("a frame along a direction is orthonormal however nearly that is the normal") {
+    const glm::vec3 normal = glm::normalize(glm::vec3(0.3f, -0.5f, 0.8f));
+    const Frame any(normal);
+    for (const float sine : {1.0f, 1e-2f, 1e-3f, 1.2e-4f, 1e-5f, 0.0f}) {
+        for (const float length : {1e-12f, 1.0f, 1e12f}) {
+            const Frame frame(normal, length * (normal + sine * any.to_world({0.6f, 0.8f, 0})));
+            const glm::vec3 x = frame.to_world({1, 0, 0}), y = frame.to_world({0, 1, 0});
+            CAPTURE(sine);
+            CHECK(std::abs(glm::length(x) - 1) < 1e-6f);
+            CHECK(std::abs(glm::length(y) - 1) < 1e-6f);
+            CHECK(std::abs(glm::dot(x, normal)) < 1e-6f);
+            CHECK(std::abs(glm::dot(x, y)) < 1e-6f);
+            if (sine > 1e-4f) CHECK(glm::dot(x, any.to_world({0.6f, 0.8f, 0})) > 1 - 2e-3f / sine * 1e-3f);
+        }
+    }
+}
+
 TEST_CASE("strokes run along a direction as it lies on the surface") {
     const std::string ball = R"({"set": {"phase": "a", "of": {"sphere": {"radius": 1}}}})";
     const Scene scene = scene_of("\"a\": {" + brushed(R"("grain_along": [0, 2, 1])") + "}", ball);
@@ -50,9 +66,9 @@ TEST_CASE("strokes run along a direction as it lies on the surface") {
     CHECK(are_parallel(strokes(scene, {3, 0, 0}, {-1, 0, 0}), {0, 2, 1}));
     // At (0, 0.6, 0.8) what is left of (0, 2, 1) is across (0, 0.6, 0.8).
     CHECK(are_parallel(strokes(scene, {0, 1.2f, 1.6f}, {0, -0.6f, -0.8f}), {0, 0.8f, -0.6f}));
-    // Where the surface is upright to them they have no direction, and nothing breaks.
-    const glm::vec3 upright = glm::normalize(glm::vec3(0, 2, 1));
-    CHECK(std::isfinite(strokes(scene, 3.0f * upright, -upright).x));
+    // Where the surface is perpendicular to them they have no direction, and any is taken.
+    const glm::vec3 there = glm::normalize(glm::vec3(0, 2, 1));
+    CHECK(std::isfinite(strokes(scene, 3.0f * there, -there).x));
 }
 
 TEST_CASE("strokes run around an axis, wherever it is") {
@@ -79,6 +95,7 @@ TEST_CASE("strokes turn with the copy of their object") {
     // The axis stands at (0.5, 2).
     CHECK(are_parallel(strokes(around, {1.5f, 2, 3}, {0, 0, -1}), {0, 1, 0}));
     CHECK(are_parallel(strokes(around, {0.5f, 1, 3}, {0, 0, -1}), {1, 0, 0}));
+    CHECK(std::isfinite(strokes(around, {0.5f, 2, 3}, {0, 0, -1}).x));
 }
 
 TEST_CASE("strokes run over meshes") {

@@ -88,7 +88,8 @@ TEST_CASE("photons and paths find the same light by mirrors, rough and brushed m
 }
 
 TEST_CASE("photons and paths find the same light by brushed metal, whichever way its strokes run") {
-    // Upright strokes throw the lamp's light to both sides, level ones up and down, so that the place is lit otherwise.
+    // Upright strokes throw the light of the lamp to both sides, level ones up and down. Without the grain both would
+    // be alike.
     for (const std::string along : {"[0, 1, 0]", "[0, 0, 1]"}) {
         CAPTURE(along);
         check_pictures(

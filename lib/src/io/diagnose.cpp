@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "io/indentation.hpp"
 #include "io/lexis.hpp"
 #include "io/utf8.hpp"
 #include "phasetree/io/suggest.hpp"
@@ -58,9 +59,25 @@ class Diagnosis {
             return error(end, is_blank ? "the file is empty" : "the file holds comments and nothing else");
         }
         const std::size_t opened = *failure_.opened;
-        const std::size_t line = SceneError({}, text_, opened, {}).line();
-        return error(end, fmt::format("the file ends inside {} that was opened at line {}",
-                                      text_[opened] == '{' ? "an object" : "an array", line));
+        const std::size_t line = line_of(opened);
+        return error(end, fmt::format("the file ends inside {} that was opened at line {}{}",
+                                      text_[opened] == '{' ? "an object" : "an array", line, missing_before(end)));
+    }
+
+    std::size_t line_of(std::size_t at) const { return SceneError({}, text_, at, {}).line(); }
+
+    // Where the indentation says that a bracket was forgotten, or that there is one too many, unless that is the line
+    // that the error names anyway.
+    std::string missing_before(std::size_t at) const {
+        const auto missing = indentation_breaks(text_, at).missing;
+        if (!missing || line_of(missing->at) == line_of(at)) return "";
+        return fmt::format("; by the indentation, line {} lacks a '{}'", line_of(missing->at), missing->bracket);
+    }
+    std::string too_many_before(std::size_t at) const {
+        const auto too_many = indentation_breaks(text_, at).too_many;
+        if (!too_many || line_of(too_many->at) == line_of(at)) return "";
+        return fmt::format("; by the indentation, line {} has a '{}' too many", line_of(too_many->at),
+                           too_many->bracket);
     }
 
     SceneError expected(std::size_t at, std::string_view what, std::optional<std::string> suggestion = {}) const {
@@ -68,7 +85,12 @@ class Diagnosis {
         if (begins_comment(text_, at)) return error(at, "unterminated comment: no */ follows");
         if (text_[at] == '#') return error(at, "a comment begins with // or /*, not with #");
         if (text_[at] == '\'') return error(at, "text stands in \"double quotes\", not in 'single quotes'");
-        return error(at, fmt::format("expected {}, found {}", what, shown_token(text_, at)), std::move(suggestion));
+        const bool is_bracket = std::string_view("{}[]:").find(text_[at]) != std::string_view::npos;
+        const std::string hint = failure_.expecting == Expecting::end_of_file ? too_many_before(at)
+                                 : is_bracket                                 ? missing_before(at)
+                                                                              : "";
+        return error(at, fmt::format("expected {}, found {}{}", what, shown_token(text_, at), hint),
+                     std::move(suggestion));
     }
 
     // Behind an item or a member: a comma and what must follow it, or the bracket.

@@ -44,15 +44,6 @@ bool is_around(std::span<const glm::dvec2> points, const glm::dvec2& p) {
     return inside;
 }
 
-// A straight line of a font has its control point in the middle, but for the rounding of its place. Distances to
-// straight pieces take a fifth of the time.
-QuadraticCurve straightened(QuadraticCurve curve) {
-    const glm::dvec2 middle = 0.5 * (curve.start + curve.end);
-    const double rounding = 1e-6 * (glm::length(curve.start) + glm::length(curve.end));
-    if (glm::length(curve.control - middle) < rounding) curve.control = middle;
-    return curve;
-}
-
 struct Traced {
     const Contour* contour;
     std::vector<glm::dvec2> points;
@@ -60,8 +51,9 @@ struct Traced {
     bool is_outer = false;
 };
 
-// The contours of each stroke of a letter: an outer one, and the holes of which it is the smallest around all of them.
-// Which way around the outer ones run differs from font to font; the largest is one.
+// The contours of each stroke of a letter: an outer one and its holes. A hole belongs to the smallest outer contour
+// that is around it; one that is in none is left out. Which way around the outer ones run differs from font to font;
+// the largest is one.
 std::vector<std::vector<const Contour*>> strokes_of(const TextOutlines::Letter& letter) {
     std::vector<Traced> all;
     for (const Contour& contour : letter.contours) {
@@ -115,7 +107,7 @@ void Text::prepare() {
                             throw ModelError("text: it reaches beyond 1e9 m from the origin");
                     }
                     for_each_curve(placed, [&](const QuadraticCurve& curve) {
-                        count += OutlinePieces::append(straightened(curve), table);
+                        count += OutlinePieces::append(curve, table);
                         box = unite(box, curve.bounds());
                     });
                 }

@@ -26,12 +26,12 @@ namespace phasetree::tracer {
 class Ggx {
   public:
     explicit Ggx(float alpha) : Ggx(alpha, alpha) {}
-    Ggx(float along_x, float along_y) : a_(along_x), b_(along_y) {}
+    Ggx(float alpha_x, float alpha_y) : alpha_x_(alpha_x), alpha_y_(alpha_y) {}
 
     float distribution(const glm::vec3& m) const {
-        const float x = b_ * m.x, y = a_ * m.y, z = a_ * b_ * m.z;
+        const float x = alpha_y_ * m.x, y = alpha_x_ * m.y, z = alpha_x_ * alpha_y_ * m.z;
         const float stretched = x * x + y * y + z * z;
-        return a_ * b_ * (a_ * b_ / stretched) * (a_ * b_ / stretched) / pi;
+        return alpha_x_ * alpha_y_ * (alpha_x_ * alpha_y_ / stretched) * (alpha_x_ * alpha_y_ / stretched) / pi;
     }
 
     float masking(const glm::vec3& w) const { return 2.0f * std::abs(w.z) / (std::abs(w.z) + slope_term(w)); }
@@ -54,10 +54,10 @@ class Ggx {
     /// A normal that `o` sees. The normals seen on the stretched, hemispherical surface are halfway between `o` and a
     /// direction uniform on a spherical cap.
     glm::vec3 sample_visible_normal(const glm::vec3& o, const glm::vec2& u) const {
-        const glm::vec3 stretched = glm::normalize(glm::vec3{a_ * o.x, b_ * o.y, o.z});
+        const glm::vec3 stretched = glm::normalize(glm::vec3{alpha_x_ * o.x, alpha_y_ * o.y, o.z});
         const glm::vec3 cap = square_to_uniform_cone({u.y, u.x}, 1.0f + stretched.z);
         const glm::vec3 half = cap + stretched;
-        const glm::vec3 normal{a_ * half.x, b_ * half.y, std::max(1e-9f, half.z)};
+        const glm::vec3 normal{alpha_x_ * half.x, alpha_y_ * half.y, std::max(1e-9f, half.z)};
         return glm::normalize(normal);
     }
 
@@ -68,11 +68,11 @@ class Ggx {
 
   private:
     float slope_term(const glm::vec3& w) const {
-        const float x = a_ * w.x, y = b_ * w.y;
+        const float x = alpha_x_ * w.x, y = alpha_y_ * w.y;
         return std::sqrt(x * x + y * y + w.z * w.z);
     }
 
-    float a_, b_;
+    float alpha_x_, alpha_y_;
 };
 
 }  // namespace phasetree::tracer

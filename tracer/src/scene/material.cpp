@@ -48,7 +48,7 @@ std::optional<Grain> GrainParameters::grain(const Number& roughness) const {
     const char* const key = grain_along ? "grain_along" : "grain_around";
     if (is_smooth(greatest_of(roughness)))
         wrong(key, "strokes are seen on rough metal alone: give it a \"roughness\", which is that across them");
-    Grain grain{.axis = glm::normalize(grain_along ? *grain_along : *grain_around)};
+    Grain grain{.axis = glm::vec3(glm::normalize(glm::dvec3(grain_along ? *grain_along : *grain_around)))};
     if (grain_around) grain.through = grain_through.value_or(glm::vec3(0.0f));
     if (grain_aspect) grain.aspect = *grain_aspect;
     return grain;

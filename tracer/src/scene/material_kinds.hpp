@@ -197,9 +197,10 @@ struct GrainParameters {
                                                 "In place of it, of metal that was turned on a lathe: the direction of "
                                                 "the axis around which the strokes run.",
                                                 limits::any, true}});
-        v(&P::grain_through,
-          Parameter{"grain_through", "m", "With an axis: a point of it, in the object's own space; the origin without.",
-                    Limits{.low = -farthest, .high = farthest}, true});
+        v(&P::grain_through, Parameter{"grain_through", "m",
+                                       "With an axis: a point of it, in the object's own space, or the scene's, if it "
+                                       "is a mesh; the origin without it.",
+                                       Limits{.low = -farthest, .high = farthest}, true});
         v(&P::grain_aspect,
           Parameter{"grain_aspect", "", "With a grain: the roughness along the strokes over that across; 0.2 without.",
                     Limits{.low = 0.1f, .high = 1}, true});

@@ -13,10 +13,11 @@ class Frame {
     explicit Frame(const glm::vec3& normal) : normal_(normal), basis_(normal) {}
     /// Local x is the projection of `along`, of any length; where it has none, as of the other constructor.
     Frame(const glm::vec3& normal, const glm::vec3& along) : Frame(normal) {
-        const glm::vec3 x = along - glm::dot(along, normal) * normal;
-        const float squared = glm::dot(x, x);
-        if (!(squared > least_projection * glm::dot(along, along))) return;
-        basis_.tangent = x / glm::sqrt(squared);
+        const auto projected = [&](const glm::vec3& v) { return v - glm::dot(v, normal) * normal; };
+        const glm::vec3 x = projected(along);
+        if (!(glm::dot(x, x) > least_projection * glm::dot(along, along))) return;
+        // Once more, because of a short projection rounding leaves a part that is not across the normal.
+        basis_.tangent = glm::normalize(projected(glm::normalize(x)));
         basis_.bitangent = glm::cross(normal, basis_.tangent);
     }
 

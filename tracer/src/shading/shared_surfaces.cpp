@@ -1,6 +1,7 @@
 #include "shading/shared_surfaces.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace phasetree::tracer {
 
@@ -35,7 +36,12 @@ std::shared_ptr<const ConductorSurface> SharedSurfaces::conductor(float ior, con
                                                                   const std::optional<FilmOfSurface>& film,
                                                                   std::span<const MetalPoint> spectrum, float aspect) {
     return found_or_made(conductors_, Conductor{ior, eta, k, roughness, film, spectrum.data(), aspect}, [&] {
-        return std::make_shared<const ConductorSurface>(ior, eta, k, roughness, film, spectrum, aspect);
+        std::shared_ptr<const LossTables> losses;
+        if (roughness)
+            losses = found_or_made(metal_losses_, MetalLosses{*roughness, aspect},
+                                   [&] { return ConductorSurface::losses_of(*roughness, aspect); });
+        return std::make_shared<const ConductorSurface>(ior, eta, k, roughness, film, spectrum, aspect,
+                                                        std::move(losses));
     });
 }
 
@@ -54,6 +60,7 @@ void SharedSurfaces::begin_scene() {
     };
     dielectrics_.clear();
     forget_unused(conductors_);
+    forget_unused(metal_losses_);
     forget_unused(coatings_);
     films_.forget_unused();
 }

@@ -56,8 +56,15 @@ class SharedSurfaces {
     template <class Key, class Surface>
     using Made = std::vector<std::pair<Key, std::shared_ptr<const Surface>>>;
 
+    struct MetalLosses {
+        ValueRange roughness;
+        float aspect;
+        bool operator==(const MetalLosses&) const = default;
+    };
+
     Made<Dielectric, DielectricSurface> dielectrics_;
     Made<Conductor, ConductorSurface> conductors_;
+    Made<MetalLosses, LossTables> metal_losses_;
     Made<Coating, CoatingAlbedo> coatings_;
     ThinFilms films_;
 };

@@ -110,6 +110,8 @@ class Typesetter {
         const Buffer buffer(hb_buffer_create());
         const int bytes = static_cast<int>(text.size());
         hb_buffer_add_utf8(buffer.get(), text.data(), bytes, 0, bytes);
+        // Of no language: that of the process would let the same text look different elsewhere.
+        hb_buffer_set_language(buffer.get(), hb_language_from_string("und", -1));
         hb_buffer_guess_segment_properties(buffer.get());
         hb_shape(font_.get(), buffer.get(), nullptr, 0);
         unsigned count = 0;

@@ -155,7 +155,7 @@ Surface TracedGeometry::surface_of_several(const Ray& ray, const Met& met, doubl
     }
     if (const Grain* grain = surface.optics.get().grain()) {
         const glm::dvec3 in_object(grain->direction_at(surface.place));
-        surface.along_grain = glm::vec3(glm::normalize(glm::inverse(shown.copy.to_object.matrix) * in_object));
+        surface.along_grain = glm::vec3(glm::inverse(shown.copy.to_object.matrix) * in_object);
     }
     return surface;
 }

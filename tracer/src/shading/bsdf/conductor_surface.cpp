@@ -4,6 +4,7 @@
 #include <array>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "shading/bsdf/visible_normals.hpp"
 #include "shading/fresnel.hpp"
@@ -14,7 +15,7 @@ namespace phasetree::tracer {
 namespace {
 
 // Of a metal that reflects everything: the part of the light that is not shadowed on its way out.
-LossTable losses_of(const Ggx& ggx, bool has_grain) {
+LossTable loss_table_of(const Ggx& ggx, bool has_grain) {
     const auto leaves = [&](const glm::vec3& wo, const glm::vec3& m) {
         const glm::vec3 wi = 2.0f * glm::dot(wo, m) * m - wo;
         return glm::vec3(wi.z > 0.0f ? ggx.shadowing_of_reflected(wo, wi) : 0.0f);
@@ -53,7 +54,8 @@ constexpr int spectrum_nodes = 81;
 
 ConductorSurface::ConductorSurface(float ior, const glm::vec3& eta, const glm::vec3& k,
                                    const std::optional<ValueRange>& roughness, const std::optional<FilmOfSurface>& film,
-                                   std::span<const MetalPoint> spectrum, float aspect)
+                                   std::span<const MetalPoint> spectrum, float aspect,
+                                   std::shared_ptr<const LossTables> losses)
     : ior_(ior), aspect_(aspect), eta_(eta / ior), k_(k / ior) {
     if (film) film_.emplace(ThinFilm::Layers{ior, film->ior, eta, k}, film->thickness.least, film->thickness.greatest);
     // An index for red, green and blue is taken to be that at the wavelengths for which those of metals are given.
@@ -67,8 +69,13 @@ ConductorSurface::ConductorSurface(float ior, const glm::vec3& eta, const glm::v
         spectrum_.push_back(at);
     }
     if (!roughness) return;
-    losses_.emplace(*roughness, [&](float alpha) { return losses_of(microfacets(alpha, aspect), aspect != 1.0f); });
+    losses_ = losses ? std::move(losses) : losses_of(*roughness, aspect);
     mean_reflectance_ = mean_over_cosine([&](float mu) { return fresnel_conductor(mu, eta_, k_); });
+}
+
+std::shared_ptr<const LossTables> ConductorSurface::losses_of(const ValueRange& roughness, float aspect) {
+    return std::make_shared<const LossTables>(
+        roughness, [&](float alpha) { return loss_table_of(microfacets(alpha, aspect), aspect != 1.0f); });
 }
 
 Ggx ConductorSurface::microfacets(float roughness, float aspect) {

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -32,13 +33,18 @@ namespace phasetree::tracer {
 class ConductorSurface {
   public:
     /// The index η + ik is that against vacuum, as is `ior` of the clear medium in front. `roughness` is that of GGX,
-    /// for a surface that is rough somewhere; with a grain, it is that across the grain, and `aspect` times it the one
-    /// along (shading/grain.hpp).
+    /// for a surface that is rough somewhere; with a grain (shading/grain.hpp) it is the roughness across the strokes,
+    /// and along them it is `aspect` times that.
     /// `spectrum` is the same index by wavelength, if it is known; without it that of blue, green and red is taken to
     /// be the index at 450, 550 and 650 nm, between which it is linear.
     ConductorSurface(float ior, const glm::vec3& eta, const glm::vec3& k,
                      const std::optional<ValueRange>& roughness = {}, const std::optional<FilmOfSurface>& film = {},
-                     std::span<const MetalPoint> spectrum = {}, float aspect = 1.0f);
+                     std::span<const MetalPoint> spectrum = {}, float aspect = 1.0f,
+                     std::shared_ptr<const LossTables> losses = {});
+
+    /// What a metal's microfacets lose, which surfaces of different metals may share; a surface that is given none
+    /// makes its own.
+    static std::shared_ptr<const LossTables> losses_of(const ValueRange& roughness, float aspect);
 
     /// Its microfacets at a place of that roughness; local x is along the grain.
     Ggx microfacets(float roughness) const { return microfacets(roughness, aspect_); }
@@ -67,7 +73,7 @@ class ConductorSurface {
     float ior_, aspect_;
     glm::vec3 eta_, k_;  ///< relative to the medium in front
     std::optional<ThinFilm> film_;
-    std::optional<LossTables> losses_;
+    std::shared_ptr<const LossTables> losses_;
     glm::vec3 mean_reflectance_{0.0f};    ///< F̄ without a film
     std::vector<AtWavelength> spectrum_;  ///< every few nanometres
 };

@@ -17,11 +17,11 @@ struct ValueRange {
 };
 
 /// Roughnesses at which there are tables for a range of them. What is lost at an angle depends on the ratio of
-/// roughness and cosine, so they are the closer the smaller: evenly in the fourth root.
+/// roughness and cosine, so they are the closer the smaller: evenly in the eighth root.
 class RoughnessNodes {
   public:
     explicit RoughnessNodes(const ValueRange& range) : first_(root(range.least)), step_(root(range.greatest) - first_) {
-        constexpr float widest_step = 1.0f / 32.0f;
+        constexpr float widest_step = 1.0f / 80.0f;
         intervals_ = step_ > 0.0f ? static_cast<std::size_t>(std::ceil(step_ / widest_step)) : 0;
         if (intervals_ > 0) step_ /= static_cast<float>(intervals_);
     }
@@ -29,7 +29,8 @@ class RoughnessNodes {
     std::size_t size() const { return intervals_ + 1; }
     float roughness(std::size_t i) const {
         const float r = first_ + step_ * static_cast<float>(i);
-        return (r * r) * (r * r);
+        const float r2 = r * r;
+        return (r2 * r2) * (r2 * r2);
     }
     /// The node below, and how far it is to the next; there is a next unless there is one node alone.
     struct Place {
@@ -44,7 +45,7 @@ class RoughnessNodes {
     }
 
   private:
-    static float root(float x) { return std::sqrt(std::sqrt(x)); }
+    static float root(float x) { return std::sqrt(std::sqrt(std::sqrt(x))); }
 
     float first_, step_;
     std::size_t intervals_;

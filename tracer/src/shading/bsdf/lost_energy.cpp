@@ -1,10 +1,14 @@
 #include "shading/bsdf/lost_energy.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <optional>
 #include <utility>
 
+#include "phasetree/math/float_mode.hpp"
 #include "sampling/warps.hpp"
 #include "shading/bsdf/lobes.hpp"
 
@@ -27,8 +31,8 @@ std::array<glm::vec3, nodes> row_of(const Albedo& albedo) {
     return row;
 }
 
-// A place among rows for some |sin φ|, dense near 0, where the roughness along a direction changes the fastest if there
-// is much less of it along the grain than across.
+// The row below some |sin φ| and how far it is to the next. Rows are dense near 0, where the roughness along a
+// direction changes fastest, if it is much less along the grain than across.
 struct AzimuthPlace {
     std::size_t below;
     float part;
@@ -152,10 +156,12 @@ float LossTable::pdf(float cos_theta) const {
 }
 
 LossTables::LossTables(const ValueRange& roughness, const std::function<LossTable(float)>& table) : nodes_(roughness) {
-    if (nodes_.size() == 1)
-        tables_.push_back(table(roughness.least));
-    else
-        for (std::size_t i = 0; i < nodes_.size(); ++i) tables_.push_back(table(nodes_.roughness(i)));
+    std::vector<std::optional<LossTable>> made(nodes_.size());
+    tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t i) {
+        const FlushSubnormals flush;
+        made[i].emplace(table(made.size() == 1 ? roughness.least : nodes_.roughness(i)));
+    });
+    for (std::optional<LossTable>& one : made) tables_.push_back(std::move(*one));
 }
 
 LossTables::At LossTables::at(float roughness) const {

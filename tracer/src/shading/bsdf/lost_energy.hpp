@@ -60,6 +60,7 @@ class LossTable {
 /// 1 − E(μ) over a range of roughness; of one roughness alone, if the range is empty.
 class LossTables {
   public:
+    /// `table` gives the table of a roughness, of several at once on other threads.
     LossTables(const ValueRange& roughness, const std::function<LossTable(float)>& table);
 
     /// What a point of the surface has of it, interpolated between the tables of the neighbouring roughnesses.

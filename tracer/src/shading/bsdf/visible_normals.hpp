@@ -12,12 +12,12 @@
 
 namespace phasetree::tracer {
 
-/// A lattice of as many points as one of Fibonacci's numbers, and the one before.
+/// A Fibonacci lattice: `before` and `samples` are two successive Fibonacci numbers.
 struct FibonacciLattice {
     std::uint32_t samples, before;
 };
 
-/// `function(wo, m)` gives a glm::vec3; the normals are those of a part of the azimuths, from 0 to `turns`.
+/// `function(wo, m)` gives a glm::vec3; the normals' azimuths cover this part of a full turn.
 template <class Function>
 glm::vec3 mean_over_visible_normals(const Ggx& ggx, const glm::vec3& wo, const Function& function,
                                     const FibonacciLattice& lattice = {4181, 2584}, float turns = 1.0f) {
