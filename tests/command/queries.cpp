@@ -219,6 +219,40 @@ TEST_CASE("eval leaves phases that are nowhere empty") {
     CHECK(o.out == "x,y,z,phase,phi.vacuum,phi.glass,phi.water,phi.wood\n0,0,0.5,glass,0.5,-0.5,,\n");
 }
 
+TEST_CASE("trace: behind a face that a ray leaves at a low angle there is nothing") {
+    // A box that is turned by 45° and stands aside, so that its coordinates are rounded.
+    const Shell shell;
+    write_text(
+        shell.directory / "scene.json",
+        R"({"version": 1, "phases": {"m": {"clear": {"ior": 1.5}}}, "tree": {"set": {"phase": "m", "of": {"translate":
+               {"by": [3, -2, 0], "of": {"rotate": {"angle": 45, "of": {"box": {"size": [1, 0.8, 1]}}}}}}}}})");
+    // In the box's own axes, from u = -0.7 on; each goes out of v = 0.4 where u is `out`.
+    std::string rays;
+    std::vector<double> outs, slopes;
+    for (int i = 0; i < 60; ++i) {
+        const double out = -0.4 + 0.8 * i / 60, slope = std::pow(10.0, -4 + i % 11 * 0.1);
+        const double u = -0.7, v = 0.4 + slope * (u - out), c = std::sqrt(0.5);
+        outs.push_back(out);
+        slopes.push_back(slope);
+        rays += fmt::format("{} {} 0 {} {} 0.2\n", 3 + c * (u - v), -2 + c * (u + v), c * (1 - slope), c * (1 + slope));
+    }
+    const Outcome o = shell.run({"trace", "scene.json"}, rays);
+    REQUIRE(o.code == 0);
+    int exits = 0;
+    for (const auto& row : rows_of(o.out)) {
+        if (row[0] == "ray" || row[2].empty()) continue;
+        const auto ray = static_cast<std::size_t>(number(row[0]));
+        const double u = -0.7 + static_cast<double>(number(row[1]));
+        // Near the face the label is a matter of rounding: values are right to 1e-6 or so.
+        CAPTURE(slopes[ray]);
+        CAPTURE(outs[ray]);
+        if (row[3] == "m" && u < -0.49) continue;
+        CHECK(std::abs(u - outs[ray]) < 1e-5 + 1.5e-6 / slopes[ray]);
+        exits += row[3] == "vacuum";
+    }
+    CHECK(exits >= 60);
+}
+
 TEST_CASE("trace: every interface along each ray, in order") {
     const Shell shell;
     write_text(shell.directory / "scene.json", half_full().text());

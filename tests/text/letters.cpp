@@ -102,10 +102,12 @@ TEST_CASE("letters stand where the font, the spacing and the alignment put them"
         CHECK(at(letters(ending, "I", 0.1f, 1), -0.1f, 0.35f) == doctest::Approx(-0.05));
         CHECK(at(letters(ending, "II", 0.1f, 0.5f), 0.15f, 0.35f) == doctest::Approx(-0.05));
         CHECK(at(letters(ending, "II", 0.1f, 0.5f), -0.15f, 0.35f) == doctest::Approx(-0.05));
-        const Field lines = letters(ending, "B\n\nI");
-        CHECK(at(lines, 0.1f, -2.4f + 0.35f) == doctest::Approx(-0.05));
-        CHECK(at(lines, 0.1f, -1.2f + 0.35f) > 0.3f);
-        CHECK(at(lines, 0.1f, 0.2f) == doctest::Approx(-0.05));
+        for (const char* const text : {"B\n\nI", "B\r\n\r\nI"}) {
+            const Field lines = letters(ending, text);
+            CHECK(at(lines, 0.1f, -2.4f + 0.35f) == doctest::Approx(-0.05));
+            CHECK(at(lines, 0.1f, -1.2f + 0.35f) > 0.3f);
+            CHECK(at(lines, 0.1f, 0.2f) == doctest::Approx(-0.05));
+        }
     }
 }
 

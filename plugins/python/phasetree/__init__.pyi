@@ -1754,7 +1754,7 @@ def polygon(points: Sequence[Sequence[float]] | np.ndarray) -> Field:
 
         ± min over the edges of |p − a − clamp((p − a)·e/e², 0, 1) e|
 
-    points: Its corners [x, y] in order, either way around; the last is joined to the first, and edges must not cross. (list of [x, y]s in m)
+    points: Its corners [x, y] in order, either way around, at most 4096; the last is joined to the first, and edges must not cross. (list of [x, y]s in m)
     """
 
 def bezier(points: Sequence[Sequence[float]] | np.ndarray, thickness: float | None = ...) -> Field:
@@ -1762,7 +1762,7 @@ def bezier(points: Sequence[Sequence[float]] | np.ndarray, thickness: float | No
 
         ± min over the curves of |p − B(t)|, t from the cubic (p − B)·B′ = 0;  for a line, less half of its thickness
 
-    points: [x, y] of a point on the curve, then of a control point, and so on. An even number is a closed curve, an odd one ends on its last point. (list of [x, y]s in m)
+    points: [x, y] of a point on the curve, then of a control point, and so on, at most 2048. An even number is a closed curve, an odd one, which needs a thickness, ends on its last point. (list of [x, y]s in m)
     thickness: Width of a line along the curve; 0 fills a closed curve, even-odd where it crosses itself. (number in m; zero or more; default 0)
     """
 
@@ -2537,9 +2537,9 @@ class materials:
         eta: η for red, green and blue; needed unless a metal is named. ([r, g, b]; positive; default none)
         k: k for red, green and blue; needed unless a metal is named. ([r, g, b]; zero or more; default none)
         roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
-        grain_along: Brushed metal: the direction of its strokes, which is projected onto the surface. The roughness is that across them. ([x, y, z], not all zero; default none)
+        grain_along: Brushed metal: the direction of its strokes, in the object's own space, or the scene's, of a mesh; moves within a tree do not turn it. It is projected onto the surface; where the surface is perpendicular to it strokes run any way. The roughness, which must not be 0, is that across them. ([x, y, z], not all zero; default none)
         grain_around: In place of it, of metal that was turned on a lathe: the direction of the axis around which the strokes run. ([x, y, z], not all zero; default none)
-        grain_through: With an axis: a point of it, in the object's own space; the origin without. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
+        grain_through: With an axis: a point of it, in the object's own space, or the scene's, if it is a mesh; the origin without it. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
         grain_aspect: With a grain: the roughness along the strokes over that across; 0.2 without. (number; at least 0.1 and at most 1; default none)
         film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
@@ -2612,9 +2612,9 @@ def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold",
     eta: η for red, green and blue; needed unless a metal is named. ([r, g, b]; positive; default none)
     k: k for red, green and blue; needed unless a metal is named. ([r, g, b]; zero or more; default none)
     roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
-    grain_along: Brushed metal: the direction of its strokes, which is projected onto the surface. The roughness is that across them. ([x, y, z], not all zero; default none)
+    grain_along: Brushed metal: the direction of its strokes, in the object's own space, or the scene's, of a mesh; moves within a tree do not turn it. It is projected onto the surface; where the surface is perpendicular to it strokes run any way. The roughness, which must not be 0, is that across them. ([x, y, z], not all zero; default none)
     grain_around: In place of it, of metal that was turned on a lathe: the direction of the axis around which the strokes run. ([x, y, z], not all zero; default none)
-    grain_through: With an axis: a point of it, in the object's own space; the origin without. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
+    grain_through: With an axis: a point of it, in the object's own space, or the scene's, if it is a mesh; the origin without it. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
     grain_aspect: With a grain: the roughness along the strokes over that across; 0.2 without. (number; at least 0.1 and at most 1; default none)
     film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)

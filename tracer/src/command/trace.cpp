@@ -38,17 +38,26 @@ int trace(const SceneFile& file, const std::optional<std::string>& object) {
         const double length = glm::length(glm::dvec3(given));
         if (!(length > 0)) throw InputError(fmt::format("<stdin>:{}:1: the ray has no direction", line));
         const glm::vec3 direction(glm::dvec3(given) / length);
+        // From the first interface on places are counted from there: a ray that began anew at each would be rounded at
+        // each, and where it grazes a face these errors would keep it there.
         glm::vec3 start = origin;
+        float from = 0;
+        bool is_at_object = false;
         Phase phase = tracer.label(origin, workspace);
         put("{},0,,{},,,{}\n", ray, csv_cell(tree.phases[phase]), copy_at(origin));
         while (const auto c =
-                   tracer.first_crossing(start, direction, 0, std::numeric_limits<float>::max(), phase, workspace)) {
+                   tracer.first_crossing(start, direction, from, std::numeric_limits<float>::max(), phase, workspace)) {
             const double t = glm::dot(glm::dvec3(c->p_in) - glm::dvec3(origin), glm::dvec3(direction)) / length;
             const glm::vec3 n = tracer.normal(*c, direction);
             put("{},{},{},{},{},{},{}{}\n", ray, unsigned_zero(static_cast<float>(t)), csv_cell(tree.phases[c->from]),
                 csv_cell(tree.phases[c->to]), unsigned_zero(n.x), unsigned_zero(n.y), unsigned_zero(n.z),
                 copy_at(c->p_out));
-            start = c->p_out;
+            if (is_at_object) {
+                from = c->t_out;
+            } else {
+                start = c->p_out;
+                is_at_object = true;
+            }
             phase = c->to;
         }
         ++ray;

@@ -190,8 +190,11 @@ struct GrainParameters {
     template <class P, class V>
     static void grain_parameters(V&& v) {
         v(&P::grain_along, DirectionParameter{{"grain_along", "",
-                                               "Brushed metal: the direction of its strokes, which is projected onto "
-                                               "the surface. The roughness is that across them.",
+                                               "Brushed metal: the direction of its strokes, in the object's own "
+                                               "space, or the scene's, of a mesh; moves within a tree do not turn it. "
+                                               "It is projected onto the surface; where the surface is perpendicular "
+                                               "to it strokes run any way. The roughness, which must not be 0, is that "
+                                               "across them.",
                                                limits::any, true}});
         v(&P::grain_around, DirectionParameter{{"grain_around", "",
                                                 "In place of it, of metal that was turned on a lathe: the direction of "

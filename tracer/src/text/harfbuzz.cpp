@@ -162,7 +162,9 @@ TextOutlines read_text(const std::filesystem::path& font, const std::string& tex
         const std::string_view all(text);
         for (std::size_t start = 0; start <= all.size();) {
             const std::size_t end = std::min(all.find('\n', start), all.size());
-            outlines.lines.push_back(typesetter.line(all.substr(start, end - start)));
+            std::string_view line = all.substr(start, end - start);
+            if (line.ends_with('\r')) line.remove_suffix(1);  // lines of files that end with both
+            outlines.lines.push_back(typesetter.line(line));
             start = end + 1;
         }
         return outlines;

@@ -25,8 +25,9 @@ struct Bezier {
     template <class V>
     static void parameters(V&& v) {
         v(&Bezier::points, Parameter{"points", "m",
-                                     "[x, y] of a point on the curve, then of a control point, and so on. An even "
-                                     "number is a closed curve, an odd one ends on its last point."});
+                                     "[x, y] of a point on the curve, then of a control point, and so on, at most "
+                                     "2048. An even number is a closed curve, an odd one, which needs a thickness, "
+                                     "ends on its last point."});
         v(&Bezier::thickness, Parameter{"thickness", "m",
                                         "Width of a line along the curve; 0 fills a closed curve, even-odd where it "
                                         "crosses itself.",

@@ -21,8 +21,8 @@ struct Polygon {
     template <class V>
     static void parameters(V&& v) {
         v(&Polygon::points, Parameter{"points", "m",
-                                      "Its corners [x, y] in order, either way around; the last is joined to the "
-                                      "first, and edges must not cross."});
+                                      "Its corners [x, y] in order, either way around, at most 4096; the last is "
+                                      "joined to the first, and edges must not cross."});
     }
     void prepare() {
         if (points.size() > most_points) throw ModelError("polygon: more than 4096 points");
@@ -51,7 +51,7 @@ struct Polygon {
     static T distance(const float* data, const Vec3<T>& p) {
         return OutlineInBox::distance(data, p);
     }
-    using Specialised = OutlineInBox::Specialised;  // Bezier names it as a part
+    using Specialised = OutlineInBox::Specialised;  // listed once, in Bezier::Parts
     static constexpr unsigned search_half_instructions = 2000;
     static float spacing(const float* data) { return OutlineInBox::spacing(data); }
     static bool specialise(const float* data, const PointRange& range, std::span<const float> of,
