@@ -230,4 +230,22 @@ TEST_CASE("check warns of a phase that is declared and nowhere") {
     CHECK(some.err.starts_with("two.json:1:57: warning: the phase \"b\" is declared, and is nowhere\n"));
 }
 
+TEST_CASE("check warns of shapes that are declared and used nowhere") {
+    const Shell shell;
+    const auto warnings = [&](const std::string& shapes) {
+        write_text(shell.directory / "scene.json",
+                   R"({"version": 1, "phases": {"a": {"clear": {"ior": 1.5}}}, "shapes": {)" + shapes +
+                       R"(}, "tree": {"set": {"phase": "a", "of": "used"}}})");
+        return shell.run({"check", "scene.json"}).err;
+    };
+    const std::string ball = R"({"sphere": {"radius": 1}})";
+    CHECK(warnings("\"used\": " + ball) == "");
+    CHECK(warnings("\"used\": \"ball\", \"ball\": " + ball) == "");
+    CHECK(warnings("\"used\": " + ball + ", \"bell\": " + ball)
+              .starts_with("scene.json:1:104: warning: the shape \"bell\" is declared, and is used nowhere\n"));
+    std::string many = "\"used\": " + ball;
+    for (int i = 0; i < 20; ++i) many += ", \"s" + std::to_string(i) + "\": " + ball;
+    CHECK(warnings(many).find("scene.json: warning: 12 more shapes are used nowhere\n") != std::string::npos);
+}
+
 }  // namespace test_outcomes

@@ -6,7 +6,7 @@
 #include "command/overlap_report.hpp"
 #include "command/streams.hpp"
 #include "command/unplaced_report.hpp"
-#include "command/unused_phases.hpp"
+#include "command/unused_names.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/trace/tracer.hpp"
@@ -27,7 +27,7 @@ PhaseSet phases_of(const Phased& object, const PlacedObjects& placed) {
 // A scene without a camera is a tree for all that does not render. Says what it is good for.
 int check_without_camera(const Document& document, const std::string& shown) {
     const SceneModel model = read_scene_without_camera(document);
-    warn_of_unused_phases(document, model.phases, phases_of(model.object, model.placed));
+    warn_of_unused_names(document, model.phases, phases_of(model.object, model.placed));
     if (!model.placed.empty()) {
         warn_of_unplaced_groups(document, model.placed);
         warn_of_overlaps(document, model.placed);
@@ -55,7 +55,7 @@ int check(const SceneFile& file) {
     if (document.root().is_object() && !document.root().find("camera"))
         return check_without_camera(document, file.shown());
     const Scene scene = load_scene(document);
-    warn_of_unused_phases(document, scene.phases, phases_of(scene.object, scene.placed));
+    warn_of_unused_names(document, scene.phases, phases_of(scene.object, scene.placed));
     if (!scene.placed.empty()) {
         warn_of_unplaced_groups(document, scene.placed);
         warn_of_overlaps(document, scene.placed);

@@ -1,0 +1,56 @@
+#include "command/unused_names.hpp"
+
+#include <fmt/format.h>
+
+#include <unordered_set>
+
+#include "command/streams.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+// The place of each is sought from the beginning of the file, which may name a million.
+constexpr std::size_t most_shapes_told = 8;
+
+// Adds all texts that stand anywhere in a value.
+void add_texts(Value value, std::unordered_set<std::string>& texts) {
+    if (value.is_string()) texts.emplace(value.string());
+    for (const Value inner : value) add_texts(inner, texts);
+}
+
+std::string warning_of(const Document& document, Value declared, fmt::format_string<std::string_view&> says) {
+    std::string_view name = declared.key();
+    return document.error(declared.key_offset(), "warning: " + fmt::format(says, name)).what();
+}
+
+}  // namespace
+
+std::vector<std::string> warnings_of_unused_names(const Document& document, const PhaseNames& phases, PhaseSet used) {
+    std::vector<std::string> warnings;
+    std::unordered_set<std::string> said;
+    add_texts(document.root(), said);
+    const Value root = document.root();
+    const std::optional<Value> declared = root.find("phases"), shapes = root.find("shapes");
+    for (std::size_t i = 1; declared && i < phases.names.size(); ++i) {
+        if (used.contains(Phase{static_cast<std::uint8_t>(i)}) || said.contains(phases.names[i])) continue;
+        if (const std::optional<Value> phase = declared->find(phases.names[i]))
+            warnings.push_back(warning_of(document, *phase, "the phase \"{}\" is declared, and is nowhere"));
+    }
+    std::size_t unused_shapes = 0;
+    for (std::size_t i = 0; shapes && i < shapes->size(); ++i) {
+        const Value shape = (*shapes)[i];
+        if (said.contains(std::string(shape.key())) || ++unused_shapes > most_shapes_told) continue;
+        warnings.push_back(warning_of(document, shape, "the shape \"{}\" is declared, and is used nowhere"));
+    }
+    if (unused_shapes > most_shapes_told)
+        warnings.push_back(fmt::format("{}: warning: {} more shapes are used nowhere", document.name(),
+                                       unused_shapes - most_shapes_told));
+    return warnings;
+}
+
+void warn_of_unused_names(const Document& document, const PhaseNames& phases, PhaseSet used) {
+    for (const std::string& warning : warnings_of_unused_names(document, phases, used)) say("{}\n", warning);
+}
+
+}  // namespace phasetree::tracer
