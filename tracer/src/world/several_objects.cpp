@@ -16,6 +16,7 @@
 #include <new>
 #include <utility>
 
+#include "world/bumps_and_grain.hpp"
 #include "world/traced_geometry.hpp"
 
 namespace phasetree::tracer {
@@ -148,15 +149,7 @@ Surface TracedGeometry::surface_of_several(const Ray& ray, const Met& met, doubl
         surface.near_side.start = StartInCopy{first.copy.number, first.crossing.p_in};
     }
     if (is_clear(scene_.materials[to.index])) surface.far_side = {on.origin, to, on.in, on.start};
-    if (const Bump* bump = surface.optics.get().bump()) {
-        const glm::dvec3 in_object(bump->normal_at(surface.place));
-        const glm::vec3 in_scene(glm::normalize(in_object * shown.copy.to_object.matrix));
-        surface.normal = turned_to_ray(in_scene, surface.geometric_normal, ray.direction);
-    }
-    if (const Grain* grain = surface.optics.get().grain()) {
-        const glm::dvec3 in_object(grain->direction_at(surface.place));
-        surface.along_grain = glm::vec3(glm::inverse(shown.copy.to_object.matrix) * in_object);
-    }
+    add_bumps_and_grain(surface, ray.direction, InSpaceOfCopy{shown.copy.to_object});
     return surface;
 }
 

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "phasetree/cells/file.hpp"
+#include "world/bumps_and_grain.hpp"
 #include "world/kept_cells.hpp"
 
 namespace phasetree::tracer {
@@ -227,9 +228,7 @@ Surface TracedGeometry::surface_of_object(const Ray& ray, const embree::Query& q
                     .entered = c.to,
                     .place = {c.p_in, -normal.unit, std::nullopt}};
     if (is_clear(scene_.materials[c.to.index])) surface.far_side = {c.p_out, c.to};
-    if (const Bump* bump = surface.optics.get().bump())
-        surface.normal = turned_to_ray(bump->normal_at(surface.place), surface.geometric_normal, ray.direction);
-    if (const Grain* grain = surface.optics.get().grain()) surface.along_grain = grain->direction_at(surface.place);
+    add_bumps_and_grain(surface, ray.direction, InSceneSpace());
     return surface;
 }
 
@@ -253,7 +252,6 @@ Surface TracedGeometry::surface_of_mesh(const Ray& ray, const RTCRayHit& hit) co
     const glm::vec3 origin = p + flat * std::max(surface_epsilon_, relative_surface_epsilon * largest);
     const TexturePoint place(origin, shading, coordinates_at(mesh, hit));
     const Interface& optics = mesh_interfaces_[index * scene_.materials.size() + ray.phase.index];
-    if (const Bump* bump = optics.bump()) shading = turned_to_ray(bump->normal_at(place), flat, ray.direction);
     Surface surface{.distance = hit.ray.tfar,
                     .normal = shading,
                     .geometric_normal = flat,
@@ -264,7 +262,7 @@ Surface TracedGeometry::surface_of_mesh(const Ray& ray, const RTCRayHit& hit) co
                     .object = first_mesh_ + static_cast<std::uint32_t>(index),
                     .entered = std::nullopt,
                     .place = place};
-    if (const Grain* grain = optics.grain()) surface.along_grain = grain->direction_at(place);
+    add_bumps_and_grain(surface, ray.direction, InSceneSpace());
     return surface;
 }
 
