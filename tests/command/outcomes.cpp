@@ -192,6 +192,7 @@ TEST_CASE("an object of which nothing is left is worth a sentence") {
     CHECK(shell.run({"info", "scene.json"}).out.find("nothing of the object is left") != std::string::npos);
     CHECK(shell.run({"info", "scene.json", "--json"}).out.find("\"empty\": true") != std::string::npos);
     // So thin that no point of a grid is in it.
+    scene.shapes = "{}";
     scene.tree = R"({"under": [{"set": {"phase": "glass", "of": {"translate": {"by": [0, 0, 1], "of":
         {"box": {"size": [2, 2, 0.001]}}}}}}, {"set": {"phase": "glass", "of": {"box": {"size": [2, 2, 0.001]}}}}]})";
     write_text(shell.directory / "scene.json", scene.text());

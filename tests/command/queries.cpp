@@ -68,6 +68,7 @@ TEST_CASE("an object so far from the origin that few digits are left is warned o
     const Shell shell;
     const auto ball_at = [&](const char* x) {
         SceneText scene;
+        scene.shapes = "{}";
         scene.tree = fmt::format(
             R"({{"translate": {{"by": [{}, 0, 0], "of": {{"set": {{"phase": "glass", "of": {{"sphere": {{"radius": 1}}}}}}}}}}}})",
             x);
