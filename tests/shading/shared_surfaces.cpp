@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <utility>
+
 namespace test_shared_surfaces {
 
 using namespace phasetree::tracer;
@@ -22,6 +24,24 @@ TEST_CASE("between scenes coatings that are in use stay, and all else is made an
     CHECK(unused.expired());
     // What is made of the other side of another surface might differ from it in its last bits.
     CHECK(dielectric() != surface);
+}
+
+TEST_CASE("metals of one roughness share what they lose, and each grain has its own") {
+    SharedSurfaces surfaces;
+    const auto lost = [&](float eta, float roughness, float aspect) {
+        const auto surface = surfaces.conductor(1, glm::vec3(eta), glm::vec3(3), ValueRange{roughness, roughness},
+                                                std::nullopt, {}, aspect);
+        return std::pair(surface, surface->multiple(roughness, 0).losses.at(glm::vec3(0.6f, 0.0f, 0.8f)).x);
+    };
+    const auto [gold, by_gold] = lost(0.2f, 0.5f, 1);
+    const auto [iron, by_iron] = lost(2.9f, 0.5f, 1);
+    const auto [brushed, by_brushed] = lost(2.9f, 0.5f, 0.2f);
+    const auto [smoother, by_smoother] = lost(2.9f, 0.3f, 1);
+    CHECK(gold != iron);
+    CHECK(iron != brushed);
+    CHECK(by_gold == by_iron);
+    CHECK(by_brushed < 0.8f * by_iron);
+    CHECK(by_smoother < 0.8f * by_iron);
 }
 
 }  // namespace test_shared_surfaces

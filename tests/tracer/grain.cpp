@@ -98,6 +98,16 @@ TEST_CASE("strokes turn with the copy of their object") {
     CHECK(std::isfinite(strokes(around, {0.5f, 2, 3}, {0, 0, -1}).x));
 }
 
+TEST_CASE("strokes of a stretched copy lie as they do in its object, stretched") {
+    const std::string object =
+        R"({"name": "floor", "tree": )" + floor_of_a + R"(, "transform": {"stretch": {"factors": [1, 3, 1]}}})";
+    const Scene scene = read_scene(phasetree::Document::from_text(
+        R"({"version": 1, "phases": {"a": {)" + brushed(R"("grain_along": [1, 1, 0])") + R"(}}, "objects": [)" +
+            object + R"(], "camera": {"position": [0, -5, 0], "look_at": [0, 0, 0]}, )" + white_environment + "}",
+        "test.json"));
+    CHECK(are_parallel(strokes(scene, {0.1f, 0.2f, 3}, {0, 0, -1}), {1, 3, 0}));
+}
+
 TEST_CASE("strokes run over meshes") {
     const std::string meshes = R"("meshes": [{"floor": {"height": 0, "material": {)" +
                                brushed(R"("grain_along": [1, 1, 1])") + R"(}}}], )" + white_environment;

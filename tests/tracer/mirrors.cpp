@@ -15,6 +15,20 @@ namespace {
 
 const std::string floor_below =
     R"({"set": {"phase": "floor", "of": {"translate": {"by": [0, 0, -0.5], "of": {"box": {"size": [8, 8, 1]}}}}}})";
+
+// How many samples and passes of photons a picture takes, and from how far these are gathered.
+struct Effort {
+    std::uint32_t samples;
+    float photons, photon_radius;
+};
+Scene with(Scene scene, bool caustics, const Effort& effort) {
+    scene.settings.caustics = caustics;
+    scene.settings.samples = effort.samples;
+    scene.settings.photons = effort.photons;
+    scene.settings.photon_radius = effort.photon_radius;
+    return scene;
+}
+
 const std::string white_metal = R"("conductor": {"eta": [1, 1, 1], "k": [100000, 100000, 100000])";
 
 }  // namespace
@@ -67,7 +81,7 @@ TEST_CASE("photons and paths find the same light by mirrors, rough and brushed m
                 : R"(, {"set": {"phase": "glass", "of": {"translate": {"by": [0, 0, 0.45], "of": {"sphere": {"radius": 0.4}}}}}})";
         check_pictures(
             [&](bool caustics) {
-                Scene scene = scene_of(
+                const Scene scene = scene_of(
                     R"("floor": {"diffuse": {"color": [0.6, 0.6, 0.6]}}, "metal": {)" + white_metal + c.metal + "}}" +
                         (c.glass.empty() ? "" : R"(, "glass": {"clear": {)" + c.glass + "}}"),
                     R"({"over": [{"set": {"phase": "metal", "of": {"translate": {"by": [0, 0, 0.3], "of": {"tube": {"radius": 1, "inner_radius": 0.9, "height": 0.6}}}}}})" +
@@ -76,12 +90,8 @@ TEST_CASE("photons and paths find the same light by mirrors, rough and brushed m
                                    {"sphere": {"centre": [2.5, -0.5, 0.8], "radius": 0.3, "radiance": [15, 15, 15]}}],
                        "camera": {"position": [0, -0.1, 5], "look_at": [0, 0, 0], "fov": 30},
                        "render": {"width": 24, "height": 24})");
-                scene.settings.caustics = caustics;
                 // Photons are gathered from near, so that none are gathered from beyond the wall of the tube.
-                scene.settings.samples = long_form ? 500 : 96;
-                scene.settings.photons = long_form ? 16 : 6;
-                scene.settings.photon_radius = long_form ? 0.15f : 0.3f;
-                return scene;
+                return with(scene, caustics, long_form ? Effort{500, 16, 0.15f} : Effort{96, 6, 0.3f});
             },
             planted, sidak(1e-4, 2 * 7));
     }
@@ -94,7 +104,7 @@ TEST_CASE("photons and paths find the same light by brushed metal, whichever way
         CAPTURE(along);
         check_pictures(
             [&](bool caustics) {
-                Scene scene = scene_of(
+                const Scene scene = scene_of(
                     R"("floor": {"diffuse": {"color": [0.1, 0.1, 0.1]}}, "wall": {)" + white_metal +
                         R"(, "roughness": 0.3, "grain_aspect": 0.2, "grain_along": )" + along + "}}",
                     R"({"over": [{"set": {"phase": "wall", "of": {"translate": {"by": [-1.1, 0, 1], "of": {"box": {"size": [0.2, 5, 2]}}}}}}, )" +
@@ -102,11 +112,7 @@ TEST_CASE("photons and paths find the same light by brushed metal, whichever way
                     R"("lights": [{"spot": {"position": [0.5, 0, 1.5], "target": [-1, 0, 0.7], "cone": 30, "intensity": 30}}],
                        "camera": {"position": [2.5, 2.5, 2.5], "look_at": [0.2, 0.9, 0], "fov": 12},
                        "render": {"width": 16, "height": 16})");
-                scene.settings.caustics = caustics;
-                scene.settings.samples = long_form ? 4000 : 120;
-                scene.settings.photons = long_form ? 32 : 8;
-                scene.settings.photon_radius = long_form ? 0.1f : 0.2f;
-                return scene;
+                return with(scene, caustics, long_form ? Effort{4000, 32, 0.1f} : Effort{120, 8, 0.2f});
             },
             long_form ? 1.05 : 1.25, sidak(1e-4, 2 * 2));
     }
