@@ -53,7 +53,12 @@ std::vector<Bad> structure() {
          "expected a key in double quotes, found '{'"},
         {"{\n  \"a\": {\n    \"b\": {\"c\": 2}},\n    \"d\": {\"e\": 3}\n  },\n  \"f\": 4\n}", 5, 4,
          "expected the end of the file, found ','; by the indentation, line 3 has a '}' too many"},
-        // Texts whose indentation says nothing.
+        // Comments are no indentation, nor are values below their keys.
+        {"{\n  \"a\": {},\n  /* x */ \"b\": 1\n}}", 4, 2, "expected the end of the file, found '}'"},
+        {"{\n/* c */ \"a\": 1,\n\"b\": [2}", 3, 8, "expected ',' or ']', found '}'"},
+        {"{\"a\":\n    [1],\n\"b\": [2}", 3, 8, "expected ',' or ']', found '}'"},
+        {"\xEF\xBB\xBF\n", 1, 1, "the file is empty"},
+        // Texts with little indentation or none.
         {"{\n\"a\": {\"b\": {\"c\": 1},\n\"d\": 2\n}\n", 4, 2,
          "the file ends inside an object that was opened at line 1; by the indentation, line 2 lacks a '}'"},
         {"{\n\"a\": {\n\"b\": 1,\n\"d\": 2\n}\n", 5, 2, "the file ends inside an object that was opened at line 1"},

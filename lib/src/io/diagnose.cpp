@@ -55,25 +55,26 @@ class Diagnosis {
         const std::size_t last = text_.find_last_not_of(" \t\r\n");
         const std::size_t end = last == std::string_view::npos ? 0 : last + 1;
         if (!failure_.opened) {
-            const bool is_blank = end == 0 || text_ == byte_order_mark;
+            const bool is_blank = end == 0 || text_.substr(0, end) == byte_order_mark;
             return error(end, is_blank ? "the file is empty" : "the file holds comments and nothing else");
         }
         const std::size_t opened = *failure_.opened;
         const std::size_t line = line_of(opened);
-        return error(end, fmt::format("the file ends inside {} that was opened at line {}{}",
-                                      text_[opened] == '{' ? "an object" : "an array", line, missing_before(end)));
+        return error(end,
+                     fmt::format("the file ends inside {} that was opened at line {}{}",
+                                 text_[opened] == '{' ? "an object" : "an array", line, hint_of_missing_bracket(end)));
     }
 
     std::size_t line_of(std::size_t at) const { return SceneError({}, text_, at, {}).line(); }
 
-    // Where the indentation says that a bracket was forgotten, or that there is one too many, unless that is the line
-    // that the error names anyway.
-    std::string missing_before(std::size_t at) const {
+    // Each is a clause for the end of a message. It names the line where, by the indentation, a bracket is missing or
+    // is too many; it is empty if nothing is found, or if that is the line of the error itself.
+    std::string hint_of_missing_bracket(std::size_t at) const {
         const auto missing = indentation_breaks(text_, at).missing;
         if (!missing || line_of(missing->at) == line_of(at)) return "";
         return fmt::format("; by the indentation, line {} lacks a '{}'", line_of(missing->at), missing->bracket);
     }
-    std::string too_many_before(std::size_t at) const {
+    std::string hint_of_extra_bracket(std::size_t at) const {
         const auto too_many = indentation_breaks(text_, at).too_many;
         if (!too_many || line_of(too_many->at) == line_of(at)) return "";
         return fmt::format("; by the indentation, line {} has a '{}' too many", line_of(too_many->at),
@@ -86,8 +87,8 @@ class Diagnosis {
         if (text_[at] == '#') return error(at, "a comment begins with // or /*, not with #");
         if (text_[at] == '\'') return error(at, "text stands in \"double quotes\", not in 'single quotes'");
         const bool is_bracket = std::string_view("{}[]:").find(text_[at]) != std::string_view::npos;
-        const std::string hint = failure_.expecting == Expecting::end_of_file ? too_many_before(at)
-                                 : is_bracket                                 ? missing_before(at)
+        const std::string hint = failure_.expecting == Expecting::end_of_file ? hint_of_extra_bracket(at)
+                                 : is_bracket                                 ? hint_of_missing_bracket(at)
                                                                               : "";
         return error(at, fmt::format("expected {}, found {}{}", what, shown_token(text_, at), hint),
                      std::move(suggestion));

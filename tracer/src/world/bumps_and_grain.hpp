@@ -1,5 +1,5 @@
 // What bumps and strokes make of a surface that a ray has met: how its shading normal turns, and where its strokes run.
-// Both are known in the space of textures, that of what was met.
+// Both are given in the space in which the object's textures are, and are taken to the scene's here.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -9,21 +9,22 @@
 
 namespace phasetree::tracer {
 
-/// Of what stands in the scene's own space.
-struct InSceneSpace {
+/// Leaves directions alone: the space of the textures of what was met is the scene's own.
+struct AlreadyInScene {
     glm::vec3 normal(const glm::vec3& n) const { return n; }
     glm::vec3 direction(const glm::vec3& d) const { return d; }
 };
 
-/// Of a copy of an object.
-struct InSpaceOfCopy {
-    const Transform& to_object;  ///< from the scene
+/// Takes normals and directions from the object's space to the scene's.
+struct FromCopyToScene {
+    const Transform& to_object;  ///< the copy's transform, from the scene to the object
 
     glm::vec3 normal(const glm::vec3& n) const { return glm::vec3(glm::normalize(glm::dvec3(n) * to_object.matrix)); }
     glm::vec3 direction(const glm::vec3& d) const { return glm::vec3(glm::inverse(to_object.matrix) * glm::dvec3(d)); }
 };
 
-/// The rest of the surface is complete. `space` takes normals and directions to the scene.
+/// Turns the normal and sets along_grain of a surface whose other members are set. `space` takes normals and directions
+/// to the scene's space.
 template <class Space>
 void add_bumps_and_grain(Surface& surface, const glm::vec3& ray_direction, const Space& space) {
     const Interface& optics = surface.optics.get();

@@ -228,7 +228,7 @@ Surface TracedGeometry::surface_of_object(const Ray& ray, const embree::Query& q
                     .entered = c.to,
                     .place = {c.p_in, -normal.unit, std::nullopt}};
     if (is_clear(scene_.materials[c.to.index])) surface.far_side = {c.p_out, c.to};
-    add_bumps_and_grain(surface, ray.direction, InSceneSpace());
+    add_bumps_and_grain(surface, ray.direction, AlreadyInScene());
     return surface;
 }
 
@@ -262,7 +262,7 @@ Surface TracedGeometry::surface_of_mesh(const Ray& ray, const RTCRayHit& hit) co
                     .object = first_mesh_ + static_cast<std::uint32_t>(index),
                     .entered = std::nullopt,
                     .place = place};
-    add_bumps_and_grain(surface, ray.direction, InSceneSpace());
+    add_bumps_and_grain(surface, ray.direction, AlreadyInScene());
     return surface;
 }
 

@@ -43,7 +43,7 @@ AzimuthPlace azimuth_place(float sin_phi, std::size_t rows) {
     return {below, position - static_cast<float>(below)};
 }
 
-// At a part of the way from b to c, which lie between a and d: Catmull and Rom's cubic.
+// Catmull and Rom's cubic through four equidistant values; `part` goes from 0 at b to 1 at c.
 glm::vec3 cubic_through(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& d, float part) {
     return b + 0.5f * part * (c - a + part * (2.0f * a - 5.0f * b + 4.0f * c - d + part * (3.0f * (b - c) + d - a)));
 }
@@ -56,7 +56,9 @@ LossTable::LossTable(const std::function<glm::vec3(float)>& directional_albedo) 
 }
 
 LossTable::LossTable(const std::function<glm::vec3(float, float)>& directional_albedo) {
-    constexpr std::size_t coarse = 13, between = (azimuths - 1) / (coarse - 1);
+    // E is computed at few azimuths, since each costs an integral, and the rows between them are interpolated by
+    // cubics.
+    constexpr std::size_t coarse = 13, rows_per_known = (azimuths - 1) / (coarse - 1);
     std::vector<Row> known;
     for (std::size_t k = 0; k < coarse; ++k) {
         const float root = static_cast<float>(k) / (coarse - 1), sin_phi = root * root;
@@ -64,8 +66,8 @@ LossTable::LossTable(const std::function<glm::vec3(float, float)>& directional_a
     }
     std::vector<Row> rows(azimuths);
     for (std::size_t k = 0; k < azimuths; ++k) {
-        const std::size_t below = std::min(k / between, coarse - 2);
-        const float part = static_cast<float>(k - between * below) / between;
+        const std::size_t below = std::min(k / rows_per_known, coarse - 2);
+        const float part = static_cast<float>(k - rows_per_known * below) / rows_per_known;
         for (std::size_t j = 0; j < nodes; ++j) {
             const glm::vec3 &b = known[below][j], &c = known[below + 1][j];
             const glm::vec3 a = below > 0 ? known[below - 1][j] : 2.0f * b - c;
@@ -73,7 +75,7 @@ LossTable::LossTable(const std::function<glm::vec3(float, float)>& directional_a
             rows[k][j] = glm::clamp(cubic_through(a, b, c, d, part), 0.0f, 1.0f);
         }
     }
-    // Evenly over a quarter of a turn, which is like the others.
+    // The mean over φ. One quarter of the turn is enough, because the others mirror it.
     constexpr int steps = 1024;
     Row mean;
     mean.fill(glm::vec3(0.0f));

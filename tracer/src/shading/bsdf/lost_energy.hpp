@@ -1,14 +1,16 @@
-// What a rough surface loses because its microfacets are followed for one scattering only, and the lobe that gives it
-// back.
+// Microfacet models follow light for one scattering only, so a rough surface loses the light that would be scattered
+// again. This file tabulates that loss and has the lobe that gives the light back.
 //
 //   1 − E(ω)    the part of the light along ω that single scattering loses: it would meet the surface again. It depends
 //               on μ = cos θ and, where the surface has a grain along x, on |sin φ|
 //   L̄           1/π ∫ (1 − E(ω)) μ dω, the same under uniform light
 //
 // Light that has been scattered several times has forgotten where it came from, so it is given back by
-// f = c (1 − E(o)) (1 − E(i)) / (π L̄), which is reciprocal, and whose albedo is c (1 − E(o)): with c = 1 a lossless
-// surface reflects all light, whatever the table's own error. E is integrated numerically from the very microfacets
-// that are sampled. Its lobe is sampled in proportion to the mean of (1 − E) μ between two nodes of μ and over all φ.
+// f = c (1 − E(o)) (1 − E(i)) / (π L̄). This is reciprocal, and its albedo is exactly c (1 − E(o)) of the table, because
+// L̄ is computed from the same table: with c = 1 a lossless surface reflects all light, but for the error of E in the
+// table. E is integrated numerically from the very microfacets that are sampled. The lobe is sampled with a density
+// proportional to s(μ) μ, where s is constant between two nodes of μ: the mean of 1 − E there, over all φ and the
+// colour channels.
 //
 // References: Kelemen & Szirmay-Kalos, A Microfacet Based Coupled Specular-Matte BRDF Model, Eurographics 2001 (the
 // lobe); Kulla & Conty, Revisiting Physically Based Shading at Imageworks, SIGGRAPH course 2017 (it as lost energy).
@@ -25,15 +27,15 @@
 
 namespace phasetree::tracer {
 
-/// 1 − E(ω) of one roughness, of each colour channel.
+/// A table of 1 − E(ω) for one roughness, for each colour channel.
 class LossTable {
   public:
-    /// Of a surface without a grain, whose single scattering gives back E(μ).
+    /// Makes the table of a surface without a grain; the function returns E(μ).
     explicit LossTable(const std::function<glm::vec3(float)>& directional_albedo);
-    /// Of one with a grain along x, whose single scattering gives back E(μ, |sin φ|).
+    /// Makes the table of a surface with a grain along x; the function returns E(μ, |sin φ|).
     explicit LossTable(const std::function<glm::vec3(float, float)>& directional_albedo);
 
-    /// Of a surface without a grain.
+    /// The first is only for a surface without a grain.
     glm::vec3 at(float cos_theta) const;
     glm::vec3 at(const glm::vec3& w) const;
     const glm::vec3& average() const { return average_; }
@@ -48,7 +50,7 @@ class LossTable {
 
     using Row = std::array<glm::vec3, nodes>;
     static glm::vec3 at(const Row& row, float cos_theta);
-    /// Made of all rows and of their mean over all φ.
+    /// `mean` is the mean of the rows over all φ.
     LossTable(std::vector<Row> rows, const Row& mean);
 
     std::vector<Row> rows_;  ///< one for each |sin φ|, or one alone
@@ -60,10 +62,11 @@ class LossTable {
 /// 1 − E(μ) over a range of roughness; of one roughness alone, if the range is empty.
 class LossTables {
   public:
-    /// `table` gives the table of a roughness, of several at once on other threads.
+    /// `table` returns the table of a roughness; it is called on several threads at once.
     LossTables(const ValueRange& roughness, const std::function<LossTable(float)>& table);
 
-    /// What a point of the surface has of it, interpolated between the tables of the neighbouring roughnesses.
+    /// The losses at one roughness, interpolated between the two tables next to it. Directions are sampled from the
+    /// nearer one.
     class At {
       public:
         At(const LossTable& below, const LossTable& above, float part) : below_(&below), above_(&above), part_(part) {}
