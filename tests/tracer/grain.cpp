@@ -1,5 +1,5 @@
 // The grain of brushed metal: where its strokes run on the tree, on copies and on meshes, and the light that they
-// throw.
+// reflect.
 #include <doctest/doctest.h>
 
 #include <cmath>
