@@ -1,10 +1,11 @@
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "phasetree/nodes/fields/profile.hpp"
@@ -38,17 +39,19 @@ struct QuadraticCurve {
 };
 
 /// The curves of an outline, each cut into pieces B(t) = s + 2bt + at², t in [0, 1], on which it becomes faster
-/// (a·b ≥ 0), by a factor of two at most, and y is monotone. A point m = s − p away from a piece's start is nearest at
-/// an end or where
+/// (a·b ≥ 0), by a factor of two at most, and y is monotone. Let m = s − p be the way from a point p to the start of a
+/// piece. The point of the piece that is nearest to p is one of its ends, or is where
 ///     h(t) = (B − p)·B′/2 = a² t³ + 3 a·b t² + (2b² + a·m) t + b·m
 /// vanishes and rises. h is convex for t ≥ 0, so only its last root is a minimum, and from the right of it Halley's
-/// steps approach it without passing. Five reach it: where they converge slowest, in the curve's centre of curvature, h
-/// has its three roots in one, an error t − r halves each time, and the distance depends on its fourth power. Where a
-/// piece is straight, as those of polygons are, h is linear.
+/// steps approach it without passing. Five steps are enough. They converge slowest where p is a centre of curvature, so
+/// that the three roots of h fall together in one root r: there each step only halves the error t − r, but the squared
+/// distance depends only on the fourth power of that error. Where a piece is straight, as those of polygons are, h is
+/// linear.
 ///
-/// A point is inside if a ray from it along +x crosses the outline an odd number of times. A piece counts once for
-/// low ≤ y < high, with the same numbers where two pieces meet; where t is ill-determined, at a level tangent, the
-/// point of the curve that it leads to is still at the height of p.
+/// A point is inside if a ray from it along +x crosses the outline an odd number of times. A ray crosses a piece at
+/// most once, and only if low ≤ p.y < high, where low and high are the heights of its ends. Pieces that meet have the
+/// same floats there, so no crossing is missed or counted twice. Where the tangent is level rounding makes t
+/// inaccurate, but the curve's point at that t is still at the height of p.
 class OutlinePieces {
   public:
     /// Each piece has ten floats: s.x, s.y, y of its end, b.x, b.y, a.x, a.y, a², 3 a·b, 2 b².
@@ -57,7 +60,7 @@ class OutlinePieces {
     /// Appends the pieces of a curve that is no point to a table, and returns their number.
     static std::size_t append(const QuadraticCurve& curve, std::vector<float>& table) {
         const glm::dvec2 a = curve.a(), b = curve.b();
-        if (is_line_but_for_rounding(curve)) {
+        if (is_straight_but_for_rounding(curve)) {
             append_piece(curve.start, curve.end, 0.5 * (curve.end - curve.start), glm::dvec2(0), table);
             return 1;
         }
@@ -88,8 +91,8 @@ class OutlinePieces {
         return count;
     }
 
-    /// The distance to so many pieces, negative inside unless they are a line, which has no inside. `sign` is what it
-    /// would be at p if there were none of these pieces.
+    /// The distance from p to the nearest of `count` pieces. It is negative inside, unless `is_line`: a line has no
+    /// inside. `sign` is 1 or −1, the sign at p before the crossings of these pieces are counted.
     template <class T>
     static T distance(const float* data, int count, bool is_line, const Vec3<T>& p, T sign) {
         T nearest(3e38f);
@@ -101,9 +104,9 @@ class OutlinePieces {
         return sqrt(nearest) * sign;
     }
 
-    /// The distance at a point and its gradient there. On a curve that is across it, so that it is known close to the
-    /// outline, too, where the way to the nearest point is mostly rounding. On the outline itself it may point to
-    /// either side.
+    /// The distance at a point and its gradient there. If the nearest point lies within a piece the gradient is taken
+    /// perpendicular to the piece's tangent, because close to the outline the way to the nearest point is mostly
+    /// rounding errors. On the outline itself the gradient may point to either side.
     struct Found {
         float distance;
         glm::vec2 at, gradient;
@@ -118,8 +121,8 @@ class OutlinePieces {
     static bool is_straight(const float* piece) { return !(piece[7] > 0); }
 
   private:
-    /// The squared distance to the start of a piece; and the way to the point of it that is nearest, unless the start
-    /// is, with its parameter.
+    /// The squared distance from p to the start of a piece; and another candidate for its nearest point: the way from p
+    /// to it, and its parameter.
     template <class T>
     struct Way {
         T squared_to_start, x, y, t;
@@ -135,7 +138,8 @@ class OutlinePieces {
             const T t = clamp(-constant * (1 / data[9]), zero, one);
             return {mx * mx + my * my, mx + t * (2.f * bx), my + t * (2.f * by), t};
         }
-        // Halley's steps from the right end to the last root of h. Where h does not rise the right end is tried.
+        // Halley's steps from the right end to the last root of h. If h does not rise at t, the step goes back to the
+        // right end.
         const T linear = mx * ax + my * ay + data[9];
         T t = one;
         for (int k = 0; k < 5; ++k) {
@@ -170,9 +174,9 @@ class OutlinePieces {
         return select(less(p.y, T(low)), sign, select(less(p.y, T(high)), crossed, sign));
     }
 
-    // Whether its control point is in the middle, but for less than the rounding of its points to floats, so that it
-    // bends by less than half of that. A line takes a fifth of the time that a curve does.
-    static bool is_line_but_for_rounding(const QuadraticCurve& curve) {
+    // Whether the curve bends by less than the rounding of its points to floats: whether its control point is that
+    // close to the middle of its ends. A straight piece takes less time than a curved one.
+    static bool is_straight_but_for_rounding(const QuadraticCurve& curve) {
         const auto largest = [](const glm::dvec2& v) { return std::max(std::abs(v.x), std::abs(v.y)); };
         const double farthest = std::max({largest(curve.start), largest(curve.control), largest(curve.end)});
         return curve.start != curve.end && largest(curve.a()) <= 0x1p-22 * farthest;

@@ -51,7 +51,7 @@ struct Polygon {
     static T distance(const float* data, const Vec3<T>& p) {
         return OutlineInBox::distance(data, p);
     }
-    using Specialised = OutlineInBox::Specialised;  // listed once, in Bezier::Parts
+    using Specialised = OutlineInBox::Specialised;  // Bezier::Parts alone lists it, because kinds are listed once
     static constexpr unsigned search_half_instructions = 2000;
     static float spacing(const float* data) { return OutlineInBox::spacing(data); }
     static bool specialise(const float* data, const PointRange& range, std::span<const float> of,
