@@ -91,6 +91,9 @@ TEST_CASE("a Bezier shape's distance is that of a search along its curves") {
         // A control point in line with its neighbours, perhaps beyond them; a corner that is its own control point.
         if (shape % 6 == 0) n.points[1] = glm::mix(n.points[0], n.points[2], rng.uniform(-1, 2));
         if (shape % 7 == 0) n.points[1] = n.points[0];
+        // Hardly bent.
+        if (shape % 3 == 0)
+            n.points[1] = 0.5f * (n.points[0] + n.points[2]) + std::pow(10.f, rng.uniform(-6, -2)) * random_corner(rng);
         // A hairpin.
         if (shape % 8 == 0) n.points[2] = n.points[0] + 0.001f * random_corner(rng);
         if (count % 2 != 0 || rng.chance(0.3)) n.thickness = rng.uniform(0.02f, 0.3f);
