@@ -1,5 +1,5 @@
-// PhaseTree: multiphase signed distance fields. This header has the nodes of trees, programs, tracing and cells. Files
-// of cells are in phasetree/cells/file.hpp, scene files in phasetree/io, Embree's geometry in
+// PhaseTree: multiphase signed distance fields. This header has the nodes of trees, programs, tracing, cells and meshes.
+// Files of cells are in phasetree/cells/file.hpp, scene files in phasetree/io, Embree's geometry in
 // phasetree/phasetree_embree.h.
 #pragma once
 
@@ -7,6 +7,7 @@
 #include "phasetree/cells/cells.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/math/float_mode.hpp"
+#include "phasetree/meshing/phase_mesh.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/model/renumber.hpp"
 #include "phasetree/nodes/list.hpp"

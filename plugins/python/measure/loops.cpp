@@ -4,12 +4,13 @@
 
 #include "../src/at_points.hpp"
 #include "../src/at_rays.hpp"
-#include "../src/prepared_object.hpp"
+#include "embree_core/prepared_object.hpp"
 #include "phasetree/math/float_mode.hpp"
 
 namespace py = pybind11;
 using namespace phasetree;
 using namespace phasetree::python;
+using embree::PreparedObject;
 
 namespace {
 

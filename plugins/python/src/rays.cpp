@@ -1,12 +1,14 @@
 // Crossings along arrays of rays, and the closest interface to points.
 #include "at_rays.hpp"
+#include "embree_core/prepared_object.hpp"
 #include "interruptible.hpp"
 #include "module.hpp"
-#include "prepared_object.hpp"
 
 namespace py = pybind11;
 
 namespace phasetree::python {
+
+using embree::PreparedObject;
 
 namespace {
 

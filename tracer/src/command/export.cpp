@@ -4,7 +4,10 @@
 #include <filesystem>
 
 #include "command/commands.hpp"
+#include "command/export_mesh.hpp"
 #include "command/load.hpp"
+#include "command/looks.hpp"
+#include "command/max_memory.hpp"
 #include "command/streams.hpp"
 #include "output/error.hpp"
 #include "output/file.hpp"
@@ -26,6 +29,7 @@ struct ExportOptions {
     std::string output;
     int grid = 0;
     std::optional<std::string> object;
+    MeshExport mesh;
 };
 
 std::string numbers_as_bytes(const std::vector<float>& numbers) {
@@ -43,18 +47,6 @@ constexpr std::size_t largest_page = 500'000;
 // The boxes along the longest side that are tried, finest first, and the length of a bracket: a page is looked at.
 constexpr int page_grids[] = {32, 24, 16, 12, 8, 5};
 constexpr float bracket_on_page = 3e-5f;
-
-std::vector<Look> looks_without_materials(const PhaseNames& phases) {
-    std::vector<Look> looks;
-    for (std::size_t i = 0; i < phases.names.size(); ++i) {
-        // Colours that differ: around the circle by the golden ratio.
-        const float turn = 6.2831853f * 0.618034f * static_cast<float>(i);
-        Look look{phases.names[i], i == 0 ? Look::clear : Look::coated};
-        if (i > 0) look.color = 0.45f + 0.35f * glm::cos(turn + glm::vec3(0, 2.1f, 4.2f));
-        looks.push_back(look);
-    }
-    return looks;
-}
 
 int export_page(const SceneFile& file, const ExportOptions& chosen) {
     const std::filesystem::path path = chosen.output;
@@ -76,8 +68,7 @@ int export_page(const SceneFile& file, const ExportOptions& chosen) {
     PageView view{bounds.centre() + 1.4f * bounds.diagonal() * glm::vec3(0.45f, -0.8f, 0.4f), bounds.centre(), 40};
     float floor = bounds.low.z;
     if (scene) {
-        for (std::size_t i = 0; i < tree.phases.names.size(); ++i)
-            looks.push_back(look_of(tree.phases.names[i], scene->materials[i], bounds));
+        looks = looks_of(tree.phases, scene->materials, bounds);
         view = view_of(scene->camera);
         for (const Mesh& mesh : scene->meshes)
             if (mesh.name.starts_with("floor") && !mesh.vertices.empty()) floor = mesh.vertices.front().z;
@@ -151,7 +142,13 @@ void add_export(CLI::App& app, Run& run) {
         "floats, lowest byte first, for a texture of format RGBA32F that is 1024 texels wide.\n"
         ".html: a page of at most 500 kB that shows the object in a browser with WebGL 2, from disk\n"
         "and without a net. Drag to turn, with shift or the right button to move, scroll to zoom;\n"
-        "arrows, +, - and 0 do the same; phases can be hidden, and a plane cuts the object open.");
+        "arrows, +, - and 0 do the same; phases can be hidden, and a plane cuts the object open.\n"
+        ".3mf .stl .obj .glb .ply: triangles. Each phase has a closed surface; where two touch they\n"
+        "share its triangles' corners, so there are neither gaps nor overlaps. .3mf, for printers, and\n"
+        ".obj and .glb have an object of its own for each phase, with its colour; a unit of length is\n"
+        "a millimetre in .3mf, a metre in .glb. .stl has what bounds all phases together or, with\n"
+        "{phase} in the name of FILE, a file for each. .ply has each triangle once, with the phases\n"
+        "on both of its sides.");
     const auto file = add_scene_file(*command);
     auto options = std::make_shared<ExportOptions>();
     add_object(*command, options->object);
@@ -163,14 +160,30 @@ void add_export(CLI::App& app, Run& run) {
             "only what matters there; 0 for none (default: 0)")
         ->check(CLI::Range(0, 64))
         ->option_text("N");
+    command
+        ->add_option("--spacing", options->mesh.spacing,
+                     "Of triangles: the distance of the grid's points, about the size of the smallest that is kept "
+                     "(default: a 256th of the longest side)")
+        ->check(CLI::PositiveNumber)
+        ->option_text("LENGTH");
+    command
+        ->add_option("--phase", options->mesh.phases,
+                     "Of triangles: a phase that is to be written; may be repeated (default: all but the vacuum)")
+        ->option_text("NAME");
+    add_max_memory(*command, options->mesh.most_bytes);
     command->callback([=, &run] {
         run = [=] {
             const std::string extension = std::filesystem::path(options->output).extension().string();
             if (extension == ".glsl") return export_shader(*file, *options);
             if (extension == ".html") return export_page(*file, *options);
-            throw OutputError(
-                fmt::format("cannot write \"{}\": {}, and an export is .glsl or .html", options->output,
-                            extension.empty() ? "it has no extension" : "its extension is \"" + extension + "\""));
+            if (is_mesh_extension(extension)) {
+                options->mesh.output = options->output;
+                options->mesh.object = options->object;
+                return export_mesh(*file, options->mesh);
+            }
+            throw OutputError(fmt::format(
+                "cannot write \"{}\": {}, and an export is .3mf, .stl, .obj, .glb, .ply, .html or .glsl",
+                options->output, extension.empty() ? "it has no extension" : "its extension is \"" + extension + "\""));
         };
     });
 }

@@ -1,18 +1,20 @@
-// An object prepared for rays: its cells in Embree.
 #pragma once
 
 #include <memory>
+#include <type_traits>
 
 #include "embree_core/cell_scene.hpp"
 
-namespace phasetree::python {
+namespace phasetree::embree {
 
+/// An object prepared for rays, with a device of its own: for who traces rays and renders nothing. Immutable; any
+/// thread may trace.
 class PreparedObject {
   public:
-    /// Throws ModelError for an object that cannot be traced, and BuildCancelled.
+    /// Throws ModelError for an object that cannot be traced, BuildCancelled, and EmbreeError.
     PreparedObject(const Phased& object, const CellOptions& options);
 
-    const embree::CellScene& scene() const { return *scene_; }
+    const CellScene& scene() const { return *scene_; }
     const InterfaceCells& cells() const { return scene_->cells(); }
 
   private:
@@ -20,7 +22,7 @@ class PreparedObject {
         void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
     };
     std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release> device_;  // behind the scene when it ends
-    std::unique_ptr<const embree::CellScene> scene_;
+    std::unique_ptr<const CellScene> scene_;
 };
 
-}  // namespace phasetree::python
+}  // namespace phasetree::embree

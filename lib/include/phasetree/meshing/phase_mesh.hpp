@@ -1,0 +1,101 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "phasetree/math/bounds.hpp"
+#include "phasetree/model/phase.hpp"
+#include "phasetree/trace/tracer.hpp"
+
+namespace phasetree {
+
+/// Thrown by a meshing that MeshOptions::cancelled has stopped.
+class MeshingCancelled : public std::runtime_error {
+  public:
+    MeshingCancelled() : std::runtime_error("the making of a mesh was cancelled") {}
+};
+
+/// A change of phase along a line.
+struct CrossingOnLine {
+    float t = 0;  ///< distance from the line's origin
+    Phase from, to;
+    glm::vec3 normal{0};  ///< of unit length, from `from` into `to`
+};
+
+/// Appends all crossings along a line, which starts in the vacuum: origin + t·direction for t from 0 to `length`, in
+/// rising order. The direction is of unit length. It is called by many threads at once.
+using LineTracer = std::function<void(const glm::vec3& origin, const glm::vec3& direction, float length,
+                                      std::vector<CrossingOnLine>&)>;
+/// Lines through an object by its tracer, which must outlive what is returned. Cells in Embree are faster
+/// (line_tracer of embree_core/line_tracer.hpp, which the phasetree command and the Python package use).
+LineTracer line_tracer(const InterfaceTracer&);
+
+struct MeshOptions {
+    /// The side of the cubes of the grid, in the scene's unit of length; 0 takes a 256th of the bounds' longest side.
+    float spacing = 0;
+    std::function<bool()> cancelled{};  ///< called now and then, by any thread; true ends the work
+    /// Called now and then with the share of the lines that are traced, in (0, 1], by one thread at a time.
+    std::function<void(float)> progress{};
+};
+
+/// The interfaces of an object as triangles. Where phases touch they share the triangles, and all triangles share their
+/// vertices, so there are neither gaps nor overlaps.
+struct PhaseMesh {
+    struct Triangle {
+        /// Counterclockwise for who looks from the phase in front.
+        std::array<std::uint32_t, 3> vertices{};
+        Phase behind;  ///< the one of the higher index
+        Phase front;
+    };
+
+    std::vector<glm::vec3> vertices;
+    std::vector<Triangle> triangles;
+    float spacing = 0;  ///< that was used
+    /// How many crossings there are along the lines of the grid, and how many of these are passed over because the
+    /// phase between two of them is thinner than the grid.
+    std::size_t crossings = 0, passed_over = 0;
+
+    /// The phases that have triangles.
+    PhaseSet phases() const;
+};
+
+/// The most cubes along a side of the bounds.
+inline constexpr int most_cubes_along = 1024;
+
+/// Makes a mesh of the interfaces within the bounds, which must contain all that is not vacuum. Uses all threads that
+/// TBB gives it, and gives the same mesh for any number of them. Throws ModelError if the bounds are empty or infinite,
+/// or for a spacing that would take more than most_cubes_along cubes along a side, and MeshingCancelled.
+///
+/// It is dual contouring (Ju, Losasso, Schaefer & Warren, *Dual Contouring of Hermite Data*, SIGGRAPH 2002) for several
+/// labels at once. A grid of points has the labels; each cube with corners of different phases has one vertex, and each
+/// edge between two phases a quadrilateral of the vertices of the four cubes around it. Places and normals of the
+/// interfaces along the edges come from rays, so edges and corners of the object are sharp. The vertex is where the
+/// planes through these places meet best, in its cube or near it.
+///
+/// Labels are first changed where a phase would touch itself along an edge or at a point alone, so the points of each
+/// phase are well-composed (Latecki, *3D Well-Composed Pictures*, Graphical Models and Image Processing 1997). Then
+/// each phase's surface is closed, and a manifold: each of its edges has two triangles, and the triangles around a
+/// vertex are one fan. Triangles may intersect each other where an object is about as thin as the grid; what is thinner
+/// may be missing.
+PhaseMesh mesh_of(const Bounds& bounds, const LineTracer& lines, const MeshOptions& options = {});
+
+/// A closed surface; its triangles are counterclockwise for who looks from outside.
+struct ClosedMesh {
+    std::vector<glm::vec3> vertices;
+    std::vector<std::uint32_t> in_mesh;  ///< for each vertex, its number in PhaseMesh::vertices
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+
+    double volume() const;
+};
+
+/// What bounds some phases together: the triangles of a mesh with one of these on one side alone, and their vertices.
+/// It is a manifold if they are a single phase, or all but one.
+ClosedMesh surface_of(const PhaseMesh& mesh, PhaseSet phases);
+
+}  // namespace phasetree

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+#include <vector>
+
+#include "phasetree/meshing/phase_mesh.hpp"
+
+/// From an object to a mesh of its interfaces: the labels at the points of a grid and the crossings along its lines
+/// (here), labels that give manifolds (well_composed.hpp), a vertex in a cube (vertex_in_cube.hpp), and the mesh.
+namespace phasetree::meshing {
+
+/// A grid of points with equal distances. Its cubes are called by their corner of the lowest coordinates.
+struct Grid {
+    glm::dvec3 low{0};
+    double spacing = 0;
+    glm::ivec3 points{0};
+
+    /// A grid whose outermost points are outside of the bounds. Throws ModelError; see mesh_of.
+    static Grid around(const Bounds&, float spacing);
+
+    std::size_t size() const {
+        return static_cast<std::size_t>(points.x) * static_cast<std::size_t>(points.y) *
+               static_cast<std::size_t>(points.z);
+    }
+    std::size_t index(const glm::ivec3& p) const {
+        return (static_cast<std::size_t>(p.z) * static_cast<std::size_t>(points.y) + static_cast<std::size_t>(p.y)) *
+                   static_cast<std::size_t>(points.x) +
+               static_cast<std::size_t>(p.x);
+    }
+    glm::dvec3 place(const glm::ivec3& p) const { return low + spacing * glm::dvec3(p); }
+};
+
+/// A crossing along a line of the grid.
+struct GridCrossing {
+    float at = 0;  ///< along the line, in cubes from its first point
+    Phase from, to;
+    glm::vec3 normal{0};  ///< from `from` into `to`
+};
+
+/// The crossings along all lines of one direction.
+class CrossingsAlong {
+  public:
+    CrossingsAlong(const Grid& grid, int axis) : grid_(grid), axis_(axis) {}
+    /// Traces the lines. `advance` is called with how many lines more are traced; it may throw.
+    void trace(const LineTracer&, const std::function<void(std::size_t)>& advance);
+
+    std::size_t lines() const;
+    std::size_t size() const { return crossings_.size(); }
+    /// Those of the line through a point, in their order.
+    std::span<const GridCrossing> of_line(const glm::ivec3& point) const;
+    /// Those between a point and the next one along the axis.
+    std::span<const GridCrossing> of_edge(const glm::ivec3& point) const;
+    /// The one that stands for an edge with these phases at its ends, if there is any.
+    std::optional<GridCrossing> between(const glm::ivec3& point, Phase first, Phase second) const;
+
+  private:
+    std::size_t number_of_line(const glm::ivec3& point) const;
+
+    const Grid& grid_;
+    int axis_;
+    std::vector<std::size_t> starts_;  ///< of each line, and the end
+    std::vector<GridCrossing> crossings_;
+};
+
+/// The phase at each point of the grid, x fastest.
+using Labels = std::vector<Phase>;
+/// By the crossings along the lines in x.
+Labels labels_of(const Grid&, const CrossingsAlong& x);
+
+}  // namespace phasetree::meshing

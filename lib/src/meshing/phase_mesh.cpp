@@ -1,0 +1,287 @@
+#include "phasetree/meshing/phase_mesh.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <mutex>
+
+#include "meshing/label_grid.hpp"
+#include "meshing/vertex_in_cube.hpp"
+#include "meshing/well_composed.hpp"
+
+namespace phasetree {
+
+namespace meshing {
+
+namespace {
+
+constexpr glm::ivec3 along[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+
+/// The numbers of the cubes that have a vertex.
+class Vertices {
+  public:
+    Vertices(const Grid& grid, const Labels& labels)
+        : grid_(grid), rows_(static_cast<std::size_t>(grid.points.y) * static_cast<std::size_t>(grid.points.z) + 1, 0) {
+        std::vector<std::vector<int>> layers(static_cast<std::size_t>(grid.points.z - 1));
+        tbb::parallel_for(0, grid.points.z - 1, [&](int k) {
+            for (int j = 0; j + 1 < grid.points.y; ++j) {
+                std::vector<int>& found = layers[static_cast<std::size_t>(k)];
+                const std::size_t before = found.size();
+                for (int i = 0; i + 1 < grid.points.x; ++i)
+                    if (has_several(labels, {i, j, k})) found.push_back(i);
+                rows_[row(j, k) + 1] = found.size() - before;
+            }
+        });
+        for (std::size_t r = 1; r < rows_.size(); ++r) rows_[r] += rows_[r - 1];
+        x_.reserve(rows_.back());
+        for (const std::vector<int>& layer : layers) x_.insert(x_.end(), layer.begin(), layer.end());
+    }
+
+    std::size_t size() const { return x_.size(); }
+    /// Of a cube that has a vertex.
+    std::uint32_t of(const glm::ivec3& cube) const {
+        const std::size_t r = row(cube.y, cube.z);
+        const auto begin = x_.begin() + static_cast<std::ptrdiff_t>(rows_[r]);
+        const auto end = x_.begin() + static_cast<std::ptrdiff_t>(rows_[r + 1]);
+        return static_cast<std::uint32_t>(std::lower_bound(begin, end, cube.x) - x_.begin());
+    }
+    /// Calls f(cube, number) for each cube of a layer that has a vertex.
+    template <class F>
+    void for_each_in_layer(int k, F&& f) const {
+        for (int j = 0; j + 1 < grid_.points.y; ++j)
+            for (std::size_t n = rows_[row(j, k)]; n < rows_[row(j, k) + 1]; ++n) f(glm::ivec3(x_[n], j, k), n);
+    }
+
+  private:
+    std::size_t row(int j, int k) const {
+        return static_cast<std::size_t>(k) * static_cast<std::size_t>(grid_.points.y) + static_cast<std::size_t>(j);
+    }
+    bool has_several(const Labels& labels, const glm::ivec3& cube) const {
+        const std::size_t first = grid_.index(cube);
+        const auto dx = static_cast<std::size_t>(grid_.points.x), dz = dx * static_cast<std::size_t>(grid_.points.y);
+        for (const std::size_t corner : {std::size_t{1}, dx, dx + 1, dz, dz + 1, dz + dx, dz + dx + 1})
+            if (labels[first + corner] != labels[first]) return true;
+        return false;
+    }
+
+    const Grid& grid_;
+    std::vector<std::size_t> rows_;  // where the cubes of each row along x begin in x_
+    std::vector<int> x_;
+};
+
+class Mesher {
+  public:
+    Mesher(const Bounds& bounds, const LineTracer& lines, const MeshOptions& options)
+        : options_(options),
+          grid_(Grid::around(bounds, options.spacing)),
+          crossings_{CrossingsAlong(grid_, 0), CrossingsAlong(grid_, 1), CrossingsAlong(grid_, 2)} {
+        std::size_t in_all = 0, traced = 0;
+        for (const CrossingsAlong& axis : crossings_) in_all += axis.lines();
+        std::mutex reporting;
+        for (CrossingsAlong& axis : crossings_)
+            axis.trace(lines, [&](std::size_t more) {
+                stop_if_cancelled();
+                const std::lock_guard lock(reporting);
+                traced += more;
+                if (options_.progress) options_.progress(static_cast<float>(traced) / static_cast<float>(in_all));
+            });
+    }
+
+    PhaseMesh mesh() {
+        PhaseMesh mesh;
+        mesh.spacing = static_cast<float>(grid_.spacing);
+        labels_ = labels_of(grid_, crossings_[0]);
+        count_crossings(mesh);
+        make_well_composed(grid_, labels_, [&] { stop_if_cancelled(); });
+        const Vertices vertices(grid_, labels_);
+        if (vertices.size() > std::numeric_limits<std::uint32_t>::max())
+            throw ModelError("the mesh would have more than four billion vertices: a larger spacing has fewer");
+        mesh.vertices.resize(vertices.size());
+        tbb::parallel_for(0, grid_.points.z - 1, [&](int k) {
+            stop_if_cancelled();
+            vertices.for_each_in_layer(k, [&](const glm::ivec3& cube, std::size_t n) {
+                mesh.vertices[n] = glm::vec3(grid_.place(cube) + grid_.spacing * vertex_of(cube));
+            });
+        });
+        std::vector<std::vector<PhaseMesh::Triangle>> layers(static_cast<std::size_t>(grid_.points.z));
+        tbb::parallel_for(0, grid_.points.z, [&](int k) {
+            stop_if_cancelled();
+            add_layer(k, vertices, mesh, layers[static_cast<std::size_t>(k)]);
+        });
+        for (std::vector<PhaseMesh::Triangle>& layer : layers) {
+            mesh.triangles.insert(mesh.triangles.end(), layer.begin(), layer.end());
+            layer = {};
+        }
+        return mesh;
+    }
+
+  private:
+    void stop_if_cancelled() const {
+        if (options_.cancelled && options_.cancelled()) throw MeshingCancelled();
+    }
+    Phase label(const glm::ivec3& point) const { return labels_[grid_.index(point)]; }
+
+    // Calls f(axis, point) for each edge of the grid from a point of a layer to the next along an axis.
+    template <class F>
+    void for_each_edge_of_layer(int k, F&& f) const {
+        for (int axis = 0; axis < 3; ++axis) {
+            const glm::ivec3 end = grid_.points - along[axis];
+            if (k >= end.z) continue;
+            for (int j = 0; j < end.y; ++j)
+                for (int i = 0; i < end.x; ++i) f(axis, glm::ivec3(i, j, k));
+        }
+    }
+
+    // Before labels are changed: where both ends of an edge have one phase, or there are several crossings on it.
+    void count_crossings(PhaseMesh& mesh) const {
+        for (const CrossingsAlong& axis : crossings_) mesh.crossings += axis.size();
+        std::mutex adding;
+        tbb::parallel_for(0, grid_.points.z, [&](int k) {
+            std::size_t shown = 0;
+            for_each_edge_of_layer(k, [&](int axis, const glm::ivec3& point) {
+                if (label(point) == label(point + along[axis])) return;
+                shown += crossings_[static_cast<std::size_t>(axis)].of_edge(point).empty() ? 0 : 1;
+            });
+            const std::lock_guard lock(adding);
+            mesh.passed_over += shown;
+        });
+        mesh.passed_over = mesh.crossings - mesh.passed_over;
+    }
+
+    glm::dvec3 vertex_of(const glm::ivec3& cube) const {
+        std::array<PlaneInCube, 12> planes;
+        std::size_t count = 0;
+        glm::dvec3 middles(0);
+        int edges = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const int u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
+            for (int corner = 0; corner < 4; ++corner) {
+                glm::ivec3 offset(0);
+                offset[u] = corner & 1;
+                offset[v] = corner >> 1;
+                const glm::ivec3 point = cube + offset;
+                const Phase first = label(point), second = label(point + along[axis]);
+                if (first == second) continue;
+                glm::dvec3 at(offset);
+                at[axis] = 0.5;
+                middles += at;
+                ++edges;
+                const auto c = crossings_[static_cast<std::size_t>(axis)].between(point, first, second);
+                if (!c) continue;
+                at[axis] = static_cast<double>(c->at) - point[axis];
+                planes[count++] = {at, glm::dvec3(c->normal)};
+            }
+        }
+        // Labels that were changed have no interface between them.
+        if (count == 0) return middles / static_cast<double>(edges);
+        return vertex_in_cube(std::span(planes).first(count));
+    }
+
+    // Two triangles for each edge between two phases that begins in a layer of points.
+    void add_layer(int k, const Vertices& vertices, const PhaseMesh& mesh,
+                   std::vector<PhaseMesh::Triangle>& triangles) const {
+        for_each_edge_of_layer(k, [&](int axis, const glm::ivec3& point) {
+            const Phase first = label(point), second = label(point + along[axis]);
+            if (first == second) return;
+            const glm::ivec3 u = along[(axis + 1) % 3], v = along[(axis + 2) % 3];
+            // Counterclockwise for who looks against the axis, so from `second`.
+            std::array<std::uint32_t, 4> corners{vertices.of(point - u - v), vertices.of(point - v), vertices.of(point),
+                                                 vertices.of(point - u)};
+            const auto c = crossings_[static_cast<std::size_t>(axis)].between(point, first, second);
+            const glm::dvec3 normal = c ? glm::dvec3(c->normal) : glm::dvec3(along[axis]);
+            const int diagonal = better_diagonal(mesh, corners, normal);
+            const bool turned = first < second;
+            for (const auto& [a, b] : {std::pair(1, 2), std::pair(2, 3)}) {
+                const auto corner = [&](int i) { return corners[static_cast<std::size_t>((i + diagonal) % 4)]; };
+                PhaseMesh::Triangle t{{corner(0), corner(a), corner(b)}, first, second};
+                if (turned) {
+                    std::swap(t.vertices[1], t.vertices[2]);
+                    std::swap(t.behind, t.front);
+                }
+                triangles.push_back(t);
+            }
+        });
+    }
+
+    // From which corner, 0 or 1, the diagonal goes whose two triangles are more like the surface, by its normal.
+    static int better_diagonal(const PhaseMesh& mesh, const std::array<std::uint32_t, 4>& corners,
+                               const glm::dvec3& normal) {
+        const auto at = [&](int i) { return glm::dvec3(mesh.vertices[corners[static_cast<std::size_t>(i % 4)]]); };
+        const auto likeness = [&](int a, int b, int c) {
+            const glm::dvec3 n = glm::cross(at(b) - at(a), at(c) - at(a));
+            const double length = glm::length(n);
+            return length > 0 ? glm::dot(n, normal) / length : -1.0;
+        };
+        const auto worse = [&](int d) { return std::min(likeness(d, d + 1, d + 2), likeness(d, d + 2, d + 3)); };
+        return worse(1) > worse(0) ? 1 : 0;
+    }
+
+    const MeshOptions& options_;
+    Grid grid_;
+    std::array<CrossingsAlong, 3> crossings_;
+    Labels labels_;
+};
+
+}  // namespace
+
+}  // namespace meshing
+
+PhaseSet PhaseMesh::phases() const {
+    PhaseSet all;
+    for (const Triangle& t : triangles) all = all | PhaseSet::of(t.behind) | PhaseSet::of(t.front);
+    return all;
+}
+
+PhaseMesh mesh_of(const Bounds& bounds, const LineTracer& lines, const MeshOptions& options) {
+    return meshing::Mesher(bounds, lines, options).mesh();
+}
+
+LineTracer line_tracer(const InterfaceTracer& tracer) {
+    return [&tracer](const glm::vec3& origin, const glm::vec3& direction, float length,
+                     std::vector<CrossingOnLine>& found) {
+        Evaluator::Workspace& workspace = Evaluator::thread_workspace();
+        Phase phase = vacuum;
+        float from = 0;
+        while (const auto c = tracer.first_crossing(origin, direction, from, length, phase, workspace)) {
+            found.push_back({0.5f * (c->t_in + c->t_out), c->from, c->to, tracer.normal(*c, direction)});
+            phase = c->to;
+            from = c->t_out;
+        }
+    };
+}
+
+double ClosedMesh::volume() const {
+    double six_times = 0;
+    for (const auto& t : triangles)
+        six_times +=
+            glm::dot(glm::dvec3(vertices[t[0]]), glm::cross(glm::dvec3(vertices[t[1]]), glm::dvec3(vertices[t[2]])));
+    return six_times / 6;
+}
+
+ClosedMesh surface_of(const PhaseMesh& mesh, PhaseSet phases) {
+    constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> number(mesh.vertices.size(), none);
+    ClosedMesh closed;
+    for (const PhaseMesh::Triangle& t : mesh.triangles) {
+        const bool has_behind = phases.contains(t.behind), has_front = phases.contains(t.front);
+        if (has_behind == has_front) continue;
+        std::array<std::uint32_t, 3> corners{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            std::uint32_t& n = number[t.vertices[i]];
+            if (n == none) {
+                n = static_cast<std::uint32_t>(closed.vertices.size());
+                closed.vertices.push_back(mesh.vertices[t.vertices[i]]);
+                closed.in_mesh.push_back(t.vertices[i]);
+            }
+            corners[i] = n;
+        }
+        if (has_front) std::swap(corners[1], corners[2]);
+        closed.triangles.push_back(corners);
+    }
+    return closed;
+}
+
+}  // namespace phasetree

@@ -1,0 +1,83 @@
+#include "meshing/vertex_in_cube.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <utility>
+
+namespace phasetree::meshing {
+
+namespace {
+
+// A direction whose eigenvalue is less than this share of the largest is left out: two faces count as one that is bent
+// if their normals are less than 11° apart.
+constexpr double least_eigenvalue = 0.01;
+
+struct Eigen {
+    std::array<double, 3> values{};
+    std::array<glm::dvec3, 3> vectors{};
+};
+
+// Of a symmetric matrix, by Jacobi's rotations.
+Eigen eigen_of(glm::dmat3 a) {
+    glm::dmat3 v(1);
+    for (int sweep = 0; sweep < 12; ++sweep) {
+        for (const auto& [p, q] : {std::pair(0, 1), std::pair(0, 2), std::pair(1, 2)}) {
+            if (std::abs(a[p][q]) < 1e-300) continue;
+            const double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
+            const double t = std::copysign(1.0, theta) / (std::abs(theta) + std::sqrt(theta * theta + 1));
+            const double c = 1 / std::sqrt(t * t + 1), s = t * c;
+            glm::dmat3 turn(1);
+            turn[p][p] = turn[q][q] = c;
+            turn[q][p] = s;  // column q, row p
+            turn[p][q] = -s;
+            a = glm::transpose(turn) * a * turn;
+            v = v * turn;
+        }
+    }
+    return {{a[0][0], a[1][1], a[2][2]}, {v[0], v[1], v[2]}};
+}
+
+// How far from the cube the vertex may be. Of twelve turned boxes 8 in 100 vertices were off their faces where it was
+// kept within, 0.5 at half a cube, and no fewer at a whole one.
+constexpr double most_outside = 0.5;
+
+// The point on the way from a to b where that leaves the cube by too much; a is within.
+glm::dvec3 kept_near_cube(const glm::dvec3& a, const glm::dvec3& b) {
+    double share = 1;
+    for (int i = 0; i < 3; ++i) {
+        const double way = b[i] - a[i];
+        if (b[i] > 1 + most_outside) share = std::min(share, (1 + most_outside - a[i]) / way);
+        if (b[i] < -most_outside) share = std::min(share, (-most_outside - a[i]) / way);
+    }
+    return glm::clamp(a + share * (b - a), -most_outside, 1 + most_outside);
+}
+
+}  // namespace
+
+glm::dvec3 vertex_in_cube(std::span<const PlaneInCube> planes) {
+    glm::dvec3 mean(0);
+    for (const PlaneInCube& p : planes) mean += p.point;
+    mean /= static_cast<double>(planes.size());
+    glm::dmat3 a(0);
+    glm::dvec3 b(0);
+    for (const PlaneInCube& p : planes) {
+        a += glm::outerProduct(p.normal, p.normal);
+        b += glm::dot(p.normal, p.point - mean) * p.normal;
+    }
+    const Eigen eigen = eigen_of(a);
+    const double largest = std::max({eigen.values[0], eigen.values[1], eigen.values[2]});
+    glm::dvec3 step(0);
+    int directions = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (!(eigen.values[i] > least_eigenvalue * largest)) continue;
+        step += glm::dot(eigen.vectors[i], b) / eigen.values[i] * eigen.vectors[i];
+        ++directions;
+    }
+    if (directions == 1) step *= 0.5;
+    return kept_near_cube(glm::clamp(mean, 0.0, 1.0), mean + step);
+}
+
+}  // namespace phasetree::meshing

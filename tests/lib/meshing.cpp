@@ -1,0 +1,248 @@
+// Meshes of phases: closed manifolds, sharp edges, places and volumes as they are, and the same triangles where phases
+// touch.
+#include <doctest/doctest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "phasetree/meshing/phase_mesh.hpp"
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/box.hpp"
+#include "phasetree/nodes/fields/plane.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/phased/over.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/nodes/phased/thin_shell.hpp"
+#include "phasetree/nodes/warps/rotate.hpp"
+#include "phasetree/nodes/warps/translate.hpp"
+#include "phasetree/trace/tracer.hpp"
+#include "support/manifold.hpp"
+#include "support/random_tree.hpp"
+
+namespace test_meshing {
+
+using namespace phasetree;
+using namespace phasetree::tests;
+
+namespace {
+
+const Phase one{1}, two{2};
+
+PhaseMesh meshed(const Phased& object, float spacing) {
+    const InterfaceTracer tracer(object);
+    return mesh_of(tracer.bounds(), line_tracer(tracer), {.spacing = spacing});
+}
+
+std::size_t faults_of(const PhaseMesh& mesh, PhaseSet phases) {
+    const ClosedMesh closed = surface_of(mesh, phases);
+    return manifold_faults(closed.triangles, closed.vertices.size()).all();
+}
+
+double volume_of(const PhaseMesh& mesh, Phase phase) {
+    return surface_of(mesh, PhaseSet::of(phase)).volume();
+}
+
+Phased of(Phase phase, const Field& field) {
+    return Set{.phase = phase, .of = field};
+}
+
+// Voxels of a side, each of which has one of some phases by chance, within the box from −1 to 1.
+struct Voxels {
+    double side;
+    int phases;
+    std::uint64_t seed;
+
+    Phase at(const glm::dvec3& p) const {
+        if (std::abs(p.x) > 1 || std::abs(p.y) > 1 || std::abs(p.z) > 1) return vacuum;
+        const glm::ivec3 n = glm::ivec3(glm::floor(p / side));
+        std::uint64_t number = seed;
+        for (int i = 0; i < 3; ++i) number = number * 1'000'003 + static_cast<std::uint64_t>(n[i] + 1000);
+        Random rng(number);
+        return Phase{static_cast<std::uint8_t>(rng.below(phases))};
+    }
+    LineTracer lines() const {
+        return [*this](const glm::vec3& origin, const glm::vec3& direction, float length,
+                       std::vector<CrossingOnLine>& found) {
+            Phase phase = vacuum;
+            for (double t = 0; t < static_cast<double>(length); t += 0.01 * side) {
+                const Phase next = at(glm::dvec3(origin) + t * glm::dvec3(direction));
+                if (next != phase) found.push_back({static_cast<float>(t), phase, next, direction});
+                phase = next;
+            }
+        };
+    }
+};
+
+}  // namespace
+
+TEST_CASE("the mesh of a box has its faces, its edges and its corners") {
+    const Field box = Box{.size = {2, 1.5f, 1}};
+    std::size_t vertices = 0, off = 0;
+    for (int turn = 0; turn < 10; ++turn) {
+        const Field turned = warped(Rotate{.axis = {1, 2, 3}, .angle = 13.f * static_cast<float>(turn)}, box);
+        const PhaseMesh mesh = meshed(of(one, turned), 0.1f);
+        const ClosedMesh closed = surface_of(mesh, PhaseSet::of(one));
+        CHECK(manifold_faults(closed.triangles, closed.vertices.size()).all() == 0);
+        CHECK(mesh.phases() == (PhaseSet::of(vacuum) | PhaseSet::of(one)));
+        CHECK(closed.volume() == doctest::Approx(3).epsilon(turn == 0 ? 1e-5 : 2e-3));
+        for (const glm::vec3& v : closed.vertices) {
+            const float d = std::abs(distance(turned, v));
+            ++vertices;
+            off += d > 2e-5f ? 1 : 0;
+            CHECK(d < (turn == 0 ? 2e-5f : 0.1f));
+        }
+    }
+    // Corners that no line of the grid meets.
+    CHECK(off * 100 < vertices);
+}
+
+TEST_CASE("the mesh of a ball comes nearer with the square of the spacing") {
+    for (const float spacing : {0.2f, 0.1f, 0.05f}) {
+        const PhaseMesh mesh = meshed(of(one, Sphere{.radius = 1}), spacing);
+        const double square = static_cast<double>(spacing * spacing);
+        CHECK(faults_of(mesh, PhaseSet::of(one)) == 0);
+        double farthest = 0, mean = 0;
+        for (const glm::vec3& v : mesh.vertices) {
+            const double off = static_cast<double>(glm::length(v)) - 1;
+            farthest = std::max(farthest, std::abs(off));
+            mean += off / static_cast<double>(mesh.vertices.size());
+        }
+        CAPTURE(spacing);
+        CHECK(farthest < 0.4 * square);
+        // Where faces are told from a bend, vertices are on the surface.
+        if (spacing <= 0.1f) CHECK(std::abs(mean) < 0.001 * square);
+        CHECK(std::abs(volume_of(mesh, one) / (4 * std::numbers::pi / 3) - 1) < 0.5 * square);
+    }
+}
+
+TEST_CASE("phases that touch share their triangles, and where three meet all have the same vertices") {
+    // Half a ball below a block.
+    const Field half = warped(Translate{{0, 0, 1.5f}}, Field(Box{.size = {3, 3, 3}}));
+    const Phased object = Over{{of(two, half), of(one, Sphere{.radius = 1})}};
+    for (const float spacing : {0.11f, 0.055f}) {
+        CAPTURE(spacing);
+        const PhaseMesh mesh = meshed(object, spacing);
+        for (const Phase phase : {vacuum, one, two}) CHECK(faults_of(mesh, PhaseSet::of(phase)) == 0);
+        CHECK(faults_of(mesh, PhaseSet::of(one) | PhaseSet::of(two)) == 0);
+        CHECK(volume_of(mesh, one) == doctest::Approx(2 * std::numbers::pi / 3).epsilon(0.01));
+        CHECK(volume_of(mesh, two) == doctest::Approx(27).epsilon(1e-3));
+        // Together they have as much as apart, to rounding: nothing is between them and nothing twice.
+        CHECK(surface_of(mesh, PhaseSet::of(one) | PhaseSet::of(two)).volume() ==
+              doctest::Approx(volume_of(mesh, one) + volume_of(mesh, two)).epsilon(1e-9));
+        // The circle where the three meet.
+        std::vector<std::uint64_t> sides(mesh.vertices.size(), 0);
+        for (const PhaseMesh::Triangle& t : mesh.triangles)
+            for (const std::uint32_t v : t.vertices)
+                sides[v] |= std::uint64_t{1} << t.behind.index | std::uint64_t{1} << t.front.index;
+        int on_circle = 0;
+        for (std::size_t i = 0; i < sides.size(); ++i) {
+            if (sides[i] != 7) continue;
+            ++on_circle;
+            CHECK(std::abs(mesh.vertices[i].z) < 2 * spacing * spacing);
+            CHECK(std::abs(glm::length(mesh.vertices[i]) - 1) < 2 * spacing * spacing);
+        }
+        CHECK(on_circle > 40);
+    }
+}
+
+TEST_CASE("each phase is a manifold, however its points are mixed") {
+    std::size_t triangles = 0;
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        const int phases = 2 + static_cast<int>(seed % 5);
+        const Voxels voxels{0.1 + 0.02 * static_cast<double>(seed % 4), phases, seed};
+        const PhaseMesh mesh = mesh_of(Bounds::centred(glm::vec3(1)), voxels.lines(), {.spacing = 0.1f});
+        triangles += mesh.triangles.size();
+        CAPTURE(seed);
+        for (int p = 0; p < phases; ++p) CHECK(faults_of(mesh, PhaseSet::of(Phase{static_cast<std::uint8_t>(p)})) == 0);
+    }
+    CHECK(triangles > 100'000);
+}
+
+TEST_CASE("random objects have meshes of manifolds whose volumes are theirs") {
+    int objects = 0;
+    for (std::uint64_t seed = 1; objects < 25; ++seed) {
+        REQUIRE(seed < 400);
+        Random rng(seed);
+        const Phased object = random_object(rng, 3);
+        std::optional<InterfaceTracer> tracer;
+        try {
+            tracer.emplace(object);
+        } catch (const ModelError&) {
+            continue;
+        }
+        const Bounds bounds = tracer->bounds();
+        const PhaseMesh mesh = mesh_of(bounds, line_tracer(*tracer), {.spacing = bounds.diagonal() / 64});
+        ++objects;
+        CAPTURE(seed);
+        for_each_phase(mesh.phases().bits, [&](int p) {
+            CAPTURE(p);
+            CHECK(faults_of(mesh, PhaseSet::of(Phase{static_cast<std::uint8_t>(p)})) == 0);
+        });
+        // By points of a lattice that is not the mesh's, of which an interface may be within a cube of either.
+        Evaluator::Workspace workspace;
+        const glm::dvec3 size(bounds.extent());
+        constexpr int n = 40;
+        std::array<double, Phase::capacity> inside{}, unsure{};
+        for (int k = 0; k < n; ++k)
+            for (int j = 0; j < n; ++j)
+                for (int i = 0; i < n; ++i) {
+                    const glm::vec3 p =
+                        bounds.low + glm::vec3(size * (glm::dvec3(i, j, k) + 0.5) / static_cast<double>(n));
+                    const Phases<float> phi = tracer->evaluator().distances(p, workspace);
+                    inside[tracer->label(p, workspace).index] += 1;
+                    for_each_phase(phi.present, [&](int q) {
+                        if (std::abs(phi[q]) < bounds.diagonal() / 40) unsure[static_cast<std::size_t>(q)] += 1;
+                    });
+                }
+        const double share = size.x * size.y * size.z / (n * n * n);
+        for_each_phase(mesh.phases().bits & ~std::uint64_t{1}, [&](int p) {
+            const auto i = static_cast<std::size_t>(p);
+            const double volume = volume_of(mesh, Phase{static_cast<std::uint8_t>(p)});
+            CAPTURE(p);
+            CHECK(std::abs(volume - inside[i] * share) <= 0.25 * unsure[i] * share + 3 * share);
+        });
+    }
+}
+
+TEST_CASE("what is thinner than the grid is counted") {
+    const Phased shell = ThinShell{.of = Sphere{.radius = 1}, .shell = one, .inside = two, .half_thickness = 0.01f};
+    const PhaseMesh coarse = meshed(shell, 0.1f), fine = meshed(of(one, Sphere{.radius = 1}), 0.1f);
+    CHECK(coarse.passed_over > coarse.crossings / 4);
+    CHECK(fine.passed_over < fine.crossings / 50);
+    for (const Phase phase : {vacuum, one, two}) CHECK(faults_of(coarse, PhaseSet::of(phase)) == 0);
+}
+
+TEST_CASE("a mesh does not depend on the number of threads") {
+    const Phased object = Over{{of(two, Box{.size = glm::vec3(1)}), of(one, Sphere{.radius = 0.7f})}};
+    const PhaseMesh many = meshed(object, 0.03f);
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+    const PhaseMesh single = meshed(object, 0.03f);
+    CHECK(many.vertices == single.vertices);
+    REQUIRE(many.triangles.size() == single.triangles.size());
+    for (std::size_t i = 0; i < many.triangles.size(); ++i) {
+        REQUIRE(many.triangles[i].vertices == single.triangles[i].vertices);
+        REQUIRE(many.triangles[i].front == single.triangles[i].front);
+    }
+}
+
+TEST_CASE("what has no mesh is refused, and a mesh can be cancelled") {
+    const LineTracer nothing = [](const glm::vec3&, const glm::vec3&, float, std::vector<CrossingOnLine>&) {};
+    CHECK_THROWS_WITH_AS(mesh_of(Bounds::everything(), nothing), doctest::Contains("unbounded"), ModelError);
+    CHECK_THROWS_WITH_AS(mesh_of(Bounds{}, nothing), doctest::Contains("empty"), ModelError);
+    CHECK_THROWS_WITH_AS(mesh_of(Bounds::centred(glm::vec3(1)), nothing, {.spacing = 0.001f}),
+                         doctest::Contains("more than 1024 cubes"), ModelError);
+    CHECK_THROWS_WITH_AS(mesh_of(Bounds::centred(glm::vec3(1)), nothing, {.spacing = 0.001f}),
+                         doctest::Contains("the least is 0.001953"), ModelError);
+    CHECK(mesh_of(Bounds::centred(glm::vec3(1)), nothing).triangles.empty());
+    CHECK_THROWS_AS(mesh_of(Bounds::centred(glm::vec3(1)), nothing, {.cancelled = [] { return true; }}),
+                    MeshingCancelled);
+    float last = 0;
+    mesh_of(Bounds::centred(glm::vec3(1)), nothing, {.spacing = 0.1f, .progress = [&](float share) {
+                                                         CHECK(share > last);
+                                                         last = share;
+                                                     }});
+    CHECK(last == 1);
+}
+
+}  // namespace test_meshing

@@ -1,0 +1,195 @@
+#include "command/export_mesh.hpp"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <set>
+
+#include "command/load.hpp"
+#include "command/looks.hpp"
+#include "command/numbers.hpp"
+#include "command/streams.hpp"
+#include "embree_core/line_tracer.hpp"
+#include "embree_core/prepared_object.hpp"
+#include "mesh_file/glb.hpp"
+#include "mesh_file/obj.hpp"
+#include "mesh_file/ply.hpp"
+#include "mesh_file/stl.hpp"
+#include "mesh_file/three_mf.hpp"
+#include "output/error.hpp"
+#include "output/file.hpp"
+#include "output/interrupt.hpp"
+#include "output/late_progress.hpp"
+#include "phasetree/io/suggest.hpp"
+#include "phasetree/model/handle.hpp"
+#include "render/threads.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+using std::filesystem::path;
+
+constexpr std::array<std::string_view, 5> mesh_extensions{".stl", ".obj", ".ply", ".3mf", ".glb"};
+constexpr std::string_view phase_in_name = "{phase}";
+
+// What is passed over is not worth a word below this share.
+constexpr double little = 0.01;
+
+PhaseSet chosen_phases(const MeshExport& wanted, const SceneTree& tree) {
+    const PhaseSet there = phases(tree.object);
+    if (wanted.phases.empty()) return {there.bits & ~PhaseSet::of(phasetree::vacuum).bits};
+    const std::vector<std::string>& names = tree.phases.names;
+    PhaseSet chosen;
+    for (const std::string& name : wanted.phases) {
+        const auto found = std::find(names.begin(), names.end(), name);
+        if (found == names.begin())
+            throw InputError("--phase vacuum: the vacuum is all around, and has no surface of its own");
+        if (found == names.end()) {
+            const auto meant = closest(name, names);
+            throw InputError(fmt::format("--phase: there is no phase \"{}\"{}", name,
+                                         meant ? fmt::format(" (did you mean \"{}\"?)", *meant) : ""));
+        }
+        chosen = chosen | PhaseSet::of(Phase{static_cast<std::uint8_t>(found - names.begin())});
+    }
+    return chosen;
+}
+
+// A phase's name as part of a file's, in which some characters mean something else.
+std::string in_file_name(std::string name) {
+    for (char& c : name) {
+        const auto code = static_cast<unsigned char>(c);
+        if (code < 128 && !std::isalnum(code) && c != '-' && c != '_' && c != '.') c = '_';
+    }
+    return name;
+}
+
+path file_of_phase(const std::string& pattern, const std::string& phase) {
+    std::string name = pattern;
+    for (std::size_t at = name.find(phase_in_name); at != std::string::npos; at = name.find(phase_in_name, at + 1))
+        name.replace(at, phase_in_name.size(), in_file_name(phase));
+    return name;
+}
+
+// The names of the files are known before there is a mesh, so what cannot be written is said at once.
+std::vector<std::pair<Phase, path>> stl_files(const MeshExport& wanted, PhaseSet chosen, const PhaseNames& names) {
+    std::vector<std::pair<Phase, path>> files;
+    std::set<path> taken;
+    for_each_phase(chosen.bits, [&](int i) {
+        const Phase phase{static_cast<std::uint8_t>(i)};
+        const path file = file_of_phase(wanted.output, names[phase]);
+        if (!taken.insert(file).second)
+            throw InputError(
+                fmt::format("two phases would be written to \"{}\": choose one with --phase", file.string()));
+        files.emplace_back(phase, file);
+    });
+    return files;
+}
+
+void write_mesh(const MeshedObject& object, const MeshExport& wanted, const PhaseNames& names) {
+    const path output = wanted.output;
+    const std::string extension = output.extension().string();
+    if (extension == ".3mf") return write_file(three_mf_of(object), output);
+    if (extension == ".glb") return write_file(glb_of(object), output);
+    if (extension == ".ply") return write_file(ply_of(object), output);
+    if (extension == ".obj") {
+        path materials = output;
+        materials.replace_extension(".mtl");
+        const ObjFiles files = obj_of(object, materials.filename().string());
+        // The surfaces come last: where they are, all that they need is.
+        write_file(files.mtl, materials);
+        return write_file(files.obj, output);
+    }
+    if (wanted.output.find(phase_in_name) == std::string::npos)
+        return write_file(stl_of(surface_of(object.mesh, object.chosen)), output);
+    for (const auto& [phase, file] : stl_files(wanted, object.chosen & object.mesh.phases(), names))
+        write_file(stl_of(surface_of(object.mesh, PhaseSet::of(phase))), file);
+}
+
+void say_what_is_lost(const MeshedObject& object) {
+    const PhaseMesh& mesh = object.mesh;
+    for_each_phase(object.chosen.bits & ~mesh.phases().bits, [&](int i) {
+        say("phasetree: \"{}\" has no triangles: it is nowhere, or thinner than the spacing of {:.4g}\n",
+            object.looks[static_cast<std::size_t>(i)].name, mesh.spacing);
+    });
+    const double share =
+        mesh.crossings > 0 ? static_cast<double>(mesh.passed_over) / static_cast<double>(mesh.crossings) : 0;
+    if (share > little)
+        say("phasetree: {:.0f} in 100 crossings along the grid are passed over, where phases are thinner than the "
+            "spacing of {:.4g}\n",
+            100 * share, mesh.spacing);
+}
+
+MeshedObject meshed(const SceneFile& file, const MeshExport& wanted, const Document& document, const SceneTree& tree) {
+    MeshedObject object;
+    object.chosen = chosen_phases(wanted, tree);
+    std::optional<Scene> scene;
+    if (document.root().find("camera"))
+        scene = load_scene(document);
+    else
+        (void)read_scene_without_camera(document);
+    if (wanted.output.find(phase_in_name) != std::string::npos)
+        for (const auto& [phase, name] : stl_files(wanted, object.chosen, tree.phases)) check_file_writable(name);
+    else
+        check_file_writable(wanted.output);
+    CellOptions cells;
+    cells.quality = BuildQuality::low;
+    cells.most_bytes = wanted.most_bytes;
+    cells.cancelled = [] { return interrupted(); };
+    LateProgress preparing(ProgressOutput::standard_error(false), "preparing the object");
+    cells.progress = [&](float done) { preparing.tell(done); };
+    MeshOptions options;
+    options.spacing = wanted.spacing;
+    options.cancelled = [] { return interrupted(); };
+    LateProgress meshing(ProgressOutput::standard_error(false), "making the mesh");
+    options.progress = [&](float done) { meshing.tell(done); };
+    (void)record_tree(document, tree.object);
+    const auto prepared =
+        made_of_tree(document, [&] { return std::make_unique<const embree::PreparedObject>(tree.object, cells); });
+    print_warning(file.shown(), prepared->cells().warning());
+    const Bounds& bounds = prepared->cells().bounds();
+    object.looks = scene ? looks_of(tree.phases, scene->materials, bounds) : looks_without_materials(tree.phases);
+    try {
+        object.mesh = mesh_of(bounds, embree::line_tracer(prepared->scene()), options);
+    } catch (const ModelError& e) {
+        throw InputError(fmt::format("--spacing: {}", e.what()));
+    }
+    return object;
+}
+
+}  // namespace
+
+bool is_mesh_extension(std::string_view extension) {
+    return std::find(mesh_extensions.begin(), mesh_extensions.end(), extension) != mesh_extensions.end();
+}
+
+int export_mesh(const SceneFile& file, const MeshExport& wanted) {
+    const AvailableThreads threads;
+    if (wanted.output.find(phase_in_name) != std::string::npos && path(wanted.output).extension() != ".stl")
+        throw InputError(fmt::format("{} is for .stl: the other formats have all phases in one file", phase_in_name));
+    const Document document = read_document(file);
+    const SceneTree tree = read_model(document, wanted.object);
+    const InterruptGuard guard;
+    MeshedObject object;
+    try {
+        object = meshed(file, wanted, document, tree);
+    } catch (const BuildCancelled&) {
+        say("phasetree: interrupted; nothing is written\n");
+        return 1;
+    } catch (const MeshingCancelled&) {
+        say("phasetree: interrupted; nothing is written\n");
+        return 1;
+    }
+    if (object.phases().empty())
+        throw OutputError(fmt::format("cannot write \"{}\": there would be no triangles in it, at a spacing of {:.4g}",
+                                      wanted.output, object.mesh.spacing));
+    say_what_is_lost(object);
+    try {
+        write_mesh(object, wanted, tree.phases);
+    } catch (const std::length_error& e) {
+        throw OutputError(fmt::format("cannot write \"{}\": {}", wanted.output, e.what()));
+    }
+    return 0;
+}
+
+}  // namespace phasetree::tracer

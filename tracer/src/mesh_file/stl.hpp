@@ -1,0 +1,14 @@
+// STL, which knows triangles and nothing else (3D Systems, StereoLithography Interface Specification, 1989); the binary
+// kind.
+#pragma once
+
+#include <string>
+
+#include "phasetree/meshing/phase_mesh.hpp"
+
+namespace phasetree::tracer {
+
+/// The bytes of a file of one surface.
+std::string stl_of(const ClosedMesh&);
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,14 @@
+// 3MF, the format of printers of several materials (3MF Consortium, *3D Manufacturing Format, Core Specification* 1.3).
+#pragma once
+
+#include <string>
+
+#include "mesh_file/meshed_object.hpp"
+
+namespace phasetree::tracer {
+
+/// The bytes of a file: one thing to be printed, whose parts are the closed surfaces of the chosen phases, each with
+/// its name and colour. A unit of length is a millimetre. Throws std::length_error if it would have more than 2 GB.
+std::string three_mf_of(const MeshedObject&);
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,97 @@
+#include "page/look.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace phasetree::tracer {
+
+namespace {
+
+// The mean of a texture over places all through the bounds.
+glm::vec3 mean(const Texture& texture, const Bounds& b) {
+    constexpr int along = 5;
+    glm::vec3 sum(0);
+    for (int i = 0; i < along * along * along; ++i) {
+        const glm::vec3 at(static_cast<float>(i % along), static_cast<float>(i / along % along),
+                           static_cast<float>(i / along / along));
+        sum += color_at(texture, b.low + (at + 0.37f) / static_cast<float>(along) * (b.high - b.low));
+    }
+    return sum / static_cast<float>(along * along * along);
+}
+
+// What a deep, matt-lit layer of a medium that scatters sends back: van de Hulst's fit to the half-space with the
+// similarity s = √((1 − α)/(1 − αg)), of which α is the albedo (Multiple Light Scattering 2, 1980).
+glm::vec3 reflectance(const ScatteringCoefficients& medium) {
+    const glm::vec3 albedo = medium.scattering / glm::max(medium.extinction(), glm::vec3(1e-6f));
+    const glm::vec3 s =
+        glm::sqrt((1.f - albedo) / glm::max(1.f - albedo * medium.phase_function.g(), glm::vec3(1e-6f)));
+    return (1.f - s) * (1.f - 0.139f * s) / (1.f + 1.17f * s);
+}
+
+// What metal reflects head-on.
+glm::vec3 reflectance(const Conductor& c) {
+    const glm::vec3 k2 = c.k * c.k, less = c.eta - 1.f, more = c.eta + 1.f;
+    return (less * less + k2) / (more * more + k2);
+}
+
+// However strong a light is, its colour should be seen.
+void show_light(const glm::vec3& light, Look& look) {
+    look.kind = Look::glowing;
+    look.color = light * std::min(1.f, 3.f / std::max({light.x, light.y, light.z, 1e-6f}));
+}
+
+// What is in a clear phase: a flame glows, and what scatters looks like a diffuse surface, but for what is so thin that
+// most light passes half of the object.
+void show(const Medium& interior, float half_size, Look& look) {
+    constexpr float thin = 0.5f;
+    look.absorption = extinction(interior);
+    std::visit(
+        [&](const auto& medium) {
+            if constexpr (requires { medium.coefficients(); }) {
+                const ScatteringCoefficients& c = medium.coefficients();
+                const float scattered = std::max({c.scattering.x, c.scattering.y, c.scattering.z}) * half_size;
+                if (shines(interior) && !c.scatters()) {
+                    const glm::vec3 emission = light_of(c.emission, c.emission_spectrum, nullptr);
+                    show_light(emission / glm::max(c.extinction(), glm::vec3(1e-6f)), look);
+                } else if (scattered > thin) {
+                    look.kind = Look::diffuse;
+                    look.color = reflectance(c);
+                }
+            }
+        },
+        interior);
+}
+
+}  // namespace
+
+Look look_of(const std::string& name, const Material& material, const Bounds& bounds) {
+    Look look{name};
+    std::visit(
+        [&]<class Kind>(const Kind& m) {
+            if constexpr (requires { m.interior; }) {
+                look.ior = m.ior;
+                show(m.interior, 0.5f * bounds.diagonal(), look);
+            } else if constexpr (requires { m.eta; }) {
+                look.kind = Look::metal;
+                look.color = reflectance(m);
+            } else if constexpr (requires { m.light; }) {
+                show_light(m.radiance * light_of(mean(m.light, bounds), m.spectrum, nullptr), look);
+            } else {
+                look.kind = requires {
+                    m.ior;
+                }
+                ? Look::coated : Look::diffuse;
+                look.color = mean(m.color, bounds);
+            }
+        },
+        material);
+    return look;
+}
+
+std::array<int, 3> shown_color(const Look& look) {
+    const glm::vec3 c = look.kind == Look::clear ? glm::exp(-0.3f * look.absorption) : look.color;
+    const auto byte = [](float v) { return static_cast<int>(255 * std::pow(std::clamp(v, 0.f, 1.f), 1 / 2.2f)); };
+    return {byte(c.x), byte(c.y), byte(c.z)};
+}
+
+}  // namespace phasetree::tracer
