@@ -3,8 +3,10 @@
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "phasetree/meshing/phase_mesh.hpp"
 #include "phasetree/model/handle.hpp"
@@ -34,9 +36,17 @@ PhaseMesh meshed(const Phased& object, float spacing) {
     return mesh_of(tracer.bounds(), line_tracer(tracer), {.spacing = spacing});
 }
 
+// Formats that know vertices by their places alone join those that are in one place.
+std::size_t vertices_in_one_place(std::vector<glm::vec3> vertices) {
+    const auto all = vertices.size();
+    std::ranges::sort(vertices, {}, [](const glm::vec3& v) { return std::tuple(v.x, v.y, v.z); });
+    const auto repeated = std::ranges::unique(vertices);
+    return all - (vertices.size() - repeated.size());
+}
+
 std::size_t faults_of(const PhaseMesh& mesh, PhaseSet phases) {
     const ClosedMesh closed = surface_of(mesh, phases);
-    return manifold_faults(closed.triangles, closed.vertices.size()).all();
+    return manifold_faults(closed.triangles, closed.vertices.size()).all() + vertices_in_one_place(closed.vertices);
 }
 
 double volume_of(const PhaseMesh& mesh, Phase phase) {
@@ -83,14 +93,14 @@ TEST_CASE("the mesh of a box has its faces, its edges and its corners") {
         const Field turned = warped(Rotate{.axis = {1, 2, 3}, .angle = 13.f * static_cast<float>(turn)}, box);
         const PhaseMesh mesh = meshed(of(one, turned), 0.1f);
         const ClosedMesh closed = surface_of(mesh, PhaseSet::of(one));
-        CHECK(manifold_faults(closed.triangles, closed.vertices.size()).all() == 0);
+        CHECK(faults_of(mesh, PhaseSet::of(one)) == 0);
         CHECK(mesh.phases() == (PhaseSet::of(vacuum) | PhaseSet::of(one)));
         CHECK(closed.volume() == doctest::Approx(3).epsilon(turn == 0 ? 1e-5 : 2e-3));
         for (const glm::vec3& v : closed.vertices) {
             const float d = std::abs(distance(turned, v));
             ++vertices;
-            off += d > 2e-5f ? 1 : 0;
-            CHECK(d < (turn == 0 ? 2e-5f : 0.1f));
+            off += d > 3e-4f ? 1 : 0;
+            CHECK(d < (turn == 0 ? 1e-4f : 0.1f));
         }
     }
     // Corners that no line of the grid meets.

@@ -154,7 +154,7 @@ class Mesher {
     glm::dvec3 vertex_of(const glm::ivec3& cube) const {
         std::array<PlaneInCube, 12> planes;
         std::size_t count = 0;
-        glm::dvec3 middles(0);
+        glm::dvec3 sum(0);
         int edges = 0;
         for (int axis = 0; axis < 3; ++axis) {
             const int u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
@@ -165,19 +165,16 @@ class Mesher {
                 const glm::ivec3 point = cube + offset;
                 const Phase first = label(point), second = label(point + along[axis]);
                 if (first == second) continue;
-                glm::dvec3 at(offset);
-                at[axis] = 0.5;
-                middles += at;
-                ++edges;
                 const auto c = crossings_[static_cast<std::size_t>(axis)].between(point, first, second);
-                if (!c) continue;
-                at[axis] = static_cast<double>(c->at) - point[axis];
-                planes[count++] = {at, glm::dvec3(c->normal)};
+                glm::dvec3 at(offset);
+                at[axis] = c ? static_cast<double>(c->at) - point[axis] : 0.5;
+                if (c) planes[count++] = {at, glm::dvec3(c->normal)};
+                sum += at;
+                ++edges;
             }
         }
-        // Labels that were changed have no interface between them.
-        if (count == 0) return middles / static_cast<double>(edges);
-        return vertex_in_cube(std::span(planes).first(count));
+        const glm::dvec3 mean = sum / static_cast<double>(edges);
+        return count > 0 ? vertex_in_cube(std::span(planes).first(count), mean) : mean;
     }
 
     // Two triangles for each edge between two phases that begins in a layer of points.

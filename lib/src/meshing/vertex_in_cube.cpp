@@ -44,23 +44,24 @@ Eigen eigen_of(glm::dmat3 a) {
 // kept within, 0.5 at half a cube, and no fewer at a whole one.
 constexpr double most_outside = 0.5;
 
-// The point on the way from a to b where that leaves the cube by too much; a is within.
+// Cubes around a corner of the object may all have it for their vertex. So that they do not have the very same place,
+// which would make triangles without an area, each stays behind by this share of the way.
+constexpr double apart = 1e-3;
+
+// The point b, or where the way to it from a, which is in the cube, leaves the cube by too much.
 glm::dvec3 kept_near_cube(const glm::dvec3& a, const glm::dvec3& b) {
     double share = 1;
     for (int i = 0; i < 3; ++i) {
         const double way = b[i] - a[i];
-        if (b[i] > 1 + most_outside) share = std::min(share, (1 + most_outside - a[i]) / way);
-        if (b[i] < -most_outside) share = std::min(share, (-most_outside - a[i]) / way);
+        if (b[i] > 1) share = std::min(share, std::min(1 - apart, (1 + most_outside - a[i]) / way));
+        if (b[i] < 0) share = std::min(share, std::min(1 - apart, (-most_outside - a[i]) / way));
     }
-    return glm::clamp(a + share * (b - a), -most_outside, 1 + most_outside);
+    return a + share * (b - a);
 }
 
 }  // namespace
 
-glm::dvec3 vertex_in_cube(std::span<const PlaneInCube> planes) {
-    glm::dvec3 mean(0);
-    for (const PlaneInCube& p : planes) mean += p.point;
-    mean /= static_cast<double>(planes.size());
+glm::dvec3 vertex_in_cube(std::span<const PlaneInCube> planes, const glm::dvec3& mean) {
     glm::dmat3 a(0);
     glm::dvec3 b(0);
     for (const PlaneInCube& p : planes) {
@@ -77,7 +78,7 @@ glm::dvec3 vertex_in_cube(std::span<const PlaneInCube> planes) {
         ++directions;
     }
     if (directions == 1) step *= 0.5;
-    return kept_near_cube(glm::clamp(mean, 0.0, 1.0), mean + step);
+    return kept_near_cube(mean, mean + step);
 }
 
 }  // namespace phasetree::meshing

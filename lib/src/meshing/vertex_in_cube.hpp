@@ -1,6 +1,6 @@
 // Where the vertex of a cube is: where planes through the interfaces in it meet best.
 //
-// With points pᵢ on interfaces, unit normals nᵢ there and the mean m of the pᵢ, the vertex is m + x for the least x
+// With points pᵢ on interfaces, unit normals nᵢ there and a point m in their midst, the vertex is m + x for the least x
 // that makes Σ (nᵢ·(m + x − pᵢ))² least (Ju et al. 2002; Lindstrom, *Out-of-Core Simplification*, SIGGRAPH 2000, leaves
 // out directions in which it hardly changes). So it is on the edge of two faces and in the corner of three.
 //
@@ -20,6 +20,6 @@ struct PlaneInCube {
 
 /// In a cube of side 1 whose lowest corner is the origin. There is at least one plane, and their points are in the
 /// cube; so is the vertex.
-glm::dvec3 vertex_in_cube(std::span<const PlaneInCube>);
+glm::dvec3 vertex_in_cube(std::span<const PlaneInCube>, const glm::dvec3& mean);
 
 }  // namespace phasetree::meshing
