@@ -69,6 +69,61 @@ TEST_CASE("a page of a tree alone has colours of its own") {
     CHECK(bytes_of(shell.directory / "page.html").find("<canvas") != std::string::npos);
 }
 
+TEST_CASE("triangles: what is wrong is said in a line, and no file is written") {
+    const Shell shell;
+    write_text(shell.directory / "scene.json", SceneText().text());
+    SceneText shell_scene;
+    shell_scene.tree =
+        R"({"set": {"phase": "glass", "of": {"shell": {"of": {"sphere": {"radius": 1}}, "half_thickness": 0.001}}}})";
+    write_text(shell.directory / "thin.json", shell_scene.text());
+    const auto refused = [&](const std::vector<std::string>& arguments, const std::string& said) {
+        std::vector<std::string> words{"export"};
+        words.insert(words.end(), arguments.begin(), arguments.end());
+        const Outcome o = shell.run(words);
+        CAPTURE(o.err);
+        CHECK(o.code == 2);
+        CHECK(o.err.find(said) != std::string::npos);
+        CHECK(o.err.size() < 200);
+    };
+    refused({"scene.json", "-o", "a.stl", "--phase", "glas"}, R"(there is no phase "glas" (did you mean "glass"?))");
+    refused({"scene.json", "-o", "a.stl", "--phase", "vacuum"}, "has no surface of its own");
+    refused({"scene.json", "-o", "a.stl", "--spacing", "1e-9"}, "would take more than 1024 cubes");
+    refused({"scene.json", "-o", "a.stl", "--spacing", "0"}, "--spacing");
+    refused({"scene.json", "-o", "a.stl", "--spacing", "nan"}, "--spacing");
+    refused({"scene.json", "-o", "{phase}.obj"}, "{phase} is for .stl");
+    refused({"thin.json", "-o", "a.stl", "--spacing", "0.5"}, "there would be no triangles in it");
+    for (const auto& entry : std::filesystem::directory_iterator(shell.directory / "."))
+        CHECK(entry.path().extension() == ".json");
+    refused({"scene.json", "-o", "nowhere/a.stl"}, "nowhere");
+}
+
+TEST_CASE("triangles: what is too thin is told, and what is asked of others is ignored by none") {
+    const Shell shell;
+    SceneText scene;
+    scene.tree =
+        R"({"thin_shell": {"of": {"sphere": {"radius": 1}}, "shell": "glass", "inside": "wood", "half_thickness": 0.01}})";
+    write_text(shell.directory / "scene.json", scene.text());
+    const Outcome o = shell.run({"export", "scene.json", "-o", "a.ply", "--spacing", "0.2"});
+    CHECK(o.code == 0);
+    CHECK(o.err.find("crossings along the grid are passed over") != std::string::npos);
+    const Outcome fine = shell.run({"export", "scene.json", "-o", "a.ply", "--spacing", "0.02"});
+    CHECK(fine.code == 0);
+    CHECK(fine.err == "");
+}
+
+TEST_CASE("a mesh of several objects is that of all of them, or of one") {
+    const Shell shell;
+    write_text(shell.directory / "two.json", R"({"version": 1, "phases": {"a": null, "b": null}, "objects": [
+        {"name": "one", "tree": {"set": {"phase": "a", "of": {"sphere": {"radius": 1}}}}},
+        {"name": "two", "tree": {"set": {"phase": "b", "of": {"sphere": {"radius": 0.5}}}}, "transform": {"translate": {"by": [0, 0, 2]}}}]})");
+    CHECK(shell.run({"export", "two.json", "-o", "all.stl", "--spacing", "0.1"}).code == 0);
+    CHECK(shell.run({"export", "two.json", "-o", "one.stl", "--spacing", "0.1", "--object", "one"}).code == 0);
+    CHECK(bytes_of(shell.directory / "all.stl").size() > bytes_of(shell.directory / "one.stl").size());
+    CHECK(shell.run({"export", "two.json", "-o", "{phase}.stl", "--spacing", "0.1"}).code == 0);
+    CHECK(bytes_of(shell.directory / "a.stl").size() + bytes_of(shell.directory / "b.stl").size() ==
+          bytes_of(shell.directory / "all.stl").size() + 84);
+}
+
 TEST_CASE("what cannot be exported is said in a line, and no file is written") {
     const Shell shell;
     write_text(shell.directory / "scene.json", SceneText().text());

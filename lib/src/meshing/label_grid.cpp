@@ -107,12 +107,9 @@ std::span<const GridCrossing> CrossingsAlong::of_edge(const glm::ivec3& point) c
     return {first, last};
 }
 
-std::optional<GridCrossing> CrossingsAlong::between(const glm::ivec3& point, Phase first, Phase second) const {
+std::optional<GridCrossing> CrossingsAlong::shown_on_edge(const glm::ivec3& point) const {
     const std::span<const GridCrossing> all = of_edge(point);
     if (all.empty()) return std::nullopt;
-    for (const GridCrossing& c : all)
-        if (c.from == first && c.to == second) return c;
-    // Something thin is between the two: the place in its middle stands for both of its faces.
     return all[all.size() / 2];
 }
 

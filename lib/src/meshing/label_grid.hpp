@@ -51,8 +51,9 @@ class CrossingsAlong {
     std::span<const GridCrossing> of_line(const glm::ivec3& point) const;
     /// Those between a point and the next one along the axis.
     std::span<const GridCrossing> of_edge(const glm::ivec3& point) const;
-    /// The one that stands for an edge with these phases at its ends, if there is any.
-    std::optional<GridCrossing> between(const glm::ivec3& point, Phase first, Phase second) const;
+    /// The one of them that stands for all, if there is any: of a thin layer with two faces one of these, of three
+    /// crossings the one in their midst.
+    std::optional<GridCrossing> shown_on_edge(const glm::ivec3& point) const;
 
   private:
     std::size_t number_of_line(const glm::ivec3& point) const;

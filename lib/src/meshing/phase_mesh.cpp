@@ -165,7 +165,7 @@ class Mesher {
                 const glm::ivec3 point = cube + offset;
                 const Phase first = label(point), second = label(point + along[axis]);
                 if (first == second) continue;
-                const auto c = crossings_[static_cast<std::size_t>(axis)].between(point, first, second);
+                const auto c = crossings_[static_cast<std::size_t>(axis)].shown_on_edge(point);
                 glm::dvec3 at(offset);
                 at[axis] = c ? static_cast<double>(c->at) - point[axis] : 0.5;
                 if (c) planes[count++] = {at, glm::dvec3(c->normal)};
@@ -187,7 +187,7 @@ class Mesher {
             // Counterclockwise for who looks against the axis, so from `second`.
             std::array<std::uint32_t, 4> corners{vertices.of(point - u - v), vertices.of(point - v), vertices.of(point),
                                                  vertices.of(point - u)};
-            const auto c = crossings_[static_cast<std::size_t>(axis)].between(point, first, second);
+            const auto c = crossings_[static_cast<std::size_t>(axis)].shown_on_edge(point);
             const glm::dvec3 normal = c ? glm::dvec3(c->normal) : glm::dvec3(along[axis]);
             const int diagonal = better_diagonal(mesh, corners, normal);
             const bool turned = first < second;

@@ -20,7 +20,7 @@ from phasetree._parts import cameras, lights, materials, meshes, numbers, textur
 from phasetree._phases import Phase, phase, vacuum
 from phasetree._placed import Places, places
 from phasetree._scene import Image, Scene, load
-from phasetree._trees import Closest, Crossings, Field, Hits, Object
+from phasetree._trees import Closest, Crossings, Field, Hits, Object, PhaseMesh
 from phasetree._view import View, view
 
 __version__ = _phasetree.version
@@ -34,7 +34,7 @@ image = _parts.image
 camera = cameras.thin_lens
 
 __all__ = [
-    "Closest", "Crossings", "Error", "Expression", "Field", "Hits", "Image", "Object", "Phase", "Places", "Scene", "SceneError", "View",
+    "Closest", "Crossings", "Error", "Expression", "Field", "Hits", "Image", "Object", "Phase", "PhaseMesh", "Places", "Scene", "SceneError", "View",
     "camera", "cameras", "coordinates", "image", "lights", "load", "materials", "meshes", "numbers", "phase", "places", "textures", "vacuum", "view",
 ]  # fmt: skip
 # Not among them are those that Python has under the same name.

@@ -65,6 +65,38 @@ class Closest(NamedTuple):
     there: np.ndarray  #: the phase beyond
 
 
+class PhaseMesh(NamedTuple):
+    """The interfaces of an object as triangles, which share their vertices: see Object.mesh."""
+
+    vertices: np.ndarray  #: float32 (N, 3)
+    triangles: np.ndarray  #: uint32 (M, 3): counterclockwise for who looks from the phase in front
+    behind: np.ndarray  #: uint8 (M): the phase behind, of the higher number
+    front: np.ndarray  #: uint8 (M): the phase in front
+    names: tuple  #: of the phases
+    spacing: float  #: of the grid's points
+    crossings: int  #: along the lines of the grid
+    passed_over: int  #: how many of these are not shown, because a phase is thinner there than the spacing
+
+    def surface(self, *phases):
+        """What bounds some phases together, each given by itself or by its name: (vertices, triangles).
+
+        The surface is closed, and its triangles are counterclockwise for who looks from outside. That of one phase, or of
+        all but the vacuum, is a manifold.
+        """
+        wanted = np.zeros(len(self.names), dtype=bool)
+        for phase in phases:
+            name = phase.name if isinstance(phase, Phase) else phase
+            if name not in self.names:
+                raise Error(f'the object has no phase {name!r}; it has {", ".join(self.names)}')
+            wanted[self.names.index(name)] = True
+        bounds = wanted[self.behind] != wanted[self.front]
+        triangles = self.triangles[bounds]
+        inward = wanted[self.front[bounds]]
+        triangles[inward] = triangles[inward][:, ::-1]
+        used, numbers = np.unique(triangles, return_inverse=True)
+        return self.vertices[used], numbers.reshape(triangles.shape).astype(np.uint32)
+
+
 def node_of(handle, phases):
     """A field's node as JSON has it, with all that it is made of in its place."""
     scene = _phasetree.value_of(handle.text(phases))
@@ -347,6 +379,18 @@ class Object:
         array, shape = _points(points)
         distance, point, here, there = self._prepared.closest(array, radius, tolerance)
         return Closest(distance.reshape(shape), point.reshape(*shape, 3), here.reshape(shape), there.reshape(shape))
+
+    def mesh(self, spacing=0, progress=None):
+        """The interfaces of the phases as triangles: see PhaseMesh.
+
+        spacing: the distance of the grid's points, about the size of the smallest that is kept; 0 takes a 256th of the
+        object's longest side. progress: called with "meshing" and a share of 1.
+        """
+        spacing = float(spacing)
+        if not 0 <= spacing < float("inf"):
+            raise Error(f"the spacing is {spacing}; it must be a length")
+        made = _phasetree.mesh(self._prepared, spacing, progress)
+        return PhaseMesh(*made[:4], self.names, *made[4:])
 
     @property
     def bounds(self):

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <filesystem>
 
 #include "command/commands.hpp"
@@ -130,6 +131,15 @@ int export_shader(const SceneFile& file, const ExportOptions& chosen) {
     return 0;
 }
 
+// Of an option: nothing is wrong with a text that is a finite number above 0.
+std::function<std::string(const std::string&)> is_positive(const std::string& what) {
+    return [what](const std::string& text) {
+        float number = 0;
+        const bool is_right = CLI::detail::lexical_cast(text, number) && number > 0 && std::isfinite(number);
+        return is_right ? std::string() : fmt::format("must be {}, but is \"{}\"", what, text);
+    };
+}
+
 }  // namespace
 
 void add_export(CLI::App& app, Run& run) {
@@ -164,8 +174,15 @@ void add_export(CLI::App& app, Run& run) {
         ->add_option("--spacing", options->mesh.spacing,
                      "Of triangles: the distance of the grid's points, about the size of the smallest that is kept "
                      "(default: a 256th of the longest side)")
-        ->check(CLI::PositiveNumber)
+        ->check(is_positive("a length such as 0.1"), "", "length")
         ->option_text("LENGTH");
+    command
+        ->add_option(
+            "--scale", options->mesh.scale,
+            "Of triangles: how much larger they are than the scene, such as 25.4 for a scene in inches that is "
+            "to be printed (default: 1)")
+        ->check(is_positive("a factor such as 25.4"), "", "factor")
+        ->option_text("FACTOR");
     command
         ->add_option("--phase", options->mesh.phases,
                      "Of triangles: a phase that is to be written; may be repeated (default: all but the vacuum)")

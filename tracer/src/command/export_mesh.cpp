@@ -184,6 +184,7 @@ int export_mesh(const SceneFile& file, const MeshExport& wanted) {
         throw OutputError(fmt::format("cannot write \"{}\": there would be no triangles in it, at a spacing of {:.4g}",
                                       wanted.output, object.mesh.spacing));
     say_what_is_lost(object);
+    for (glm::vec3& v : object.mesh.vertices) v *= wanted.scale;
     try {
         write_mesh(object, wanted, tree.phases);
     } catch (const std::length_error& e) {

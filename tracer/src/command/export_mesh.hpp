@@ -12,7 +12,8 @@ namespace phasetree::tracer {
 
 struct MeshExport {
     std::string output;
-    float spacing = 0;                // of the grid; 0 chooses one
+    float spacing = 0;                // of the grid, in the scene's unit; 0 chooses one
+    float scale = 1;                  // by which what is written is larger than the scene
     std::vector<std::string> phases;  // by name; all but the vacuum if there is none
     std::optional<std::string> object;
     std::size_t most_bytes = 0;  // that the prepared object may take; 0 for the default

@@ -18,7 +18,7 @@ std::string in_obj(std::string name) {
 }
 
 std::string color_text(const glm::vec3& c) {
-    return fmt::format("{} {} {}", c.x, c.y, c.z);
+    return fmt::format("{:.4g} {:.4g} {:.4g}", c.x, c.y, c.z);
 }
 
 std::string material_text(const Look& look) {
