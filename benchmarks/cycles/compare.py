@@ -100,11 +100,11 @@ def prepare(name, folder):
         json.dump(description, file)
     names = [phase.name for phase in loaded.object.phases]
     arrays = {}
-    for (outer, inner), (vertices, quads) in interfaces(loaded.object, SPACINGS[name]).items():
+    for (outer, inner), (vertices, triangles) in interfaces(loaded.object, SPACINGS[name]).items():
         pair = f"{names[outer]}|{names[inner]}"
-        arrays[f"{pair}/vertices"], arrays[f"{pair}/quads"] = vertices.astype(np.float32), quads.astype(np.int32)
+        arrays[f"{pair}/vertices"], arrays[f"{pair}/triangles"] = vertices.astype(np.float32), triangles.astype(np.int32)
     np.savez(os.path.join(folder, "interfaces.npz"), **arrays)
-    return sum(2 * len(quads) for quads in arrays.values() if quads.shape[1] == 4)
+    return sum(len(array) for name, array in arrays.items() if name.endswith("/triangles"))
 
 
 def main():

@@ -95,16 +95,18 @@ def material_of(name, outer, inner):
     return made
 
 
-def add_mesh(name, vertices, quads, material, smooth=True):
+def add_mesh(name, vertices, faces, material, smooth=True):
+    """Faces (M, corners) all have as many corners."""
+    count, corners = faces.shape
     mesh = bpy.data.meshes.new(name)
     mesh.vertices.add(len(vertices))
     mesh.vertices.foreach_set("co", np.ascontiguousarray(vertices, dtype=np.float32).ravel())
-    mesh.loops.add(4 * len(quads))
-    mesh.loops.foreach_set("vertex_index", np.ascontiguousarray(quads, dtype=np.int32).ravel())
-    mesh.polygons.add(len(quads))
-    mesh.polygons.foreach_set("loop_start", np.arange(0, 4 * len(quads), 4, dtype=np.int32))
-    mesh.polygons.foreach_set("loop_total", np.full(len(quads), 4, dtype=np.int32))
-    mesh.polygons.foreach_set("use_smooth", np.full(len(quads), smooth))
+    mesh.loops.add(count * corners)
+    mesh.loops.foreach_set("vertex_index", np.ascontiguousarray(faces, dtype=np.int32).ravel())
+    mesh.polygons.add(count)
+    mesh.polygons.foreach_set("loop_start", np.arange(0, count * corners, corners, dtype=np.int32))
+    mesh.polygons.foreach_set("loop_total", np.full(count, corners, dtype=np.int32))
+    mesh.polygons.foreach_set("use_smooth", np.full(count, smooth))
     mesh.update(calc_edges=True)
     mesh.materials.append(material)
     bpy.context.collection.objects.link(bpy.data.objects.new(name, mesh))
@@ -218,12 +220,12 @@ def main():
     phases = description["phases"]
     for pair in sorted({name.split("/")[0] for name in meshes.files}):
         outer, inner = (phases.get(name) for name in pair.split("|"))
-        vertices, quads = meshes[f"{pair}/vertices"], meshes[f"{pair}/quads"]
+        vertices, triangles = meshes[f"{pair}/vertices"], meshes[f"{pair}/triangles"]
         if not is_clear(outer):
             if not is_clear(inner):
                 continue  # No light comes there.
-            outer, inner, quads = inner, outer, quads[:, ::-1]
-        add_mesh(pair, vertices, quads, material_of(pair, outer, inner))
+            outer, inner, triangles = inner, outer, triangles[:, ::-1]
+        add_mesh(pair, vertices, triangles, material_of(pair, outer, inner))
     for number, mesh in enumerate(description.get("meshes", [])):
         add_ground(f"ground {number}", mesh)
     for light in description["lights"]:

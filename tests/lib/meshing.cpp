@@ -230,6 +230,18 @@ TEST_CASE("random objects have meshes of manifolds whose volumes are theirs") {
     }
 }
 
+TEST_CASE("a wall as thick as the grid is whole, and both of its faces are smooth") {
+    const Phased wall = ThinShell{.of = Sphere{.radius = 1}, .shell = one, .inside = two, .half_thickness = 0.05f};
+    const float spacing = 0.098f;
+    const PhaseMesh mesh = meshed(wall, spacing);
+    for (const Phase phase : {vacuum, one, two}) CHECK(faults_of(mesh, PhaseSet::of(phase)) == 0);
+    for (const PhaseMesh::Triangle& t : mesh.triangles) CHECK((t.front == one || t.behind == one));
+    std::size_t off = 0;
+    for (const glm::vec3& v : mesh.vertices)
+        off += std::abs(std::abs(glm::length(v) - 1) - 0.05f) > 0.4f * spacing * spacing ? 1 : 0;
+    CHECK(off == 0);
+}
+
 TEST_CASE("what is thinner than the grid is counted") {
     const Phased shell = ThinShell{.of = Sphere{.radius = 1}, .shell = one, .inside = two, .half_thickness = 0.01f};
     const PhaseMesh coarse = meshed(shell, 0.1f), fine = meshed(of(one, Sphere{.radius = 1}), 0.1f);

@@ -113,6 +113,12 @@ std::optional<GridCrossing> CrossingsAlong::shown_on_edge(const glm::ivec3& poin
     return all[all.size() / 2];
 }
 
+Corners corners_of(const Grid& grid, const Labels& labels, const glm::ivec3& cube) {
+    Corners c;
+    for (int i = 0; i < 8; ++i) c[static_cast<std::size_t>(i)] = labels[grid.index(cube + offset_of_corner(i))];
+    return c;
+}
+
 Labels labels_of(const Grid& grid, const CrossingsAlong& x) {
     Labels labels(grid.size(), vacuum);
     tbb::parallel_for(0, grid.points.z, [&](int k) {

@@ -4,10 +4,12 @@
 #include <optional>
 #include <vector>
 
+#include "meshing/cube_patches.hpp"
 #include "phasetree/meshing/phase_mesh.hpp"
 
 /// From an object to a mesh of its interfaces: the labels at the points of a grid and the crossings along its lines
-/// (here), labels that give manifolds (well_composed.hpp), a vertex in a cube (vertex_in_cube.hpp), and the mesh.
+/// (here), labels that give manifolds (well_composed.hpp), the patches in a cube (cube_patches.hpp), the place of the
+/// vertex of each (vertex_in_cube.hpp), and the mesh.
 namespace phasetree::meshing {
 
 /// A grid of points with equal distances. Its cubes are called by their corner of the lowest coordinates.
@@ -66,6 +68,8 @@ class CrossingsAlong {
 
 /// The phase at each point of the grid, x fastest.
 using Labels = std::vector<Phase>;
+/// Of a cube.
+Corners corners_of(const Grid&, const Labels&, const glm::ivec3& cube);
 /// By the crossings along the lines in x.
 Labels labels_of(const Grid&, const CrossingsAlong& x);
 

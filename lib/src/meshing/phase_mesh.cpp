@@ -8,6 +8,7 @@
 #include <limits>
 #include <mutex>
 
+#include "meshing/cube_patches.hpp"
 #include "meshing/label_grid.hpp"
 #include "meshing/vertex_in_cube.hpp"
 #include "meshing/well_composed.hpp"
@@ -20,39 +21,55 @@ namespace {
 
 constexpr glm::ivec3 along[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
-/// The numbers of the cubes that have a vertex.
-class Vertices {
+/// A cube with interfaces in it.
+struct ActiveCube {
+    int x = 0;
+    std::uint32_t vertex = 0;  ///< of its first patch; those of the others follow
+    CubePatches patches;
+};
+
+/// All cubes that have vertices.
+class ActiveCubes {
   public:
-    Vertices(const Grid& grid, const Labels& labels)
+    ActiveCubes(const Grid& grid, const Labels& labels)
         : grid_(grid), rows_(static_cast<std::size_t>(grid.points.y) * static_cast<std::size_t>(grid.points.z) + 1, 0) {
-        std::vector<std::vector<int>> layers(static_cast<std::size_t>(grid.points.z - 1));
+        std::vector<std::vector<ActiveCube>> layers(static_cast<std::size_t>(grid.points.z - 1));
         tbb::parallel_for(0, grid.points.z - 1, [&](int k) {
             for (int j = 0; j + 1 < grid.points.y; ++j) {
-                std::vector<int>& found = layers[static_cast<std::size_t>(k)];
+                std::vector<ActiveCube>& found = layers[static_cast<std::size_t>(k)];
                 const std::size_t before = found.size();
                 for (int i = 0; i + 1 < grid.points.x; ++i)
-                    if (has_several(labels, {i, j, k})) found.push_back(i);
+                    if (has_several(labels, {i, j, k}))
+                        found.push_back({i, 0, CubePatches(corners_of(grid, labels, {i, j, k}))});
                 rows_[row(j, k) + 1] = found.size() - before;
             }
         });
         for (std::size_t r = 1; r < rows_.size(); ++r) rows_[r] += rows_[r - 1];
-        x_.reserve(rows_.back());
-        for (const std::vector<int>& layer : layers) x_.insert(x_.end(), layer.begin(), layer.end());
+        cubes_.reserve(rows_.back());
+        for (const std::vector<ActiveCube>& layer : layers) cubes_.insert(cubes_.end(), layer.begin(), layer.end());
+        for (ActiveCube& cube : cubes_) {
+            cube.vertex = static_cast<std::uint32_t>(vertices_);
+            vertices_ += static_cast<std::size_t>(cube.patches.count());
+        }
+        if (vertices_ > std::numeric_limits<std::uint32_t>::max())
+            throw ModelError("the mesh would have more than four billion vertices: a larger spacing has fewer");
     }
 
-    std::size_t size() const { return x_.size(); }
-    /// Of a cube that has a vertex.
-    std::uint32_t of(const glm::ivec3& cube) const {
+    std::size_t vertices() const { return vertices_; }
+    /// The vertex of the patch of an edge, between two phases, of a cube.
+    std::uint32_t vertex(const glm::ivec3& cube, int edge) const {
         const std::size_t r = row(cube.y, cube.z);
-        const auto begin = x_.begin() + static_cast<std::ptrdiff_t>(rows_[r]);
-        const auto end = x_.begin() + static_cast<std::ptrdiff_t>(rows_[r + 1]);
-        return static_cast<std::uint32_t>(std::lower_bound(begin, end, cube.x) - x_.begin());
+        const auto begin = cubes_.begin() + static_cast<std::ptrdiff_t>(rows_[r]);
+        const auto end = cubes_.begin() + static_cast<std::ptrdiff_t>(rows_[r + 1]);
+        const auto found = std::lower_bound(begin, end, cube.x, [](const ActiveCube& c, int x) { return c.x < x; });
+        return found->vertex + static_cast<std::uint32_t>(found->patches.patch(edge));
     }
-    /// Calls f(cube, number) for each cube of a layer that has a vertex.
+    /// Calls f(lowest point, cube) for each of them in a layer.
     template <class F>
     void for_each_in_layer(int k, F&& f) const {
         for (int j = 0; j + 1 < grid_.points.y; ++j)
-            for (std::size_t n = rows_[row(j, k)]; n < rows_[row(j, k) + 1]; ++n) f(glm::ivec3(x_[n], j, k), n);
+            for (std::size_t n = rows_[row(j, k)]; n < rows_[row(j, k) + 1]; ++n)
+                f(glm::ivec3(cubes_[n].x, j, k), cubes_[n]);
     }
 
   private:
@@ -68,8 +85,9 @@ class Vertices {
     }
 
     const Grid& grid_;
-    std::vector<std::size_t> rows_;  // where the cubes of each row along x begin in x_
-    std::vector<int> x_;
+    std::vector<std::size_t> rows_;  // where the cubes of each row along x begin in cubes_
+    std::vector<ActiveCube> cubes_;
+    std::size_t vertices_ = 0;
 };
 
 class Mesher {
@@ -96,20 +114,20 @@ class Mesher {
         labels_ = labels_of(grid_, crossings_[0]);
         count_crossings(mesh);
         make_well_composed(grid_, labels_, [&] { stop_if_cancelled(); });
-        const Vertices vertices(grid_, labels_);
-        if (vertices.size() > std::numeric_limits<std::uint32_t>::max())
-            throw ModelError("the mesh would have more than four billion vertices: a larger spacing has fewer");
-        mesh.vertices.resize(vertices.size());
+        const ActiveCubes cubes(grid_, labels_);
+        mesh.vertices.resize(cubes.vertices());
         tbb::parallel_for(0, grid_.points.z - 1, [&](int k) {
             stop_if_cancelled();
-            vertices.for_each_in_layer(k, [&](const glm::ivec3& cube, std::size_t n) {
-                mesh.vertices[n] = glm::vec3(grid_.place(cube) + grid_.spacing * vertex_of(cube));
+            cubes.for_each_in_layer(k, [&](const glm::ivec3& point, const ActiveCube& cube) {
+                for (int patch = 0; patch < cube.patches.count(); ++patch)
+                    mesh.vertices[cube.vertex + static_cast<std::uint32_t>(patch)] =
+                        glm::vec3(grid_.place(point) + grid_.spacing * vertex_of(point, cube.patches, patch));
             });
         });
         std::vector<std::vector<PhaseMesh::Triangle>> layers(static_cast<std::size_t>(grid_.points.z));
         tbb::parallel_for(0, grid_.points.z, [&](int k) {
             stop_if_cancelled();
-            add_layer(k, vertices, mesh, layers[static_cast<std::size_t>(k)]);
+            add_layer(k, cubes, mesh, layers[static_cast<std::size_t>(k)]);
         });
         for (std::vector<PhaseMesh::Triangle>& layer : layers) {
             mesh.triangles.insert(mesh.triangles.end(), layer.begin(), layer.end());
@@ -151,7 +169,7 @@ class Mesher {
         mesh.passed_over = mesh.crossings - mesh.passed_over;
     }
 
-    glm::dvec3 vertex_of(const glm::ivec3& cube) const {
+    glm::dvec3 vertex_of(const glm::ivec3& cube, const CubePatches& patches, int patch) const {
         std::array<PlaneInCube, 12> planes;
         std::size_t count = 0;
         glm::dvec3 sum(0);
@@ -164,7 +182,7 @@ class Mesher {
                 offset[v] = corner >> 1;
                 const glm::ivec3 point = cube + offset;
                 const Phase first = label(point), second = label(point + along[axis]);
-                if (first == second) continue;
+                if (first == second || patches.patch(edge_number(axis, offset)) != patch) continue;
                 const auto c = crossings_[static_cast<std::size_t>(axis)].shown_on_edge(point);
                 glm::dvec3 at(offset);
                 at[axis] = c ? static_cast<double>(c->at) - point[axis] : 0.5;
@@ -174,19 +192,21 @@ class Mesher {
             }
         }
         const glm::dvec3 mean = sum / static_cast<double>(edges);
-        return count > 0 ? vertex_in_cube(std::span(planes).first(count), mean) : mean;
+        return count > 0 ? vertex_in_cube(std::span(planes).first(count), mean, patches.count() == 1) : mean;
     }
 
     // Two triangles for each edge between two phases that begins in a layer of points.
-    void add_layer(int k, const Vertices& vertices, const PhaseMesh& mesh,
+    void add_layer(int k, const ActiveCubes& cubes, const PhaseMesh& mesh,
                    std::vector<PhaseMesh::Triangle>& triangles) const {
         for_each_edge_of_layer(k, [&](int axis, const glm::ivec3& point) {
             const Phase first = label(point), second = label(point + along[axis]);
             if (first == second) return;
             const glm::ivec3 u = along[(axis + 1) % 3], v = along[(axis + 2) % 3];
             // Counterclockwise for who looks against the axis, so from `second`.
-            std::array<std::uint32_t, 4> corners{vertices.of(point - u - v), vertices.of(point - v), vertices.of(point),
-                                                 vertices.of(point - u)};
+            std::array<std::uint32_t, 4> corners{};
+            const glm::ivec3 offsets[] = {u + v, v, glm::ivec3(0), u};
+            for (std::size_t i = 0; i < 4; ++i)
+                corners[i] = cubes.vertex(point - offsets[i], edge_number(axis, offsets[i]));
             const auto c = crossings_[static_cast<std::size_t>(axis)].shown_on_edge(point);
             const glm::dvec3 normal = c ? glm::dvec3(c->normal) : glm::dvec3(along[axis]);
             const int diagonal = better_diagonal(mesh, corners, normal);

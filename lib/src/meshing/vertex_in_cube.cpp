@@ -44,13 +44,14 @@ Eigen eigen_of(glm::dmat3 a) {
 // kept within, 0.5 at half a cube, and no fewer at a whole one.
 constexpr double most_outside = 0.5;
 
-// Cubes around a corner of the object may all have it for their vertex. So that they do not have the very same place,
-// which would make triangles without an area, each stays behind by this share of the way.
+// Cubes around a corner of the object may all have it for their vertex, and so may two patches of a cube. So that these
+// do not have the very same place, which would make triangles without an area, each stays behind by this share of the
+// way.
 constexpr double apart = 1e-3;
 
 // The point b, or where the way to it from a, which is in the cube, leaves the cube by too much.
-glm::dvec3 kept_near_cube(const glm::dvec3& a, const glm::dvec3& b) {
-    double share = 1;
+glm::dvec3 kept_near_cube(const glm::dvec3& a, const glm::dvec3& b, bool is_alone) {
+    double share = is_alone ? 1 : 1 - apart;
     for (int i = 0; i < 3; ++i) {
         const double way = b[i] - a[i];
         if (b[i] > 1) share = std::min(share, std::min(1 - apart, (1 + most_outside - a[i]) / way));
@@ -61,7 +62,7 @@ glm::dvec3 kept_near_cube(const glm::dvec3& a, const glm::dvec3& b) {
 
 }  // namespace
 
-glm::dvec3 vertex_in_cube(std::span<const PlaneInCube> planes, const glm::dvec3& mean) {
+glm::dvec3 vertex_in_cube(std::span<const PlaneInCube> planes, const glm::dvec3& mean, bool is_alone) {
     glm::dmat3 a(0);
     glm::dvec3 b(0);
     for (const PlaneInCube& p : planes) {
@@ -78,7 +79,7 @@ glm::dvec3 vertex_in_cube(std::span<const PlaneInCube> planes, const glm::dvec3&
         ++directions;
     }
     if (directions == 1) step *= 0.5;
-    return kept_near_cube(mean, mean + step);
+    return kept_near_cube(mean, mean + step, is_alone);
 }
 
 }  // namespace phasetree::meshing

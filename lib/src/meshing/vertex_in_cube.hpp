@@ -20,6 +20,6 @@ struct PlaneInCube {
 
 /// In a cube of side 1 whose lowest corner is the origin. There is at least one plane, and their points are in the
 /// cube; so is the vertex.
-glm::dvec3 vertex_in_cube(std::span<const PlaneInCube>, const glm::dvec3& mean);
+glm::dvec3 vertex_in_cube(std::span<const PlaneInCube>, const glm::dvec3& mean, bool is_alone);
 
 }  // namespace phasetree::meshing

@@ -5,15 +5,11 @@
 #include <algorithm>
 #include <array>
 
+#include "meshing/cube_patches.hpp"
+
 namespace phasetree::meshing {
 
 namespace {
-
-// The corners of a cube: corner i is at (i & 1, i >> 1 & 1, i >> 2 & 1).
-using Corners = std::array<Phase, 8>;
-
-// Four corners around each side of a cube, in their order around it.
-constexpr int squares[6][4] = {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}};
 
 // A label that is to rise, or none.
 struct Change {
@@ -23,11 +19,11 @@ struct Change {
     explicit operator bool() const { return corner >= 0; }
 };
 
-// Two opposite corners of a square have a phase that neither of the others has. One of the others takes it if its label
-// is lower, else one of the two takes the lower label of the others.
-Change change_of_square(const Corners& c, const int (&square)[4]) {
+// Around a side, two opposite corners have a phase that neither of the others has. One of the others takes it if its
+// label is lower, else one of the two takes the lower label of the others.
+Change change_of_side(const Corners& c, const int (&side)[4]) {
     for (int turn = 0; turn < 2; ++turn) {
-        const int a = square[turn], b = square[turn + 1], opposite = square[turn + 2], d = square[(turn + 3) % 4];
+        const int a = side[turn], b = side[turn + 1], opposite = side[turn + 2], d = side[(turn + 3) % 4];
         const auto at = [&](int i) { return c[static_cast<std::size_t>(i)]; };
         if (at(a) != at(opposite) || at(b) == at(a) || at(d) == at(a)) continue;
         const int lower = at(b) <= at(d) ? b : d;
@@ -36,29 +32,49 @@ Change change_of_square(const Corners& c, const int (&square)[4]) {
     return {};
 }
 
-// Two opposite corners of a cube alone have a phase, or alone have it not: then one of them, or a corner beside one,
-// takes the label that is higher. If that leaves two opposite corners of a square, these are seen next.
-Change change_of_cube(const Corners& c) {
-    for (int a = 0; a < 4; ++a) {
-        const auto at = [&](int i) { return c[static_cast<std::size_t>(i)]; };
-        const int opposite = 7 - a, beside = a ^ 1;
-        const auto count = std::count(c.begin(), c.end(), at(a));
-        if (count == 2 && at(a) == at(opposite))
-            return at(beside) < at(a) ? Change{beside, at(a)} : Change{a, at(beside)};
-        const Phase most = at(beside);
-        if (std::count(c.begin(), c.end(), most) == 6 && at(a) != most && at(opposite) != most) {
-            const int lower = at(a) <= at(opposite) ? a : opposite;
-            return at(lower) < most ? Change{lower, most} : Change{lower ^ 1, at(lower)};
-        }
+// Whether both faces of a wall across a side are of one patch.
+bool is_wall_in_one_patch(const CubePatches& patches, const int (&side)[4], const WallAcross& wall) {
+    const auto patch_at = [&](int i) { return patches.patch(edge_between(side[i], side[(i + 1) % 4])); };
+    return patch_at(wall.first) == patch_at(wall.first + 2);
+}
+
+// Whether a patch has two rings of a phase.
+bool has_two_rings(const Corners& c, const CubePatches& patches, Phase phase) {
+    const LinkedEdges rings = cut_edges(c, [&](Phase a, Phase b) { return (a == phase) != (b == phase); });
+    std::array<int, 4> in_patch{};
+    for (int edge = 0; edge < 12; ++edge)
+        if (rings.has(edge) && rings.first(edge) == edge &&
+            ++in_patch[static_cast<std::size_t>(patches.patch(edge))] > 1)
+            return true;
+    return false;
+}
+
+// A corner of the lowest label that is beside a higher one takes the lowest of these.
+Change change_of_lowest(const Corners& c) {
+    const auto at = [&](int i) { return c[static_cast<std::size_t>(i)]; };
+    const Phase lowest = *std::min_element(c.begin(), c.end());
+    for (int corner = 0; corner < 8; ++corner) {
+        if (at(corner) != lowest) continue;
+        Change change;
+        for (const int axis : {1, 2, 4})
+            if (const Phase beside = at(corner ^ axis); beside > lowest && (!change || beside < change.to))
+                change = {corner, beside};
+        if (change) return change;
     }
     return {};
 }
 
 Change change_of(const Corners& c) {
     if (std::all_of(c.begin(), c.end(), [&](Phase p) { return p == c[0]; })) return {};
-    for (const auto& square : squares)
-        if (const Change change = change_of_square(c, square)) return change;
-    return change_of_cube(c);
+    const CubePatches patches(c);
+    for (const auto& side : sides_of_cube) {
+        const WallAcross wall = wall_across(c, side);
+        if (!wall.is_there || is_wall_in_one_patch(patches, side, wall))
+            if (const Change change = change_of_side(c, side)) return change;
+    }
+    for (const Phase phase : c)
+        if (has_two_rings(c, patches, phase)) return change_of_lowest(c);
+    return {};
 }
 
 class Repair {
@@ -68,9 +84,9 @@ class Repair {
     // Changes labels around a cube until the cube is well-composed; cubes around those labels are to be seen again.
     void mend(const glm::ivec3& cube) {
         while (const Change change = change_of(corners(cube))) {
-            const glm::ivec3 point = cube + offset(change.corner);
+            const glm::ivec3 point = cube + offset_of_corner(change.corner);
             labels_[grid_.index(point)] = change.to;
-            for (int i = 0; i < 8; ++i) again_.push_back(point - offset(i));
+            for (int i = 0; i < 8; ++i) again_.push_back(point - offset_of_corner(i));
         }
     }
     bool is_sound(const glm::ivec3& cube) const { return !change_of(corners(cube)); }
@@ -84,12 +100,7 @@ class Repair {
     }
 
   private:
-    static glm::ivec3 offset(int corner) { return {corner & 1, corner >> 1 & 1, corner >> 2 & 1}; }
-    Corners corners(const glm::ivec3& cube) const {
-        Corners c;
-        for (int i = 0; i < 8; ++i) c[static_cast<std::size_t>(i)] = labels_[grid_.index(cube + offset(i))];
-        return c;
-    }
+    Corners corners(const glm::ivec3& cube) const { return corners_of(grid_, labels_, cube); }
 
     const Grid& grid_;
     Labels& labels_;

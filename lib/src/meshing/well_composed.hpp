@@ -1,9 +1,12 @@
 // Labels for which the surface of each phase is a manifold.
 //
-// The points of a phase are well-composed if none of these is there (Latecki, "3D Well-Composed Pictures", 1997): a
-// square of four points of which two opposite ones alone have the phase, and a cube of eight points of which two
-// opposite ones alone have it, or alone have it not. Around such a square two parts of the phase's surface would meet
-// along an edge, and in such a cube at a point.
+// It is one if all points of the grid of any phase are well-composed (Latecki, "3D Well-Composed Pictures", 1997): they
+// nowhere touch each other along an edge of their voxels, or at a corner, alone. We ask for less, because a cube may
+// have several vertices (cube_patches.hpp). In each cube, and for each phase, the edges that lead out of the phase form
+// rings from side to side of the cube. These must be
+//   - certain: no side has two phases that take turns around it, which could be joined either way;
+//   - apart: no patch has two rings of a phase, which would touch at its vertex; and both faces of a wall across a side
+//     are of different patches, or they would touch along an edge there.
 #pragma once
 
 #include <functional>
@@ -12,9 +15,9 @@
 
 namespace phasetree::meshing {
 
-/// Changes labels until the points of each phase are well-composed. Labels only rise, and none becomes one that is not
-/// beside it already, so it comes to an end; in it a phase of a higher index fills what is narrower than the grid. The
-/// outermost points, which must be vacuum, stay so. `cancelled` is called now and then, and may throw.
+/// Changes labels until that is so. Labels only rise, and none becomes one that is not beside it already, so it comes
+/// to an end; in it a phase of a higher index fills what is narrower than the grid. The outermost points, which must be
+/// vacuum, stay so. `cancelled` is called now and then, and may throw.
 void make_well_composed(const Grid&, Labels&, const std::function<void()>& cancelled);
 
 }  // namespace phasetree::meshing

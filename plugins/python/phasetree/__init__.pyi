@@ -81,6 +81,22 @@ class Closest(NamedTuple):
     here: np.ndarray
     there: np.ndarray
 
+class PhaseMesh(NamedTuple):
+    r"""The interfaces of an object as triangles, which share their vertices: see Object.mesh."""
+    def surface(self, *phases):
+        r"""What bounds some phases together, each given by itself or by its name: (vertices, triangles).
+
+The surface is closed, and its triangles are counterclockwise for who looks from outside. That of one phase, or of
+all but the vacuum, is a manifold."""
+    vertices: np.ndarray
+    triangles: np.ndarray
+    behind: np.ndarray
+    front: np.ndarray
+    names: np.ndarray
+    spacing: np.ndarray
+    crossings: np.ndarray
+    passed_over: np.ndarray
+
 class Field:
     r"""A plain signed distance, negative inside. Immutable.
 

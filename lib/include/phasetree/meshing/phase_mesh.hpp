@@ -73,16 +73,15 @@ inline constexpr int most_cubes_along = 1024;
 /// or for a spacing that would take more than most_cubes_along cubes along a side, and MeshingCancelled.
 ///
 /// It is dual contouring (Ju, Losasso, Schaefer & Warren, *Dual Contouring of Hermite Data*, SIGGRAPH 2002) for several
-/// labels at once. A grid of points has the labels; each cube with corners of different phases has one vertex, and each
-/// edge between two phases a quadrilateral of the vertices of the four cubes around it. Places and normals of the
-/// interfaces along the edges come from rays, so edges and corners of the object are sharp. The vertex is where the
-/// planes through these places meet best, in its cube or near it.
+/// labels at once. A grid of points has the labels. Each edge of the grid between two phases has a quadrilateral, whose
+/// corners are vertices in the four cubes around it; a cube has one for each patch of interfaces that hangs together in
+/// it. Places and normals of the interfaces along the edges come from rays, so edges and corners of the object are
+/// sharp. A vertex is where the planes through these places meet best, in its cube or near it.
 ///
-/// Labels are first changed where a phase would touch itself along an edge or at a point alone, so the points of each
-/// phase are well-composed (Latecki, *3D Well-Composed Pictures*, Graphical Models and Image Processing 1997). Then
-/// each phase's surface is closed, and a manifold: each of its edges has two triangles, and the triangles around a
-/// vertex are one fan. Triangles may intersect each other where an object is about as thin as the grid; what is thinner
-/// may be missing.
+/// Labels are first changed where a phase would touch itself along an edge or at a point alone (after Latecki, *3D
+/// Well-Composed Pictures*, Graphical Models and Image Processing 1997). Then each phase's surface is closed, and a
+/// manifold: each of its edges has two triangles, and the triangles around a vertex are one fan. A wall that is at least
+/// as thick as the spacing is whole; what is thinner may have holes or be missing, and triangles may intersect there.
 PhaseMesh mesh_of(const Bounds& bounds, const LineTracer& lines, const MeshOptions& options = {});
 
 /// A closed surface; its triangles are counterclockwise for who looks from outside.

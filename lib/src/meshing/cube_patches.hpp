@@ -1,0 +1,105 @@
+// How the interfaces in a cube hang together, by the labels of its corners: in patches, each of which has a vertex of
+// its own. So both faces of a wall that is about as thick as a cube are kept apart.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "phasetree/model/phase.hpp"
+
+namespace phasetree::meshing {
+
+/// The labels of a cube's corners: corner i is at (i & 1, i >> 1 & 1, i >> 2 & 1) from the lowest.
+using Corners = std::array<Phase, 8>;
+
+inline glm::ivec3 offset_of_corner(int corner) {
+    return {corner & 1, corner >> 1 & 1, corner >> 2 & 1};
+}
+
+/// The number, from 0 to 11, of the edge along an axis that begins at a corner of these coordinates, of which that
+/// along the axis is 0.
+constexpr int edge_number(int axis, const glm::ivec3& offset) {
+    const int lower = axis == 0 ? offset.y : offset.x, higher = axis == 2 ? offset.y : offset.z;
+    return 4 * axis + lower + 2 * higher;
+}
+/// The number of the edge between two corners that are neighbours.
+constexpr int edge_between(int a, int b) {
+    const int axis = (a ^ b) == 1 ? 0 : (a ^ b) == 2 ? 1 : 2, start = a & b;
+    return edge_number(axis, {start & 1, start >> 1 & 1, start >> 2 & 1});
+}
+
+/// The corners around each side of a cube, in their order around it.
+inline constexpr int sides_of_cube[6][4] = {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                            {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}};
+
+/// Whether a side has one phase at two opposite corners and two others at the other two. What is between them is taken
+/// for a wall of that phase: its two faces meet two edges of the side each, about the corners of the others.
+struct WallAcross {
+    bool is_there = false;
+    int first = 0;  ///< which corner of the side, 0 or 1, is the first that is not of the wall; the other is opposite
+};
+WallAcross wall_across(const Corners&, const int (&side)[4]);
+
+/// Sets of edges that hang together.
+class LinkedEdges {
+  public:
+    LinkedEdges() { first_.fill(none); }
+    void add(int edge) {
+        if (of(edge) == none) of(edge) = edge;
+    }
+    /// Of two edges that were added.
+    void link(int a, int b) {
+        const int low = std::min(of(a), of(b)), high = std::max(of(a), of(b));
+        for (int& f : first_)
+            if (f == high) f = low;
+    }
+    bool has(int edge) const { return first_[static_cast<std::size_t>(edge)] != none; }
+    /// The lowest edge of its set.
+    int first(int edge) const { return first_[static_cast<std::size_t>(edge)]; }
+
+  private:
+    static constexpr int none = -1;
+    int& of(int edge) { return first_[static_cast<std::size_t>(edge)]; }
+    std::array<int, 12> first_{};
+};
+
+/// The edges of a cube that are cut, by whether is_cut(a, b) for the phases at their ends; those of one side hang
+/// together, unless there is a wall across it.
+template <class IsCut>
+LinkedEdges cut_edges(const Corners& corners, IsCut&& is_cut) {
+    LinkedEdges edges;
+    for (const auto& side : sides_of_cube) {
+        const WallAcross wall = wall_across(corners, side);
+        int before = -1;
+        for (int i = 0; i < 4; ++i) {
+            // From the corner in front of the wall's first face on, the first two edges are those of that face.
+            const int start = wall.is_there ? wall.first + 3 + i : i, a = side[start % 4], b = side[(start + 1) % 4];
+            if (!is_cut(corners[static_cast<std::size_t>(a)], corners[static_cast<std::size_t>(b)])) continue;
+            const int edge = edge_between(a, b);
+            edges.add(edge);
+            if (before >= 0 && !(wall.is_there && i == 2)) edges.link(before, edge);
+            before = edge;
+        }
+    }
+    return edges;
+}
+
+/// The edges between two phases, sorted into patches. Those of one side of the cube hang together, unless there is a
+/// wall across it.
+class CubePatches {
+  public:
+    explicit CubePatches(const Corners&);
+
+    int count() const { return count_; }
+    /// Of an edge between two phases.
+    int patch(int edge) const { return static_cast<int>(patches_ >> (2 * edge) & 3); }
+
+  private:
+    std::uint32_t patches_ = 0;  // two bits for each edge: there are four patches at most
+    int count_ = 0;
+};
+
+}  // namespace phasetree::meshing
