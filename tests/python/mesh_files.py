@@ -13,7 +13,7 @@ import numpy as np
 import phasetree as pt
 from support import COMMAND
 
-# A ball of glass lies in a block of wax below it and in a bath of water around, of two boxes: all volumes are known.
+# A ball of glass, whose lower half a block of wax replaces, and a small cube above: all volumes are known.
 SCENE = """{"version": 1,
   "phases": {
     "clear glass": {"clear": {"ior": 1.5, "absorption": [1, 2, 4]}},
@@ -187,6 +187,8 @@ class Files(unittest.TestCase):
             self.check_part(name, vertices, triangles)
             colors = np.unique(faces["color"][inside], axis=0)
             self.assertEqual(len(colors), 1)
+            if name == "w<a>x":
+                self.assertEqual(colors[0].tolist(), [0xE6, 0xA8, 0x59])
         shared = (faces["behind"] == 2) & (faces["front"] == 1)
         self.assertTrue(shared.any())
         # One phase alone: its own triangles, and in its colour even where another is behind.
@@ -232,6 +234,8 @@ class Files(unittest.TestCase):
 
     def test_glb_has_a_node_for_each_phase_with_its_material(self):
         tree, parts = read_glb(self.export("all.glb"))
+        self.assertEqual(tree["scenes"], [{"nodes": [0]}])
+        self.assertEqual(tree["nodes"][0]["children"], [1, 2, 3])
         self.assertEqual(list(parts), list(VOLUMES))
         turn = tree["nodes"][0]["rotation"]
         # z becomes y: the quaternion turns (0, 0, 1) to (0, 1, 0).
@@ -250,6 +254,13 @@ class Files(unittest.TestCase):
         self.assertIn("emissiveFactor", parts["ember"][3])
         self.assertEqual(set(tree["extensionsUsed"]), {"KHR_materials_emissive_strength", "KHR_materials_ior",
                                                        "KHR_materials_transmission", "KHR_materials_volume"})
+
+    def test_scale(self):
+        _, parts = read_glb(self.export("large.glb", "--scale", "10"))
+        places, _, _, material = parts["clear glass"]
+        self.assertAlmostEqual(places[:, 2].max(), 10, delta=0.1)
+        # What is ten times as large absorbs as much on its way.
+        self.assertAlmostEqual(material["extensions"]["KHR_materials_volume"]["attenuationDistance"], 2.5)
 
     def test_files_are_the_same_each_time(self):
         for extension in ("stl", "ply", "obj", "3mf", "glb"):
@@ -287,6 +298,7 @@ class Meshes(unittest.TestCase):
     def test_surfaces(self):
         told = []
         mesh = self.object.mesh(0.05, progress=lambda *what: told.append(what))
+        self.assertGreater(len(told), 0)
         self.assertTrue(all(stage == "meshing" and 0 < share <= 1 for stage, share in told))
         self.assertEqual(mesh.names, ("vacuum", "glass", "water"))
         self.assertAlmostEqual(mesh.spacing, 0.05)

@@ -2,18 +2,18 @@
 
 namespace phasetree::meshing {
 
-WallAcross wall_across(const Corners& corners, const int (&side)[4]) {
-    const auto at = [&](int i) { return corners[static_cast<std::size_t>(side[i])]; };
+WallAcross wall_across(const CubeLabels& labels, int side) {
+    const auto at = [&](int i) { return labels.at(sides_of_cube[side][i]); };
     for (const int first : {0, 1}) {
         const Phase wall = at(1 - first);
-        if (wall == at(3 - first) && at(first) != at(first + 2) && at(first) != wall && at(first + 2) != wall)
-            return {true, first};
+        if (wall != at(3 - first) || at(first) == wall || at(first + 2) == wall) continue;
+        if (at(first) != at(first + 2) || labels.joined[static_cast<std::size_t>(side)] == wall) return {true, first};
     }
     return {};
 }
 
-CubePatches::CubePatches(const Corners& corners) {
-    const LinkedEdges edges = cut_edges(corners, [](Phase a, Phase b) { return a != b; });
+CubePatches::CubePatches(const CubeLabels& labels) {
+    const LinkedEdges edges = cut_edges(labels, [](Phase a, Phase b) { return a != b; });
     std::array<int, 12> number{};
     for (int edge = 0; edge < 12; ++edge) {
         if (!edges.has(edge)) continue;

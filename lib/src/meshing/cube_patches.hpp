@@ -35,15 +35,30 @@ constexpr int edge_between(int a, int b) {
 inline constexpr int sides_of_cube[6][4] = {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4},
                                             {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}};
 
-/// Whether a side has one phase at two opposite corners and two others at the other two. What is between them is taken
-/// for a wall of that phase: its two faces meet two edges of the side each, about the corners of the others.
+/// Whether two phases take turns around a side.
+inline bool take_turns(const Corners& corners, int side) {
+    const auto at = [&](int i) { return corners[static_cast<std::size_t>(sides_of_cube[side][i])]; };
+    return at(0) == at(2) && at(1) == at(3) && at(0) != at(1);
+}
+
+/// What is known of a cube: the labels of its corners, and of each side around which two phases take turns the one that
+/// is joined across it (joined_sides.hpp).
+struct CubeLabels {
+    Corners corners{};
+    std::array<Phase, 6> joined{};
+
+    Phase at(int corner) const { return corners[static_cast<std::size_t>(corner)]; }
+};
+
+/// Whether a phase is joined across a side between two opposite corners, of which neither of the other two has it. It
+/// is a wall, and each of its two faces meets two edges of the side, about one of the others.
 struct WallAcross {
     bool is_there = false;
     int first = 0;  ///< which corner of the side, 0 or 1, is the first that is not of the wall; the other is opposite
 };
-WallAcross wall_across(const Corners&, const int (&side)[4]);
+WallAcross wall_across(const CubeLabels&, int side);
 
-/// Sets of edges that hang together.
+/// Sets of edges that are connected.
 class LinkedEdges {
   public:
     LinkedEdges() { first_.fill(none); }
@@ -66,18 +81,19 @@ class LinkedEdges {
     std::array<int, 12> first_{};
 };
 
-/// The edges of a cube that are cut, by whether is_cut(a, b) for the phases at their ends; those of one side hang
-/// together, unless there is a wall across it.
+/// The edges of a cube that are cut, by whether is_cut(a, b) for the phases at their ends. Those of one side are
+/// linked, or those of each face of a wall across it.
 template <class IsCut>
-LinkedEdges cut_edges(const Corners& corners, IsCut&& is_cut) {
+LinkedEdges cut_edges(const CubeLabels& labels, IsCut&& is_cut) {
     LinkedEdges edges;
-    for (const auto& side : sides_of_cube) {
-        const WallAcross wall = wall_across(corners, side);
+    for (int side = 0; side < 6; ++side) {
+        const WallAcross wall = wall_across(labels, side);
         int before = -1;
         for (int i = 0; i < 4; ++i) {
-            // From the corner in front of the wall's first face on, the first two edges are those of that face.
-            const int start = wall.is_there ? wall.first + 3 + i : i, a = side[start % 4], b = side[(start + 1) % 4];
-            if (!is_cut(corners[static_cast<std::size_t>(a)], corners[static_cast<std::size_t>(b)])) continue;
+            // From the corner before the wall's first face on, the first two edges are those of that face.
+            const int start = wall.is_there ? wall.first + 3 + i : i;
+            const int a = sides_of_cube[side][start % 4], b = sides_of_cube[side][(start + 1) % 4];
+            if (!is_cut(labels.at(a), labels.at(b))) continue;
             const int edge = edge_between(a, b);
             edges.add(edge);
             if (before >= 0 && !(wall.is_there && i == 2)) edges.link(before, edge);
@@ -91,14 +107,14 @@ LinkedEdges cut_edges(const Corners& corners, IsCut&& is_cut) {
 /// wall across it.
 class CubePatches {
   public:
-    explicit CubePatches(const Corners&);
+    explicit CubePatches(const CubeLabels&);
 
     int count() const { return count_; }
     /// Of an edge between two phases.
     int patch(int edge) const { return static_cast<int>(patches_ >> (2 * edge) & 3); }
 
   private:
-    std::uint32_t patches_ = 0;  // two bits for each edge: there are four patches at most
+    std::uint32_t patches_ = 0;  // two bits for each edge: a patch has three edges at least, so there are four at most
     int count_ = 0;
 };
 

@@ -23,6 +23,8 @@ constexpr double margin[] = {1.618, 1.571, 1.529};
 }  // namespace
 
 Grid Grid::around(const Bounds& bounds, float spacing) {
+    if (!(spacing >= 0 && std::isfinite(spacing)))
+        throw ModelError(fmt::format("the spacing is {}; it must be a length, or 0", spacing));
     if (bounds.empty()) throw ModelError("the object is empty: there is nothing to make a mesh of");
     if (!bounds.finite()) throw ModelError("the object is unbounded: a mesh of it would have no end");
     const glm::dvec3 size = glm::dvec3(bounds.high) - glm::dvec3(bounds.low);
@@ -121,13 +123,14 @@ Corners corners_of(const Grid& grid, const Labels& labels, const glm::ivec3& cub
 
 Labels labels_of(const Grid& grid, const CrossingsAlong& x) {
     Labels labels(grid.size(), vacuum);
-    tbb::parallel_for(0, grid.points.z, [&](int k) {
-        for (int j = 0; j < grid.points.y; ++j) {
+    // The outermost points are outside of the bounds, and stay vacuum whatever a tracer says.
+    tbb::parallel_for(1, grid.points.z - 1, [&](int k) {
+        for (int j = 1; j + 1 < grid.points.y; ++j) {
             const std::span<const GridCrossing> line = x.of_line({0, j, k});
             Phase phase = vacuum;
             std::size_t next = 0;
             Phase* const row = labels.data() + grid.index({0, j, k});
-            for (int i = 0; i < grid.points.x; ++i) {
+            for (int i = 1; i + 1 < grid.points.x; ++i) {
                 for (; next < line.size() && line[next].at < static_cast<float>(i); ++next) phase = line[next].to;
                 row[i] = phase;
             }

@@ -8,8 +8,9 @@
 #include "phasetree/meshing/phase_mesh.hpp"
 
 /// From an object to a mesh of its interfaces: the labels at the points of a grid and the crossings along its lines
-/// (here), labels that give manifolds (well_composed.hpp), the patches in a cube (cube_patches.hpp), the place of the
-/// vertex of each (vertex_in_cube.hpp), and the mesh.
+/// (here), labels that give manifolds (well_composed.hpp), which
+/// phases are joined across sides of cubes (joined_sides.hpp), the patches in a cube (cube_patches.hpp), the place of
+/// the vertex of each (vertex_in_cube.hpp), and the mesh.
 namespace phasetree::meshing {
 
 /// A grid of points with equal distances. Its cubes are called by their corner of the lowest coordinates.

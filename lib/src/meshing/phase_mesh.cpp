@@ -7,8 +7,10 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <mutex>
+#include <numeric>
 
 #include "meshing/cube_patches.hpp"
+#include "meshing/joined_sides.hpp"
 #include "meshing/label_grid.hpp"
 #include "meshing/vertex_in_cube.hpp"
 #include "meshing/well_composed.hpp"
@@ -31,7 +33,7 @@ struct ActiveCube {
 /// All cubes that have vertices.
 class ActiveCubes {
   public:
-    ActiveCubes(const Grid& grid, const Labels& labels)
+    ActiveCubes(const Grid& grid, const Labels& labels, const JoinedSides& joined)
         : grid_(grid), rows_(static_cast<std::size_t>(grid.points.y) * static_cast<std::size_t>(grid.points.z) + 1, 0) {
         std::vector<std::vector<ActiveCube>> layers(static_cast<std::size_t>(grid.points.z - 1));
         tbb::parallel_for(0, grid.points.z - 1, [&](int k) {
@@ -39,8 +41,8 @@ class ActiveCubes {
                 std::vector<ActiveCube>& found = layers[static_cast<std::size_t>(k)];
                 const std::size_t before = found.size();
                 for (int i = 0; i + 1 < grid.points.x; ++i)
-                    if (has_several(labels, {i, j, k}))
-                        found.push_back({i, 0, CubePatches(corners_of(grid, labels, {i, j, k}))});
+                    if (has_interface(labels, {i, j, k}))
+                        found.push_back({i, 0, CubePatches(joined.labels_of(labels, {i, j, k}))});
                 rows_[row(j, k) + 1] = found.size() - before;
             }
         });
@@ -76,7 +78,7 @@ class ActiveCubes {
     std::size_t row(int j, int k) const {
         return static_cast<std::size_t>(k) * static_cast<std::size_t>(grid_.points.y) + static_cast<std::size_t>(j);
     }
-    bool has_several(const Labels& labels, const glm::ivec3& cube) const {
+    bool has_interface(const Labels& labels, const glm::ivec3& cube) const {
         const std::size_t first = grid_.index(cube);
         const auto dx = static_cast<std::size_t>(grid_.points.x), dz = dx * static_cast<std::size_t>(grid_.points.y);
         for (const std::size_t corner : {std::size_t{1}, dx, dx + 1, dz, dz + 1, dz + dx, dz + dx + 1})
@@ -93,7 +95,8 @@ class ActiveCubes {
 class Mesher {
   public:
     Mesher(const Bounds& bounds, const LineTracer& lines, const MeshOptions& options)
-        : options_(options),
+        : lines_(lines),
+          options_(options),
           grid_(Grid::around(bounds, options.spacing)),
           crossings_{CrossingsAlong(grid_, 0), CrossingsAlong(grid_, 1), CrossingsAlong(grid_, 2)} {
         std::size_t in_all = 0, traced = 0;
@@ -112,9 +115,12 @@ class Mesher {
         PhaseMesh mesh;
         mesh.spacing = static_cast<float>(grid_.spacing);
         labels_ = labels_of(grid_, crossings_[0]);
+        const auto stop = [&] { stop_if_cancelled(); };
+        JoinedSides joined(grid_, lines_);
+        joined.find_all(labels_, stop);
+        make_well_composed(grid_, labels_, joined, stop);
         count_crossings(mesh);
-        make_well_composed(grid_, labels_, [&] { stop_if_cancelled(); });
-        const ActiveCubes cubes(grid_, labels_);
+        const ActiveCubes cubes(grid_, labels_, joined);
         mesh.vertices.resize(cubes.vertices());
         tbb::parallel_for(0, grid_.points.z - 1, [&](int k) {
             stop_if_cancelled();
@@ -129,6 +135,9 @@ class Mesher {
             stop_if_cancelled();
             add_layer(k, cubes, mesh, layers[static_cast<std::size_t>(k)]);
         });
+        std::size_t triangles = 0;
+        for (const std::vector<PhaseMesh::Triangle>& layer : layers) triangles += layer.size();
+        mesh.triangles.reserve(triangles);
         for (std::vector<PhaseMesh::Triangle>& layer : layers) {
             mesh.triangles.insert(mesh.triangles.end(), layer.begin(), layer.end());
             layer = {};
@@ -153,20 +162,19 @@ class Mesher {
         }
     }
 
-    // Before labels are changed: where both ends of an edge have one phase, or there are several crossings on it.
+    // An edge shows one crossing if its ends differ; the others on it are passed over.
     void count_crossings(PhaseMesh& mesh) const {
         for (const CrossingsAlong& axis : crossings_) mesh.crossings += axis.size();
-        std::mutex adding;
+        std::vector<std::size_t> shown(static_cast<std::size_t>(grid_.points.z), 0);
         tbb::parallel_for(0, grid_.points.z, [&](int k) {
-            std::size_t shown = 0;
+            stop_if_cancelled();
             for_each_edge_of_layer(k, [&](int axis, const glm::ivec3& point) {
                 if (label(point) == label(point + along[axis])) return;
-                shown += crossings_[static_cast<std::size_t>(axis)].of_edge(point).empty() ? 0 : 1;
+                const bool has_crossing = !crossings_[static_cast<std::size_t>(axis)].of_edge(point).empty();
+                shown[static_cast<std::size_t>(k)] += has_crossing ? 1 : 0;
             });
-            const std::lock_guard lock(adding);
-            mesh.passed_over += shown;
         });
-        mesh.passed_over = mesh.crossings - mesh.passed_over;
+        mesh.passed_over = mesh.crossings - std::accumulate(shown.begin(), shown.end(), std::size_t{0});
     }
 
     glm::dvec3 vertex_of(const glm::ivec3& cube, const CubePatches& patches, int patch) const {
@@ -232,10 +240,13 @@ class Mesher {
             const double length = glm::length(n);
             return length > 0 ? glm::dot(n, normal) / length : -1.0;
         };
-        const auto worse = [&](int d) { return std::min(likeness(d, d + 1, d + 2), likeness(d, d + 2, d + 3)); };
-        return worse(1) > worse(0) ? 1 : 0;
+        const auto least_likeness = [&](int d) {
+            return std::min(likeness(d, d + 1, d + 2), likeness(d, d + 2, d + 3));
+        };
+        return least_likeness(1) > least_likeness(0) ? 1 : 0;
     }
 
+    const LineTracer& lines_;
     const MeshOptions& options_;
     Grid grid_;
     std::array<CrossingsAlong, 3> crossings_;

@@ -21,25 +21,26 @@ struct Change {
 
 // Around a side, two opposite corners have a phase that neither of the others has. One of the others takes it if its
 // label is lower, else one of the two takes the lower label of the others.
-Change change_of_side(const Corners& c, const int (&side)[4]) {
+Change change_of_side(const CubeLabels& c, int side) {
+    const auto& corners = sides_of_cube[side];
     for (int turn = 0; turn < 2; ++turn) {
-        const int a = side[turn], b = side[turn + 1], opposite = side[turn + 2], d = side[(turn + 3) % 4];
-        const auto at = [&](int i) { return c[static_cast<std::size_t>(i)]; };
-        if (at(a) != at(opposite) || at(b) == at(a) || at(d) == at(a)) continue;
-        const int lower = at(b) <= at(d) ? b : d;
-        return at(lower) < at(a) ? Change{lower, at(a)} : Change{a, at(lower)};
+        const int a = corners[turn], b = corners[turn + 1], opposite = corners[turn + 2], d = corners[(turn + 3) % 4];
+        if (c.at(a) != c.at(opposite) || c.at(b) == c.at(a) || c.at(d) == c.at(a)) continue;
+        const int lower = c.at(b) <= c.at(d) ? b : d;
+        return c.at(lower) < c.at(a) ? Change{lower, c.at(a)} : Change{a, c.at(lower)};
     }
     return {};
 }
 
 // Whether both faces of a wall across a side are of one patch.
-bool is_wall_in_one_patch(const CubePatches& patches, const int (&side)[4], const WallAcross& wall) {
-    const auto patch_at = [&](int i) { return patches.patch(edge_between(side[i], side[(i + 1) % 4])); };
+bool is_wall_in_one_patch(const CubePatches& patches, int side, const WallAcross& wall) {
+    const auto& corners = sides_of_cube[side];
+    const auto patch_at = [&](int i) { return patches.patch(edge_between(corners[i], corners[(i + 1) % 4])); };
     return patch_at(wall.first) == patch_at(wall.first + 2);
 }
 
 // Whether a patch has two rings of a phase.
-bool has_two_rings(const Corners& c, const CubePatches& patches, Phase phase) {
+bool has_two_rings(const CubeLabels& c, const CubePatches& patches, Phase phase) {
     const LinkedEdges rings = cut_edges(c, [&](Phase a, Phase b) { return (a == phase) != (b == phase); });
     std::array<int, 4> in_patch{};
     for (int edge = 0; edge < 12; ++edge)
@@ -50,46 +51,49 @@ bool has_two_rings(const Corners& c, const CubePatches& patches, Phase phase) {
 }
 
 // A corner of the lowest label that is beside a higher one takes the lowest of these.
-Change change_of_lowest(const Corners& c) {
-    const auto at = [&](int i) { return c[static_cast<std::size_t>(i)]; };
-    const Phase lowest = *std::min_element(c.begin(), c.end());
+Change change_of_lowest(const CubeLabels& c) {
+    const Phase lowest = *std::min_element(c.corners.begin(), c.corners.end());
     for (int corner = 0; corner < 8; ++corner) {
-        if (at(corner) != lowest) continue;
+        if (c.at(corner) != lowest) continue;
         Change change;
         for (const int axis : {1, 2, 4})
-            if (const Phase beside = at(corner ^ axis); beside > lowest && (!change || beside < change.to))
+            if (const Phase beside = c.at(corner ^ axis); beside > lowest && (!change || beside < change.to))
                 change = {corner, beside};
         if (change) return change;
     }
     return {};
 }
 
-Change change_of(const Corners& c) {
-    if (std::all_of(c.begin(), c.end(), [&](Phase p) { return p == c[0]; })) return {};
+// What is to be changed in a cube, if anything. In a cube whose one side is of the outermost points, all of them
+// vacuum, it is a label of the opposite side: no side with an edge of outermost points has two opposite corners of one
+// phase alone, and two rings of a phase take two opposite corners of the inner side.
+Change change_of(const CubeLabels& c) {
+    if (std::all_of(c.corners.begin(), c.corners.end(), [&](Phase p) { return p == c.corners[0]; })) return {};
     const CubePatches patches(c);
-    for (const auto& side : sides_of_cube) {
-        const WallAcross wall = wall_across(c, side);
-        if (!wall.is_there || is_wall_in_one_patch(patches, side, wall))
-            if (const Change change = change_of_side(c, side)) return change;
-    }
-    for (const Phase phase : c)
+    for (int side = 0; side < 6; ++side)
+        if (const WallAcross wall = wall_across(c, side); wall.is_there && is_wall_in_one_patch(patches, side, wall))
+            return change_of_side(c, side);
+    for (const Phase phase : c.corners)
         if (has_two_rings(c, patches, phase)) return change_of_lowest(c);
     return {};
 }
 
 class Repair {
   public:
-    Repair(const Grid& grid, Labels& labels) : grid_(grid), labels_(labels) {}
+    Repair(const Grid& grid, Labels& labels, JoinedSides& joined) : grid_(grid), labels_(labels), joined_(joined) {}
 
-    // Changes labels around a cube until the cube is well-composed; cubes around those labels are to be seen again.
+    // Changes labels around a cube until it is sound; cubes around those labels are to be seen again.
     void mend(const glm::ivec3& cube) {
-        while (const Change change = change_of(corners(cube))) {
+        for (;;) {
+            joined_.find(labels_, cube);
+            const Change change = change_of(joined_.labels_of(labels_, cube));
+            if (!change) return;
             const glm::ivec3 point = cube + offset_of_corner(change.corner);
             labels_[grid_.index(point)] = change.to;
             for (int i = 0; i < 8; ++i) again_.push_back(point - offset_of_corner(i));
         }
     }
-    bool is_sound(const glm::ivec3& cube) const { return !change_of(corners(cube)); }
+    bool is_sound(const glm::ivec3& cube) const { return !change_of(joined_.labels_of(labels_, cube)); }
     void mend_what_is_left(const std::function<void()>& cancelled) {
         for (std::size_t seen = 0; !again_.empty(); ++seen) {
             if (seen % 4096 == 0) cancelled();
@@ -100,17 +104,16 @@ class Repair {
     }
 
   private:
-    Corners corners(const glm::ivec3& cube) const { return corners_of(grid_, labels_, cube); }
-
     const Grid& grid_;
     Labels& labels_;
+    JoinedSides& joined_;
     std::vector<glm::ivec3> again_;
 };
 
 }  // namespace
 
-void make_well_composed(const Grid& grid, Labels& labels, const std::function<void()>& cancelled) {
-    Repair repair(grid, labels);
+void make_well_composed(const Grid& grid, Labels& labels, JoinedSides& joined, const std::function<void()>& cancelled) {
+    Repair repair(grid, labels, joined);
     // Few cubes are unsound: all are looked at in parallel, these are mended in turn.
     std::vector<std::vector<glm::ivec3>> unsound(static_cast<std::size_t>(grid.points.z - 1));
     tbb::parallel_for(0, grid.points.z - 1, [&](int k) {
@@ -120,8 +123,10 @@ void make_well_composed(const Grid& grid, Labels& labels, const std::function<vo
                 if (const glm::ivec3 cube(i, j, k); !repair.is_sound(cube))
                     unsound[static_cast<std::size_t>(k)].push_back(cube);
     });
-    for (const std::vector<glm::ivec3>& layer : unsound)
+    for (const std::vector<glm::ivec3>& layer : unsound) {
+        cancelled();
         for (const glm::ivec3& cube : layer) repair.mend(cube);
+    }
     repair.mend_what_is_left(cancelled);
 }
 

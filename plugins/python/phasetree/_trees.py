@@ -69,7 +69,7 @@ class PhaseMesh(NamedTuple):
     """The interfaces of an object as triangles, which share their vertices: see Object.mesh."""
 
     vertices: np.ndarray  #: float32 (N, 3)
-    triangles: np.ndarray  #: uint32 (M, 3): counterclockwise for who looks from the phase in front
+    triangles: np.ndarray  #: uint32 (M, 3): counterclockwise as seen from the phase in front
     behind: np.ndarray  #: uint8 (M): the phase behind, of the higher number
     front: np.ndarray  #: uint8 (M): the phase in front
     names: tuple  #: of the phases
@@ -80,7 +80,7 @@ class PhaseMesh(NamedTuple):
     def surface(self, *phases):
         """What bounds some phases together, each given by itself or by its name: (vertices, triangles).
 
-        The surface is closed, and its triangles are counterclockwise for who looks from outside. That of one phase, or of
+        The surface is closed, and its triangles are counterclockwise as seen from outside. That of one phase, or of
         all but the vacuum, is a manifold.
         """
         wanted = np.zeros(len(self.names), dtype=bool)
@@ -387,7 +387,7 @@ class Object:
         object's longest side. progress: called with "meshing" and a share of 1.
         """
         spacing = float(spacing)
-        if not 0 <= spacing < float("inf"):
+        if not (0 <= spacing < 3.4e38) or (spacing > 0 and np.float32(spacing) == 0):
             raise Error(f"the spacing is {spacing}; it must be a length")
         made = _phasetree.mesh(self._prepared, spacing, progress)
         return PhaseMesh(*made[:4], self.names, *made[4:])

@@ -55,6 +55,10 @@ PhaseSet chosen_phases(const MeshExport& wanted, const SceneTree& tree) {
     return chosen;
 }
 
+bool is_file_for_each_phase(const MeshExport& wanted) {
+    return wanted.output.find(phase_in_name) != std::string::npos;
+}
+
 // A phase's name as part of a file's, in which some characters mean something else.
 std::string in_file_name(std::string name) {
     for (char& c : name) {
@@ -69,6 +73,11 @@ path file_of_phase(const std::string& pattern, const std::string& phase) {
     for (std::size_t at = name.find(phase_in_name); at != std::string::npos; at = name.find(phase_in_name, at + 1))
         name.replace(at, phase_in_name.size(), in_file_name(phase));
     return name;
+}
+
+// The file of an .obj's materials.
+path materials_of(path obj) {
+    return obj.replace_extension(".mtl");
 }
 
 // The names of the files are known before there is a mesh, so what cannot be written is said at once.
@@ -93,14 +102,13 @@ void write_mesh(const MeshedObject& object, const MeshExport& wanted, const Phas
     if (extension == ".glb") return write_file(glb_of(object), output);
     if (extension == ".ply") return write_file(ply_of(object), output);
     if (extension == ".obj") {
-        path materials = output;
-        materials.replace_extension(".mtl");
+        const path materials = materials_of(output);
         const ObjFiles files = obj_of(object, materials.filename().string());
         // The surfaces come last: where they are, all that they need is.
         write_file(files.mtl, materials);
         return write_file(files.obj, output);
     }
-    if (wanted.output.find(phase_in_name) == std::string::npos)
+    if (!is_file_for_each_phase(wanted))
         return write_file(stl_of(surface_of(object.mesh, object.chosen)), output);
     for (const auto& [phase, file] : stl_files(wanted, object.chosen & object.mesh.phases(), names))
         write_file(stl_of(surface_of(object.mesh, PhaseSet::of(phase))), file);
@@ -128,33 +136,39 @@ MeshedObject meshed(const SceneFile& file, const MeshExport& wanted, const Docum
         scene = load_scene(document);
     else
         (void)read_scene_without_camera(document);
-    if (wanted.output.find(phase_in_name) != std::string::npos)
+    if (is_file_for_each_phase(wanted))
         for (const auto& [phase, name] : stl_files(wanted, object.chosen, tree.phases)) check_file_writable(name);
     else
         check_file_writable(wanted.output);
+    if (path(wanted.output).extension() == ".obj") check_file_writable(materials_of(wanted.output));
     CellOptions cells;
     cells.quality = BuildQuality::low;
     cells.most_bytes = wanted.most_bytes;
     cells.cancelled = [] { return interrupted(); };
     LateProgress preparing(ProgressOutput::standard_error(false), "preparing the object");
     cells.progress = [&](float done) { preparing.tell(done); };
-    MeshOptions options;
-    options.spacing = wanted.spacing;
-    options.cancelled = [] { return interrupted(); };
-    LateProgress meshing(ProgressOutput::standard_error(false), "making the mesh");
-    options.progress = [&](float done) { meshing.tell(done); };
-    (void)record_tree(document, tree.object);
+    (void)record_tree(document, tree.object);  // says of an object that is too large what is wrong
     const auto prepared =
         made_of_tree(document, [&] { return std::make_unique<const embree::PreparedObject>(tree.object, cells); });
     print_warning(file.shown(), prepared->cells().warning());
     const Bounds& bounds = prepared->cells().bounds();
     object.looks = scene ? looks_of(tree.phases, scene->materials, bounds) : looks_without_materials(tree.phases);
+    MeshOptions options;
+    options.spacing = wanted.spacing;
+    options.cancelled = [] { return interrupted(); };
+    LateProgress meshing(ProgressOutput::standard_error(false), "making the mesh");
+    options.progress = [&](float done) { meshing.tell(done); };
     try {
         object.mesh = mesh_of(bounds, embree::line_tracer(prepared->scene()), options);
     } catch (const ModelError& e) {
         throw InputError(fmt::format("--spacing: {}", e.what()));
     }
     return object;
+}
+
+int said_interrupted() {
+    say("phasetree: interrupted; nothing is written\n");
+    return 1;
 }
 
 }  // namespace
@@ -165,7 +179,7 @@ bool is_mesh_extension(std::string_view extension) {
 
 int export_mesh(const SceneFile& file, const MeshExport& wanted) {
     const AvailableThreads threads;
-    if (wanted.output.find(phase_in_name) != std::string::npos && path(wanted.output).extension() != ".stl")
+    if (is_file_for_each_phase(wanted) && path(wanted.output).extension() != ".stl")
         throw InputError(fmt::format("{} is for .stl: the other formats have all phases in one file", phase_in_name));
     const Document document = read_document(file);
     const SceneTree tree = read_model(document, wanted.object);
@@ -174,17 +188,16 @@ int export_mesh(const SceneFile& file, const MeshExport& wanted) {
     try {
         object = meshed(file, wanted, document, tree);
     } catch (const BuildCancelled&) {
-        say("phasetree: interrupted; nothing is written\n");
-        return 1;
+        return said_interrupted();
     } catch (const MeshingCancelled&) {
-        say("phasetree: interrupted; nothing is written\n");
-        return 1;
+        return said_interrupted();
     }
     if (object.phases().empty())
         throw OutputError(fmt::format("cannot write \"{}\": there would be no triangles in it, at a spacing of {:.4g}",
                                       wanted.output, object.mesh.spacing));
     say_what_is_lost(object);
     for (glm::vec3& v : object.mesh.vertices) v *= wanted.scale;
+    for (Look& look : object.looks) look.absorption /= wanted.scale;  // which is per unit of length
     try {
         write_mesh(object, wanted, tree.phases);
     } catch (const std::length_error& e) {

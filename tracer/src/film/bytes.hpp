@@ -1,4 +1,4 @@
-// Numbers as bytes, the lowest first, and back: what a film is kept as in a file.
+// Numbers as bytes, the lowest first, and back: what films are kept as in files, and triangles.
 #pragma once
 
 #include <bit>

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 
 #include "mesh_file/corner_normals.hpp"
@@ -10,7 +11,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Names end at blanks.
+// Names end at blanks. Two phases whose names would be one then have their numbers behind them.
 std::string in_obj(std::string name) {
     for (char& c : name)
         if (static_cast<unsigned char>(c) <= 32 || c == '#') c = '_';
@@ -21,8 +22,17 @@ std::string color_text(const glm::vec3& c) {
     return fmt::format("{:.4g} {:.4g} {:.4g}", c.x, c.y, c.z);
 }
 
-std::string material_text(const Look& look) {
-    std::string text = fmt::format("newmtl {}\n", in_obj(look.name));
+std::vector<std::string> names_in_obj(const MeshedObject& object) {
+    std::vector<std::string> names;
+    for (const Phase phase : object.phases()) names.push_back(in_obj(object.look(phase).name));
+    const std::vector<std::string> all = names;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (std::ranges::count(all, all[i]) > 1) names[i] += fmt::format("_{}", object.phases()[i].index);
+    return names;
+}
+
+std::string material_text(const std::string& name, const Look& look) {
+    std::string text = fmt::format("newmtl {}\n", name);
     switch (look.kind) {
         case Look::clear:
             text += fmt::format("Kd {}\nKs 1 1 1\nNs 1000\nNi {}\nd 0.3\nillum 7\n",
@@ -53,12 +63,13 @@ ObjFiles obj_of(const MeshedObject& object, std::string_view name_of_mtl) {
     fmt::format_to(out, "mtllib {}\n", name_of_mtl);
     std::vector<std::uint32_t> number(mesh.vertices.size(), 0);  // in the file, from 1
     std::uint32_t vertices = 0, normals = 0;
-    for (const Phase phase : object.phases()) {
-        const Look& look = object.look(phase);
-        files.mtl += material_text(look);
+    const std::vector<std::string> names = names_in_obj(object);
+    for (std::size_t p = 0; p < names.size(); ++p) {
+        const Phase phase = object.phases()[p];
+        files.mtl += material_text(names[p], object.look(phase));
         const ClosedMesh closed = surface_of(mesh, PhaseSet::of(phase));
         const CornerNormals corners = corner_normals(closed);
-        fmt::format_to(out, "o {0}\n", in_obj(look.name));
+        fmt::format_to(out, "o {}\n", names[p]);
         for (const std::uint32_t v : closed.in_mesh) {
             if (number[v] > 0) continue;
             const glm::vec3& p = mesh.vertices[v];
@@ -66,7 +77,7 @@ ObjFiles obj_of(const MeshedObject& object, std::string_view name_of_mtl) {
             number[v] = ++vertices;
         }
         for (const glm::vec3& n : corners.normals) fmt::format_to(out, "vn {:.4f} {:.4f} {:.4f}\n", n.x, n.y, n.z);
-        fmt::format_to(out, "usemtl {}\n", in_obj(look.name));
+        fmt::format_to(out, "usemtl {}\n", names[p]);
         for (std::size_t i = 0; i < closed.triangles.size(); ++i) {
             files.obj += 'f';
             for (std::size_t c = 0; c < 3; ++c)

@@ -11,8 +11,8 @@ struct ZipFile {
     std::string bytes;
 };
 
-/// The bytes of an archive. The same files give the same bytes: none has a date but the first that there is. Throws
-/// std::length_error if it would need the form for more than 4 GB.
+/// The bytes of an archive. The same files give the same bytes: all are dated the first of January 1980. Throws
+/// std::length_error if it would have more than 2 GB.
 std::string zip_of(std::span<const ZipFile>);
 
 }  // namespace phasetree::tracer

@@ -10,14 +10,14 @@
 
 namespace phasetree::tracer {
 
-// How a phase looks in real time. Textures count by their mean.
+// Textures count by their mean.
 struct Look {
     enum Kind { clear, diffuse, metal, coated, glowing };
 
     std::string name;
     Kind kind = clear;
     glm::vec3 color{1};       // of the base; of metal what it reflects head-on; of what glows its light
-    glm::vec3 absorption{0};  // of what is clear, per unit of length
+    glm::vec3 absorption{0};  // of what is clear, with what it scatters, per unit of length
     float ior = 1;
 };
 

@@ -5,8 +5,8 @@
 
 namespace phasetree::embree {
 
-/// Lines through an object by its cells, for meshes of its phases. The cells have been built without
-/// CellOptions::opaque, or there is nothing where opaque phases meet. The scene must outlive what is returned.
+/// Lines through an object by its cells, for meshes of its phases. The cells must have been built without
+/// CellOptions::opaque, or crossings are missing where opaque phases meet. The scene must outlive what is returned.
 LineTracer line_tracer(const CellScene& scene);
 
 }  // namespace phasetree::embree

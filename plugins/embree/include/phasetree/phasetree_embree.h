@@ -40,6 +40,7 @@
 #include "phasetree/embree/common.h"
 #include "phasetree/embree/geometry.h"
 #include "phasetree/embree/hit.h"
+#include "phasetree/embree/mesh.h"
 #include "phasetree/embree/point.h"
 #include "phasetree/embree/tree.h"
 
