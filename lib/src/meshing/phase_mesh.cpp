@@ -210,7 +210,7 @@ class Mesher {
             const Phase first = label(point), second = label(point + along[axis]);
             if (first == second) return;
             const glm::ivec3 u = along[(axis + 1) % 3], v = along[(axis + 2) % 3];
-            // Counterclockwise for who looks against the axis, so from `second`.
+            // Counterclockwise as seen against the axis, so from `second`.
             std::array<std::uint32_t, 4> corners{};
             const glm::ivec3 offsets[] = {u + v, v, glm::ivec3(0), u};
             for (std::size_t i = 0; i < 4; ++i)

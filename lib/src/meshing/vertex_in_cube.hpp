@@ -18,8 +18,14 @@ struct PlaneInCube {
     glm::dvec3 point, normal;  ///< of unit length
 };
 
-/// In a cube of side 1 whose lowest corner is the origin. There is at least one plane, and their points are in the
-/// cube; so is the vertex.
+/// In a cube of side 1 whose lowest corner is the origin. There is at least one plane.
+///
+/// mean      m: the mean of the places where the cube's edges change their phase. There is no plane where labels were
+///           changed (well_composed.hpp), but a place all the same: the middle of the edge.
+/// is_alone  whether the cube has no other vertex, from which this one would have to be kept apart.
+///
+/// The vertex may be up to half a cube outside: where an edge of the object only just does not reach into the cube both of
+/// its faces do, and the vertex belongs on the edge.
 glm::dvec3 vertex_in_cube(std::span<const PlaneInCube>, const glm::dvec3& mean, bool is_alone);
 
 }  // namespace phasetree::meshing

@@ -115,6 +115,7 @@ class Calls {
     void trace_one();
     void trace_packet();
     void ask_point();
+    void make_mesh();
     void query_scene();
 
     Choices c_;

@@ -150,6 +150,25 @@ void Calls::ask_point() {
                                                  c_.or_null(&closest)));
 }
 
+void Calls::make_mesh() {
+    // Few of them are made to the end.
+    int asked = 0;
+    PhasetreeMeshOptions options;
+    phasetreeInitMeshOptions(&options);
+    options.spacing = c_.rarely() ? c_.number() : 0.5f;
+    options.cancelledUserPtr = &asked;
+    options.cancelled = [](void* count) { return ++*static_cast<int*>(count) > 200; };
+    int received = 0;
+    const auto receive = [](const PhasetreeMesh* mesh, void* count) {
+        ++*static_cast<int*>(count);
+        for (std::size_t i = 0; i < 3 * mesh->triangleCount; ++i)
+            promised(mesh->indices[i] < mesh->vertexCount, "triangles have vertices that there are");
+    };
+    const auto error = phasetreeMakeGeometryMesh(geometry(), c_.rarely() ? nullptr : &options,
+                                                 c_.rarely() ? nullptr : +receive, &received);
+    promised(received == (error == PHASETREE_ERROR_NONE ? 1 : 0), "a mesh is handed over once, or there is an error");
+}
+
 void Calls::query_scene() {
     const Stage& s = stage();
     if (!s.is_committed) return;

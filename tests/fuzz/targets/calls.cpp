@@ -46,8 +46,8 @@ void Calls::run() {
         &Calls::show,           &Calls::move,
         &Calls::filter,         &Calls::trace_one,
         &Calls::trace_packet,   &Calls::ask_point,
-        &Calls::query_scene,    &Calls::call_back,
-        &Calls::instance,
+        &Calls::make_mesh,      &Calls::query_scene,
+        &Calls::call_back,      &Calls::instance,
     };
     for (int i = 0; i < 40 && !c_.is_over(); ++i) (this->*c_.of(calls))();
 }

@@ -108,8 +108,7 @@ void write_mesh(const MeshedObject& object, const MeshExport& wanted, const Phas
         write_file(files.mtl, materials);
         return write_file(files.obj, output);
     }
-    if (!is_file_for_each_phase(wanted))
-        return write_file(stl_of(surface_of(object.mesh, object.chosen)), output);
+    if (!is_file_for_each_phase(wanted)) return write_file(stl_of(surface_of(object.mesh, object.chosen)), output);
     for (const auto& [phase, file] : stl_files(wanted, object.chosen & object.mesh.phases(), names))
         write_file(stl_of(surface_of(object.mesh, PhaseSet::of(phase))), file);
 }

@@ -1,4 +1,4 @@
-// Normals for who shades triangles as the smooth surface that they stand for.
+// Normals for those who shade triangles as the smooth surface that they stand for.
 #pragma once
 
 #include <array>

@@ -125,7 +125,9 @@ class GltfDocument {
 
     void add_material(const Look& look, double thickness) {
         const bool glows = look.kind == Look::glowing;
-        const glm::vec3 color = look.kind == Look::clear ? glm::vec3(1) : glows ? glm::vec3(0) : glm::clamp(look.color, 0.f, 1.f);
+        const glm::vec3 color = look.kind == Look::clear ? glm::vec3(1)
+                                : glows                  ? glm::vec3(0)
+                                                         : glm::clamp(look.color, 0.f, 1.f);
         const bool is_rough = look.kind == Look::diffuse || glows, is_metal = look.kind == Look::metal;
         Json material{{"name", look.name},
                       {"pbrMetallicRoughness",

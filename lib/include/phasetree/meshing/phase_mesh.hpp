@@ -33,8 +33,8 @@ struct CrossingOnLine {
 /// rising order. The direction is of unit length. It is called by many threads at once.
 using LineTracer = std::function<void(const glm::vec3& origin, const glm::vec3& direction, float length,
                                       std::vector<CrossingOnLine>&)>;
-/// Lines through an object by its tracer, which must outlive what is returned. It runs the whole object's program at each
-/// step: of objects of many nodes, rays through cells (phasetree_embree.h) are faster.
+/// Lines through an object by its tracer, which must outlive what is returned. It runs the whole object's program at
+/// each step: of objects of many nodes, rays through cells (phasetree_embree.h) are faster.
 LineTracer line_tracer(const InterfaceTracer&);
 
 struct MeshOptions {
@@ -58,8 +58,8 @@ struct PhaseMesh {
     std::vector<glm::vec3> vertices;
     std::vector<Triangle> triangles;
     float spacing = 0;  ///< that was used
-    /// How many crossings there are along the lines of the grid, and how many of these are not shown: those on an edge of
-    /// the grid whose ends have one label in the end, and all but one where there are several on an edge.
+    /// How many crossings there are along the lines of the grid, and how many of these are not shown: those on an edge
+    /// of the grid whose ends have one label in the end, and all but one where there are several on an edge.
     std::size_t crossings = 0, passed_over = 0;
 
     /// The phases that have triangles.
@@ -70,9 +70,9 @@ struct PhaseMesh {
 inline constexpr int most_cubes_along = 1024;
 
 /// Makes a mesh of the interfaces within the bounds, which must contain all that is not vacuum. Uses all threads that
-/// TBB gives it, and gives the same mesh for any number of them. The labels take a byte for each point of the grid, 1.1 GB
-/// for the finest. Throws ModelError if the bounds are empty or infinite,
-/// or for a spacing that would take more than most_cubes_along cubes along a side, and MeshingCancelled.
+/// TBB gives it, and gives the same mesh for any number of them. The labels take a byte for each point of the grid, 1.1
+/// GB for the finest. Throws ModelError if the bounds are empty or infinite, or for a spacing that would take more than
+/// most_cubes_along cubes along a side, and MeshingCancelled.
 ///
 /// It is dual contouring (Ju, Losasso, Schaefer & Warren, *Dual Contouring of Hermite Data*, SIGGRAPH 2002) for several
 /// labels at once. A grid of points has the labels. Each edge of the grid between two phases has a quadrilateral, whose
@@ -82,8 +82,9 @@ inline constexpr int most_cubes_along = 1024;
 ///
 /// Labels are first changed where a phase would touch itself along an edge or at a point alone (after Latecki, *3D
 /// Well-Composed Pictures*, Graphical Models and Image Processing 1997). Then each phase's surface is closed, and a
-/// manifold: each of its edges has two triangles, and the triangles around a vertex are one fan. A wall that is at least
-/// 1.2 times as thick as the spacing is whole; what is thinner may have holes or be missing, and triangles may intersect there.
+/// manifold: each of its edges has two triangles, and the triangles around a vertex are one fan. A wall that is at
+/// least 1.2 times as thick as the spacing is whole; what is thinner may have holes or be missing, and triangles may
+/// intersect there.
 PhaseMesh mesh_of(const Bounds& bounds, const LineTracer& lines, const MeshOptions& options = {});
 
 /// A closed surface; its triangles are counterclockwise as seen from outside.

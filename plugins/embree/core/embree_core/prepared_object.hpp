@@ -7,7 +7,7 @@
 
 namespace phasetree::embree {
 
-/// An object prepared for rays, with a device of its own: for who traces rays and renders nothing. Immutable; any
+/// An object prepared for rays, with a device of its own: for those who trace rays and render nothing. Immutable; any
 /// thread may trace.
 class PreparedObject {
   public:

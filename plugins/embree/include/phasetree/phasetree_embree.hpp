@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <exception>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -58,6 +59,21 @@ class Reference {
 struct CarvedBounds : PhasetreeCarvedBounds {
     std::vector<PhasetreePlane> planes;
 };
+
+/// A PhasetreeMesh that is one's own.
+struct Mesh {
+    std::vector<float> vertices;
+    std::vector<unsigned> indices;
+    std::vector<unsigned char> behind, front;
+    float spacing = 0;
+    std::size_t crossings = 0, passed_over = 0;
+};
+
+inline PhasetreeMeshOptions default_mesh_options() {
+    PhasetreeMeshOptions options;
+    phasetreeInitMeshOptions(&options);
+    return options;
+}
 
 inline PhasetreeCarveOptions default_carve_options() {
     PhasetreeCarveOptions options;
@@ -182,6 +198,30 @@ class Geometry {
         PhaseUserData mine;
         check(phasetreeGetGeometryPhaseUserData(get(), phase, &mine.integer, &mine.pointer));
         return mine;
+    }
+    /// The interfaces as triangles.
+    Mesh mesh(const PhasetreeMeshOptions& options = default_mesh_options()) const {
+        struct Copy {
+            Mesh mesh;
+            std::exception_ptr failed;  // nothing may be thrown through the library
+        } copy;
+        const auto receive = [](const PhasetreeMesh* m, void* to) {
+            Copy& c = *static_cast<Copy*>(to);
+            try {
+                c.mesh = {{m->vertices, m->vertices + 3 * m->vertexCount},
+                          {m->indices, m->indices + 3 * m->triangleCount},
+                          {m->behind, m->behind + m->triangleCount},
+                          {m->front, m->front + m->triangleCount},
+                          m->spacing,
+                          m->crossings,
+                          m->passedOver};
+            } catch (...) {
+                c.failed = std::current_exception();
+            }
+        };
+        check(phasetreeMakeGeometryMesh(get(), &options, receive, &copy));
+        if (copy.failed) std::rethrow_exception(copy.failed);
+        return std::move(copy.mesh);
     }
     void set_tree(const Tree& tree, const PhasetreeGeometryOptions& options = default_options()) {
         check(phasetreeSetGeometryTree(get(), tree.get(), &options));

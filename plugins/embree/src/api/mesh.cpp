@@ -47,7 +47,7 @@ PhasetreeError phasetreeMakeGeometryMesh(PhasetreeGeometry geometry, const Phase
     return guarded_call(__func__, [&] {
         const Object& object = *api::data_of(geometry).object;
         const MeshOptions with = checked(options);
-        require(receive, "receive");
+        if (!receive) throw invalid("receive is NULL");
         if (!object.cells().opaque().empty())
             throw not_now("the geometry was built with opaque phases, in which no interfaces are found");
         const PhaseMesh mesh = made(object, with);
