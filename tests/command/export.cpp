@@ -90,6 +90,8 @@ TEST_CASE("triangles: what is wrong is said in a line, and no file is written") 
     refused({"scene.json", "-o", "a.stl", "--spacing", "1e-9"}, "would take more than 1024 cubes");
     refused({"scene.json", "-o", "a.stl", "--spacing", "0"}, "--spacing");
     refused({"scene.json", "-o", "a.stl", "--spacing", "nan"}, "--spacing");
+    refused({"scene.json", "-o", "a.stl", "--scale", "3e38"}, "would be too large");
+    refused({"scene.json", "-o", "a.stl", "--scale", "1e-40"}, "would be too small");
     refused({"scene.json", "-o", "{phase}.obj"}, "{phase} is for .stl");
     refused({"thin.json", "-o", "a.stl", "--spacing", "0.5"}, "there would be no triangles in it");
     for (const auto& entry : std::filesystem::directory_iterator(shell.directory / "."))
@@ -109,6 +111,23 @@ TEST_CASE("triangles: what is too thin is told, and what is asked of others is i
     const Outcome fine = shell.run({"export", "scene.json", "-o", "a.ply", "--spacing", "0.02"});
     CHECK(fine.code == 0);
     CHECK(fine.err == "");
+}
+
+TEST_CASE("triangles: names of phases lead to no other folder, and into no broken file") {
+    const Shell shell;
+    SceneText scene;
+    scene.phases = R"({"..": {"clear": {"ior": 1.5}}, "a/b\ufffe": {"diffuse": {"color": [0.5, 0.4, 0.3]}}})";
+    scene.tree = R"({"under": [{"set": {"phase": "..", "of": {"sphere": {"radius": 1}}}},
+                               {"set": {"phase": "a/b\ufffe", "of": {"translate": {"by": [3, 0, 0], "of": {"sphere": {}}}}}}]})";
+    write_text(shell.directory / "scene.json", scene.text());
+    std::filesystem::create_directories(shell.directory / "in");
+    const Outcome o = shell.run({"export", "scene.json", "-o", "in/{phase}.stl", "--spacing", "0.2"});
+    CHECK(o.err == "");
+    CHECK(o.code == 0);
+    CHECK(!bytes_of(shell.directory / "in/__.stl").empty());
+    CHECK(!bytes_of(shell.directory / "in/a_b\xef\xbf\xbe.stl").empty());
+    CHECK(shell.run({"export", "scene.json", "-o", "in/{phase}/x.stl", "--phase", ".."}).code == 2);
+    CHECK(shell.run({"export", "scene.json", "-o", "a.3mf", "--spacing", "0.2"}).code == 0);
 }
 
 TEST_CASE("a mesh of several objects is that of all of them, or of one") {

@@ -105,7 +105,7 @@ TEST_CASE("the mesh of a box has its faces, its edges and its corners") {
         const ClosedMesh closed = surface_of(mesh, PhaseSet::of(one));
         CHECK(faults_of(mesh, PhaseSet::of(one)) == 0);
         CHECK(mesh.phases() == (PhaseSet::of(vacuum) | PhaseSet::of(one)));
-        CHECK(closed.volume() == doctest::Approx(3).epsilon(turn == 0 ? 1e-5 : 2e-3));
+        CHECK(closed.volume() == doctest::Approx(3).epsilon(turn == 0 ? 1e-5 : 5e-4));
         away += turned_away(closed, turned);
         triangles += closed.triangles.size();
         for (const glm::vec3& v : closed.vertices) {
@@ -117,7 +117,7 @@ TEST_CASE("the mesh of a box has its faces, its edges and its corners") {
         for (const PhaseMesh::Triangle& t : mesh.triangles) CHECK(t.behind > t.front);
     }
     // Corners that no line of the grid meets.
-    CHECK(off * 50 < vertices);
+    CHECK(off * 2000 < vertices);
     // Diagonals of quadrilaterals that are not chosen by the surface make more than 1 in 100.
     CHECK(away * 150 < triangles);
 }
@@ -279,6 +279,16 @@ TEST_CASE("what is thinner than the grid is counted") {
     CHECK(coarse.passed_over > coarse.crossings / 4);
     CHECK(fine.passed_over < fine.crossings / 50);
     for (const Phase phase : {vacuum, one, two}) CHECK(faults_of(coarse, PhaseSet::of(phase)) == 0);
+}
+
+TEST_CASE("far from the origin vertices keep apart, and a spacing that is too fine for floats is refused") {
+    const Field box = warped(Rotate{.axis = {1, 2, 3}, .angle = 40}, Field(Box{.size = {1, 1, 1}}));
+    const PhaseMesh mesh = meshed(of(one, warped(Translate{{1000, 700, -300}}, box)), 0.006f);
+    CHECK(faults_of(mesh, PhaseSet::of(one)) == 0);
+    CHECK(volume_of(mesh, one) == doctest::Approx(1).epsilon(0.01));
+    const Phased farther = of(one, warped(Translate{{10'000, 7000, -3000}}, box));
+    CHECK_THROWS_WITH_AS(meshed(farther, 0.006f), doctest::Contains("finer than 32-bit numbers are"), ModelError);
+    CHECK(meshed(farther, 0).spacing > 0.015f);
 }
 
 TEST_CASE("a mesh does not depend on the number of threads") {

@@ -16,6 +16,9 @@ namespace {
 constexpr std::size_t lines_a_task = 64;
 constexpr int default_cubes_along = 256;
 
+// The least spacing, in what the last digit of the farthest coordinate is worth.
+constexpr double finest_in_digits = 16;
+
 // How far the first points are from the bounds, in cubes. Faces of objects often have round coordinates, and so often
 // have bounds: fractions of no simple ratio keep lines of the grid from running within faces.
 constexpr double margin[] = {1.618, 1.571, 1.529};
@@ -30,7 +33,18 @@ Grid Grid::around(const Bounds& bounds, float spacing) {
     const glm::dvec3 size = glm::dvec3(bounds.high) - glm::dvec3(bounds.low);
     const double longest = std::max({size.x, size.y, size.z});
     Grid grid;
-    grid.spacing = spacing > 0 ? static_cast<double>(spacing) : longest / default_cubes_along;
+    double farthest = 0;  // from the origin, along an axis
+    for (int i = 0; i < 3; ++i)
+        farthest = std::max(
+            {farthest, std::abs(static_cast<double>(bounds.low[i])), std::abs(static_cast<double>(bounds.high[i]))});
+    grid.digit = 0x1p-23 * farthest;
+    const double finest = finest_in_digits * grid.digit;
+    grid.spacing = spacing > 0 ? static_cast<double>(spacing) : std::max(longest / default_cubes_along, finest);
+    if (grid.spacing < finest)
+        throw ModelError(
+            fmt::format("a spacing of {} is finer than 32-bit numbers are so far from the origin: the "
+                        "least is {:.4g}",
+                        spacing, 1.0001 * finest));
     if (!(longest / grid.spacing <= most_cubes_along))
         throw ModelError(
             fmt::format("a spacing of {} would take more than {} cubes along the object, which is {:.6g} "

@@ -17,6 +17,7 @@ namespace phasetree::meshing {
 struct Grid {
     glm::dvec3 low{0};
     double spacing = 0;
+    double digit = 0;  ///< what the last digit of the farthest coordinate is worth
     glm::ivec3 points{0};
 
     /// A grid whose outermost points are outside of the bounds. Throws ModelError; see mesh_of.

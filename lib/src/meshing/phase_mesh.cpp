@@ -21,6 +21,9 @@ namespace meshing {
 
 namespace {
 
+// How far a vertex stays from where planes meet, as a share of the way there, unless rounding asks for more.
+constexpr double least_apart = 1e-3;
+
 constexpr glm::ivec3 along[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
 /// A cube with interfaces in it.
@@ -200,7 +203,34 @@ class Mesher {
             }
         }
         const glm::dvec3 mean = sum / static_cast<double>(edges);
-        return count > 0 ? vertex_in_cube(std::span(planes).first(count), mean, patches.count() == 1) : mean;
+        const double apart = std::max(least_apart, 4 * grid_.digit / grid_.spacing);
+        glm::dvec3 vertex = mean;
+        if (count > 0) vertex = vertex_in_cube(std::span(planes).first(count), mean, apart, patches.count() == 1);
+        // Where labels were changed planes are missing, and the vertex may be away from all interfaces.
+        return static_cast<int>(count) < edges ? on_interface(cube, vertex, apart) : vertex;
+    }
+
+    // Where the lines through a vertex along the axes meet an interface nearest to it; the vertex itself if there is
+    // none within two cubes, which is where all but one changed label in ten thousand has one.
+    glm::dvec3 on_interface(const glm::ivec3& cube, const glm::dvec3& vertex, double apart) const {
+        const glm::dvec3 place = grid_.place(cube) + grid_.spacing * vertex;
+        std::vector<CrossingOnLine> crossings;
+        double nearest = 2;
+        glm::dvec3 found = vertex;
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::dvec3 start = place;
+            start[axis] = grid_.low[axis];
+            const double length = grid_.spacing * (grid_.points[axis] - 1);
+            crossings.clear();
+            lines_(glm::vec3(start), glm::vec3(along[axis]), static_cast<float>(length), crossings);
+            for (const CrossingOnLine& c : crossings) {
+                const double at = (start[axis] + static_cast<double>(c.t) - place[axis]) / grid_.spacing;
+                if (std::abs(at) >= nearest) continue;
+                nearest = std::abs(at);
+                found = vertex + (1 - apart) * at * glm::dvec3(along[axis]);
+            }
+        }
+        return found;
     }
 
     // Two triangles for each edge between two phases that begins in a layer of points.

@@ -22,10 +22,14 @@ struct PlaneInCube {
 ///
 /// mean      m: the mean of the places where the cube's edges change their phase. There is no plane where labels were
 ///           changed (well_composed.hpp), but a place all the same: the middle of the edge.
-/// is_alone  whether the cube has no other vertex, from which this one would have to be kept apart.
+/// apart     Cubes around a corner of the object may all have it for their vertex, and so may two patches of a cube. So
+/// that
+///           these do not have the very same place, which would make triangles without an area, each stays behind by
+///           this share of the way from the mean.
+/// is_alone  whether the cube has no other vertex.
 ///
-/// The vertex may be up to half a cube outside: where an edge of the object only just does not reach into the cube both of
-/// its faces do, and the vertex belongs on the edge.
-glm::dvec3 vertex_in_cube(std::span<const PlaneInCube>, const glm::dvec3& mean, bool is_alone);
+/// The vertex may be up to a cube's side outside: where an edge of the object only just does not reach into the cube
+/// both of its faces do, and the vertex belongs on the edge.
+glm::dvec3 vertex_in_cube(std::span<const PlaneInCube>, const glm::dvec3& mean, double apart, bool is_alone);
 
 }  // namespace phasetree::meshing

@@ -155,10 +155,11 @@ void add_export(CLI::App& app, Run& run) {
         "arrows, +, - and 0 do the same; phases can be hidden, and a plane cuts the object open.\n"
         ".3mf .stl .obj .glb .ply: triangles. Each phase has a closed surface; where two touch they\n"
         "share its triangles' corners, so there are neither gaps nor overlaps. .3mf, for printers, and\n"
-        ".obj and .glb have an object of its own for each phase, with its colour; a unit of length is\n"
-        "a millimetre in .3mf, a metre in .glb. .stl has what bounds all phases together or, with\n"
-        "{phase} in the name of FILE, a file for each. .ply has each triangle once, with the phases\n"
-        "on both of its sides.");
+        ".obj and .glb have an object of its own for each phase, with its colour; .obj has a file .mtl\n"
+        "beside it; a unit of length is a millimetre in .3mf, a metre in .glb. .stl has what bounds\n"
+        "all phases together or, with {phase} in the name of FILE, a file for each. .ply has each\n"
+        "triangle once, with the phases on both of its sides. Another --max-memory may change last\n"
+        "digits.");
     const auto file = add_scene_file(*command);
     auto options = std::make_shared<ExportOptions>();
     add_object(*command, options->object);

@@ -61,6 +61,8 @@ bool is_file_for_each_phase(const MeshExport& wanted) {
 
 // A phase's name as part of a file's, in which some characters mean something else.
 std::string in_file_name(std::string name) {
+    // Names of dots alone are folders.
+    for (std::size_t i = 0; i < name.size() && name[i] == '.'; ++i) name[i] = '_';
     for (char& c : name) {
         const auto code = static_cast<unsigned char>(c);
         if (code < 128 && !std::isalnum(code) && c != '-' && c != '_' && c != '.') c = '_';
@@ -115,6 +117,10 @@ void write_mesh(const MeshedObject& object, const MeshExport& wanted, const Phas
 
 void say_what_is_lost(const MeshedObject& object) {
     const PhaseMesh& mesh = object.mesh;
+    for (const Phase phase : object.phases())
+        if (!(surface_of(mesh, PhaseSet::of(phase)).volume() > 0))
+            say("phasetree: \"{}\" is so much thinner than the spacing of {:.4g} that its surface is inside out\n",
+                object.look(phase).name, mesh.spacing);
     for_each_phase(object.chosen.bits & ~mesh.phases().bits, [&](int i) {
         say("phasetree: \"{}\" has no triangles: it is nowhere, or thinner than the spacing of {:.4g}\n",
             object.looks[static_cast<std::size_t>(i)].name, mesh.spacing);
@@ -165,6 +171,17 @@ MeshedObject meshed(const SceneFile& file, const MeshExport& wanted, const Docum
     return object;
 }
 
+// Numbers that other programs still take for lengths, squared and all.
+void check_scale(const PhaseMesh& mesh, float scale) {
+    constexpr float most = 1e15f;
+    float farthest = 0;
+    for (const glm::vec3& v : mesh.vertices)
+        farthest = std::max({farthest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    if (farthest * scale > most || mesh.spacing * scale < 1 / most)
+        throw InputError(fmt::format("--scale {}: what is written would be too {}", scale,
+                                     farthest * scale > most ? "large" : "small"));
+}
+
 int said_interrupted() {
     say("phasetree: interrupted; nothing is written\n");
     return 1;
@@ -195,6 +212,7 @@ int export_mesh(const SceneFile& file, const MeshExport& wanted) {
         throw OutputError(fmt::format("cannot write \"{}\": there would be no triangles in it, at a spacing of {:.4g}",
                                       wanted.output, object.mesh.spacing));
     say_what_is_lost(object);
+    check_scale(object.mesh, wanted.scale);
     for (glm::vec3& v : object.mesh.vertices) v *= wanted.scale;
     for (Look& look : object.looks) look.absorption /= wanted.scale;  // which is per unit of length
     try {

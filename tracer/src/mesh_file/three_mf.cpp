@@ -24,10 +24,16 @@ constexpr const char* relationships =
 </Relationships>
 )";
 
-// A text as the value of an attribute of XML 1.0, which has no control characters.
+// A text as the value of an attribute of XML 1.0, which has neither control characters nor U+FFFE and U+FFFF.
 std::string in_xml(std::string_view text) {
     std::string result;
-    for (const char c : text) {
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (text.substr(i, 3) == "\xef\xbf\xbe" || text.substr(i, 3) == "\xef\xbf\xbf") {
+            result += ' ';
+            i += 2;
+            continue;
+        }
         if (c == '<')
             result += "&lt;";
         else if (c == '&')

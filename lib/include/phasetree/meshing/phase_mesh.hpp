@@ -72,7 +72,7 @@ inline constexpr int most_cubes_along = 1024;
 /// Makes a mesh of the interfaces within the bounds, which must contain all that is not vacuum. Uses all threads that
 /// TBB gives it, and gives the same mesh for any number of them. The labels take a byte for each point of the grid, 1.1
 /// GB for the finest. Throws ModelError if the bounds are empty or infinite, or for a spacing that would take more than
-/// most_cubes_along cubes along a side, and MeshingCancelled.
+/// most_cubes_along cubes along a side or is finer than floats are at the bounds' coordinates, and MeshingCancelled.
 ///
 /// It is dual contouring (Ju, Losasso, Schaefer & Warren, *Dual Contouring of Hermite Data*, SIGGRAPH 2002) for several
 /// labels at once. A grid of points has the labels. Each edge of the grid between two phases has a quadrilateral, whose
