@@ -118,7 +118,7 @@ TEST_CASE("triangles: names of phases lead to no other folder, and into no broke
     SceneText scene;
     scene.phases = R"({"..": {"clear": {"ior": 1.5}}, "a/b\ufffe": {"diffuse": {"color": [0.5, 0.4, 0.3]}}})";
     scene.tree = R"({"under": [{"set": {"phase": "..", "of": {"sphere": {"radius": 1}}}},
-                               {"set": {"phase": "a/b\ufffe", "of": {"translate": {"by": [3, 0, 0], "of": {"sphere": {}}}}}}]})";
+                               {"set": {"phase": "a/b\ufffe", "of": {"translate": {"by": [3, 0, 0], "of": {"sphere": {"radius": 1}}}}}}]})";
     write_text(shell.directory / "scene.json", scene.text());
     std::filesystem::create_directories(shell.directory / "in");
     const Outcome o = shell.run({"export", "scene.json", "-o", "in/{phase}.stl", "--spacing", "0.2"});

@@ -40,16 +40,16 @@ Grid Grid::around(const Bounds& bounds, float spacing) {
     grid.digit = 0x1p-23 * farthest;
     const double finest = finest_in_digits * grid.digit;
     grid.spacing = spacing > 0 ? static_cast<double>(spacing) : std::max(longest / default_cubes_along, finest);
-    if (grid.spacing < finest)
-        throw ModelError(
-            fmt::format("a spacing of {} is finer than 32-bit numbers are so far from the origin: the "
-                        "least is {:.4g}",
-                        spacing, 1.0001 * finest));
     if (!(longest / grid.spacing <= most_cubes_along))
         throw ModelError(
             fmt::format("a spacing of {} would take more than {} cubes along the object, which is {:.6g} "
                         "long: the least is {:.4g}",
                         spacing, most_cubes_along, longest, 1.0001 * longest / most_cubes_along));
+    if (grid.spacing < finest)
+        throw ModelError(
+            fmt::format("a spacing of {} is finer than 32-bit numbers are so far from the origin: the "
+                        "least is {:.4g}",
+                        spacing, 1.0001 * finest));
     for (int i = 0; i < 3; ++i) {
         grid.low[i] = static_cast<double>(bounds.low[i]) - margin[i] * grid.spacing;
         grid.points[i] = static_cast<int>(std::ceil(size[i] / grid.spacing + margin[i])) + 2;

@@ -34,7 +34,7 @@ constexpr std::array<std::string_view, 5> mesh_extensions{".stl", ".obj", ".ply"
 constexpr std::string_view phase_in_name = "{phase}";
 
 // What is passed over is not worth a word below this share.
-constexpr double little = 0.01;
+constexpr double little = 0.05;
 
 PhaseSet chosen_phases(const MeshExport& wanted, const SceneTree& tree) {
     const PhaseSet there = phases(tree.object);
@@ -128,8 +128,9 @@ void say_what_is_lost(const MeshedObject& object) {
     const double share =
         mesh.crossings > 0 ? static_cast<double>(mesh.passed_over) / static_cast<double>(mesh.crossings) : 0;
     if (share > little)
-        say("phasetree: {:.0f} in 100 crossings along the grid are passed over, where phases are thinner than the "
-            "spacing of {:.4g}\n",
+        say("phasetree: {:.0f} in 100 crossings along the grid are passed over, at edges and where phases are thinner "
+            "than "
+            "the spacing of {:.4g}\n",
             100 * share, mesh.spacing);
 }
 
