@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "phasetree/math/float_mode.hpp"
+
 namespace phasetree::meshing {
 
 namespace {
@@ -23,6 +25,7 @@ glm::ivec3 offset_of_side(int side) {
 }  // namespace
 
 Phase JoinedSides::phase_in_middle(const glm::ivec3& point, int axis) const {
+    const FlushSubnormals flush;
     glm::dvec3 middle = grid_.place(point);
     for (int i = 0; i < 3; ++i)
         if (i != axis) middle[i] += 0.5 * grid_.spacing;

@@ -14,6 +14,7 @@
 #include "meshing/label_grid.hpp"
 #include "meshing/vertex_in_cube.hpp"
 #include "meshing/well_composed.hpp"
+#include "phasetree/math/float_mode.hpp"
 
 namespace phasetree {
 
@@ -213,6 +214,7 @@ class Mesher {
     // Where the lines through a vertex along the axes meet an interface nearest to it; the vertex itself if there is
     // none within two cubes, which is where all but one changed label in ten thousand has one.
     glm::dvec3 on_interface(const glm::ivec3& cube, const glm::dvec3& vertex, double apart) const {
+        const FlushSubnormals flush;
         const glm::dvec3 place = grid_.place(cube) + grid_.spacing * vertex;
         std::vector<CrossingOnLine> crossings;
         double nearest = 2;
