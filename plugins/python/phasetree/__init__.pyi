@@ -86,7 +86,7 @@ class PhaseMesh(NamedTuple):
     def surface(self, *phases):
         r"""What bounds some phases together, each given by itself or by its name: (vertices, triangles).
 
-The surface is closed, and its triangles are counterclockwise for who looks from outside. That of one phase, or of
+The surface is closed, and its triangles are counterclockwise as seen from outside. That of one phase, or of
 all but the vacuum, is a manifold."""
     vertices: np.ndarray
     triangles: np.ndarray
