@@ -242,6 +242,30 @@ TEST_CASE("a wall as thick as the grid is whole, and both of its faces are smoot
     CHECK(off == 0);
 }
 
+TEST_CASE("triangles do not fold over where two interfaces meet at a small angle") {
+    // A ball that is cut by a block little below its top.
+    for (const float height : {0.9f, 0.95f}) {
+        const Field block = warped(Translate{{0.013f, 0.007f, height + 0.5f}}, Field(Box{.size = {3, 3, 1}}));
+        const PhaseMesh mesh = meshed(Over{{of(two, block), of(one, Sphere{.radius = 1})}}, 0.025f);
+        std::size_t between = 0, folded = 0;
+        double area = 0;
+        for (const PhaseMesh::Triangle& t : mesh.triangles) {
+            if (t.behind != two || t.front != one) continue;
+            const glm::dvec3 a(mesh.vertices[t.vertices[0]]), b(mesh.vertices[t.vertices[1]]),
+                c(mesh.vertices[t.vertices[2]]);
+            const double down = -0.5 * glm::cross(b - a, c - a).z;
+            ++between;
+            folded += down < 0 ? 1 : 0;
+            area += down;
+        }
+        CHECK(between > 1000);
+        CHECK(folded == 0);
+        // The rim is a wedge that is thinner than the grid.
+        const auto h = static_cast<double>(height);
+        CHECK(area == doctest::Approx(std::numbers::pi * (1 - h * h)).epsilon(0.15));
+    }
+}
+
 TEST_CASE("a plate and a slit 1.2 times as thick as the grid are whole, however they are turned") {
     const float spacing = 0.08f, thickness = 1.2f * spacing;
     Random rng(2);

@@ -1,5 +1,5 @@
-// PhaseTree: multiphase signed distance fields. This header has the nodes of trees, programs, tracing, cells and meshes.
-// Files of cells are in phasetree/cells/file.hpp, scene files in phasetree/io, Embree's geometry in
+// PhaseTree: multiphase signed distance fields. This header has the nodes of trees, programs, tracing, cells and
+// meshes. Files of cells are in phasetree/cells/file.hpp, scene files in phasetree/io, Embree's geometry in
 // phasetree/phasetree_embree.h.
 #pragma once
 

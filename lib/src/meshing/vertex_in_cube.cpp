@@ -40,17 +40,19 @@ Eigen eigen_of(glm::dmat3 a) {
     return {{a[0][0], a[1][1], a[2][2]}, {v[0], v[1], v[2]}};
 }
 
-// How far from the cube the vertex may be, in its sides. Of twelve turned boxes 43 in a thousand vertices were off
-// their faces where it was kept within; of tetrahedra 106, 4 at half a side, and none at a whole one.
-constexpr double most_outside = 1;
+// How far from the cube the vertex may be, in its sides. Nearer than that few vertices are kept from an edge of the
+// object that they belong on; farther, vertices of neighbouring cubes pass each other where two faces meet at a small
+// angle, and triangles between them fold over.
+constexpr double most_outside = 0.5;
 
-// The point b, or where the way to it from a, which is in the cube, leaves the cube by too much.
+// The point b or, if that is too far from the cube, where the way to it from a, which is in the cube, leaves the cube.
 glm::dvec3 kept_near_cube(const glm::dvec3& a, const glm::dvec3& b, double apart, bool is_alone) {
     double share = is_alone ? 1 : 1 - apart;
+    const bool is_near = glm::clamp(b, -most_outside, 1 + most_outside) == b;
     for (int i = 0; i < 3; ++i) {
         const double way = b[i] - a[i];
-        if (b[i] > 1) share = std::min(share, std::min(1 - apart, (1 + most_outside - a[i]) / way));
-        if (b[i] < 0) share = std::min(share, std::min(1 - apart, (-most_outside - a[i]) / way));
+        if (b[i] > 1) share = std::min(share, is_near ? 1 - apart : (1 - a[i]) / way);
+        if (b[i] < 0) share = std::min(share, is_near ? 1 - apart : -a[i] / way);
     }
     return a + share * (b - a);
 }

@@ -28,7 +28,7 @@ struct PlaneInCube {
 ///           this share of the way from the mean.
 /// is_alone  whether the cube has no other vertex.
 ///
-/// The vertex may be up to a cube's side outside: where an edge of the object only just does not reach into the cube
+/// The vertex may be up to half a cube outside: where an edge of the object only just does not reach into the cube
 /// both of its faces do, and the vertex belongs on the edge.
 glm::dvec3 vertex_in_cube(std::span<const PlaneInCube>, const glm::dvec3& mean, double apart, bool is_alone);
 

@@ -21,7 +21,8 @@ class PreparedObject {
     struct Release {
         void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
     };
-    std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release> device_;  // first, so that it is destroyed after the scene
+    std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release>
+        device_;  // first, so that it is destroyed after the scene
     std::unique_ptr<const CellScene> scene_;
 };
 

@@ -44,8 +44,8 @@ typedef struct PhasetreeMesh {
     size_t crossings, passedOver;
 } PhasetreeMesh;
 
-/* Makes a mesh of the interfaces of a geometry by rays through its cells (phasetree/meshing/phase_mesh.hpp says how), and
- * hands it over.
+/* Makes a mesh of the interfaces of a geometry by rays through its cells (phasetree/meshing/phase_mesh.hpp says how),
+ * and hands it over.
  *
  * options  NULL: the defaults.
  * receive  called once with the mesh, by the calling thread, if there is no error. Its arrays are the library's, and
