@@ -6,6 +6,23 @@ namespace test_export {
 
 using namespace phasetree::tests;
 
+namespace {
+
+// Checks that `export` with some arguments is refused in a few words, among which are these.
+auto refused_by(const Shell& shell) {
+    return [&shell](const std::vector<std::string>& arguments, const std::string& said) {
+        std::vector<std::string> words{"export"};
+        words.insert(words.end(), arguments.begin(), arguments.end());
+        const Outcome o = shell.run(words);
+        CAPTURE(o.err);
+        CHECK(o.code == 2);
+        CHECK(o.err.find(said) != std::string::npos);
+        CHECK(o.err.size() < 400);
+    };
+}
+
+}  // namespace
+
 TEST_CASE("a shader is text with all functions that its comments name, and nothing else is written") {
     const Shell shell;
     write_text(shell.directory / "scene.json", SceneText().text());
@@ -76,15 +93,7 @@ TEST_CASE("triangles: what is wrong is said in a line, and no file is written") 
     shell_scene.tree =
         R"({"set": {"phase": "glass", "of": {"shell": {"of": {"sphere": {"radius": 1}}, "half_thickness": 0.001}}}})";
     write_text(shell.directory / "thin.json", shell_scene.text());
-    const auto refused = [&](const std::vector<std::string>& arguments, const std::string& said) {
-        std::vector<std::string> words{"export"};
-        words.insert(words.end(), arguments.begin(), arguments.end());
-        const Outcome o = shell.run(words);
-        CAPTURE(o.err);
-        CHECK(o.code == 2);
-        CHECK(o.err.find(said) != std::string::npos);
-        CHECK(o.err.size() < 200);
-    };
+    const auto refused = refused_by(shell);
     refused({"scene.json", "-o", "a.stl", "--phase", "glas"}, R"(there is no phase "glas" (did you mean "glass"?))");
     refused({"scene.json", "-o", "a.stl", "--phase", "vacuum"}, "has no surface of its own");
     refused({"scene.json", "-o", "a.stl", "--spacing", "1e-9"}, "would take more than 1024 cubes");
@@ -92,6 +101,9 @@ TEST_CASE("triangles: what is wrong is said in a line, and no file is written") 
     refused({"scene.json", "-o", "a.stl", "--spacing", "nan"}, "--spacing");
     refused({"scene.json", "-o", "a.stl", "--scale", "3e38"}, "would be too large");
     refused({"scene.json", "-o", "a.stl", "--scale", "1e-40"}, "would be too small");
+    refused({"scene.json", "-o", "a.stl", "--grid", "8"}, "--grid is for .glsl");
+    refused({"scene.json", "-o", "a.html", "--scale", "2"}, "--scale is for triangles, and .html has none");
+    refused({"scene.json", "-o", "a.glsl", "--phase", "glass"}, "--phase is for triangles, and .glsl has none");
     refused({"scene.json", "-o", "{phase}.obj"}, "{phase} is for .stl");
     refused({"thin.json", "-o", "a.stl", "--spacing", "0.5"}, "there would be no triangles in it");
     for (const auto& entry : std::filesystem::directory_iterator(shell.directory / "."))
@@ -150,14 +162,7 @@ TEST_CASE("what cannot be exported is said in a line, and no file is written") {
     unbounded.tree = R"({"set": {"phase": "glass", "of": {"plane": {}}}})";
     write_text(shell.directory / "unbounded.json", unbounded.text());
     write_text(shell.directory / "no_tree.json", R"({"version": 1, "phases": {"glass": {"clear": {}}}})");
-    const auto refused = [&](const std::vector<std::string>& arguments, const std::string& said) {
-        std::vector<std::string> words{"export"};
-        words.insert(words.end(), arguments.begin(), arguments.end());
-        const Outcome o = shell.run(words);
-        CAPTURE(o.err);
-        CHECK(o.code == 2);
-        CHECK(o.err.find(said) != std::string::npos);
-    };
+    const auto refused = refused_by(shell);
     refused({"scene.json", "-o", "shader.gls"}, "cannot write \"shader.gls\": its extension is \".gls\"");
     refused({"scene.json", "-o", "shader"}, "it has no extension");
     refused({"scene.json"}, "--output is required");

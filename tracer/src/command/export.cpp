@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <filesystem>
 
@@ -9,7 +8,9 @@
 #include "command/load.hpp"
 #include "command/looks.hpp"
 #include "command/max_memory.hpp"
+#include "command/numbers.hpp"
 #include "command/streams.hpp"
+#include "mesh_file/bytes_as_text.hpp"
 #include "output/error.hpp"
 #include "output/file.hpp"
 #include "output/interrupt.hpp"
@@ -34,13 +35,9 @@ struct ExportOptions {
 };
 
 std::string numbers_as_bytes(const std::vector<float>& numbers) {
-    std::string bytes;
-    bytes.reserve(4 * numbers.size());
-    for (const float v : numbers) {
-        const auto bits = std::bit_cast<std::uint32_t>(v);
-        for (int i = 0; i < 4; ++i) bytes += static_cast<char>(bits >> (8 * i) & 255);
-    }
-    return bytes;
+    ByteWriter bytes;
+    for (const float v : numbers) bytes.number(v);
+    return bytes_as_text(bytes);
 }
 
 // A page is read at once by people who wait for it.
@@ -131,6 +128,15 @@ int export_shader(const SceneFile& file, const ExportOptions& chosen) {
     return 0;
 }
 
+// Options that a file of this extension has no use for are mistakes.
+void check_options(const CLI::App& command, const std::string& extension) {
+    const auto is_given = [&](const char* name) { return command.get_option(name)->count() > 0; };
+    if (extension != ".glsl" && is_given("--grid")) throw InputError("--grid is for .glsl");
+    for (const char* name : {"--spacing", "--scale", "--phase", "--max-memory"})
+        if (!is_mesh_extension(extension) && is_given(name))
+            throw InputError(fmt::format("{} is for triangles, and {} has none", name, extension));
+}
+
 // Of an option: nothing is wrong with a text that is a finite number above 0.
 std::function<std::string(const std::string&)> is_positive(const std::string& what) {
     return [what](const std::string& text) {
@@ -192,6 +198,8 @@ void add_export(CLI::App& app, Run& run) {
     command->callback([=, &run] {
         run = [=] {
             const std::string extension = std::filesystem::path(options->output).extension().string();
+            if (extension == ".glsl" || extension == ".html" || is_mesh_extension(extension))
+                check_options(*command, extension);
             if (extension == ".glsl") return export_shader(*file, *options);
             if (extension == ".html") return export_page(*file, *options);
             if (is_mesh_extension(extension)) {
