@@ -1,5 +1,6 @@
-// How the interfaces in a cube hang together, by the labels of its corners: in patches, each of which has a vertex of
-// its own. So both faces of a wall that is about as thick as a cube are kept apart.
+// The labels of a cube's corners tell how the interfaces in it are connected: in patches, each of which has a vertex of
+// its own, as in dual marching cubes (Nielson, *Dual Marching Cubes*, IEEE Visualization 2004), here for several
+// labels. So both faces of a wall that is about as thick as a cube are kept apart.
 #pragma once
 
 #include <algorithm>
@@ -35,14 +36,14 @@ constexpr int edge_between(int a, int b) {
 inline constexpr int sides_of_cube[6][4] = {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4},
                                             {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}};
 
-/// Whether two phases take turns around a side.
+/// Tells whether two phases take turns around a side: A, B, A, B.
 inline bool take_turns(const Corners& corners, int side) {
     const auto at = [&](int i) { return corners[static_cast<std::size_t>(sides_of_cube[side][i])]; };
     return at(0) == at(2) && at(1) == at(3) && at(0) != at(1);
 }
 
-/// What is known of a cube: the labels of its corners, and of each side around which two phases take turns the one that
-/// is joined across it (joined_sides.hpp).
+/// What is known of a cube: the labels of its corners, and for each side around which two phases take turns, the one of
+/// them that is joined across the side (joined_sides.hpp).
 struct CubeLabels {
     Corners corners{};
     std::array<Phase, 6> joined{};
@@ -50,11 +51,11 @@ struct CubeLabels {
     Phase at(int corner) const { return corners[static_cast<std::size_t>(corner)]; }
 };
 
-/// Whether a phase is joined across a side between two opposite corners, of which neither of the other two has it. It
-/// is a wall, and each of its two faces meets two edges of the side, about one of the others.
+/// Around some sides two opposite corners have a phase that neither of the other two has, and that phase is joined
+/// across the side. It is a wall there. Each of its two faces cuts the two edges that lead to one of the other corners.
 struct WallAcross {
     bool is_there = false;
-    int first = 0;  ///< which corner of the side, 0 or 1, is the first that is not of the wall; the other is opposite
+    int first = 0;  ///< the first corner of the side, 0 or 1, that is not of the wall; the other one is first + 2
 };
 WallAcross wall_across(const CubeLabels&, int side);
 
@@ -65,14 +66,14 @@ class LinkedEdges {
     void add(int edge) {
         if (of(edge) == none) of(edge) = edge;
     }
-    /// Of two edges that were added.
+    /// Joins the sets of two edges that were added.
     void link(int a, int b) {
         const int low = std::min(of(a), of(b)), high = std::max(of(a), of(b));
         for (int& f : first_)
             if (f == high) f = low;
     }
     bool has(int edge) const { return first_[static_cast<std::size_t>(edge)] != none; }
-    /// The lowest edge of its set.
+    /// The lowest edge in the set of an edge.
     int first(int edge) const { return first_[static_cast<std::size_t>(edge)]; }
 
   private:
@@ -81,8 +82,8 @@ class LinkedEdges {
     std::array<int, 12> first_{};
 };
 
-/// The edges of a cube that are cut, by whether is_cut(a, b) for the phases at their ends. Those of one side are
-/// linked, or those of each face of a wall across it.
+/// Finds the edges of a cube that are cut, which is_cut(a, b) tells from the phases at their ends. Cut edges of one
+/// side are linked to each other; where a wall is across the side, only those that one face of it cuts.
 template <class IsCut>
 LinkedEdges cut_edges(const CubeLabels& labels, IsCut&& is_cut) {
     LinkedEdges edges;
@@ -90,7 +91,8 @@ LinkedEdges cut_edges(const CubeLabels& labels, IsCut&& is_cut) {
         const WallAcross wall = wall_across(labels, side);
         int before = -1;
         for (int i = 0; i < 4; ++i) {
-            // From the corner before the wall's first face on, the first two edges are those of that face.
+            // Around a side with a wall the walk starts one corner before `first`: its first two edges are those that
+            // one face cuts, and its last two those that the other face cuts.
             const int start = wall.is_there ? wall.first + 3 + i : i;
             const int a = sides_of_cube[side][start % 4], b = sides_of_cube[side][(start + 1) % 4];
             if (!is_cut(labels.at(a), labels.at(b))) continue;
@@ -103,14 +105,13 @@ LinkedEdges cut_edges(const CubeLabels& labels, IsCut&& is_cut) {
     return edges;
 }
 
-/// The edges between two phases, sorted into patches. Those of one side of the cube hang together, unless there is a
-/// wall across it.
+/// The edges between two phases, sorted into patches: a patch is a set of linked edges (cut_edges).
 class CubePatches {
   public:
     explicit CubePatches(const CubeLabels&);
 
     int count() const { return count_; }
-    /// Of an edge between two phases.
+    /// The number of the patch of an edge between two phases.
     int patch(int edge) const { return static_cast<int>(patches_ >> (2 * edge) & 3); }
 
   private:

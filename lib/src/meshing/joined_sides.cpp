@@ -42,6 +42,7 @@ void JoinedSides::find_all(const Labels& labels, const std::function<void()>& ca
         cancelled();
         for (int j = 0; j + 1 < grid_.points.y; ++j)
             for (int i = 0; i + 1 < grid_.points.x; ++i) {
+                if (is_uniform(grid_, labels, {i, j, k})) continue;
                 const Corners corners = corners_of(grid_, labels, {i, j, k});
                 for (const int side : {0, 2, 4})  // those at the cube's low ends
                     if (take_turns(corners, side))

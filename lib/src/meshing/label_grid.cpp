@@ -129,6 +129,14 @@ std::optional<GridCrossing> CrossingsAlong::shown_on_edge(const glm::ivec3& poin
     return all[all.size() / 2];
 }
 
+bool is_uniform(const Grid& grid, const Labels& labels, const glm::ivec3& cube) {
+    const std::size_t first = grid.index(cube);
+    const auto dx = static_cast<std::size_t>(grid.points.x), dz = dx * static_cast<std::size_t>(grid.points.y);
+    for (const std::size_t corner : {std::size_t{1}, dx, dx + 1, dz, dz + 1, dz + dx, dz + dx + 1})
+        if (labels[first + corner] != labels[first]) return false;
+    return true;
+}
+
 Corners corners_of(const Grid& grid, const Labels& labels, const glm::ivec3& cube) {
     Corners c;
     for (int i = 0; i < 8; ++i) c[static_cast<std::size_t>(i)] = labels[grid.index(cube + offset_of_corner(i))];

@@ -7,10 +7,10 @@
 #include "meshing/cube_patches.hpp"
 #include "phasetree/meshing/phase_mesh.hpp"
 
-/// From an object to a mesh of its interfaces: the labels at the points of a grid and the crossings along its lines
-/// (here), labels that give manifolds (well_composed.hpp), which
-/// phases are joined across sides of cubes (joined_sides.hpp), the patches in a cube (cube_patches.hpp), the place of
-/// the vertex of each (vertex_in_cube.hpp), and the mesh.
+/// This room makes triangles of an object's interfaces, in these steps: the crossings along the lines of a grid and the
+/// labels at its points (label_grid.hpp), which phases are joined across sides of cubes (joined_sides.hpp), labels that
+/// give manifolds (well_composed.hpp), the patches in a cube (cube_patches.hpp), the place of the vertex of each patch
+/// (vertex_in_cube.hpp), and the triangles between these (phase_mesh.cpp).
 namespace phasetree::meshing {
 
 /// A grid of points with equal distances. Its cubes are called by their corner of the lowest coordinates.
@@ -51,12 +51,12 @@ class CrossingsAlong {
 
     std::size_t lines() const;
     std::size_t size() const { return crossings_.size(); }
-    /// Those of the line through a point, in their order.
+    /// The crossings on the line through a point, in their order.
     std::span<const GridCrossing> of_line(const glm::ivec3& point) const;
-    /// Those between a point and the next one along the axis.
+    /// The crossings between a point and the next one along the axis.
     std::span<const GridCrossing> of_edge(const glm::ivec3& point) const;
-    /// The one of them that stands for all, if there is any: of a thin layer with two faces one of these, of three
-    /// crossings the one in their midst.
+    /// The crossing that stands for all of an edge, if there is any: of two, which are the faces of something thin, it
+    /// is the second, of three the one in their midst.
     std::optional<GridCrossing> shown_on_edge(const glm::ivec3& point) const;
 
   private:
@@ -64,15 +64,17 @@ class CrossingsAlong {
 
     const Grid& grid_;
     int axis_;
-    std::vector<std::size_t> starts_;  ///< of each line, and the end
+    std::vector<std::size_t> starts_;  ///< where the crossings of each line begin, and where those of the last end
     std::vector<GridCrossing> crossings_;
 };
 
 /// The phase at each point of the grid, x fastest.
 using Labels = std::vector<Phase>;
-/// Of a cube.
-Corners corners_of(const Grid&, const Labels&, const glm::ivec3& cube);
-/// By the crossings along the lines in x.
+/// Finds them by the crossings along the lines in x.
 Labels labels_of(const Grid&, const CrossingsAlong& x);
+/// The labels of a cube's corners.
+Corners corners_of(const Grid&, const Labels&, const glm::ivec3& cube);
+/// Whether all corners of a cube have one label, as those of most cubes have: such a cube is passed by at little cost.
+bool is_uniform(const Grid&, const Labels&, const glm::ivec3& cube);
 
 }  // namespace phasetree::meshing

@@ -22,15 +22,15 @@ namespace meshing {
 
 namespace {
 
-// How far a vertex stays from where planes meet, as a share of the way there, unless rounding asks for more.
+// The least `apart` of vertex_in_cube; rounding far from the origin asks for more.
 constexpr double least_apart = 1e-3;
 
 constexpr glm::ivec3 along[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
-/// A cube with interfaces in it.
+/// A cube that has vertices, because interfaces are in it.
 struct ActiveCube {
     int x = 0;
-    std::uint32_t vertex = 0;  ///< of its first patch; those of the others follow
+    std::uint32_t vertex = 0;  ///< the number of the first patch's vertex; those of the others follow
     CubePatches patches;
 };
 
@@ -45,7 +45,7 @@ class ActiveCubes {
                 std::vector<ActiveCube>& found = layers[static_cast<std::size_t>(k)];
                 const std::size_t before = found.size();
                 for (int i = 0; i + 1 < grid.points.x; ++i)
-                    if (has_interface(labels, {i, j, k}))
+                    if (!is_uniform(grid, labels, {i, j, k}))
                         found.push_back({i, 0, CubePatches(joined.labels_of(labels, {i, j, k}))});
                 rows_[row(j, k) + 1] = found.size() - before;
             }
@@ -82,18 +82,38 @@ class ActiveCubes {
     std::size_t row(int j, int k) const {
         return static_cast<std::size_t>(k) * static_cast<std::size_t>(grid_.points.y) + static_cast<std::size_t>(j);
     }
-    bool has_interface(const Labels& labels, const glm::ivec3& cube) const {
-        const std::size_t first = grid_.index(cube);
-        const auto dx = static_cast<std::size_t>(grid_.points.x), dz = dx * static_cast<std::size_t>(grid_.points.y);
-        for (const std::size_t corner : {std::size_t{1}, dx, dx + 1, dz, dz + 1, dz + dx, dz + dx + 1})
-            if (labels[first + corner] != labels[first]) return true;
-        return false;
-    }
-
     const Grid& grid_;
     std::vector<std::size_t> rows_;  // where the cubes of each row along x begin in cubes_
     std::vector<ActiveCube> cubes_;
     std::size_t vertices_ = 0;
+};
+
+/// Tells how much of the work is done, over all of its stages.
+class MeshProgress {
+  public:
+    explicit MeshProgress(const std::function<void(float)>& tell) : tell_(tell) {}
+
+    /// Begins a stage of so many steps, which ends at a share of all the work.
+    void begin(std::size_t steps, float end) {
+        start_ = end_;
+        end_ = end;
+        steps_ = steps;
+        done_ = 0;
+    }
+    /// So many steps more are done. Any thread.
+    void advance(std::size_t steps = 1) {
+        if (!tell_) return;
+        const std::lock_guard lock(mutex_);
+        done_ += steps;
+        tell_(done_ == steps_ ? end_
+                              : start_ + (end_ - start_) * static_cast<float>(done_) / static_cast<float>(steps_));
+    }
+
+  private:
+    const std::function<void(float)>& tell_;
+    std::mutex mutex_;
+    float start_ = 0, end_ = 0;
+    std::size_t steps_ = 0, done_ = 0;
 };
 
 class Mesher {
@@ -101,17 +121,16 @@ class Mesher {
     Mesher(const Bounds& bounds, const LineTracer& lines, const MeshOptions& options)
         : lines_(lines),
           options_(options),
+          progress_(options.progress),
           grid_(Grid::around(bounds, options.spacing)),
           crossings_{CrossingsAlong(grid_, 0), CrossingsAlong(grid_, 1), CrossingsAlong(grid_, 2)} {
-        std::size_t in_all = 0, traced = 0;
-        for (const CrossingsAlong& axis : crossings_) in_all += axis.lines();
-        std::mutex reporting;
+        std::size_t count = 0;
+        for (const CrossingsAlong& axis : crossings_) count += axis.lines();
+        progress_.begin(count, 0.35f);
         for (CrossingsAlong& axis : crossings_)
             axis.trace(lines, [&](std::size_t more) {
                 stop_if_cancelled();
-                const std::lock_guard lock(reporting);
-                traced += more;
-                if (options_.progress) options_.progress(static_cast<float>(traced) / static_cast<float>(in_all));
+                progress_.advance(more);
             });
     }
 
@@ -124,6 +143,8 @@ class Mesher {
         joined.find_all(labels_, stop);
         make_well_composed(grid_, labels_, joined, stop);
         count_crossings(mesh);
+        const auto layers_of_points = static_cast<std::size_t>(grid_.points.z);
+        progress_.begin(layers_of_points - 1, 0.75f);
         const ActiveCubes cubes(grid_, labels_, joined);
         mesh.vertices.resize(cubes.vertices());
         tbb::parallel_for(0, grid_.points.z - 1, [&](int k) {
@@ -133,11 +154,14 @@ class Mesher {
                     mesh.vertices[cube.vertex + static_cast<std::uint32_t>(patch)] =
                         glm::vec3(grid_.place(point) + grid_.spacing * vertex_of(point, cube.patches, patch));
             });
+            progress_.advance();
         });
-        std::vector<std::vector<PhaseMesh::Triangle>> layers(static_cast<std::size_t>(grid_.points.z));
+        progress_.begin(layers_of_points, 1);
+        std::vector<std::vector<PhaseMesh::Triangle>> layers(layers_of_points);
         tbb::parallel_for(0, grid_.points.z, [&](int k) {
             stop_if_cancelled();
             add_layer(k, cubes, mesh, layers[static_cast<std::size_t>(k)]);
+            progress_.advance();
         });
         std::size_t triangles = 0;
         for (const std::vector<PhaseMesh::Triangle>& layer : layers) triangles += layer.size();
@@ -166,7 +190,7 @@ class Mesher {
         }
     }
 
-    // An edge shows one crossing if its ends differ; the others on it are passed over.
+    // An edge of the grid shows one crossing if its ends have different labels; all others are passed over.
     void count_crossings(PhaseMesh& mesh) const {
         for (const CrossingsAlong& axis : crossings_) mesh.crossings += axis.size();
         std::vector<std::size_t> shown(static_cast<std::size_t>(grid_.points.z), 0);
@@ -211,8 +235,8 @@ class Mesher {
         return static_cast<int>(count) < edges ? on_interface(cube, vertex, apart) : vertex;
     }
 
-    // Where the lines through a vertex along the axes meet an interface nearest to it; the vertex itself if there is
-    // none within two cubes, which is where all but one changed label in ten thousand has one.
+    // Moves a vertex to the nearest place where one of the lines through it along the axes meets an interface. If there
+    // is none within two cubes, the vertex stays: farther away it might be that of another part of the object.
     glm::dvec3 on_interface(const glm::ivec3& cube, const glm::dvec3& vertex, double apart) const {
         const FlushSubnormals flush;
         const glm::dvec3 place = grid_.place(cube) + grid_.spacing * vertex;
@@ -235,7 +259,7 @@ class Mesher {
         return found;
     }
 
-    // Two triangles for each edge between two phases that begins in a layer of points.
+    // Adds two triangles for each edge of the grid that begins in a layer of points and is between two phases.
     void add_layer(int k, const ActiveCubes& cubes, const PhaseMesh& mesh,
                    std::vector<PhaseMesh::Triangle>& triangles) const {
         for_each_edge_of_layer(k, [&](int axis, const glm::ivec3& point) {
@@ -263,7 +287,8 @@ class Mesher {
         });
     }
 
-    // From which corner, 0 or 1, the diagonal goes whose two triangles are more like the surface, by its normal.
+    // Chooses the diagonal of a quadrilateral by the interface's normal: it goes from corner 0 or corner 1, whichever
+    // makes the triangle that deviates most deviate less.
     static int better_diagonal(const PhaseMesh& mesh, const std::array<std::uint32_t, 4>& corners,
                                const glm::dvec3& normal) {
         const auto at = [&](int i) { return glm::dvec3(mesh.vertices[corners[static_cast<std::size_t>(i % 4)]]); };
@@ -280,6 +305,7 @@ class Mesher {
 
     const LineTracer& lines_;
     const MeshOptions& options_;
+    MeshProgress progress_;
     Grid grid_;
     std::array<CrossingsAlong, 3> crossings_;
     Labels labels_;

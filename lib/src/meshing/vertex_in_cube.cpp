@@ -23,9 +23,11 @@ struct Eigen {
 // Of a symmetric matrix, by Jacobi's rotations.
 Eigen eigen_of(glm::dmat3 a) {
     glm::dmat3 v(1);
+    const double small = 1e-16 * (a[0][0] + a[1][1] + a[2][2]);
     for (int sweep = 0; sweep < 12; ++sweep) {
+        if (std::abs(a[0][1]) + std::abs(a[0][2]) + std::abs(a[1][2]) <= small) break;
         for (const auto& [p, q] : {std::pair(0, 1), std::pair(0, 2), std::pair(1, 2)}) {
-            if (std::abs(a[p][q]) < 1e-300) continue;
+            if (std::abs(a[p][q]) <= 1e-3 * small) continue;
             const double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
             const double t = std::copysign(1.0, theta) / (std::abs(theta) + std::sqrt(theta * theta + 1));
             const double c = 1 / std::sqrt(t * t + 1), s = t * c;

@@ -1,12 +1,14 @@
-// Where the vertex of a cube is: where planes through the interfaces in it meet best.
+// A vertex is where planes through the interfaces in its cube meet best.
 //
-// With points pᵢ on interfaces, unit normals nᵢ there and a point m in their midst, the vertex is m + x for the least x
-// that makes Σ (nᵢ·(m + x − pᵢ))² least (Ju et al. 2002; Lindstrom, *Out-of-Core Simplification*, SIGGRAPH 2000, leaves
-// out directions in which it hardly changes). So it is on the edge of two faces and in the corner of three.
+// Let pᵢ be points on interfaces, nᵢ the unit normals there, and m a point in their midst. The vertex is m + x, where x
+// is the shortest vector for which Σ (nᵢ·(m + x − pᵢ))² is least (Ju et al. 2002); directions in which that sum hardly
+// changes are left out (Lindstrom, *Out-of-Core Simplification*, SIGGRAPH 2000). So the vertex is on the edge between
+// two faces and in the corner of three.
 //
-// Of a smooth surface the planes meet as far outside of its bend as m is inside: at height κd²/2 over a surface of
-// curvature κ for points at distance d to both sides, m being as far below. Where all normals agree but for a bend the
-// vertex is therefore half of the way to where the planes meet, on the surface up to the bend's change.
+// If the surface is smooth, the planes meet as far on one side of it as m is on the other. For points at the distance d
+// to both sides on a surface of curvature κ, m is κd²/2 below it, and the planes meet κd²/2 above. So where all normals
+// agree but for a bend, the vertex is halfway to where the planes meet, which is on the surface as far as κ is
+// constant.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -22,10 +24,9 @@ struct PlaneInCube {
 ///
 /// mean      m: the mean of the places where the cube's edges change their phase. There is no plane where labels were
 ///           changed (well_composed.hpp), but a place all the same: the middle of the edge.
-/// apart     Cubes around a corner of the object may all have it for their vertex, and so may two patches of a cube. So
-/// that
-///           these do not have the very same place, which would make triangles without an area, each stays behind by
-///           this share of the way from the mean.
+/// apart     the share of the way from the mean by which the vertex stays behind if it is outside of the cube or is not
+///           alone. Cubes around a corner of the object may all have that corner for their vertex, and triangles
+///           between vertices in one place would have no area.
 /// is_alone  whether the cube has no other vertex.
 ///
 /// The vertex may be up to half a cube outside: where an edge of the object only just does not reach into the cube

@@ -11,7 +11,7 @@ namespace phasetree::meshing {
 
 namespace {
 
-// A label that is to rise, or none.
+// Which label is to rise, and to what; a default-made change changes nothing.
 struct Change {
     int corner = -1;
     Phase to{};
@@ -19,8 +19,8 @@ struct Change {
     explicit operator bool() const { return corner >= 0; }
 };
 
-// Around a side, two opposite corners have a phase that neither of the others has. One of the others takes it if its
-// label is lower, else one of the two takes the lower label of the others.
+// Around a side with a wall across it, two opposite corners have a phase that neither of the others has. One of the
+// others takes it if its label is lower, else one of the two takes the lower label of the others.
 Change change_of_side(const CubeLabels& c, int side) {
     const auto& corners = sides_of_cube[side];
     for (int turn = 0; turn < 2; ++turn) {
@@ -32,14 +32,14 @@ Change change_of_side(const CubeLabels& c, int side) {
     return {};
 }
 
-// Whether both faces of a wall across a side are of one patch.
+// Tells whether both faces of a wall across a side are of one patch.
 bool is_wall_in_one_patch(const CubePatches& patches, int side, const WallAcross& wall) {
     const auto& corners = sides_of_cube[side];
     const auto patch_at = [&](int i) { return patches.patch(edge_between(corners[i], corners[(i + 1) % 4])); };
     return patch_at(wall.first) == patch_at(wall.first + 2);
 }
 
-// Whether a patch has two rings of a phase.
+// Tells whether a patch has two rings of a phase (well_composed.hpp).
 bool has_two_rings(const CubeLabels& c, const CubePatches& patches, Phase phase) {
     const LinkedEdges rings = cut_edges(c, [&](Phase a, Phase b) { return (a == phase) != (b == phase); });
     std::array<int, 4> in_patch{};
@@ -64,9 +64,9 @@ Change change_of_lowest(const CubeLabels& c) {
     return {};
 }
 
-// What is to be changed in a cube, if anything. In a cube whose one side is of the outermost points, all of them
-// vacuum, it is a label of the opposite side: no side with an edge of outermost points has two opposite corners of one
-// phase alone, and two rings of a phase take two opposite corners of the inner side.
+// Finds what is to be changed in a cube, if anything. The outermost points, all of them vacuum, stay so: in a cube with
+// four of them, a side that has any of them has two that are neighbours, so that no phase is at opposite corners alone;
+// and the vacuum and all else have one ring each in a patch, since each patch there is about corners of the inner side.
 Change change_of(const CubeLabels& c) {
     if (std::all_of(c.corners.begin(), c.corners.end(), [&](Phase p) { return p == c.corners[0]; })) return {};
     const CubePatches patches(c);
@@ -82,7 +82,7 @@ class Repair {
   public:
     Repair(const Grid& grid, Labels& labels, JoinedSides& joined) : grid_(grid), labels_(labels), joined_(joined) {}
 
-    // Changes labels around a cube until it is sound; cubes around those labels are to be seen again.
+    // Changes labels of a cube until nothing is to be changed in it; cubes around those labels are to be seen again.
     void mend(const glm::ivec3& cube) {
         for (;;) {
             joined_.find(labels_, cube);
@@ -120,7 +120,7 @@ void make_well_composed(const Grid& grid, Labels& labels, JoinedSides& joined, c
         cancelled();
         for (int j = 0; j + 1 < grid.points.y; ++j)
             for (int i = 0; i + 1 < grid.points.x; ++i)
-                if (const glm::ivec3 cube(i, j, k); !repair.is_sound(cube))
+                if (const glm::ivec3 cube(i, j, k); !is_uniform(grid, labels, cube) && !repair.is_sound(cube))
                     unsound[static_cast<std::size_t>(k)].push_back(cube);
     });
     for (const std::vector<glm::ivec3>& layer : unsound) {

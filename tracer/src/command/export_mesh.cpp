@@ -33,8 +33,8 @@ using std::filesystem::path;
 constexpr std::array<std::string_view, 5> mesh_extensions{".stl", ".obj", ".ply", ".3mf", ".glb"};
 constexpr std::string_view phase_in_name = "{phase}";
 
-// What is passed over is not worth a word below this share.
-constexpr double little = 0.05;
+// If no larger share of the crossings is passed over, nothing is said of it: edges of any object have some.
+constexpr double share_of_edges = 0.05;
 
 PhaseSet chosen_phases(const MeshExport& wanted, const SceneTree& tree) {
     const PhaseSet there = phases(tree.object);
@@ -59,7 +59,7 @@ bool is_file_for_each_phase(const MeshExport& wanted) {
     return wanted.output.find(phase_in_name) != std::string::npos;
 }
 
-// A phase's name as part of a file's, in which some characters mean something else.
+// A phase's name becomes part of a file's name, so all ASCII characters that may mean something else there become _.
 std::string in_file_name(std::string name) {
     // Names of dots alone are folders.
     for (std::size_t i = 0; i < name.size() && name[i] == '.'; ++i) name[i] = '_';
@@ -77,7 +77,7 @@ path file_of_phase(const std::string& pattern, const std::string& phase) {
     return name;
 }
 
-// The file of an .obj's materials.
+// The materials of an .obj are in a file beside it.
 path materials_of(path obj) {
     return obj.replace_extension(".mtl");
 }
@@ -127,10 +127,9 @@ void say_what_is_lost(const MeshedObject& object) {
     });
     const double share =
         mesh.crossings > 0 ? static_cast<double>(mesh.passed_over) / static_cast<double>(mesh.crossings) : 0;
-    if (share > little)
+    if (share > share_of_edges)
         say("phasetree: {:.0f} in 100 crossings along the grid are passed over, at edges and where phases are thinner "
-            "than "
-            "the spacing of {:.4g}\n",
+            "than the spacing of {:.4g}\n",
             100 * share, mesh.spacing);
 }
 

@@ -41,7 +41,8 @@ struct MeshOptions {
     /// The side of the cubes of the grid, in the scene's unit of length; 0 takes a 256th of the bounds' longest side.
     float spacing = 0;
     std::function<bool()> cancelled{};  ///< called now and then, by any thread; true ends the work
-    /// Called now and then with the share of the lines that are traced, in (0, 1], by one thread at a time.
+    /// Called now and then with the share of the work that is done, in (0, 1], by one thread at a time. Each share is
+    /// more than the one before; 1 is the last.
     std::function<void(float)> progress{};
 };
 
