@@ -252,7 +252,7 @@ class WrongScenes {
         rest("a view that is not there", "Nowhere", R"("render": {"width": 4, "height": 4, "view": "Nowhere"})");
         rest("a mesh that is not there", "nowhere.obj",
              R"("meshes": [{"obj": {"file": "nowhere.obj", "material": {"diffuse": {"color": [1, 1, 1]}}}}])");
-        rest("a directory for a mesh", "not a regular file",
+        rest("a directory for a mesh", "must end with .obj",
              R"("meshes": [{"obj": {"file": ".", "material": {"diffuse": {"color": [1, 1, 1]}}}}])");
         rest("the scene for a mesh", "scene.json",
              R"("meshes": [{"obj": {"file": "scene.json", "material": {"diffuse": {"color": [1, 1, 1]}}}}])");

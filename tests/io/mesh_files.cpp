@@ -2,9 +2,12 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <fstream>
+#include <glm/geometric.hpp>
 #include <string>
+#include <vector>
 
 #include "phasetree/io/error.hpp"
 #include "phasetree/io/mesh.hpp"
@@ -95,6 +98,124 @@ TEST_CASE("each kind of file gives the same triangles") {
     CHECK(fan.triangles[2] == glm::uvec3(0, 3, 4));
 }
 
+TEST_CASE("what files say of the corners of triangles") {
+    const auto read = [](const std::string& name, const std::string& content) {
+        return read_mesh_file(name, content, 100);
+    };
+    const auto corner = [](const auto& values, const MeshFile& file, std::size_t triangle, int i) {
+        return values.at(file.mesh.triangles, triangle, i);
+    };
+    const std::string vertices = "v 0 0 0 1 0 0.5\nv 1 0 0 0 1 0.5\nv 0 1 0 0 0 1\nv 1 1 0 0 0 0\n";
+    const MeshFile obj = read("a.obj", vertices +
+                                           "vt 0 0.25\nvt 1 0 0\nvt 0 1\nvn 0 0 2\nvn 1 0 0\n"
+                                           "f 1/1/1 2/2/1 3/-1/-1\nf 2/2/2 4/3/2 3/1/2\n");
+    REQUIRE(obj.mesh.triangles.size() == 2);
+    CHECK(corner(obj.texture, obj, 0, 0) == glm::vec2(0, 0.25f));
+    CHECK(corner(obj.texture, obj, 0, 2) == glm::vec2(0, 1));
+    CHECK(corner(obj.texture, obj, 1, 1) == glm::vec2(0, 1));
+    CHECK(corner(obj.normals, obj, 0, 0) == glm::vec3(0, 0, 2));
+    CHECK(corner(obj.normals, obj, 0, 2) == glm::vec3(1, 0, 0));
+    CHECK(corner(obj.colors, obj, 1, 0) == glm::vec3(0, 1, 0.5f));
+    // What one face lacks, none has; a weight behind coordinates is no colour.
+    const MeshFile lacking = read("a.obj", "v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\nvt 0 0\nf 1/1 2/1 3/1\nf 1 2 3/1\n");
+    CHECK(lacking.texture.empty());
+    CHECK(lacking.normals.empty());
+    CHECK(lacking.colors.empty());
+
+    const MeshFile ply =
+        read("a.ply",
+             "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+             "z\nproperty ushort red\nproperty ushort green\nproperty ushort blue\nproperty float nx\nproperty float "
+             "ny\nproperty float nz\nproperty float u\nproperty float v\nelement face 1\nproperty list uchar int "
+             "vertex_index\nend_header\n0 0 0 65535 0 13107 0 0 1 0.5 0\n1 0 0 0 0 0 0 1 0 0 0.5\n0 1 0 0 0 0 1 0 0 1 "
+             "1\n3 0 2 1\n");
+    CHECK(corner(ply.colors, ply, 0, 0) == glm::vec3(1, 0, 0.2f));
+    CHECK(corner(ply.normals, ply, 0, 1) == glm::vec3(1, 0, 0));
+    CHECK(corner(ply.texture, ply, 0, 2) == glm::vec2(0, 0.5f));
+    // Those of the faces' corners come before those of the vertices.
+    const MeshFile wedges =
+        read("a.ply",
+             "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty "
+             "float s\nproperty float t\nelement face 2\nproperty list uchar int vertex_indices\nproperty list uchar "
+             "float texcoord\nend_header\n0 0 0 9 9\n1 0 0 9 9\n1 1 0 9 9\n0 1 0 9 9\n4 0 1 2 3 8 0 0 1 0 1 1 0 1\n3 0 "
+             "2 3 6 0 0.5 1 1 0.5 1\n");
+    REQUIRE(wedges.mesh.triangles.size() == 3);
+    for (int i = 0; i < 3; ++i)
+        CHECK(corner(wedges.texture, wedges, 1, i) == glm::vec2(wedges.mesh.vertices[wedges.mesh.triangles[1][i]]));
+    CHECK(corner(wedges.texture, wedges, 2, 0) == glm::vec2(0, 0.5f));
+    CHECK(read("a.stl", word_stl()).normals.empty());
+}
+
+TEST_CASE("faces that are not convex become triangles within them") {
+    // Letters C and a star, each in several planes, from every first corner and in both senses. The triangles have the
+    // same sense as the face, and their areas add up to its own, so that none is outside and none is over another.
+    const std::vector<std::vector<glm::vec2>> faces{{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 2}, {3, 2}, {3, 3}, {0, 3}},
+                                                    {{0, 3},
+                                                     {-0.5f, 0.7f},
+                                                     {-3, 1},
+                                                     {-0.8f, -0.3f},
+                                                     {-2, -2.5f},
+                                                     {0, -0.9f},
+                                                     {2, -2.5f},
+                                                     {0.8f, -0.3f},
+                                                     {3, 1},
+                                                     {0.5f, 0.7f}},
+                                                    {{0, 0}, {2, 1}, {4, 0}, {2, 4}}};
+    const WrittenFiles files(read_mesh);
+    for (const std::vector<glm::vec2>& face : faces)
+        for (std::size_t first = 0; first < face.size(); ++first)
+            for (const bool is_reversed : {false, true})
+                for (const glm::vec3 slope : {glm::vec3(0, 0, 1), glm::vec3(3, 1, 0.2f), glm::vec3(-0.1f, 2, -1)}) {
+                    // Three axes of a frame, of which the last is the normal.
+                    const glm::vec3 normal = glm::normalize(slope);
+                    const glm::vec3 x = glm::normalize(glm::cross(glm::vec3(0.3f, -0.5f, 0.8f), normal));
+                    const glm::vec3 y = glm::cross(normal, x);
+                    std::string text, corners = "f";
+                    float area = 0;
+                    for (std::size_t i = 0; i < face.size(); ++i) {
+                        const std::size_t at = (first + (is_reversed ? face.size() - i : i)) % face.size();
+                        const glm::vec3 p = face[at].x * x + face[at].y * y;
+                        text +=
+                            "v " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
+                        corners += " " + std::to_string(i + 1);
+                        const glm::vec2& next = face[(i + 1) % face.size()];
+                        area += 0.5f * (face[i].x * next.y - next.x * face[i].y);
+                    }
+                    const TriangleMesh mesh = files.read("a.obj", text + corners + "\n");
+                    REQUIRE(mesh.triangles.size() == face.size() - 2);
+                    float sum = 0;
+                    for (const glm::uvec3& t : mesh.triangles) {
+                        const glm::vec3 &a = mesh.vertices[t.x], &b = mesh.vertices[t.y], &c = mesh.vertices[t.z];
+                        const float part = 0.5f * glm::dot(glm::cross(b - a, c - a), is_reversed ? -normal : normal);
+                        CHECK(part > 0);
+                        sum += part;
+                    }
+                    CHECK(sum == doctest::Approx(area).epsilon(1e-4));
+                    CHECK_FALSE(1.01f * sum == doctest::Approx(area).epsilon(1e-4));
+                }
+    // A face that crosses itself, and one all of whose corners are on a line, have as many triangles all the same.
+    CHECK(files.read("a.obj", "v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 4\n").triangles.size() == 2);
+    CHECK(files.read("a.obj", "v 0 0 0\nv 1 0 0\nv 3 0 0\nv 2 0 0\nf 1 2 3 4\n").triangles.size() == 2);
+}
+
+TEST_CASE("faces of very many corners take little time, and are whole") {
+    // A comb of 500 teeth, which has few ears at a time, and a face of a hundred thousand corners.
+    std::string comb, round, of_comb = "f", of_round = "f";
+    for (int i = 0; i < 1000; ++i) {
+        comb += "v " + std::to_string(i) + (i % 2 ? " 1 0\n" : " 100 0\n");
+        of_comb += " " + std::to_string(1000 - i);
+    }
+    for (int i = 0; i < 100'000; ++i) {
+        round += "v " + std::to_string(std::cos(6.2831853e-5 * i)) + " " + std::to_string(std::sin(6.2831853e-5 * i)) +
+                 " 0\n";
+        of_round += " " + std::to_string(i + 1);
+    }
+    CHECK(read_mesh_file("a.obj", comb + of_comb, 1'000'000).mesh.triangles.size() == 998);
+    CHECK(read_mesh_file("a.obj", round + of_round, 1'000'000).mesh.triangles.size() == 99'998);
+    CHECK_THROWS_WITH_AS((void)read_mesh_file("a.obj", round + of_round, 0),
+                         "a.obj: there are more triangles than 0 million", SceneError);
+}
+
 TEST_CASE("what is wrong in a file is said with its place, and nothing of it is quoted") {
     const WrittenFiles files(read_mesh);
     CHECK(files.said("a.txt", obj) == "a.txt: is no mesh: its name must end with .obj, .ply or .stl");
@@ -111,6 +232,9 @@ TEST_CASE("what is wrong in a file is said with its place, and nothing of it is 
     std::string text = word_ply;
     CHECK(files.said("a.ply", text.replace(text.size() - 2, 1, "9")) ==
           "a.ply: a face names a vertex that does not exist (row 4 of its faces)");
+    CHECK(files.said("a.ply",
+                     "ply\nformat ascii 1.0\nelement vertex 1\nproperty double x\nproperty float y\nproperty float "
+                     "z\nend_header\n1e300 0 0\n") == "a.ply: a number is too large (row 1 of its elements)");
     text = binary_ply(false);
     text.pop_back();
     CHECK(files.said("a.ply", text) == "a.ply: the file ends too early (row 4 of its faces)");

@@ -8,7 +8,7 @@ file(REMOVE_RECURSE "${WORK}")
 
 # With these a search for any of those is an error.
 set(without "")
-foreach(package OpenImageIO OpenColorIO CLI11 tinyobjloader doctest benchmark)
+foreach(package OpenImageIO OpenColorIO CLI11 doctest benchmark)
     list(APPEND without -DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
 endforeach()
 execute_process(WORKING_DIRECTORY "${SOURCE}" RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors
@@ -19,7 +19,7 @@ if(NOT status EQUAL 0)
     message(FATAL_ERROR "cmake --preset plugin ended with ${status}\n${output}\n${errors}")
 endif()
 file(READ "${WORK}/build/compile_commands.json" commands)
-foreach(word OpenImageIO OpenColorIO CLI11 tinyobj doctest "${SOURCE}/tracer/" "${SOURCE}/tests/" "${SOURCE}/benchmarks/")
+foreach(word OpenImageIO OpenColorIO CLI11 doctest "${SOURCE}/tracer/" "${SOURCE}/tests/" "${SOURCE}/benchmarks/")
     string(FIND "${commands}" "${word}" at)
     if(NOT at EQUAL -1)
         message(FATAL_ERROR "${word} is in ${WORK}/build/compile_commands.json")

@@ -30,6 +30,12 @@ inline const support::TemporaryDirectory& folder() {
         for (int i = 0; i < 32; ++i) image += std::string(1, static_cast<char>(0x20 + 2 * i)) + "\x40\x60\x80";
         support::write_text(made / "sky.hdr", image);
         support::write_text(made / "mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+        support::write_text(made / "mesh.ply",
+                            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty "
+                            "float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 "
+                            "0\n0 1 0\n3 0 1 2\n");
+        support::write_text(made / "mesh.stl",
+                            "solid\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendfacet\nendsolid\n");
         support::write_text(made / "lamp.ies", "TILT=NONE\n1 1 1 3 2 1 2 0 0 0\n1 1 0\n0 90 180\n0 90\n5 2 1\n3 2 1\n");
         return true;
     }();
@@ -92,7 +98,8 @@ inline void tell(std::vector<float>& told, const tracer::Texture& texture) {
     for (int i = 0; i < 20; ++i) {
         const float t = 0.173f * static_cast<float>(i);
         const glm::vec3 p(t, 0.31f - 2.1f * t, 0.7f * t * t);
-        tracer::TexturePoint place{p, {0.36f, 0.48f, 0.8f}, tracer::MeshCoordinates{{t, 0.3f * t}}};
+        const tracer::MeshCoordinates coordinates{.uv = {t, 0.3f * t}, .color = {0.05f * t, 0.5f, 0.1f}};
+        tracer::TexturePoint place{p, {0.36f, 0.48f, 0.8f}, coordinates};
         place.copy = static_cast<std::uint32_t>(i);
         tell(told, color_at(texture, place));
     }
@@ -184,7 +191,7 @@ inline void tell_lights(const Document& document, std::vector<float>& told) {
 inline void tell_meshes(const Document& document, std::vector<float>& told) {
     for (const tracer::Mesh& mesh : tracer::read_meshes(document, document.root())) {
         for (const glm::vec3& v : mesh.vertices) tell(told, v);
-        for (const glm::vec3& v : mesh.normals) tell(told, v);
+        for (const glm::vec3& v : mesh.normals.values) tell(told, v);
         for (const glm::uvec3& t : mesh.triangles) tell(told, glm::vec3(t));
         tell(told, mesh.material);
     }
@@ -283,6 +290,7 @@ inline std::vector<Case> cases() {
     texture("measured", R"("reflectance": [[450, 0.1], [600, 0.8]])");
     texture("image", R"("file": "sky.hdr")");
     texture("mesh_image", R"("file": "sky.hdr")");
+    texture("vertex_color", "");
     all.push_back({"Numbers", "field", R"("of": {"sphere": {"radius": 1}}, "ramp": [[-2, 0], [2, 0.5]])",
                    scene + R"(coated": {"color": [1, 1, 1], "roughness": {"field": )", "}}}}", tell_material_of_scene});
     all.push_back({"Numbers", "per_copy", R"("ramp": [[0, 0], [1, 0.5]])",
@@ -308,7 +316,7 @@ inline std::vector<Case> cases() {
         all.push_back({"Meshes", name, R"("material": {"diffuse": {"color": [0.5, 0.5, 0.5]}})" + needed,
                        "[{\"" + name + "\": ", "}]", tell_meshes});
     };
-    mesh("obj", R"(, "file": "mesh.obj")");
+    for (const char* const format : {"obj", "ply", "stl"}) mesh(format, fmt::format(", \"file\": \"mesh.{}\"", format));
     mesh("floor", "");
     mesh("backdrop", "");
     const std::string camera = R"("position": [0, -5, 0], "look_at": [0, 0, 0])";

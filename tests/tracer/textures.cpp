@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "paths.hpp"
+#include "phasetree_support/temporary_directory.hpp"
 #include "shading/texture/ramp.hpp"
 
 namespace test_textures {
@@ -177,11 +178,11 @@ TEST_CASE("textures from images: on a mesh by its coordinates, and an error wher
     };
     const Scene scene = sand_of(R"({"diffuse": {"color": [1, 1, 1]}})", mesh_of("f 1/1 2/2 3/3 4/4\n"));
     const Mesh& mesh = scene.meshes.at(0);
-    REQUIRE(mesh.uv.size() == 2);
+    REQUIRE(mesh.uv.triangles.size() == 2);
     REQUIRE(mesh.triangles.size() == 2);
     for (std::size_t t = 0; t < 2; ++t)
-        for (std::size_t k = 0; k < 3; ++k)
-            CHECK(mesh.uv[t][k] == glm::vec2(mesh.vertices[mesh.triangles[t][static_cast<int>(k)]]));
+        for (int k = 0; k < 3; ++k)
+            CHECK(mesh.uv.at(mesh.triangles, t, k) == glm::vec2(mesh.vertices[mesh.triangles[t][k]]));
     const Texture& color = std::get<Diffuse>(mesh.material).color;
     CHECK(glm::length(color_at(color, {{}, {0, 0, 1}, MeshCoordinates{{0.25f, 0.25f}}}) - glm::vec3(0, 0, 1)) < 1e-4f);
     CHECK(says(R"({"diffuse": {"color": [1, 1, 1]}})", "needs texture coordinates", mesh_of("f 1 2 3\n")));
@@ -189,6 +190,41 @@ TEST_CASE("textures from images: on a mesh by its coordinates, and an error wher
         says(R"({"diffuse": {"color": [1, 1, 1]}})", "needs texture coordinates", mesh_of("f 1/1 2/2 3/3\nf 1 3 4\n")));
     std::filesystem::remove(path);
     std::filesystem::remove(obj);
+}
+
+TEST_CASE("colours of a mesh's vertices: sRGB is decoded, and between vertices they are interpolated") {
+    const phasetree::support::TemporaryDirectory folder;
+    const auto mesh_of = [&](const std::string& name, const std::string& content) {
+        phasetree::support::write_text(folder / name, content);
+        return R"(, "meshes": [{")" + name.substr(name.size() - 3) + R"(": {"file": ")" + (folder / name).string() +
+               R"(", "material": {"diffuse": {"color": {"vertex_color": {}}}}}}])";
+    };
+    const std::string white = R"({"diffuse": {"color": [1, 1, 1]}})";
+    const std::string ply =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty uchar "
+        "red\nproperty uchar green\nproperty uchar blue\nelement face 1\nproperty list uchar int "
+        "vertex_indices\nend_header\n-4 -4 2 255 0 128\n8 -4 2 0 255 128\n-4 8 2 0 0 128\n3 0 1 2\n";
+    const std::string obj = "v -4 -4 2 1 0 0.501961\nv 8 -4 2 0 1 0.501961\nv -4 8 2 0 0 0.501961\nf 1 2 3\n";
+    for (const std::string& mesh : {mesh_of("a.ply", ply), mesh_of("a.obj", obj)}) {
+        const Scene scene = sand_of(white, mesh);
+        const World world(scene);
+        PathCounters counters;
+        // A quarter of the way to the second vertex, and half of it to the third.
+        const Hit hit = world.geometry().intersect(Ray{{-1, 2, 9}, {0, 0, -1}}, counters);
+        const Surface* surface = std::get_if<Surface>(&hit);
+        REQUIRE(surface);
+        const glm::vec3 found = color_at(std::get<Diffuse>(scene.meshes.at(0).material).color, surface->place);
+        const glm::vec3 expected(0.25f, 0.25f, 0.2158605f);
+        CHECK(glm::length(found - expected) < 1e-4f);
+        CHECK_FALSE(glm::length(1.01f * found - expected) < 1e-4f);
+        // As bumps ask for it: one to the right a twelfth of red has become green.
+        const TexturePoint moved = surface->place.moved({1, 0, 0});
+        const glm::vec3 beside = color_at(std::get<Diffuse>(scene.meshes.at(0).material).color, moved);
+        CHECK(glm::length(beside - expected - glm::vec3(-1, 1, 0) / 12.0f) < 1e-4f);
+    }
+    const std::string partly = "v -4 -4 2 1 0 0.5\nv 8 -4 2 0 1 0.5\nv -4 8 2\nf 1 2 3\n";
+    CHECK(says(white, "needs colours, which not all vertices", mesh_of("b.obj", partly)));
+    CHECK(says(R"({"diffuse": {"color": {"vertex_color": {}}}})", "is for meshes"));
 }
 
 }  // namespace test_textures

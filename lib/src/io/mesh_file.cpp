@@ -1,5 +1,7 @@
 #include "io/mesh_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 
@@ -8,13 +10,29 @@
 
 namespace phasetree {
 
-TriangleMesh read_mesh(const std::filesystem::path& path) {
+void io::check_triangles(const std::filesystem::path& path, const TriangleMesh& mesh, std::size_t most) {
+    if (mesh.triangles.size() > most)
+        throw SceneError(path.string(), fmt::format("there are more triangles than {} million", most / 1'000'000));
+}
+
+MeshFile read_mesh_file(const std::filesystem::path& path, std::string_view content, std::size_t most_triangles) {
     std::string ending = path.extension().string();
     std::ranges::transform(ending, ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-    if (ending == ".obj") return io::read_obj(path, io::read_file(path));
-    if (ending == ".ply") return io::read_ply(path, io::read_file(path));
-    if (ending == ".stl") return io::read_stl(path, io::read_file(path));
-    throw SceneError(path.string(), "is no mesh: its name must end with .obj, .ply or .stl");
+    MeshFile file;
+    if (ending == ".obj")
+        file = io::read_obj(path, content, most_triangles);
+    else if (ending == ".ply")
+        file = io::read_ply(path, content, most_triangles);
+    else if (ending == ".stl")
+        file = io::read_stl(path, content);
+    else
+        throw SceneError(path.string(), "is no mesh: its name must end with .obj, .ply or .stl");
+    io::check_triangles(path, file.mesh, most_triangles);
+    return file;
+}
+
+TriangleMesh read_mesh(const std::filesystem::path& path) {
+    return read_mesh_file(path, io::read_file(path), TriangleMesh::most_triangles).mesh;
 }
 
 }  // namespace phasetree

@@ -1,9 +1,11 @@
-// The lines of an OBJ file that say where its surface is: v and f.
+// The lines of an OBJ file that say where its surface is, and what it is like at the corners of its faces: v, vt, vn,
+// f.
 #include <fmt/format.h>
 
 #include <array>
 #include <optional>
 
+#include "io/face_triangles.hpp"
 #include "io/mesh_file.hpp"
 #include "io/words.hpp"
 #include "phasetree/io/error.hpp"
@@ -13,53 +15,116 @@ namespace phasetree::io {
 
 namespace {
 
-// The vertex that a corner of a face names: a number from 1, or one that counts back from the last vertex so far.
-// Behind slashes stand texture coordinates and normals.
-std::optional<std::uint32_t> vertex_of(std::string_view corner, std::size_t vertices) {
-    const auto number = number_of<std::int64_t>(corner.substr(0, corner.find('/')));
-    const auto count = static_cast<std::int64_t>(vertices);
+// The index that a corner of a face names: a number from 1, or one that counts back from the last so far.
+std::optional<std::uint32_t> index_of(std::string_view word, std::size_t size) {
+    const auto number = number_of<std::int64_t>(word);
+    const auto count = static_cast<std::int64_t>(size);
     if (!number || *number == 0 || *number > count || *number < -count) return std::nullopt;
     return static_cast<std::uint32_t>(*number > 0 ? *number - 1 : count + *number);
 }
 
+// The parts of a corner "vertex/texture/normal", of which the last two may be empty or missing.
+std::array<std::string_view, 3> parts_of(std::string_view corner) {
+    std::array<std::string_view, 3> parts;
+    for (std::string_view& part : parts) {
+        const std::size_t slash = std::min(corner.find('/'), corner.size());
+        part = corner.substr(0, slash);
+        corner.remove_prefix(std::min(slash + 1, corner.size()));
+    }
+    return parts;
+}
+
+class ObjReader {
+  public:
+    ObjReader(const std::filesystem::path& path, std::string_view content, std::size_t most_triangles)
+        : path_(path), words_(content), most_triangles_(most_triangles) {}
+
+    MeshFile read() {
+        support::ReadingPlace place;
+        while (words_.next_line()) {
+            place.reached(words_.offset());
+            const std::string_view kind = words_.word();
+            if (kind == "v")
+                add_vertex();
+            else if (kind == "vt")
+                file_.texture.values.push_back(numbers<2>("texture coordinates need two numbers"));
+            else if (kind == "vn")
+                file_.normals.values.push_back(numbers<3>("a normal needs three numbers"));
+            else if (kind == "f")
+                add_face();
+        }
+        place.finished(words_.offset());
+        drop_unless_complete(file_.texture, file_.mesh);
+        drop_unless_complete(file_.normals, file_.mesh);
+        if (file_.colors.values.size() != file_.mesh.vertices.size()) file_.colors = {};
+        return std::move(file_);
+    }
+
+  private:
+    [[noreturn]] void fail(std::string_view what) const {
+        throw SceneError(path_.string(), fmt::format("{} (line {})", what, words_.number()));
+    }
+
+    template <int count>
+    glm::vec<count, float> numbers(std::string_view needed) {
+        glm::vec<count, float> p;
+        for (int i = 0; i < count; ++i) {
+            const auto number = number_of<float>(words_.word());
+            if (!number) fail(needed);
+            p[i] = *number;
+        }
+        return p;
+    }
+
+    void add_vertex() {
+        file_.mesh.vertices.push_back(numbers<3>("a vertex needs three numbers"));
+        // Behind the coordinates there may be a weight, or a colour.
+        glm::vec3 color;
+        for (int i = 0; i < 3; ++i) {
+            const auto number = number_of<float>(words_.word());
+            if (!number) return;
+            color[i] = *number;
+        }
+        file_.colors.values.push_back(color);
+    }
+
+    void add_face() {
+        vertices_.clear(), textures_.clear(), normals_.clear(), places_.clear();
+        for (std::string_view word; !(word = words_.word()).empty();) {
+            const auto [vertex, texture, normal] = parts_of(word);
+            const auto index = index_of(vertex, file_.mesh.vertices.size());
+            if (!index) fail("a face names a vertex that does not exist");
+            vertices_.push_back(*index);
+            places_.push_back(file_.mesh.vertices[*index]);
+            if (const auto t = index_of(texture, file_.texture.values.size())) textures_.push_back(*t);
+            if (const auto n = index_of(normal, file_.normals.values.size())) normals_.push_back(*n);
+        }
+        if (vertices_.size() < 3) fail("a face needs three vertices");
+        const auto add = [](std::vector<glm::uvec3>& to, const glm::uvec3& corners,
+                            const std::vector<std::uint32_t>& from) {
+            to.emplace_back(from[corners.x], from[corners.y], from[corners.z]);
+        };
+        for (const glm::uvec3& corners : face_triangles(places_)) {
+            add(file_.mesh.triangles, corners, vertices_);
+            if (textures_.size() == vertices_.size()) add(file_.texture.triangles, corners, textures_);
+            if (normals_.size() == vertices_.size()) add(file_.normals.triangles, corners, normals_);
+        }
+        check_triangles(path_, file_.mesh, most_triangles_);
+    }
+
+    const std::filesystem::path& path_;
+    Words words_;
+    std::size_t most_triangles_;
+    MeshFile file_;
+    // Of the corners of a face.
+    std::vector<std::uint32_t> vertices_, textures_, normals_;
+    std::vector<glm::vec3> places_;
+};
+
 }  // namespace
 
-TriangleMesh read_obj(const std::filesystem::path& path, std::string_view content) {
-    TriangleMesh mesh;
-    Words words(content);
-    const auto fail = [&](std::string_view what) {
-        return SceneError(path.string(), fmt::format("{} (line {})", what, words.number()));
-    };
-    support::ReadingPlace place;
-    while (words.next_line()) {
-        place.reached(words.offset());
-        const std::string_view kind = words.word();
-        if (kind == "v") {
-            glm::vec3 p;
-            for (int i = 0; i < 3; ++i) {
-                const auto number = number_of<float>(words.word());
-                if (!number) throw fail("a vertex needs three numbers");
-                p[i] = *number;
-            }
-            mesh.vertices.push_back(p);
-        } else if (kind == "f") {
-            std::array<std::uint32_t, 3> corner{};
-            std::size_t corners = 0;
-            for (std::string_view word; !(word = words.word()).empty(); ++corners) {
-                const auto vertex = vertex_of(word, mesh.vertices.size());
-                if (!vertex) throw fail("a face names a vertex that does not exist");
-                corner[corners == 0 ? 0 : 2] = *vertex;
-                // A face of more corners is a fan about its first one.
-                if (corners >= 2) mesh.triangles.push_back({corner[0], corner[1], corner[2]});
-                if (corners >= 1) corner[1] = corner[2];
-            }
-            if (corners < 3) throw fail("a face needs three vertices");
-            if (mesh.triangles.size() > TriangleMesh::most_triangles)
-                throw fail("there are more triangles than 2 million");
-        }
-    }
-    place.finished(content.size());
-    return mesh;
+MeshFile read_obj(const std::filesystem::path& path, std::string_view content, std::size_t most_triangles) {
+    return ObjReader(path, content, most_triangles).read();
 }
 
 }  // namespace phasetree::io

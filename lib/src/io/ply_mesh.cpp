@@ -1,50 +1,155 @@
-// The vertices and faces of a PLY file.
+// The vertices and faces of a PLY file, and what it says of them.
 #include <array>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <optional>
 
+#include "io/face_triangles.hpp"
 #include "io/mesh_file.hpp"
 #include "io/ply.hpp"
 #include "phasetree/io/error.hpp"
 
 namespace phasetree::io {
 
-TriangleMesh read_ply(const std::filesystem::path& path, std::string_view content) {
-    TriangleMesh mesh;
-    Ply ply(path, content);
-    for (const Ply::Element& e : ply.elements()) {
-        if (e.name == "vertex") {
-            const std::array column{e.find("x"), e.find("y"), e.find("z")};
-            if (!column[0] || !column[1] || !column[2])
-                throw SceneError(path.string(), "its vertices have no x, y and z");
-            ply.for_each_row(e, [&](const Ply::Row& row) {
-                glm::vec3 p;
-                for (int i = 0; i < 3; ++i) {
-                    const std::vector<double>& value = row[*column[static_cast<std::size_t>(i)]];
-                    if (value.size() != 1) ply.fail(e, "a coordinate is not one number");
-                    p[i] = static_cast<float>(value[0]);
-                }
-                mesh.vertices.push_back(p);
-            });
-        } else if (e.name == "face") {
-            const auto list = e.find("vertex_indices") ? e.find("vertex_indices") : e.find("vertex_index");
-            if (!list) throw SceneError(path.string(), "its faces have no vertex_indices");
-            ply.for_each_row(e, [&](const Ply::Row& row) {
-                const std::vector<double>& corners = row[*list];
-                if (corners.size() < 3) ply.fail(e, "a face needs three vertices");
-                for (const double c : corners)
-                    if (!(c >= 0 && c < static_cast<double>(mesh.vertices.size())))
-                        ply.fail(e, "a face names a vertex that does not exist");
-                const auto at = [&](std::size_t i) { return static_cast<std::uint32_t>(corners[i]); };
-                // A face of more corners is a fan about its first one.
-                for (std::size_t i = 2; i < corners.size(); ++i) mesh.triangles.push_back({at(0), at(i - 1), at(i)});
-                if (mesh.triangles.size() > TriangleMesh::most_triangles)
-                    ply.fail(e, "there are more triangles than 2 million");
-            });
-        } else {
-            ply.for_each_row(e, [](const Ply::Row&) {});
-        }
+namespace {
+
+/// The numbers of some properties, such as x, y and z.
+template <std::size_t count>
+using Columns = std::array<std::size_t, count>;
+
+/// The first of several sets of properties of which an element has all.
+template <std::size_t count>
+std::optional<Columns<count>> find(const Ply::Element& element,
+                                   std::initializer_list<std::array<std::string_view, count>> sets) {
+    for (const auto& names : sets) {
+        Columns<count> columns{};
+        std::size_t found = 0;
+        for (const std::string_view name : names)
+            if (const auto column = element.find(name)) columns[found++] = *column;
+        if (found == count) return columns;
     }
-    ply.finish();
-    return mesh;
+    return std::nullopt;
+}
+
+/// The largest number of a type of whole numbers; 1 of the others.
+double largest_of(Ply::Type type) {
+    switch (type) {
+        case Ply::Type::int8:
+            return 127;
+        case Ply::Type::uint8:
+            return 255;
+        case Ply::Type::int16:
+            return 32767;
+        case Ply::Type::uint16:
+            return 65535;
+        case Ply::Type::int32:
+            return 2147483647;
+        case Ply::Type::uint32:
+            return 4294967295;
+        case Ply::Type::float32:
+        case Ply::Type::float64:
+            break;
+    }
+    return 1;
+}
+
+class PlyReader {
+  public:
+    PlyReader(const std::filesystem::path& path, std::string_view content, std::size_t most_triangles)
+        : path_(path), ply_(path, content), most_triangles_(most_triangles) {}
+
+    MeshFile read() {
+        for (const Ply::Element& element : ply_.elements()) {
+            if (element.name == "vertex")
+                read_vertices(element);
+            else if (element.name == "face")
+                read_faces(element);
+            else
+                ply_.for_each_row(element, [](const Ply::Row&) {});
+        }
+        ply_.finish();
+        return std::move(file_);
+    }
+
+  private:
+    template <std::size_t count>
+    glm::vec<static_cast<int>(count), float> numbers(const Ply::Element& element, const Ply::Row& row,
+                                                     const Columns<count>& columns) const {
+        glm::vec<static_cast<int>(count), float> p;
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::vector<double>& value = row[columns[i]];
+            if (value.size() != 1) ply_.fail(element, "what should be one number is a list");
+            p[static_cast<int>(i)] = as_float(element, value[0]);
+        }
+        return p;
+    }
+
+    float as_float(const Ply::Element& element, double value) const {
+        if (!(std::abs(value) <= std::numeric_limits<float>::max())) ply_.fail(element, "a number is too large");
+        return static_cast<float>(value);
+    }
+
+    void read_vertices(const Ply::Element& element) {
+        const auto place = find<3>(element, {{"x", "y", "z"}});
+        const auto normal = find<3>(element, {{"nx", "ny", "nz"}});
+        const auto color = find<3>(element, {{"red", "green", "blue"}});
+        const auto texture = find<2>(element, {{"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}});
+        if (!place) throw SceneError(path_.string(), "its vertices have no x, y and z");
+        glm::vec3 white(1);
+        for (int i = 0; color && i < 3; ++i)
+            white[i] = static_cast<float>(largest_of(element.properties[(*color)[static_cast<std::size_t>(i)]].type));
+        ply_.for_each_row(element, [&](const Ply::Row& row) {
+            file_.mesh.vertices.push_back(numbers(element, row, *place));
+            if (normal) file_.normals.values.push_back(numbers(element, row, *normal));
+            if (texture) file_.texture.values.push_back(numbers(element, row, *texture));
+            if (color) file_.colors.values.push_back(numbers(element, row, *color) / white);
+        });
+    }
+
+    void read_faces(const Ply::Element& element) {
+        const auto list =
+            element.find("vertex_indices") ? element.find("vertex_indices") : element.find("vertex_index");
+        const auto texture = element.find("texcoord");
+        if (!list) throw SceneError(path_.string(), "its faces have no vertex_indices");
+        // Those of the faces' corners are finer than those of the vertices.
+        if (texture) file_.texture = {};
+        std::vector<glm::vec3> places;
+        ply_.for_each_row(element, [&](const Ply::Row& row) {
+            const std::vector<double>& corners = row[*list];
+            if (corners.size() < 3) ply_.fail(element, "a face needs three vertices");
+            places.clear();
+            for (const double c : corners) {
+                if (!(c >= 0 && c < static_cast<double>(file_.mesh.vertices.size())))
+                    ply_.fail(element, "a face names a vertex that does not exist");
+                places.push_back(file_.mesh.vertices[static_cast<std::size_t>(c)]);
+            }
+            const auto first = static_cast<std::uint32_t>(file_.texture.values.size());
+            const bool has_texture = texture && row[*texture].size() == 2 * corners.size();
+            if (has_texture)
+                for (std::size_t i = 0; i < corners.size(); ++i)
+                    file_.texture.values.emplace_back(as_float(element, row[*texture][2 * i]),
+                                                      as_float(element, row[*texture][2 * i + 1]));
+            const auto at = [&](std::uint32_t i) { return static_cast<std::uint32_t>(corners[i]); };
+            for (const glm::uvec3& t : face_triangles(places)) {
+                file_.mesh.triangles.emplace_back(at(t.x), at(t.y), at(t.z));
+                if (has_texture) file_.texture.triangles.push_back(first + t);
+            }
+            check_triangles(path_, file_.mesh, most_triangles_);
+        });
+        if (texture) drop_unless_complete(file_.texture, file_.mesh);
+    }
+
+    const std::filesystem::path& path_;
+    Ply ply_;
+    std::size_t most_triangles_;
+    MeshFile file_;
+};
+
+}  // namespace
+
+MeshFile read_ply(const std::filesystem::path& path, std::string_view content, std::size_t most_triangles) {
+    return PlyReader(path, content, most_triangles).read();
 }
 
 }  // namespace phasetree::io

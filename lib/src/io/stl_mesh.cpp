@@ -77,13 +77,13 @@ TriangleMesh read_text(const std::filesystem::path& path, std::string_view conte
 
 }  // namespace
 
-TriangleMesh read_stl(const std::filesystem::path& path, std::string_view content) {
-    if (is_binary(content)) return read_binary(content);
+MeshFile read_stl(const std::filesystem::path& path, std::string_view content) {
+    if (is_binary(content)) return {read_binary(content), {}, {}, {}};
     if (!content.starts_with("solid"))
         throw SceneError(path.string(),
                          "is no STL file: it is neither as long as its number of triangles says nor a text "
                          "that begins with \"solid\"");
-    return read_text(path, content);
+    return {read_text(path, content), {}, {}, {}};
 }
 
 }  // namespace phasetree::io

@@ -2724,6 +2724,12 @@ class textures:
         repeat: How often the image stands side by side, and one above the other. ([x, y]; default [1, 1])
         """
     @staticmethod
+    def vertex_color() -> Texture:
+        r"""The colours that a mesh's file gives to its vertices, as scans have them.
+
+
+        """
+    @staticmethod
     def measured(reflectance: Sequence[Sequence[float]] | np.ndarray) -> Texture:
         r"""A colour by its spectrum, as it was measured.
 
@@ -2900,7 +2906,7 @@ class lights:
 class meshes:
     @staticmethod
     def obj(material: Material, file: str | PathLike[str], scale: float | None = ..., rotate_z: float | None = ..., y_up: bool | None = ..., translate: Sequence[float] | np.ndarray | None = ..., smooth: bool | None = ...) -> Mesh:
-        r"""The faces of a Wavefront OBJ file, of at most 1 GiB. Faces are made larger or smaller first, then turned, then moved.
+        r"""The faces of a Wavefront OBJ file, of at most 1 GiB, with its normals, texture coordinates and colours of vertices; its materials are not read. Faces are made larger or smaller first, then turned, then moved.
 
         material: What it is made of. (opaque material)
         file: The file. (name of a file)
@@ -2908,7 +2914,31 @@ class meshes:
         rotate_z: Angle by which it is turned about the z axis, anticlockwise from above. (number in degrees; default 0)
         y_up: Whether y is up in the file, and not z. (true or false; default false)
         translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])
-        smooth: Whether it is shaded as if it were smooth. (true or false; default true)
+        smooth: Whether it is shaded as if it were smooth: by the normals that its file has, or else by the mean of those of the faces around each vertex. (true or false; default true)
+        """
+    @staticmethod
+    def ply(material: Material, file: str | PathLike[str], scale: float | None = ..., rotate_z: float | None = ..., y_up: bool | None = ..., translate: Sequence[float] | np.ndarray | None = ..., smooth: bool | None = ...) -> Mesh:
+        r"""The faces of a PLY file, such as a scan, of at most 1 GiB, with its normals, texture coordinates and colours of vertices. It is placed as obj is.
+
+        material: What it is made of. (opaque material)
+        file: The file. (name of a file)
+        scale: A factor of its size. (number; positive; default 1)
+        rotate_z: Angle by which it is turned about the z axis, anticlockwise from above. (number in degrees; default 0)
+        y_up: Whether y is up in the file, and not z. (true or false; default false)
+        translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])
+        smooth: Whether it is shaded as if it were smooth: by the normals that its file has, or else by the mean of those of the faces around each vertex. (true or false; default true)
+        """
+    @staticmethod
+    def stl(material: Material, file: str | PathLike[str], scale: float | None = ..., rotate_z: float | None = ..., y_up: bool | None = ..., translate: Sequence[float] | np.ndarray | None = ..., smooth: bool | None = ...) -> Mesh:
+        r"""The triangles of an STL file of at most 1 GiB. It is placed as obj is.
+
+        material: What it is made of. (opaque material)
+        file: The file. (name of a file)
+        scale: A factor of its size. (number; positive; default 1)
+        rotate_z: Angle by which it is turned about the z axis, anticlockwise from above. (number in degrees; default 0)
+        y_up: Whether y is up in the file, and not z. (true or false; default false)
+        translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])
+        smooth: Whether it is shaded as if it were smooth: by the normals that its file has, or else by the mean of those of the faces around each vertex. (true or false; default true)
         """
     @staticmethod
     def floor(material: Material, height: float | None = ..., size: float | None = ...) -> Mesh:

@@ -1,5 +1,5 @@
 // Files of meshes, by the reading of the node `mesh`: what is no solid is refused, and of what is one the search finds
-// the piece that a loop over all of them would.
+// the piece that a loop over all of them would. What files say of triangles' corners is of corners that there are.
 #include "phasetree/io/mesh.hpp"
 #include "fuzz/found_by_search.hpp"
 #include "fuzz/input_file.hpp"
@@ -20,11 +20,25 @@ const std::filesystem::path& written(Bytes input) {
     return is_obj ? obj.write(input) : stl.write(input);
 }
 
+template <class T>
+void promise_corners(const MeshFile& file, const AtCorners<T>& values) {
+    if (values.empty()) return;
+    promised(values.triangles.empty() || values.triangles.size() == file.mesh.triangles.size(),
+             "each triangle has values at its corners");
+    for (const glm::uvec3& t : values.triangles.empty() ? file.mesh.triangles : values.triangles)
+        for (int i = 0; i < 3; ++i) promised(t[i] < values.values.size(), "values at corners exist");
+}
+
 }  // namespace
 
 void run_mesh(Bytes input) {
     try {
-        FromFile<TriangleMesh> file{"mesh", std::make_shared<const TriangleMesh>(read_mesh(written(input)))};
+        const std::filesystem::path& path = written(input);
+        const MeshFile read = read_mesh_file(path, text_of(input), TriangleMesh::most_triangles);
+        promise_corners(read, read.normals);
+        promise_corners(read, read.texture);
+        promise_corners(read, read.colors);
+        FromFile<TriangleMesh> file{"mesh", std::make_shared<const TriangleMesh>(read_mesh(path))};
         Mesh mesh{.file = std::move(file)};
         mesh.prepare();
         promise_search<mesh::PieceList>(mesh, [](const PointRange&, const Vec3<float>&, float) {});

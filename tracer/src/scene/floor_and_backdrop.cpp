@@ -30,7 +30,7 @@ Mesh BackdropParameters::made() const {
     for (const auto& [p, n] : profile) {
         for (const float x : {-half, half}) {
             mesh.vertices.emplace_back(x, p.x, p.y);
-            mesh.normals.emplace_back(0.0f, n.x, n.y);
+            mesh.normals.values.emplace_back(0.0f, n.x, n.y);
         }
     }
     for (unsigned i = 0; i + 1 < profile.size(); ++i) {

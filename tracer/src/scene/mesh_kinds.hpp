@@ -3,23 +3,20 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "parameters/world_limits.hpp"
 #include "phasetree/io/kind.hpp"
 #include "phasetree/model/concepts.hpp"
+#include "scene/mesh.hpp"
 #include "scene/parameter_types.hpp"
-#include "scene/scene.hpp"
 
 namespace phasetree::tracer {
 
 inline constexpr Parameter mesh_material_parameter{"material", "", "What it is made of."};
 
-// A Wavefront OBJ file; of its contents the faces, their materials not.
-struct ObjParameters {
-    static constexpr KindInfo info{"obj",
-                                   "The faces of a Wavefront OBJ file, of at most 1 GiB. Faces are made larger or "
-                                   "smaller first, then turned, then moved."};
-
+// What all meshes from files have.
+struct MeshFileParameters {
     Material material{};
     std::filesystem::path file{};
     float scale = 1.0f;
@@ -28,9 +25,8 @@ struct ObjParameters {
     glm::vec3 translate{0.0f};
     bool smooth = true;
 
-    template <class V>
-    static void parameters(V&& v) {
-        using P = ObjParameters;
+    template <class P, class V>
+    static void file_parameters(V&& v) {
         v(&P::material, mesh_material_parameter);
         v(&P::file, Parameter{"file", "", "The file."});
         v(&P::scale, Parameter{"scale", "", "A factor of its size.", limits::positive, true});
@@ -39,9 +35,48 @@ struct ObjParameters {
                     limits::any, true});
         v(&P::y_up, Parameter{"y_up", "", "Whether y is up in the file, and not z.", limits::any, true});
         v(&P::translate, Parameter{"translate", "m", "Where its origin goes.", limits::any, true});
-        v(&P::smooth, Parameter{"smooth", "", "Whether it is shaded as if it were smooth.", limits::any, true});
+        v(&P::smooth, Parameter{"smooth", "",
+                                "Whether it is shaded as if it were smooth: by the normals that its file has, or else "
+                                "by the mean of those of the faces around each vertex.",
+                                limits::any, true});
     }
-    Mesh made() const;
+    // `ending` is that of the format that the file must be of, such as ".obj".
+    Mesh read(std::string_view ending) const;
+};
+
+struct ObjParameters : MeshFileParameters {
+    static constexpr KindInfo info{"obj",
+                                   "The faces of a Wavefront OBJ file, of at most 1 GiB, with its normals, texture "
+                                   "coordinates and colours of vertices; its materials are not read. Faces are made "
+                                   "larger or smaller first, then turned, then moved."};
+
+    template <class V>
+    static void parameters(V&& v) {
+        file_parameters<ObjParameters>(v);
+    }
+    Mesh made() const { return read(".obj"); }
+};
+
+struct PlyParameters : MeshFileParameters {
+    static constexpr KindInfo info{"ply",
+                                   "The faces of a PLY file, such as a scan, of at most 1 GiB, with its normals, "
+                                   "texture coordinates and colours of vertices. It is placed as obj is."};
+
+    template <class V>
+    static void parameters(V&& v) {
+        file_parameters<PlyParameters>(v);
+    }
+    Mesh made() const { return read(".ply"); }
+};
+
+struct StlParameters : MeshFileParameters {
+    static constexpr KindInfo info{"stl", "The triangles of an STL file of at most 1 GiB. It is placed as obj is."};
+
+    template <class V>
+    static void parameters(V&& v) {
+        file_parameters<StlParameters>(v);
+    }
+    Mesh made() const { return read(".stl"); }
 };
 
 // A square on the plane z = height.
@@ -89,6 +124,6 @@ struct BackdropParameters {
     Mesh made() const;
 };
 
-using MeshKinds = TypeList<ObjParameters, FloorParameters, BackdropParameters>;
+using MeshKinds = TypeList<ObjParameters, PlyParameters, StlParameters, FloorParameters, BackdropParameters>;
 
 }  // namespace phasetree::tracer

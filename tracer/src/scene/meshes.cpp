@@ -8,6 +8,20 @@
 
 namespace phasetree::tracer {
 
+namespace {
+
+void check_textures(const Mesh& mesh) {
+    if (mesh.uv.empty() && has_texture<MeshImageTexture>(mesh.material))
+        throw ParameterError("material",
+                             "the texture \"mesh_image\" needs texture coordinates, which not all faces of this mesh "
+                             "have; \"image\" needs none");
+    if (mesh.colors.empty() && has_texture<VertexColorTexture>(mesh.material))
+        throw ParameterError("material",
+                             "the texture \"vertex_color\" needs colours, which not all vertices of this mesh have");
+}
+
+}  // namespace
+
 std::vector<Mesh> read_meshes(const Document& document, Value list) {
     if (!list.is_array())
         throw document.error(list, fmt::format("\"meshes\" must be a list, but is {}", name_of(list.kind())));
@@ -22,10 +36,7 @@ std::vector<Mesh> read_meshes(const Document& document, Value list) {
                     const auto same = 1 + std::ranges::count(kinds, Kind::info.name);
                     mesh.name = same == 1 ? std::string(Kind::info.name) : fmt::format("{} {}", Kind::info.name, same);
                     kinds.push_back(Kind::info.name);
-                    if (mesh.uv.empty() && needs_uv(mesh.material))
-                        throw ParameterError("material",
-                                             "the texture \"mesh_image\" needs texture coordinates, which "
-                                             "not all faces of this mesh have; \"image\" needs none");
+                    check_textures(mesh);
                     return mesh;
                 }));
         });

@@ -13,7 +13,8 @@ constexpr std::size_t most_sets = 16;
 
 struct Corner {
     glm::vec3 p;
-    glm::vec2 uv;
+    glm::vec2 uv{0};
+    glm::vec3 color{1};
 };
 using Triangle = std::array<Corner, 3>;
 
@@ -28,7 +29,7 @@ struct Set {
 };
 
 Corner middle(const Corner& a, const Corner& b) {
-    return {0.5f * (a.p + b.p), 0.5f * (a.uv + b.uv)};
+    return {0.5f * (a.p + b.p), 0.5f * (a.uv + b.uv), 0.5f * (a.color + b.color)};
 }
 
 std::array<Set, 2> halves(const Triangle& triangle) {
@@ -57,7 +58,9 @@ std::vector<Triangle> triangles_of(const Mesh& mesh) {
         Triangle triangle;
         for (int corner = 0; corner < 3; ++corner) {
             const auto i = static_cast<std::size_t>(corner);
-            triangle[i] = {mesh.vertices[mesh.triangles[t][corner]], mesh.uv.empty() ? glm::vec2(0) : mesh.uv[t][i]};
+            triangle[i].p = mesh.vertices[mesh.triangles[t][corner]];
+            if (!mesh.uv.empty()) triangle[i].uv = mesh.uv.at(mesh.triangles, t, corner);
+            if (!mesh.colors.empty()) triangle[i].color = mesh.colors.at(mesh.triangles, t, corner);
         }
         triangles.push_back(triangle);
     }
@@ -71,8 +74,8 @@ float luminance_of(const Set& set, const Glowing& material) {
     float sum = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const auto& [a, b, c] = set.triangles[i * set.triangles.size() / count];
-        sum += luminance(color_at(material.light,
-                                  {(a.p + b.p + c.p) / 3.0f, {0, 0, 1}, MeshCoordinates{(a.uv + b.uv + c.uv) / 3.0f}}));
+        const MeshCoordinates middle{.uv = (a.uv + b.uv + c.uv) / 3.0f, .color = (a.color + b.color + c.color) / 3.0f};
+        sum += luminance(color_at(material.light, {(a.p + b.p + c.p) / 3.0f, {0, 0, 1}, middle}));
     }
     return material.radiance * std::max(sum / static_cast<float>(count), least_brightness);
 }

@@ -60,10 +60,12 @@ void check_version(const Document& document, Value version) {
 
 Material read_phase_material(const Document& document, Value phase) {
     Material material = read_material(document, phase);
-    if (needs_uv(material))
+    if (has_texture<MeshImageTexture>(material))
         throw document.error(phase,
                              "the texture \"mesh_image\" is for meshes, because phases have no texture "
                              "coordinates; use \"image\"");
+    if (has_texture<VertexColorTexture>(material))
+        throw document.error(phase, "the texture \"vertex_color\" is for meshes, because phases have no vertices");
     return material;
 }
 

@@ -1,7 +1,6 @@
 // A scene file, read: everything an image needs, as plain values.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <optional>
@@ -12,21 +11,11 @@
 #include "film/film_settings.hpp"
 #include "lights/lights.hpp"
 #include "phasetree/io/tree.hpp"
+#include "scene/mesh.hpp"
 #include "scene/placed.hpp"
 #include "shading/material.hpp"
 
 namespace phasetree::tracer {
-
-// Triangles beside the object, of one opaque material. With vertex normals (one a vertex) the shading is smooth. With
-// texture coordinates, of which each triangle has those of its corners, images can be laid on it.
-struct Mesh {
-    std::vector<glm::vec3> vertices;
-    std::vector<glm::vec3> normals;
-    std::vector<glm::uvec3> triangles;
-    std::vector<std::array<glm::vec2, 3>> uv;
-    Material material;
-    std::string name{};  // its kind, with a number behind it from the second of a kind on: "floor", "obj 2"
-};
 
 // How the light of lamps is found: by shadow rays, by directions that surfaces and media sample, and by photons if the
 // scene asks for caustics, weighted by the power heuristic; or by one of the first two alone, which shows in a

@@ -87,16 +87,17 @@ struct Glowing {
 /// Every kind of material.
 using Material = std::variant<Clear, Diffuse, Conductor, Coated, Glowing>;
 
-/// Whether a texture of it needs the texture coordinates of a mesh.
-inline bool needs_uv(const Material& material) {
+/// Whether one of its textures is, or has in it, one of a kind.
+template <class Wanted>
+bool has_texture(const Material& material) {
     return std::visit(
         [](const auto& kind) {
             if constexpr (requires { kind.bump; })
-                if (kind.bump && needs_uv(kind.bump->texture)) return true;
+                if (kind.bump && has_kind<Wanted>(kind.bump->texture)) return true;
             if constexpr (requires { kind.light; })
-                return needs_uv(kind.light) || needs_uv(kind.color);
+                return has_kind<Wanted>(kind.light) || has_kind<Wanted>(kind.color);
             else if constexpr (requires { kind.color; })
-                return needs_uv(kind.color);
+                return has_kind<Wanted>(kind.color);
             else
                 return false;
         },

@@ -90,16 +90,31 @@ glm::mat2x3 dual_basis(const glm::vec3& a, const glm::vec3& b) {
     return {(bb * a - ab * b) / determinant, (aa * b - ab * a) / determinant};
 }
 
+// A column for each number of T: its gradient in the plane of a triangle.
+template <int count>
+glm::mat<count, 3, float> gradients_of(const glm::vec<count, float>& along_a, const glm::vec<count, float>& along_b,
+                                       const glm::mat2x3& dual) {
+    glm::mat<count, 3, float> gradients;
+    for (int i = 0; i < count; ++i) gradients[i] = along_a[i] * dual[0] + along_b[i] * dual[1];
+    return gradients;
+}
+
 std::optional<MeshCoordinates> coordinates_at(const Mesh& mesh, const RTCRayHit& hit) {
-    if (mesh.uv.empty()) return std::nullopt;
-    const auto& corners = mesh.uv[hit.hit.primID];
-    const float u = hit.hit.u, v = hit.hit.v;
-    const glm::uvec3& t = mesh.triangles[hit.hit.primID];
+    if (mesh.uv.empty() && mesh.colors.empty()) return std::nullopt;
+    const unsigned triangle = hit.hit.primID;
+    const glm::uvec3& t = mesh.triangles[triangle];
     const glm::vec3& p = mesh.vertices[t.x];
     const glm::mat2x3 dual = dual_basis(mesh.vertices[t.y] - p, mesh.vertices[t.z] - p);
-    const glm::vec2 along_a = corners[1] - corners[0], along_b = corners[2] - corners[0];
-    return MeshCoordinates{(1 - u - v) * corners[0] + u * corners[1] + v * corners[2],
-                           {along_a.x * dual[0] + along_b.x * dual[1], along_a.y * dual[0] + along_b.y * dual[1]}};
+    MeshCoordinates coordinates;
+    const auto fill = [&](const auto& corners, auto& value, auto& gradients) {
+        if (corners.empty()) return;
+        const auto corner = [&](int i) { return corners.at(mesh.triangles, triangle, i); };
+        value = at_barycentric(mesh, corners, triangle, hit.hit.u, hit.hit.v);
+        gradients = gradients_of(corner(1) - corner(0), corner(2) - corner(0), dual);
+    };
+    fill(mesh.uv, coordinates.uv, coordinates.gradients);
+    fill(mesh.colors, coordinates.color, coordinates.color_gradients);
+    return coordinates;
 }
 
 }  // namespace
@@ -243,7 +258,7 @@ Surface TracedGeometry::surface_of_mesh(const Ray& ray, const RTCRayHit& hit) co
     if (glm::dot(flat, ray.direction) > 0) flat = -flat;
     glm::vec3 shading = flat;
     if (!mesh.normals.empty()) {
-        glm::vec3 n = glm::normalize((1 - u - v) * mesh.normals[t.x] + u * mesh.normals[t.y] + v * mesh.normals[t.z]);
+        glm::vec3 n = glm::normalize(at_barycentric(mesh, mesh.normals, hit.hit.primID, u, v));
         if (glm::dot(n, flat) < 0) n = -n;
         // Where the ray grazes, the shading normal may face away from it, and the flat one is kept.
         if (glm::dot(n, ray.direction) < 0) shading = n;

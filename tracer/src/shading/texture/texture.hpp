@@ -17,6 +17,7 @@
 #include "shading/texture/mesh_image.hpp"
 #include "shading/texture/per_copy.hpp"
 #include "shading/texture/speckle.hpp"
+#include "shading/texture/vertex_color.hpp"
 #include "shading/texture/wood.hpp"
 
 namespace phasetree::tracer {
@@ -24,7 +25,7 @@ namespace phasetree::tracer {
 // Those that a scene file names, with their parameters: one list, from which the reader, the reference and the schema
 // follow. A colour by itself is the constant one.
 using NamedTextures = TypeList<WoodTexture, SpeckleTexture, MarbleTexture, CheckerTexture, FieldTexture, ImageTexture,
-                               MeshImageTexture, MeasuredTexture, PerCopyTexture>;
+                               MeshImageTexture, VertexColorTexture, MeasuredTexture, PerCopyTexture>;
 
 /// A kind of texture, once its contract has been asked of it. If it does not meet that, the message names the kind and
 /// the member.
@@ -79,14 +80,17 @@ inline glm::vec3 color_at(const Texture& texture, TexturePoint point, const Wave
         texture);
 }
 
-/// Whether it can only be on a mesh, whose file has texture coordinates.
-inline bool needs_uv(const Texture& texture) {
+/// Whether a texture is, or has in it, one of a kind. A MeshImageTexture can only be on a mesh whose file has texture
+/// coordinates, a VertexColorTexture on one whose file has colours.
+template <class Wanted>
+bool has_kind(const Texture& texture) {
     return std::visit(
         []<class Kind>(const Kind& kind) {
             if constexpr (requires { kind.ramp; })
-                return std::ranges::any_of(*kind.ramp, [](const TextureStop& stop) { return needs_uv(stop.texture); });
+                return std::ranges::any_of(*kind.ramp,
+                                           [](const TextureStop& stop) { return has_kind<Wanted>(stop.texture); });
             else
-                return std::is_same_v<Kind, MeshImageTexture>;
+                return std::is_same_v<Kind, Wanted>;
         },
         texture);
 }

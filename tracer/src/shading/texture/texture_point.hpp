@@ -3,16 +3,19 @@
 
 #include <cstdint>
 #include <glm/mat2x3.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 
 namespace phasetree::tracer {
 
-/// A mesh's texture coordinates at a place.
+/// What a mesh's corners say of a place. The gradients are those along the surface, per unit of length.
 struct MeshCoordinates {
-    glm::vec2 uv;
-    glm::mat2x3 gradients{0.0f};  ///< ∇u and ∇v along the surface, per unit of length
+    glm::vec2 uv{0.0f};                 ///< texture coordinates
+    glm::mat2x3 gradients{0.0f};        ///< ∇u and ∇v
+    glm::vec3 color{1.0f};              ///< linear Rec.709
+    glm::mat3x3 color_gradients{0.0f};  ///< ∇ of red, of green and of blue
 };
 
 struct TexturePoint {
@@ -29,7 +32,10 @@ struct TexturePoint {
     TexturePoint moved(const glm::vec3& by) const {
         TexturePoint there = *this;
         there.position += by;
-        if (mesh) there.mesh->uv += by * mesh->gradients;
+        if (mesh) {
+            there.mesh->uv += by * mesh->gradients;
+            there.mesh->color += by * mesh->color_gradients;
+        }
         return there;
     }
 };

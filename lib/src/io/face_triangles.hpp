@@ -1,0 +1,22 @@
+// The triangles of a face with any number of corners, by clipping ears: a corner is cut off where the triangle that it
+// makes with its neighbours bulges outwards and has no other corner in it (Meisters, *Polygons Have Ears*, The American
+// Mathematical Monthly 82, 1975). Each side of the face is a side of one of the triangles, so closed meshes stay
+// closed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+namespace phasetree::io {
+
+/// Faces of more corners than this that are not convex become fans about their first corner, which may fold over.
+inline constexpr std::size_t most_corners_to_clip = 1024;
+
+/// Returns the triangles of a face with at least three corners, all in its sense. Their corners are numbers of corners
+/// of the face, from 0. The face is taken for flat. A convex one becomes a fan about its first corner.
+std::vector<glm::uvec3> face_triangles(std::span<const glm::vec3> corners);
+
+}  // namespace phasetree::io

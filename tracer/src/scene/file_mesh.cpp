@@ -1,0 +1,115 @@
+// Meshes from files: what the file says, placed in the scene.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numeric>
+#include <tuple>
+
+#include "image/srgb.hpp"
+#include "parameters/text_file.hpp"
+#include "phasetree/io/error.hpp"
+#include "scene/mesh_kinds.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+constexpr std::uintmax_t max_file_bytes = std::uintmax_t{1} << 30;
+constexpr std::size_t most_triangles = 100'000'000;
+
+// Vertices at one place become one. In STL files each triangle has vertices of its own.
+void join_vertices(Mesh& mesh) {
+    const auto place = [&](std::uint32_t i) {
+        const glm::vec3& p = mesh.vertices[i];
+        return std::tuple(p.x, p.y, p.z);
+    };
+    std::vector<std::uint32_t> sorted(mesh.vertices.size()), joined(mesh.vertices.size());
+    std::iota(sorted.begin(), sorted.end(), 0u);
+    std::ranges::sort(sorted, {}, place);
+    std::vector<glm::vec3> vertices;
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+        if (i == 0 || place(sorted[i]) != place(sorted[i - 1])) vertices.push_back(mesh.vertices[sorted[i]]);
+        joined[sorted[i]] = static_cast<std::uint32_t>(vertices.size() - 1);
+    }
+    mesh.vertices = std::move(vertices);
+    for (glm::uvec3& t : mesh.triangles) t = {joined[t.x], joined[t.y], joined[t.z]};
+}
+
+// Normals of the vertices: the means of those of the triangles around each, weighted by area.
+AtCorners<glm::vec3> smooth_normals(const Mesh& mesh) {
+    AtCorners<glm::vec3> normals;
+    normals.values.assign(mesh.vertices.size(), glm::vec3(0.0f));
+    for (const glm::uvec3& t : mesh.triangles) {
+        const glm::vec3 n =
+            glm::cross(mesh.vertices[t.y] - mesh.vertices[t.x], mesh.vertices[t.z] - mesh.vertices[t.x]);
+        for (int i = 0; i < 3; ++i) normals.values[t[i]] += n;
+    }
+    return normals;
+}
+
+std::string lower_case(std::string text) {
+    std::ranges::transform(text, text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+    return text;
+}
+
+void check_ending(const std::filesystem::path& file, std::string_view ending) {
+    const std::string found = lower_case(file.extension().string());
+    if (found == ending) return;
+    const bool is_other = found == ".obj" || found == ".ply" || found == ".stl";
+    throw ParameterError(
+        "file", fmt::format("the name of the file must end with {}{}", ending,
+                            is_other ? fmt::format("; of {} is the mesh \"{}\"", file.string(), found.substr(1)) : ""));
+}
+
+void make_unit(glm::vec3& v) {
+    // In doubles, because squares of what floats hold may be beyond floats.
+    const double length = glm::length(glm::dvec3(v));
+    v = length > 0 ? glm::vec3(glm::dvec3(v) / length) : glm::vec3(0.0f);
+}
+
+}  // namespace
+
+Mesh MeshFileParameters::read(std::string_view ending) const {
+    const auto fail = [&](std::string_view what) {
+        return ParameterError("file", fmt::format("{} {}", file.string(), what));
+    };
+    check_ending(file, ending);
+    MeshFile read;
+    try {
+        read = read_mesh_file(file, read_text_file(file, max_file_bytes, "1 GiB"), most_triangles);
+    } catch (const SceneError& e) {
+        throw ParameterError("file", e.what());
+    }
+    if (read.mesh.triangles.empty()) throw fail("has no faces");
+
+    Mesh mesh;
+    mesh.vertices = std::move(read.mesh.vertices);
+    mesh.triangles = std::move(read.mesh.triangles);
+    const float turn = glm::radians(rotate_z_degrees), cosine = std::cos(turn), sine = std::sin(turn);
+    const auto turned = [&](glm::vec3 p) {
+        if (y_up) p = {p.x, -p.z, p.y};
+        return glm::vec3(cosine * p.x - sine * p.y, sine * p.x + cosine * p.y, p.z);
+    };
+    for (glm::vec3& p : mesh.vertices) {
+        p = turned(scale * p) + translate;
+        for (int k = 0; k < 3; ++k)
+            if (!coordinate.contains(p[k])) throw fail("has a coordinate that is no number or beyond 10¹⁵");
+    }
+    if (ending == ".stl") join_vertices(mesh);
+    if (smooth && !read.normals.empty()) {
+        mesh.normals = std::move(read.normals);
+        for (glm::vec3& n : mesh.normals.values) n = turned(n);
+    } else if (smooth) {
+        mesh.normals = smooth_normals(mesh);
+    }
+    for (glm::vec3& n : mesh.normals.values) make_unit(n);
+    mesh.uv = std::move(read.texture);
+    mesh.colors = std::move(read.colors);
+    for (glm::vec3& c : mesh.colors.values)
+        for (int k = 0; k < 3; ++k) c[k] = linear_from_srgb(std::clamp(c[k], 0.0f, 1.0f));
+    return mesh;
+}
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,32 @@
+// Triangles beside the object, of one opaque material.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "phasetree/io/mesh.hpp"
+#include "shading/material.hpp"
+
+namespace phasetree::tracer {
+
+struct Mesh {
+    std::vector<glm::vec3> vertices;
+    std::vector<glm::uvec3> triangles;
+    AtCorners<glm::vec3> normals{};  // of length 1, or 0 where there is none; with them the shading is smooth
+    AtCorners<glm::vec2> uv{};       // texture coordinates, by which images can be laid on it
+    AtCorners<glm::vec3> colors{};   // linear Rec.709, each channel in [0, 1]
+    Material material{};
+    std::string name{};  // its kind, with a number behind it from the second of a kind on: "floor", "obj 2"
+};
+
+// The mean of three values at a triangle's corners by barycentric coordinates, of which u belongs to the second corner
+// and v to the third, as Embree has them.
+template <class T>
+T at_barycentric(const Mesh& mesh, const AtCorners<T>& values, std::size_t triangle, float u, float v) {
+    const auto corner = [&](int i) { return values.at(mesh.triangles, triangle, i); };
+    return (1 - u - v) * corner(0) + u * corner(1) + v * corner(2);
+}
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,25 @@
+// The colours of a mesh's vertices, as scans have them; between vertices they are interpolated linearly.
+#pragma once
+
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+
+#include "phasetree/io/kind.hpp"
+#include "shading/texture/texture_point.hpp"
+
+namespace phasetree::tracer {
+
+struct VertexColorTexture {
+    static constexpr KindInfo info{"vertex_color",
+                                   "The colours that a mesh's file gives to its vertices, as scans have them."};
+
+    template <class V>
+    static void parameters(V&&) {}
+
+    // A mesh without colours is refused where the scene is read. Bumps ask for places a little outside of triangles.
+    glm::vec3 at(const TexturePoint& p) const {
+        return p.mesh ? glm::clamp(p.mesh->color, glm::vec3(0.0f), glm::vec3(1.0f)) : glm::vec3(1.0f);
+    }
+};
+
+}  // namespace phasetree::tracer
