@@ -155,6 +155,29 @@ TEST_CASE("a mesh of several objects is that of all of them, or of one") {
           bytes_of(shell.directory / "all.stl").size() + 84);
 }
 
+TEST_CASE("what was exported can stand beside another object, as a mesh of each format") {
+    const Shell shell;
+    SceneText text;
+    text.phases = R"({"glass": {"clear": {"ior": 1.5}}, "wood": {"diffuse": {"color": [0.5, 0.4, 0.3]}}})";
+    text.tree = R"({"over": [{"set": {"phase": "glass", "of": {"sphere": {"radius": 1}}}},
+        {"set": {"phase": "wood", "of": {"translate": {"by": [3, 0, 0], "of": {"box": {"size": [1, 1, 1]}}}}}}]})";
+    write_text(shell.directory / "scene.json", text.text());
+    for (const std::string format : {"obj", "ply", "stl", "glb"}) {
+        CAPTURE(format);
+        CHECK(shell.run({"export", "scene.json", "-o", "a." + format, "--spacing", "0.2"}).code == 0);
+        SceneText with_mesh;
+        with_mesh.rest += R"(, "meshes": [{")" + format + R"(": {"file": "a.)" + format + "\"" +
+                          (format == "glb" ? "}}]" : R"(, "material": {"diffuse": {"color": [1, 1, 1]}}}}])");
+        write_text(shell.directory / "with_mesh.json", with_mesh.text());
+        const Outcome o = shell.run({"check", "with_mesh.json"});
+        CHECK(o.code == 0);
+        // Of all formats .glb alone says that the glass is clear.
+        CHECK(o.err == (format == "glb" ? "warning: a.glb: \"glass\" is clear, and is left out: meshes are opaque, and "
+                                          "what is clear belongs into the tree\n"
+                                        : ""));
+    }
+}
+
 TEST_CASE("what cannot be exported is said in a line, and no file is written") {
     const Shell shell;
     write_text(shell.directory / "scene.json", SceneText().text());

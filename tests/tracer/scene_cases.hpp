@@ -19,6 +19,7 @@
 #include "scene/mesh_kinds.hpp"
 #include "scene/read_parts.hpp"
 #include "scene/read_transform.hpp"
+#include "tracer/written_glb.hpp"
 
 namespace phasetree::tests {
 
@@ -36,6 +37,14 @@ inline const support::TemporaryDirectory& folder() {
                             "0\n0 1 0\n3 0 1 2\n");
         support::write_text(made / "mesh.stl",
                             "solid\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendfacet\nendsolid\n");
+        GlbBytes bytes;
+        const std::string view = bytes.add(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0});
+        support::write_text(made / "mesh.glb",
+                            glb(R"("scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "meshes": [{"primitives": [
+                                {"attributes": {"POSITION": 0}}]}], "accessors": [{"bufferView": 0, "componentType": 5126,
+                                "count": 3, "type": "VEC3"}], "bufferViews": [)" +
+                                    view + "]",
+                                bytes.bytes()));
         support::write_text(made / "lamp.ies", "TILT=NONE\n1 1 1 3 2 1 2 0 0 0\n1 1 0\n0 90 180\n0 90\n5 2 1\n3 2 1\n");
         return true;
     }();
@@ -106,7 +115,10 @@ inline void tell(std::vector<float>& told, const tracer::Texture& texture) {
 }
 
 inline void tell(std::vector<float>& told, const tracer::Number& number) {
-    for (const float t : {0.0f, 0.4f, 1.7f}) told.push_back(number_at(number, glm::vec3(t, 0.5f * t, -t)));
+    for (const float t : {0.0f, 0.4f, 1.7f}) {
+        const glm::vec3 p(t, 0.5f * t, -t);
+        told.push_back(number_at(number, {p, {0, 0, 1}, tracer::MeshCoordinates{.uv = {t, 0.3f * t}}}));
+    }
 }
 
 inline void tell(std::vector<float>& told, const tracer::Material& material) {
@@ -189,7 +201,7 @@ inline void tell_lights(const Document& document, std::vector<float>& told) {
 }
 
 inline void tell_meshes(const Document& document, std::vector<float>& told) {
-    for (const tracer::Mesh& mesh : tracer::read_meshes(document, document.root())) {
+    for (const tracer::Mesh& mesh : tracer::read_meshes(document, document.root()).meshes) {
         for (const glm::vec3& v : mesh.vertices) tell(told, v);
         for (const glm::vec3& v : mesh.normals.values) tell(told, v);
         for (const glm::uvec3& t : mesh.triangles) tell(told, glm::vec3(t));
@@ -293,6 +305,9 @@ inline std::vector<Case> cases() {
     texture("vertex_color", "");
     all.push_back({"Numbers", "field", R"("of": {"sphere": {"radius": 1}}, "ramp": [[-2, 0], [2, 0.5]])",
                    scene + R"(coated": {"color": [1, 1, 1], "roughness": {"field": )", "}}}}", tell_material_of_scene});
+    all.push_back({"Numbers", "mesh_image", R"("file": "sky.hdr")",
+                   scene + R"(coated": {"color": [1, 1, 1], "roughness": {"mesh_image": )", "}}}}",
+                   tell_material_of_scene});
     all.push_back({"Numbers", "per_copy", R"("ramp": [[0, 0], [1, 0.5]])",
                    scene + R"(coated": {"color": [1, 1, 1], "roughness": {"per_copy": )", "}}}}",
                    tell_material_of_scene});
@@ -317,6 +332,7 @@ inline std::vector<Case> cases() {
                        "[{\"" + name + "\": ", "}]", tell_meshes});
     };
     for (const char* const format : {"obj", "ply", "stl"}) mesh(format, fmt::format(", \"file\": \"mesh.{}\"", format));
+    all.push_back({"Meshes", "glb", R"("file": "mesh.glb")", "[{\"glb\": ", "}]", tell_meshes});
     mesh("floor", "");
     mesh("backdrop", "");
     const std::string camera = R"("position": [0, -5, 0], "look_at": [0, 0, 0])";

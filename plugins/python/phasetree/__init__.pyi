@@ -2752,6 +2752,14 @@ class numbers:
         ramp: Values of the field and the number at each, between which it is interpolated. (list of [number, number] in m)
         """
     @staticmethod
+    def mesh_image(file: str | PathLike[str], repeat: Sequence[float] | np.ndarray | None = ..., range: Sequence[float] | np.ndarray | None = ...) -> Number:
+        r"""A number for each place of an image on a mesh, by the texture coordinates that its file has.
+
+        file: An image, of which the first channel counts, as the file stores it: integers are not taken to be encoded as colours are. (name of a file)
+        repeat: How often the image stands side by side, and one above the other. ([x, y]; default [1, 1])
+        range: The numbers where the image is black and where it is white. ([x, y]; default [0, 1])
+        """
+    @staticmethod
     def per_copy(ramp: Sequence[Sequence[float]] | np.ndarray, seed: int | None = ...) -> Number:
         r"""A number for each copy that "instances" place.
 
@@ -2905,40 +2913,50 @@ class lights:
 
 class meshes:
     @staticmethod
-    def obj(material: Material, file: str | PathLike[str], scale: float | None = ..., rotate_z: float | None = ..., y_up: bool | None = ..., translate: Sequence[float] | np.ndarray | None = ..., smooth: bool | None = ...) -> Mesh:
+    def obj(material: Material, file: str | PathLike[str], scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ..., y_up: bool | None = ..., smooth: bool | None = ...) -> Mesh:
         r"""The faces of a Wavefront OBJ file, of at most 1 GiB, with its normals, texture coordinates and colours of vertices; its materials are not read. Faces are made larger or smaller first, then turned, then moved.
 
         material: What it is made of. (opaque material)
         file: The file. (name of a file)
         scale: A factor of its size. (number; positive; default 1)
         rotate_z: Angle by which it is turned about the z axis, anticlockwise from above. (number in degrees; default 0)
-        y_up: Whether y is up in the file, and not z. (true or false; default false)
         translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])
+        y_up: Whether y is up in the file, and not z. (true or false; default false)
         smooth: Whether it is shaded as if it were smooth: by the normals that its file has, or else by the mean of those of the faces around each vertex. (true or false; default true)
         """
     @staticmethod
-    def ply(material: Material, file: str | PathLike[str], scale: float | None = ..., rotate_z: float | None = ..., y_up: bool | None = ..., translate: Sequence[float] | np.ndarray | None = ..., smooth: bool | None = ...) -> Mesh:
+    def ply(material: Material, file: str | PathLike[str], scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ..., y_up: bool | None = ..., smooth: bool | None = ...) -> Mesh:
         r"""The faces of a PLY file, such as a scan, of at most 1 GiB, with its normals, texture coordinates and colours of vertices. It is placed as obj is.
 
         material: What it is made of. (opaque material)
         file: The file. (name of a file)
         scale: A factor of its size. (number; positive; default 1)
         rotate_z: Angle by which it is turned about the z axis, anticlockwise from above. (number in degrees; default 0)
-        y_up: Whether y is up in the file, and not z. (true or false; default false)
         translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])
+        y_up: Whether y is up in the file, and not z. (true or false; default false)
         smooth: Whether it is shaded as if it were smooth: by the normals that its file has, or else by the mean of those of the faces around each vertex. (true or false; default true)
         """
     @staticmethod
-    def stl(material: Material, file: str | PathLike[str], scale: float | None = ..., rotate_z: float | None = ..., y_up: bool | None = ..., translate: Sequence[float] | np.ndarray | None = ..., smooth: bool | None = ...) -> Mesh:
+    def stl(material: Material, file: str | PathLike[str], scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ..., y_up: bool | None = ..., smooth: bool | None = ...) -> Mesh:
         r"""The triangles of an STL file of at most 1 GiB. It is placed as obj is.
 
         material: What it is made of. (opaque material)
         file: The file. (name of a file)
         scale: A factor of its size. (number; positive; default 1)
         rotate_z: Angle by which it is turned about the z axis, anticlockwise from above. (number in degrees; default 0)
-        y_up: Whether y is up in the file, and not z. (true or false; default false)
         translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])
+        y_up: Whether y is up in the file, and not z. (true or false; default false)
         smooth: Whether it is shaded as if it were smooth: by the normals that its file has, or else by the mean of those of the faces around each vertex. (true or false; default true)
+        """
+    @staticmethod
+    def glb(file: str | PathLike[str], material: Material | None = ..., scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ...) -> Mesh:
+        r"""All triangles of a glTF file in its binary form (.glb, of at most 1 GiB), with its materials, images and colours of vertices: a room that was made elsewhere. glTF has y up, which becomes z. What is clear in the file is left out, because meshes are opaque.
+
+        file: The file, which holds its images, too. (name of a file)
+        material: What all of it is made of, in place of the file's materials. (opaque material; default none)
+        scale: A factor of its size. (number; positive; default 1)
+        rotate_z: Angle by which it is turned about the z axis, anticlockwise from above. (number in degrees; default 0)
+        translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])
         """
     @staticmethod
     def floor(material: Material, height: float | None = ..., size: float | None = ...) -> Mesh:

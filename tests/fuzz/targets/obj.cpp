@@ -10,7 +10,7 @@ void run_obj(Bytes input) {
         R"([{"obj": {"file": ")" + file.write(input).string() +
         R"(", "y_up": true, "scale": 2, "rotate_z": 30, "material": {"diffuse": {"color": [1, 1, 1]}}}}])");
     try {
-        for (const tracer::Mesh& mesh : tracer::read_meshes(document, document.root()))
+        for (const tracer::Mesh& mesh : tracer::read_meshes(document, document.root()).meshes)
             for (const glm::uvec3& triangle : mesh.triangles)
                 for (int i = 0; i < 3; ++i) promised(triangle[i] < mesh.vertices.size(), "a triangle's corners exist");
     } catch (const SceneError&) {

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include "command/empty_object.hpp"
 #include "command/load.hpp"
+#include "command/not_shown_report.hpp"
 #include "command/overlap_report.hpp"
 #include "command/streams.hpp"
 #include "command/unplaced_report.hpp"
@@ -56,6 +57,7 @@ int check(const SceneFile& file) {
         return check_without_camera(document, file.shown());
     const Scene scene = load_scene(document);
     warn_of_unused_names(document, scene.phases, phases_of(scene.object, scene.placed));
+    warn_of_what_is_not_shown(scene);
     if (!scene.placed.empty()) {
         warn_of_unplaced_groups(document, scene.placed);
         warn_of_overlaps(document, scene.placed);

@@ -16,6 +16,7 @@
 #include "command/film_header.hpp"
 #include "command/frames.hpp"
 #include "command/load.hpp"
+#include "command/not_shown_report.hpp"
 #include "command/overlap_report.hpp"
 #include "command/pictures.hpp"
 #include "command/reading.hpp"
@@ -231,6 +232,7 @@ void warn_of_object(const RenderOptions& options, const Document& document, cons
     for (const auto& object : world.geometry().objects()) print_warning(document.name(), object->warning());
     warn_of_unplaced_groups(document, scene.placed);
     warn_of_overlaps(document, scene.placed);
+    warn_of_what_is_not_shown(scene);
 }
 
 Rendering rendered(const RenderOptions& options, const World& world, const Scene& scene, RenderJob job,

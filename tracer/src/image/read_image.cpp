@@ -1,5 +1,6 @@
 #include "image/read_image.hpp"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
@@ -63,8 +64,22 @@ void read_values(OIIO::ImageInput& input, int channels, std::uintmax_t file_byte
     place.finished(file_bytes);
 }
 
-void read(const std::filesystem::path& path, const std::function<int(const ImageHeader&)>& begin,
-          const std::function<void(std::span<const float>)>& add) {
+using Begin = std::function<int(const ImageHeader&)>;
+using Add = std::function<void(std::span<const float>)>;
+
+void read(OIIO::ImageInput& input, std::uintmax_t file_bytes, const Begin& begin, const Add& add) {
+    const OIIO::ImageSpec& spec = input.spec();
+    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) throw std::runtime_error("it is empty");
+    if (spec.depth > 1) throw std::runtime_error("it is a volume, not an image");
+    // Values of fewer bits than a byte are spread over it.
+    const int bits = spec.get_int_attribute("oiio:BitsPerSample", static_cast<int>(8 * spec.format.size()));
+    const int channels = begin({spec.width, spec.height, spec.nchannels, spec.format.is_floating_point(), bits});
+    if (!can_hold_what_it_claims(input, file_bytes))
+        throw std::runtime_error("it is too short for the size that it claims");
+    read_values(input, channels, file_bytes, add);
+}
+
+void read(const std::filesystem::path& path, const Begin& begin, const Add& add) {
     // The library's own messages for these two are long and speak of formats and plug-ins.
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) throw std::runtime_error("there is no such file");
@@ -74,30 +89,39 @@ void read(const std::filesystem::path& path, const std::function<int(const Image
                                  ", whose size is not known before it is decoded; save it as OpenEXR, PNG or TIFF");
     const auto input = OIIO::ImageInput::open(path.string());
     if (!input) throw std::runtime_error(OIIO::geterror());
-    const OIIO::ImageSpec& spec = input->spec();
-    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) throw std::runtime_error("it is empty");
-    if (spec.depth > 1) throw std::runtime_error("it is a volume, not an image");
-    // Values of fewer bits than a byte are spread over it.
-    const int bits = spec.get_int_attribute("oiio:BitsPerSample", static_cast<int>(8 * spec.format.size()));
-    const int channels = begin({spec.width, spec.height, spec.nchannels, spec.format.is_floating_point(), bits});
-    const std::uintmax_t file_bytes = std::filesystem::file_size(path);
-    if (!can_hold_what_it_claims(*input, file_bytes))
-        throw std::runtime_error("it is too short for the size that it claims");
-    read_values(*input, channels, file_bytes, add);
+    read(*input, std::filesystem::file_size(path), begin, add);
+}
+
+void read(std::string_view bytes, const Begin& begin, const Add& add) {
+    const bool is_png = bytes.starts_with("\x89PNG"), is_jpeg = bytes.starts_with("\xff\xd8");
+    if (!is_png && !is_jpeg) throw std::runtime_error("it is neither PNG nor JPEG");
+    OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes.data()), bytes.size());  // it only reads them
+    const auto input = OIIO::ImageInput::open(is_png ? "in memory.png" : "in memory.jpg", nullptr, &memory);
+    if (!input) throw std::runtime_error(OIIO::geterror());
+    read(*input, bytes.size(), begin, add);
+}
+
+// Calls f, whose errors then say which image cannot be used.
+template <class F>
+void with_name(const std::string& what, const std::string& name, F&& f) {
+    try {
+        f();
+    } catch (const std::runtime_error& e) {
+        const std::string message = e.what();
+        throw std::runtime_error("cannot use the " + what + " \"" + name +
+                                 "\": " + message.substr(0, message.find('\n')));
+    }
 }
 
 }  // namespace
 
-void read_image(const std::filesystem::path& path, const std::string& what,
-                const std::function<int(const ImageHeader&)>& begin,
-                const std::function<void(std::span<const float>)>& add) {
-    try {
-        read(path, begin, add);
-    } catch (const std::runtime_error& e) {
-        const std::string message = e.what();
-        throw std::runtime_error("cannot use the " + what + " \"" + path.string() +
-                                 "\": " + message.substr(0, message.find('\n')));
-    }
+void read_image(const std::filesystem::path& path, const std::string& what, const Begin& begin, const Add& add) {
+    with_name(what, path.string(), [&] { read(path, begin, add); });
+}
+
+void read_image_in_memory(std::string_view bytes, const std::string& name, const std::string& what, const Begin& begin,
+                          const Add& add) {
+    with_name(what, name, [&] { read(bytes, begin, add); });
 }
 
 }  // namespace phasetree::tracer

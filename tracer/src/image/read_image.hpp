@@ -10,6 +10,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace phasetree::tracer {
 
@@ -28,5 +29,11 @@ struct ImageHeader {
 void read_image(const std::filesystem::path& path, const std::string& what,
                 const std::function<int(const ImageHeader&)>& begin,
                 const std::function<void(std::span<const float>)>& add);
+
+// The same of an image that is part of another file: all of its bytes, which must be those of a PNG or JPEG file, and a
+// name for messages.
+void read_image_in_memory(std::string_view bytes, const std::string& name, const std::string& what,
+                          const std::function<int(const ImageHeader&)>& begin,
+                          const std::function<void(std::span<const float>)>& add);
 
 }  // namespace phasetree::tracer

@@ -1,6 +1,7 @@
 #include "image/texture_image.hpp"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -30,8 +31,27 @@ int wrapped(int i, int count) {
 glm::vec3 TextureImage::pixel(int column, int row) const {
     const auto index = static_cast<std::size_t>(wrapped(row, height_)) * static_cast<std::size_t>(width_) +
                        static_cast<std::size_t>(wrapped(column, width_));
-    const auto& p = pixels_[index];
+    return decoded(pixels_[index]);
+}
+
+glm::vec3 TextureImage::decoded(const Pixel& p) {
     return glm::vec3(p[0], p[1], p[2]) / most;
+}
+
+TextureImage::Pixel TextureImage::encoded(const glm::vec3& color) {
+    return {stored(color.x), stored(color.y), stored(color.z)};
+}
+
+glm::vec2 TextureImage::range(int channel) const {
+    const auto at = [&](const Pixel& p) { return p[static_cast<std::size_t>(channel)]; };
+    const auto [low, high] = std::ranges::minmax_element(pixels_, {}, at);
+    return {decoded(*low)[channel], decoded(*high)[channel]};
+}
+
+glm::vec3 TextureImage::mean() const {
+    glm::dvec3 sum(0);
+    for (const Pixel& p : pixels_) sum += glm::dvec3(decoded(p));
+    return glm::vec3(sum / static_cast<double>(pixels_.size()));
 }
 
 glm::vec3 TextureImage::at(const glm::vec2& uv) const {
@@ -46,31 +66,62 @@ glm::vec3 TextureImage::at(const glm::vec2& uv) const {
     return glm::mix(above, below, y - top);
 }
 
-std::shared_ptr<const TextureImage> load_texture_image(const std::filesystem::path& file) {
-    ImageHeader header;
-    std::vector<std::array<std::uint16_t, 3>> pixels;
-    const auto begin = [&](const ImageHeader& read) {
+namespace {
+
+// Takes the rows that a reader of images hands out.
+class TakenImage {
+  public:
+    explicit TakenImage(ImageMeaning meaning) : meaning_(meaning) {}
+
+    int begin(const ImageHeader& read) {
         if (read.width > largest_texture_image || read.height > largest_texture_image)
             throw std::runtime_error(fmt::format("it is larger than {0} × {0}", largest_texture_image));
-        header = read;
-        return header.channels < 3 ? 1 : 3;
-    };
+        header_ = read;
+        return static_cast<int>(channels());
+    }
+    void add(std::span<const float> values) {
+        for (std::size_t i = 0; i + channels() <= values.size(); i += channels()) {
+            const std::uint16_t first = linear(values[i]);
+            if (channels() == 1)
+                pixels_.push_back({first, first, first});
+            else
+                pixels_.push_back({first, linear(values[i + 1]), linear(values[i + 2])});
+        }
+    }
+    TextureImage image() && { return {header_.width, header_.height, std::move(pixels_)}; }
+
+  private:
+    std::size_t channels() const { return header_.channels < 3 ? 1 : 3; }
+    std::uint16_t linear(float v) const {
+        const bool is_encoded = meaning_ == ImageMeaning::colors && !header_.is_floating_point;
+        return stored(is_encoded ? linear_from_srgb(v) : v);
+    }
+
+    ImageMeaning meaning_;
+    ImageHeader header_;
+    std::vector<std::array<std::uint16_t, 3>> pixels_;
+};
+
+}  // namespace
+
+std::shared_ptr<const TextureImage> load_texture_image(const std::filesystem::path& file, ImageMeaning meaning) {
+    TakenImage taken(meaning);
     try {
-        read_image(file, "texture image", begin, [&](std::span<const float> values) {
-            const auto linear = [&](float v) { return stored(header.is_floating_point ? v : linear_from_srgb(v)); };
-            const std::size_t channels = header.channels < 3 ? 1 : 3;
-            for (std::size_t i = 0; i + channels <= values.size(); i += channels) {
-                const std::uint16_t first = linear(values[i]);
-                if (channels == 1)
-                    pixels.push_back({first, first, first});
-                else
-                    pixels.push_back({first, linear(values[i + 1]), linear(values[i + 2])});
-            }
-        });
+        read_image(
+            file, "texture image", [&](const ImageHeader& header) { return taken.begin(header); },
+            [&](std::span<const float> values) { taken.add(values); });
     } catch (const std::runtime_error& e) {
         throw ParameterError("file", e.what());
     }
-    return std::make_shared<const TextureImage>(header.width, header.height, std::move(pixels));
+    return std::make_shared<const TextureImage>(std::move(taken).image());
+}
+
+TextureImage texture_image_in_memory(std::string_view bytes, const std::string& name, ImageMeaning meaning) {
+    TakenImage taken(meaning);
+    read_image_in_memory(
+        bytes, name, "texture image", [&](const ImageHeader& header) { return taken.begin(header); },
+        [&](std::span<const float> values) { taken.add(values); });
+    return std::move(taken).image();
 }
 
 }  // namespace phasetree::tracer

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <tuple>
@@ -11,12 +10,12 @@
 #include "parameters/text_file.hpp"
 #include "phasetree/io/error.hpp"
 #include "scene/mesh_kinds.hpp"
+#include "scene/mesh_placement.hpp"
 
 namespace phasetree::tracer {
 
 namespace {
 
-constexpr std::uintmax_t max_file_bytes = std::uintmax_t{1} << 30;
 constexpr std::size_t most_triangles = 100'000'000;
 
 // Vertices at one place become one. In STL files each triangle has vertices of its own.
@@ -49,20 +48,6 @@ AtCorners<glm::vec3> smooth_normals(const Mesh& mesh) {
     return normals;
 }
 
-std::string lower_case(std::string text) {
-    std::ranges::transform(text, text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-    return text;
-}
-
-void check_ending(const std::filesystem::path& file, std::string_view ending) {
-    const std::string found = lower_case(file.extension().string());
-    if (found == ending) return;
-    const bool is_other = found == ".obj" || found == ".ply" || found == ".stl";
-    throw ParameterError(
-        "file", fmt::format("the name of the file must end with {}{}", ending,
-                            is_other ? fmt::format("; of {} is the mesh \"{}\"", file.string(), found.substr(1)) : ""));
-}
-
 void make_unit(glm::vec3& v) {
     // In doubles, because squares of what floats hold may be beyond floats.
     const double length = glm::length(glm::dvec3(v));
@@ -75,35 +60,22 @@ Mesh MeshFileParameters::read(std::string_view ending) const {
     const auto fail = [&](std::string_view what) {
         return ParameterError("file", fmt::format("{} {}", file.string(), what));
     };
-    check_ending(file, ending);
+    check_ending_of_mesh(file, ending);
     MeshFile read;
     try {
-        read = read_mesh_file(file, read_text_file(file, max_file_bytes, "1 GiB"), most_triangles);
+        read = read_mesh_file(file, read_text_file(file, most_bytes_of_mesh, "1 GiB"), most_triangles);
     } catch (const SceneError& e) {
         throw ParameterError("file", e.what());
     }
     if (read.mesh.triangles.empty()) throw fail("has no faces");
 
-    Mesh mesh;
+    Mesh mesh{.material = material};
     mesh.vertices = std::move(read.mesh.vertices);
     mesh.triangles = std::move(read.mesh.triangles);
-    const float turn = glm::radians(rotate_z_degrees), cosine = std::cos(turn), sine = std::sin(turn);
-    const auto turned = [&](glm::vec3 p) {
-        if (y_up) p = {p.x, -p.z, p.y};
-        return glm::vec3(cosine * p.x - sine * p.y, sine * p.x + cosine * p.y, p.z);
-    };
-    for (glm::vec3& p : mesh.vertices) {
-        p = turned(scale * p) + translate;
-        for (int k = 0; k < 3; ++k)
-            if (!coordinate.contains(p[k])) throw fail("has a coordinate that is no number or beyond 10¹⁵");
-    }
+    if (smooth) mesh.normals = std::move(read.normals);
+    MeshPlacement(scale, rotate_z_degrees, translate, y_up).apply(mesh, file);
     if (ending == ".stl") join_vertices(mesh);
-    if (smooth && !read.normals.empty()) {
-        mesh.normals = std::move(read.normals);
-        for (glm::vec3& n : mesh.normals.values) n = turned(n);
-    } else if (smooth) {
-        mesh.normals = smooth_normals(mesh);
-    }
+    if (smooth && mesh.normals.empty()) mesh.normals = smooth_normals(mesh);
     for (glm::vec3& n : mesh.normals.values) make_unit(n);
     mesh.uv = std::move(read.texture);
     mesh.colors = std::move(read.colors);

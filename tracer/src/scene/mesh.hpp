@@ -12,13 +12,21 @@
 namespace phasetree::tracer {
 
 struct Mesh {
-    std::vector<glm::vec3> vertices;
-    std::vector<glm::uvec3> triangles;
+    std::vector<glm::vec3> vertices{};
+    std::vector<glm::uvec3> triangles{};
     AtCorners<glm::vec3> normals{};  // of length 1, or 0 where there is none; with them the shading is smooth
     AtCorners<glm::vec2> uv{};       // texture coordinates, by which images can be laid on it
     AtCorners<glm::vec3> colors{};   // linear Rec.709, each channel in [0, 1]
     Material material{};
-    std::string name{};  // its kind, with a number behind it from the second of a kind on: "floor", "obj 2"
+    // Its kind, with a number behind it from the second of a kind on: "floor", "obj 2". Behind that is the material's
+    // name, if the file of the mesh has several: "glb wood".
+    std::string name{};
+};
+
+// The meshes that come from one file, one for each of its materials.
+struct MeshGroup {
+    std::vector<Mesh> meshes;
+    std::vector<std::string> not_shown{};  // sentences about what is in the file and not in the meshes
 };
 
 // The mean of three values at a triangle's corners by barycentric coordinates, of which u belongs to the second corner

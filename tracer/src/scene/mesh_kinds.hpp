@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string_view>
 
 #include "parameters/world_limits.hpp"
@@ -15,7 +16,17 @@ namespace phasetree::tracer {
 
 inline constexpr Parameter mesh_material_parameter{"material", "", "What it is made of."};
 
-// What all meshes from files have.
+// Where a mesh from a file goes.
+template <class P, class V>
+void placement_parameters(V&& v) {
+    v(&P::scale, Parameter{"scale", "", "A factor of its size.", limits::positive, true});
+    v(&P::rotate_z_degrees,
+      Parameter{"rotate_z", "degrees", "Angle by which it is turned about the z axis, anticlockwise from above.",
+                limits::any, true});
+    v(&P::translate, Parameter{"translate", "m", "Where its origin goes.", limits::any, true});
+}
+
+// What meshes from files of one mesh have.
 struct MeshFileParameters {
     Material material{};
     std::filesystem::path file{};
@@ -29,12 +40,8 @@ struct MeshFileParameters {
     static void file_parameters(V&& v) {
         v(&P::material, mesh_material_parameter);
         v(&P::file, Parameter{"file", "", "The file."});
-        v(&P::scale, Parameter{"scale", "", "A factor of its size.", limits::positive, true});
-        v(&P::rotate_z_degrees,
-          Parameter{"rotate_z", "degrees", "Angle by which it is turned about the z axis, anticlockwise from above.",
-                    limits::any, true});
+        placement_parameters<P>(v);
         v(&P::y_up, Parameter{"y_up", "", "Whether y is up in the file, and not z.", limits::any, true});
-        v(&P::translate, Parameter{"translate", "m", "Where its origin goes.", limits::any, true});
         v(&P::smooth, Parameter{"smooth", "",
                                 "Whether it is shaded as if it were smooth: by the normals that its file has, or else "
                                 "by the mean of those of the faces around each vertex.",
@@ -77,6 +84,30 @@ struct StlParameters : MeshFileParameters {
         file_parameters<StlParameters>(v);
     }
     Mesh made() const { return read(".stl"); }
+};
+
+struct GlbParameters {
+    static constexpr KindInfo info{"glb",
+                                   "All triangles of a glTF file in its binary form (.glb, of at most 1 GiB), with its "
+                                   "materials, images and colours of vertices: a room that was made elsewhere. glTF "
+                                   "has y up, which becomes z. What is clear in the file is left out, because meshes "
+                                   "are opaque."};
+
+    std::optional<Material> material{};
+    std::filesystem::path file{};
+    float scale = 1.0f;
+    float rotate_z_degrees = 0.0f;
+    glm::vec3 translate{0.0f};
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = GlbParameters;
+        v(&P::material,
+          Parameter{"material", "", "What all of it is made of, in place of the file's materials.", limits::any, true});
+        v(&P::file, Parameter{"file", "", "The file, which holds its images, too."});
+        placement_parameters<P>(v);
+    }
+    MeshGroup made() const;
 };
 
 // A square on the plane z = height.
@@ -124,6 +155,7 @@ struct BackdropParameters {
     Mesh made() const;
 };
 
-using MeshKinds = TypeList<ObjParameters, PlyParameters, StlParameters, FloorParameters, BackdropParameters>;
+using MeshKinds =
+    TypeList<ObjParameters, PlyParameters, StlParameters, GlbParameters, FloorParameters, BackdropParameters>;
 
 }  // namespace phasetree::tracer

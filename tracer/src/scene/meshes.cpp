@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "phasetree/io/read_kind.hpp"
 #include "scene/mesh_kinds.hpp"
@@ -11,37 +12,49 @@ namespace phasetree::tracer {
 namespace {
 
 void check_textures(const Mesh& mesh) {
-    if (mesh.uv.empty() && has_texture<MeshImageTexture>(mesh.material))
+    if (mesh.uv.empty() &&
+        (has_texture<MeshImageTexture>(mesh.material) || has_texture<MeshImageNumber>(mesh.material)))
         throw ParameterError("material",
-                             "the texture \"mesh_image\" needs texture coordinates, which not all faces of this mesh "
+                             "\"mesh_image\" needs texture coordinates, which not all faces of this mesh "
                              "have; \"image\" needs none");
     if (mesh.colors.empty() && has_texture<VertexColorTexture>(mesh.material))
         throw ParameterError("material",
                              "the texture \"vertex_color\" needs colours, which not all vertices of this mesh have");
 }
 
+MeshGroup group_of(MeshGroup group, const std::string& name) {
+    for (Mesh& mesh : group.meshes) mesh.name = fmt::format("{} {}", name, mesh.name);
+    return group;
+}
+MeshGroup group_of(Mesh mesh, const std::string& name) {
+    mesh.name = name;
+    return {{std::move(mesh)}, {}};
+}
+
 }  // namespace
 
-std::vector<Mesh> read_meshes(const Document& document, Value list) {
+MeshGroup read_meshes(const Document& document, Value list) {
     if (!list.is_array())
         throw document.error(list, fmt::format("\"meshes\" must be a list, but is {}", name_of(list.kind())));
-    std::vector<Mesh> meshes;
+    MeshGroup all;
     std::vector<std::string_view> kinds;
     for (const Value value : list) {
         with_kind(MeshKinds(), document, value, "a mesh", [&]<class Kind>(Value member) {
-            meshes.push_back(
+            const auto same = 1 + std::ranges::count(kinds, Kind::info.name);
+            kinds.push_back(Kind::info.name);
+            const std::string name =
+                same == 1 ? std::string(Kind::info.name) : fmt::format("{} {}", Kind::info.name, same);
+            MeshGroup group =
                 read_kind<Kind>(document, member, fmt::format("the {}", Kind::info.name), [&](const Kind& kind) {
-                    Mesh mesh = kind.made();
-                    mesh.material = kind.material;
-                    const auto same = 1 + std::ranges::count(kinds, Kind::info.name);
-                    mesh.name = same == 1 ? std::string(Kind::info.name) : fmt::format("{} {}", Kind::info.name, same);
-                    kinds.push_back(Kind::info.name);
-                    check_textures(mesh);
-                    return mesh;
-                }));
+                    MeshGroup made = group_of(kind.made(), name);
+                    for (const Mesh& mesh : made.meshes) check_textures(mesh);
+                    return made;
+                });
+            std::ranges::move(group.meshes, std::back_inserter(all.meshes));
+            std::ranges::move(group.not_shown, std::back_inserter(all.not_shown));
         });
     }
-    return meshes;
+    return all;
 }
 
 }  // namespace phasetree::tracer

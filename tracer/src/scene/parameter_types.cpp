@@ -162,10 +162,15 @@ tracer::Number NumberType::read(const Document& document, Value value, std::stri
     tracer::Number number;
     with_kind(tracer::NumberTextures(), document, value, what, [&]<class Kind>(Value member) {
         number = read_kind<Kind>(document, member, fmt::format("the {} of {}", Kind::info.name, what), [&](Kind kind) {
+            constexpr std::string_view values = requires {
+                kind.ramp;
+            }
+            ? "ramp" : "range";
             for (const float end : {kind.least(), kind.greatest()})
                 if (!p.limits.contains(end))
-                    throw ParameterError("ramp", fmt::format("{} must be {}, but the ramp has {}", what,
-                                                             phasetree::describe(range_of(p.limits)), end));
+                    throw ParameterError(std::string(values),
+                                         fmt::format("{} must be {}, but the {} has {}", what,
+                                                     phasetree::describe(range_of(p.limits)), values, end));
             return prepared(std::move(kind));
         });
     });

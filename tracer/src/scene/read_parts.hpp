@@ -16,7 +16,7 @@ Lights read_lights(const Document& document, Value root);
 AnyCameraParameters read_camera(const Document& document, Value value, FilmSettings& film);
 // The camera while the shutter is open; none if it stands still.
 std::vector<CameraMoment> read_camera_moments(const Document& document, Value value, const Shutter& shutter);
-std::vector<Mesh> read_meshes(const Document& document, Value list);
+MeshGroup read_meshes(const Document& document, Value list);
 // Sets the size of the film, too.
 RenderSettings read_settings(const Document& document, Value value, FilmSettings& film);
 

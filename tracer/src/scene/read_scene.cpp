@@ -60,7 +60,7 @@ void check_version(const Document& document, Value version) {
 
 Material read_phase_material(const Document& document, Value phase) {
     Material material = read_material(document, phase);
-    if (has_texture<MeshImageTexture>(material))
+    if (has_texture<MeshImageTexture>(material) || has_texture<MeshImageNumber>(material))
         throw document.error(phase,
                              "the texture \"mesh_image\" is for meshes, because phases have no texture "
                              "coordinates; use \"image\"");
@@ -159,7 +159,11 @@ Scene read_scene(const Document& document, NodePlaces* places) {
     const Shutter shutter{scene.settings.shutter.x, scene.settings.shutter.y};
     read_model_into(document, parts, shutter, places, scene);
     scene.lights = read_lights(document, document.root());
-    if (parts.meshes) scene.meshes = read_meshes(document, *parts.meshes);
+    if (parts.meshes) {
+        MeshGroup group = read_meshes(document, *parts.meshes);
+        scene.meshes = std::move(group.meshes);
+        scene.not_shown = std::move(group.not_shown);
+    }
     const Value camera = needed(root, &FileParts::camera);
     scene.camera = read_camera(at_moment(document, shutter, 0), camera, scene.film);
     scene.camera_moments = read_camera_moments(document, camera, shutter);

@@ -57,6 +57,7 @@ struct Scene {
     PlacedObjects placed;             // of a scene of several objects; empty otherwise
     std::vector<Material> materials;  // by phase; [0] is the vacuum
     std::vector<Mesh> meshes;
+    std::vector<std::string> not_shown;  // sentences about what is in the files of meshes and not in the scene
     Lights lights;
     AnyCameraParameters camera;                // as the shutter opens
     std::vector<CameraMoment> camera_moments;  // while it is open; none of a camera that stands still

@@ -87,19 +87,19 @@ struct Glowing {
 /// Every kind of material.
 using Material = std::variant<Clear, Diffuse, Conductor, Coated, Glowing>;
 
-/// Whether one of its textures is, or has in it, one of a kind.
+/// Whether one of its textures, or of its numbers that change from place to place, is of a kind, or has one of the kind
+/// in it.
 template <class Wanted>
 bool has_texture(const Material& material) {
     return std::visit(
         [](const auto& kind) {
-            if constexpr (requires { kind.bump; })
-                if (kind.bump && has_kind<Wanted>(kind.bump->texture)) return true;
-            if constexpr (requires { kind.light; })
-                return has_kind<Wanted>(kind.light) || has_kind<Wanted>(kind.color);
-            else if constexpr (requires { kind.color; })
-                return has_kind<Wanted>(kind.color);
-            else
-                return false;
+            bool has = false;
+            if constexpr (requires { kind.bump; }) has = has || (kind.bump && has_kind<Wanted>(kind.bump->texture));
+            if constexpr (requires { kind.light; }) has = has || has_kind<Wanted>(kind.light);
+            if constexpr (requires { kind.color; }) has = has || has_kind<Wanted>(kind.color);
+            if constexpr (requires { kind.roughness; }) has = has || has_kind<Wanted>(kind.roughness);
+            if constexpr (requires { kind.film; }) has = has || (kind.film && has_kind<Wanted>(kind.film->thickness));
+            return has;
         },
         material);
 }

@@ -1,5 +1,5 @@
 // A number of a material, such as its roughness, that may be another at each point: it may follow a field of the tree,
-// as the colours of field.hpp do, or be another for each copy, as those of per_copy.hpp.
+// as the colours of field.hpp do, an image on a mesh, or be another for each copy, as those of per_copy.hpp.
 #pragma once
 
 #include <type_traits>
@@ -10,6 +10,7 @@
 #include "phasetree/model/concepts.hpp"
 #include "shading/texture/field.hpp"
 #include "shading/texture/field_value.hpp"
+#include "shading/texture/mesh_image_number.hpp"
 #include "shading/texture/per_copy.hpp"
 #include "shading/texture/ramp_of_numbers.hpp"
 
@@ -39,9 +40,9 @@ struct FieldNumber {
 };
 
 /// Those that a scene file names in the place of a number.
-using NumberTextures = TypeList<FieldNumber, PerCopyNumber>;
+using NumberTextures = TypeList<FieldNumber, MeshImageNumber, PerCopyNumber>;
 
-using Number = std::variant<float, FieldNumber, PerCopyNumber>;
+using Number = std::variant<float, FieldNumber, MeshImageNumber, PerCopyNumber>;
 
 /// What of_texture makes of the number, or the number itself if it is the same everywhere.
 template <class OfTexture>
@@ -54,6 +55,11 @@ float of_number(const Number& number, const OfTexture& of_texture) {
                 return of_texture(kind);
         },
         number);
+}
+/// Whether it is of a kind.
+template <class Wanted>
+bool has_kind(const Number& number) {
+    return std::visit([]<class Kind>(const Kind&) { return std::is_same_v<Kind, Wanted>; }, number);
 }
 inline float number_at(const Number& number, const TexturePoint& p) {
     return of_number(number, [&](const auto& kind) { return kind.at(p); });

@@ -17,6 +17,7 @@
 #include "shading/texture/mesh_image.hpp"
 #include "shading/texture/per_copy.hpp"
 #include "shading/texture/speckle.hpp"
+#include "shading/texture/tinted_mesh_image.hpp"
 #include "shading/texture/vertex_color.hpp"
 #include "shading/texture/wood.hpp"
 
@@ -39,7 +40,7 @@ template <class... Kinds>
 using TextureOf = std::variant<typename CheckedTexture<Kinds>::Type...>;
 
 template <class... Named>
-TextureOf<ConstantTexture, Named...> variant_of_textures(TypeList<Named...>);
+TextureOf<ConstantTexture, TintedMeshImage, Named...> variant_of_textures(TypeList<Named...>);
 
 /// Every kind of texture.
 using Texture = decltype(variant_of_textures(NamedTextures()));

@@ -1,0 +1,30 @@
+// .glb files, by the path tracer's reading of them.
+#include <glm/glm.hpp>
+
+#include "fuzz/target.hpp"
+#include "gltf/read_glb.hpp"
+
+namespace phasetree::fuzz {
+
+void run_glb(Bytes input) {
+    constexpr std::size_t most_triangles = 100'000;
+    const std::string_view content = text_of(input);
+    try {
+        for (const tracer::gltf::Part& part : tracer::gltf::read_glb(content, most_triangles).parts) {
+            promised(!part.mesh.triangles.empty() && part.mesh.triangles.size() <= most_triangles,
+                     "there are triangles, and no more than are wanted");
+            const std::size_t vertices = part.mesh.vertices.size();
+            promised(part.normals.empty() || part.normals.values.size() == vertices, "each vertex has a normal");
+            promised(part.texture.empty() || part.texture.values.size() == vertices, "each vertex has coordinates");
+            promised(part.colors.empty() || part.colors.values.size() == vertices, "each vertex has a colour");
+            for (const glm::uvec3& triangle : part.mesh.triangles)
+                for (int i = 0; i < 3; ++i) promised(triangle[i] < vertices, "a triangle's corners exist");
+            for (const glm::vec3& v : part.mesh.vertices)
+                promised(glm::all(glm::lessThanEqual(glm::abs(v), glm::vec3(1.1e15f))), "places are those of a scene");
+            promised(!is_clear(part.material), "meshes are opaque");
+        }
+    } catch (const tracer::gltf::GltfError&) {
+    }
+}
+
+}  // namespace phasetree::fuzz

@@ -1,0 +1,83 @@
+// A glTF 2.0 file in its binary form, .glb: a JSON document, and bytes behind it to which the document refers.
+//
+// What the document says is never believed: each number that is asked for has the type and the bounds that glTF gives
+// it, or GltfError says what is wrong. Messages tell the place in the document and quote nothing else of the file.
+//
+// Reference: Khronos Group, glTF 2.0 Specification, 2021 (ISO/IEC 12113:2022).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace phasetree::tracer::gltf {
+
+using Json = nlohmann::json;
+
+/// What is wrong with a file, or what this program does not read, without the file's name.
+class GltfError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// An object of the document, such as {"mesh": 3}, with its place in the document for messages.
+class Item {
+  public:
+    Item(const Json& json, std::string place) : json_(&json), place_(std::move(place)) {}
+
+    bool has(std::string_view key) const { return find(key) != nullptr; }
+    /// The object that is called so; nothing if there is none.
+    std::optional<Item> item(std::string_view key) const;
+    /// The objects of the list that is called so; none if there is no list.
+    std::vector<Item> items(std::string_view key) const;
+    /// A number from 0.
+    std::optional<std::size_t> index(std::string_view key) const;
+    std::size_t needed_index(std::string_view key) const;
+    /// The numbers from 0 of the list that is called so.
+    std::vector<std::size_t> indices(std::string_view key) const;
+    float number(std::string_view key, float otherwise) const;
+    /// So many finite numbers; nothing if there is no such list.
+    std::optional<std::vector<float>> numbers(std::string_view key, std::size_t count) const;
+    glm::vec3 vec3(std::string_view key, const glm::vec3& otherwise) const;
+    /// A text; empty if there is none.
+    std::string text(std::string_view key) const;
+    bool flag(std::string_view key) const;
+    /// The names of the members.
+    std::vector<std::string> keys() const;
+
+    [[noreturn]] void fail(std::string_view what) const;
+
+  private:
+    const Json* find(std::string_view key) const;
+    std::size_t index_of(const Json&, std::string_view key) const;
+
+    const Json* json_;
+    std::string place_;
+};
+
+class Document {
+  public:
+    /// `content` is all of the file, which must outlive the document.
+    explicit Document(std::string_view content);
+
+    Item root() const { return {json_, "the file"}; }
+    /// How many elements one of the document's lists has, such as "meshes".
+    std::size_t count(const char* list) const;
+    /// An element of such a list. `from` refers to it.
+    Item element(const char* list, std::size_t index, const Item& from) const;
+    /// The bytes of an element of "bufferViews", without gaps between rows in mind.
+    std::string_view view(std::size_t index, const Item& from) const;
+
+  private:
+    void check_extensions() const;
+
+    Json json_;
+    std::string_view bytes_;
+};
+
+}  // namespace phasetree::tracer::gltf

@@ -1,0 +1,34 @@
+// All triangles of a .glb file, with their materials.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gltf/document.hpp"
+#include "phasetree/io/mesh.hpp"
+#include "shading/material.hpp"
+
+namespace phasetree::tracer::gltf {
+
+/// The triangles of one material, in glTF's space, of which y is up, in metres.
+struct Part {
+    std::string name;  ///< of the material
+    Material material;
+    TriangleMesh mesh;
+    AtCorners<glm::vec3> normals;  ///< of any length, or 0 where the file has none; empty if it has none at all
+    AtCorners<glm::vec2> texture;  ///< (0, 0) is the lower left corner of an image
+    AtCorners<glm::vec3> colors;   ///< linear Rec.709
+};
+
+struct GlbFile {
+    std::vector<Part> parts;             ///< in the order of the materials; what has none comes first
+    std::vector<std::string> not_shown;  ///< sentences about what the file has and the parts have not
+};
+
+/// `content` is all of the file. Throws GltfError for what is no such file, what refers to other files, and for more
+/// than so many triangles.
+GlbFile read_glb(std::string_view content, std::size_t most_triangles);
+
+}  // namespace phasetree::tracer::gltf

@@ -1,0 +1,55 @@
+// A number for each place of an image on a mesh, such as a map of its roughness.
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <memory>
+
+#include "image/texture_image.hpp"
+#include "phasetree/io/kind.hpp"
+#include "shading/texture/texture_point.hpp"
+
+namespace phasetree::tracer {
+
+struct MeshImageNumber {
+    static constexpr KindInfo info{"mesh_image",
+                                   "A number for each place of an image on a mesh, by the texture coordinates that its "
+                                   "file has."};
+
+    std::filesystem::path file{};
+    glm::vec2 repeat{1.0f};
+    glm::vec2 range{0.0f, 1.0f};
+    std::shared_ptr<const TextureImage> image{};  // once it is prepared
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = MeshImageNumber;
+        v(&P::file, Parameter{"file", "",
+                              "An image, of which the first channel counts, as the file stores it: integers are not "
+                              "taken to be encoded as colours are."});
+        v(&P::repeat, Parameter{"repeat", "", "How often the image stands side by side, and one above the other.",
+                                limits::any, true});
+        v(&P::range,
+          Parameter{"range", "", "The numbers where the image is black and where it is white.", limits::any, true});
+    }
+    void prepare() {
+        image = load_texture_image(file, ImageMeaning::numbers);
+        of_image = image->range(0);
+    }
+
+    // A mesh without coordinates is refused where the scene is read.
+    float at(const TexturePoint& p) const {
+        return number_of(image->at((p.mesh ? p.mesh->uv : glm::vec2(0.0f)) * repeat).x);
+    }
+    // Of an image that is not read yet it is taken that it has both black and white.
+    float least() const { return std::min(number_of(of_image.x), number_of(of_image.y)); }
+    float greatest() const { return std::max(number_of(of_image.x), number_of(of_image.y)); }
+
+    glm::vec2 of_image{0.0f, 1.0f};  // the range of the image's values, once it is prepared
+
+  private:
+    float number_of(float value) const { return (1 - value) * range.x + value * range.y; }
+};
+
+}  // namespace phasetree::tracer
