@@ -28,7 +28,7 @@ struct SeenRay {
     }
 };
 
-/// The first crossing of a ray within a cell, no farther than the ray's tfar. Everything that traces an object through
+/// The first crossing of a ray within a cell, from the ray's tnear to its tfar. Everything that traces an object through
 /// Embree comes here.
 inline std::optional<Crossing> search_cell(const InterfaceCells& cells, unsigned cell, const SeenRay& seen,
                                            const RTCRay& ray, std::optional<Phase> carried,
@@ -37,7 +37,10 @@ inline std::optional<Crossing> search_cell(const InterfaceCells& cells, unsigned
     std::optional<Crossing> crossing;
     if (!(near <= far)) return crossing;
     crossing = cells.first_crossing(cell, seen.traced, near, far, carried, leaving_hint, counters);
-    if (crossing && !(crossing->t_in <= far)) crossing.reset();  // it was so but for rounding
+    if (!crossing) return crossing;
+    // Of a ray that starts at an interface, rounding may put the crossing a little before the start.
+    crossing->t_in = std::max(crossing->t_in, near);
+    if (!(crossing->t_in <= far)) crossing.reset();  // it was so but for rounding
     return crossing;
 }
 
