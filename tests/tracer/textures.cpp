@@ -192,6 +192,35 @@ TEST_CASE("textures from images: on a mesh by its coordinates, and an error wher
     std::filesystem::remove(obj);
 }
 
+TEST_CASE("a roughness by an image on a mesh: numbers as they are stored, between black's and white's") {
+    const std::filesystem::path path = four_pixels();
+    const phasetree::support::TemporaryDirectory folder;
+    const auto mesh_of = [&](const std::string& more, const std::string& corners) {
+        phasetree::support::write_text(folder / "a.obj",
+                                       "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf " + corners + "\n");
+        return R"(, "meshes": [{"obj": {"file": ")" + (folder / "a.obj").string() +
+               R"(", "material": {"coated": {"color": [1, 1, 1], "roughness": {"mesh_image": {"file": ")" +
+               path.string() + "\"" + more + "}}}}}}]";
+    };
+    const std::string white = R"({"diffuse": {"color": [1, 1, 1]}})";
+    const Scene scene = sand_of(white, mesh_of(R"(, "range": [0.5, 0.1])", "1/1 2/2 3/3"));
+    const Number& roughness = std::get<Coated>(scene.meshes.at(0).material).roughness;
+    const auto at = [&](const glm::vec2& uv) {
+        return number_at(roughness, {{}, {0, 0, 1}, MeshCoordinates{.uv = uv}});
+    };
+    CHECK(at({0.25f, 0.75f}) == doctest::Approx(0.1));
+    CHECK(at({0.25f, 0.25f}) == doctest::Approx(0.5));
+    CHECK(at({0.75f, 0.25f}) == doctest::Approx(0.5 - 0.4 * 128 / 255));
+    CHECK_FALSE(1.01f * at({0.75f, 0.25f}) == doctest::Approx(0.5 - 0.4 * 128 / 255).epsilon(1e-3));
+    CHECK(least_of(roughness) == doctest::Approx(0.1));
+    CHECK(greatest_of(roughness) == doctest::Approx(0.5));
+    CHECK(says(white, "the range has 2", mesh_of(R"(, "range": [0, 2])", "1/1 2/2 3/3")));
+    CHECK(says(white, "\"mesh_image\" needs texture coordinates", mesh_of("", "1 2 3")));
+    CHECK(says(R"({"coated": {"color": [1, 1, 1], "roughness": {"mesh_image": {"file": ")" + path.string() + R"("}}}})",
+               "is for meshes"));
+    std::filesystem::remove(path);
+}
+
 TEST_CASE("colours of a mesh's vertices: sRGB is decoded, and between vertices they are interpolated") {
     const phasetree::support::TemporaryDirectory folder;
     const auto mesh_of = [&](const std::string& name, const std::string& content) {
