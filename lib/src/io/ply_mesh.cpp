@@ -34,24 +34,8 @@ std::optional<Columns<count>> find(const Ply::Element& element,
 
 /// The largest number of a type of whole numbers; 1 of the others.
 double largest_of(Ply::Type type) {
-    switch (type) {
-        case Ply::Type::int8:
-            return 127;
-        case Ply::Type::uint8:
-            return 255;
-        case Ply::Type::int16:
-            return 32767;
-        case Ply::Type::uint16:
-            return 65535;
-        case Ply::Type::int32:
-            return 2147483647;
-        case Ply::Type::uint32:
-            return 4294967295;
-        case Ply::Type::float32:
-        case Ply::Type::float64:
-            break;
-    }
-    return 1;
+    constexpr std::array<double, 8> largest{127, 255, 32767, 65535, 2147483647, 4294967295, 1, 1};
+    return largest[static_cast<std::size_t>(type)];
 }
 
 class PlyReader {
