@@ -116,6 +116,10 @@ TEST_CASE("what files say of the corners of triangles") {
     CHECK(corner(obj.normals, obj, 0, 0) == glm::vec3(0, 0, 2));
     CHECK(corner(obj.normals, obj, 0, 2) == glm::vec3(1, 0, 0));
     CHECK(corner(obj.colors, obj, 1, 0) == glm::vec3(0, 1, 0.5f));
+    // Normals that are no numbers, and coordinates of one number, are 0 there.
+    const MeshFile odd = read("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5\nvn -nan(ind) 0 1\nf 1/1/1 2/1/1 3/1/1\n");
+    CHECK(corner(odd.texture, odd, 0, 0) == glm::vec2(0.5f, 0));
+    CHECK(corner(odd.normals, odd, 0, 0) == glm::vec3(0, 0, 1));
     // What one face lacks, none has; a weight behind coordinates is no colour.
     const MeshFile lacking = read("a.obj", "v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\nvt 0 0\nf 1/1 2/1 3/1\nf 1 2 3/1\n");
     CHECK(lacking.texture.empty());

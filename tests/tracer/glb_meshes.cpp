@@ -24,8 +24,6 @@ using phasetree::tests::GlbBytes;
 
 namespace {
 
-constexpr std::size_t many = 1'000'000;
-
 // A triangle, (0,0,0) (1,0,0) (0,1,0), with normals that lean, coordinates and colours: accessors 0 to 3, indices 4.
 struct Corner {
     GlbBytes bytes;
@@ -68,8 +66,8 @@ std::string meshes(const std::string& primitive) {
     return R"("meshes": [{"primitives": [{)" + primitive + "}]}]";
 }
 
-gltf::GlbFile read(const std::string& content, std::size_t most = many) {
-    return gltf::read_glb(content, most);
+gltf::GlbFile read(const std::string& content, const gltf::Limits& limits = {}) {
+    return gltf::read_glb(content, limits);
 }
 
 // The only part of a file with a triangle of this material.
@@ -80,9 +78,9 @@ gltf::Part part_of(const std::string& material, const Corner& corner = {}, const
     return std::move(file.parts[0]);
 }
 
-std::string said(const std::string& content, std::size_t most = many) {
+std::string said(const std::string& content, const gltf::Limits& limits = {}) {
     try {
-        (void)read(content, most);
+        (void)read(content, limits);
     } catch (const gltf::GltfError& e) {
         return e.what();
     }
@@ -367,7 +365,7 @@ TEST_CASE("every shortened file, and every file with a wrong number in it, is re
         for (const char other : {'0', '9', '-', '"', '{'}) {
             std::string changed = good;
             changed[at] = other;
-            refused += said(changed, 1000) != "read";
+            refused += said(changed, {.triangles = 1000}) != "read";
         }
     CHECK(refused > 1000);
     // Nodes in circles, and one that is in two places.
@@ -376,13 +374,24 @@ TEST_CASE("every shortened file, and every file with a wrong number in it, is re
     // One mesh at two places counts twice.
     const std::string twice = Corner().file(R"("scenes": [{"nodes": [0, 1]}], "nodes": [{"mesh": 0}, {"mesh": 0}], )" +
                                             meshes(all_attributes));
-    CHECK(said(twice, 2) == "read");
-    CHECK(said(twice, 1) == "there are more vertices than 0 million");
+    CHECK(said(twice, {.triangles = 2}) == "read");
+    CHECK(said(twice, {.triangles = 1}) == "there are more vertices than 0 million");
     Corner doubled;
     doubled.add("SCALAR", 5121, 6, doubled.bytes.add(std::vector<std::uint8_t>{0, 1, 2, 2, 1, 0}));
     const std::string both = doubled.file(one_node + meshes(R"("attributes": {"POSITION": 0}, "indices": 5)"));
-    CHECK(said(both, 2) == "read");
-    CHECK(said(both, 1) == "there are more triangles than 0 million");
+    CHECK(said(both, {.triangles = 2}) == "read");
+    // Too many materials, pixels or brackets.
+    const std::string two =
+        Corner().file(one_node + R"("meshes": [{"primitives": [{)" + all_attributes + R"(, "material": 0}, {)" +
+                      all_attributes + R"(, "material": 1}]}], "materials": [{}, {}])");
+    CHECK(said(two, {.materials = 2}) == "read");
+    CHECK(said(two, {.materials = 1}) == "there are more materials than 1");
+    CHECK(said(good, {.pixels = 4}) == "read");
+    CHECK(said(good, {.pixels = 3}) == "its images have too many pixels in all");
+    CHECK(said(glb("\"x\": " + std::string(10'000'000, '['), "")) == "its document is not JSON");
+    const std::string deep = "\"x\": " + std::string(60, '[') + std::string(60, ']');
+    CHECK(said(Corner().file(one_node + meshes(all_attributes) + ", " + deep)) == "read");
+    CHECK(said(both, {.triangles = 1}) == "there are more triangles than 0 million");
 }
 
 }  // namespace test_glb_meshes

@@ -47,9 +47,9 @@ class ObjReader {
             if (kind == "v")
                 add_vertex();
             else if (kind == "vt")
-                file_.texture.values.push_back(numbers<2>("texture coordinates need two numbers"));
+                file_.texture.values.push_back(numbers_or_zero<2>());
             else if (kind == "vn")
-                file_.normals.values.push_back(numbers<3>("a normal needs three numbers"));
+                file_.normals.values.push_back(numbers_or_zero<3>());
             else if (kind == "f")
                 add_face();
         }
@@ -65,19 +65,22 @@ class ObjReader {
         throw SceneError(path_.string(), fmt::format("{} (line {})", what, words_.number()));
     }
 
+    // Programs write normals that are no numbers where faces have no area, and coordinates of one number.
     template <int count>
-    glm::vec<count, float> numbers(std::string_view needed) {
+    glm::vec<count, float> numbers_or_zero() {
         glm::vec<count, float> p;
-        for (int i = 0; i < count; ++i) {
-            const auto number = number_of<float>(words_.word());
-            if (!number) fail(needed);
-            p[i] = *number;
-        }
+        for (int i = 0; i < count; ++i) p[i] = number_of<float>(words_.word()).value_or(0.0f);
         return p;
     }
 
     void add_vertex() {
-        file_.mesh.vertices.push_back(numbers<3>("a vertex needs three numbers"));
+        glm::vec3 p;
+        for (int i = 0; i < 3; ++i) {
+            const auto number = number_of<float>(words_.word());
+            if (!number) fail("a vertex needs three numbers");
+            p[i] = *number;
+        }
+        file_.mesh.vertices.push_back(p);
         // Behind the coordinates there may be a weight, or a colour.
         glm::vec3 color;
         for (int i = 0; i < 3; ++i) {

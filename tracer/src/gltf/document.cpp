@@ -16,6 +16,9 @@ static_assert(std::endian::native == std::endian::little, "numbers of .glb files
 
 constexpr std::uint32_t json_chunk = 0x4E4F534A, bytes_chunk = 0x004E4942;
 
+constexpr std::size_t most_bytes = std::size_t{64} << 20;
+constexpr int deepest = 64;
+
 // The extensions without which files can be read all the same, or that are read. A file that requires others is
 // refused.
 constexpr std::array<std::string_view, 5> known_extensions{"KHR_texture_transform", "KHR_materials_emissive_strength",
@@ -148,7 +151,10 @@ Document::Document(std::string_view content) {
     std::uint32_t type = 0;
     const std::string_view text = next_chunk(content, type);
     if (type != json_chunk) throw GltfError("it does not begin with a document");
-    json_ = Json::parse(text, nullptr, false);
+    if (text.size() > most_bytes) throw GltfError("its document is larger than 64 MiB");
+    // A document that is deep takes much memory for each bracket.
+    const auto is_kept = [](int depth, Json::parse_event_t, const Json&) { return depth <= deepest; };
+    json_ = Json::parse(text, is_kept, false);
     if (!json_.is_object()) throw GltfError("its document is not JSON");
     if (content.size() >= 8) {
         const std::string_view chunk = next_chunk(content, type);

@@ -98,6 +98,8 @@ std::shared_ptr<const TextureImage> Materials::image(const Item& texture, ImageM
     } catch (const std::runtime_error& e) {
         throw GltfError(e.what());
     }
+    if (made->pixels() > pixels_left_) throw GltfError("its images have too many pixels in all");
+    pixels_left_ -= made->pixels();
     return made;
 }
 

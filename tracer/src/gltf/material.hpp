@@ -49,8 +49,8 @@ struct NamedMaterial {
 /// Makes materials, with the images that several of them share.
 class Materials {
   public:
-    /// Refers to the document.
-    explicit Materials(const Document& document) : document_(document) {}
+    /// Refers to the document. `most_pixels` is how many all images may have.
+    Materials(const Document& document, std::size_t most_pixels) : document_(document), pixels_left_(most_pixels) {}
 
     /// The material of that number, or glTF's own if there is none. `by_vertices` tells whether the mesh has colours of
     /// vertices. Throws GltfError.
@@ -60,6 +60,7 @@ class Materials {
     std::shared_ptr<const TextureImage> image(const Item& texture, ImageMeaning meaning, NamedMaterial& of);
 
     const Document& document_;
+    std::size_t pixels_left_;
     std::map<std::pair<std::size_t, ImageMeaning>, std::shared_ptr<const TextureImage>> images_;
 };
 

@@ -30,8 +30,8 @@ glm::dmat3 cofactors(const glm::dmat3& m) {
 
 class Reader {
   public:
-    Reader(std::string_view content, std::size_t most_triangles)
-        : document_(content), materials_(document_), most_triangles_(most_triangles) {}
+    Reader(std::string_view content, const Limits& limits)
+        : document_(content), materials_(document_, limits.pixels), limits_(limits) {}
 
     GlbFile read() {
         for (const PlacedMesh& placed : placed_meshes(document_)) {
@@ -79,8 +79,8 @@ class Reader {
         if (!parts_.contains(key) && !begin(key, primitive)) return;
         // Nodes may place one mesh as often as there are nodes.
         vertices_ += positions.rows();
-        if (vertices_ > 3 * most_triangles_)
-            throw GltfError(fmt::format("there are more vertices than {} million", 3 * most_triangles_ / 1'000'000));
+        if (vertices_ > 3 * limits_.triangles)
+            throw GltfError(fmt::format("there are more vertices than {} million", 3 * limits_.triangles / 1'000'000));
         Begun& begun = parts_.at(key);
         Part& part = begun.part;
         const auto first = static_cast<std::uint32_t>(part.mesh.vertices.size());
@@ -114,6 +114,8 @@ class Reader {
 
     // False if the material is clear.
     bool begin(const Key& key, const Item& primitive) {
+        if (parts_.size() + is_clear_.size() >= limits_.materials)
+            throw GltfError(fmt::format("there are more materials than {}", limits_.materials));
         NamedMaterial made = materials_.make(key.material, key.by_vertices, primitive);
         for (const std::string& sentence : made.not_shown) say(fmt::format("\"{}\" {}", made.name, sentence));
         if (made.is_clear) {
@@ -136,14 +138,13 @@ class Reader {
         const std::size_t corners = indices ? indices->rows() : positions.rows();
         const std::size_t count = mode == triangles ? corners / 3 : corners - std::min<std::size_t>(corners, 2);
         triangles_ += count;
-        if (triangles_ > most_triangles_)
-            throw GltfError(fmt::format("there are more triangles than {} million", most_triangles_ / 1'000'000));
+        if (triangles_ > limits_.triangles)
+            throw GltfError(fmt::format("there are more triangles than {} million", limits_.triangles / 1'000'000));
         const auto vertex = [&](std::size_t corner) {
             const std::size_t i = indices ? indices->index(corner) : corner;
             if (i >= positions.rows()) primitive.fail("has a triangle with a vertex that there is not");
             return first + static_cast<std::uint32_t>(i);
         };
-        part.mesh.triangles.reserve(part.mesh.triangles.size() + count);
         for (std::size_t i = 0; i < count; ++i) {
             // Every second triangle of a strip is the other way round.
             const std::array<std::size_t, 3> of = mode == triangles ? std::array{3 * i, 3 * i + 1, 3 * i + 2}
@@ -173,7 +174,8 @@ class Reader {
 
     Document document_;
     Materials materials_;
-    std::size_t most_triangles_, vertices_ = 0, triangles_ = 0;
+    Limits limits_;
+    std::size_t vertices_ = 0, triangles_ = 0;
     std::map<Key, Begun> parts_;
     std::set<std::optional<std::size_t>> is_clear_;
     std::set<std::string> said_;
@@ -182,8 +184,8 @@ class Reader {
 
 }  // namespace
 
-GlbFile read_glb(std::string_view content, std::size_t most_triangles) {
-    return Reader(content, most_triangles).read();
+GlbFile read_glb(std::string_view content, const Limits& limits) {
+    return Reader(content, limits).read();
 }
 
 }  // namespace phasetree::tracer::gltf

@@ -22,13 +22,20 @@ struct Part {
     AtCorners<glm::vec3> colors;   ///< linear Rec.709
 };
 
+/// How much a file may have: a small one may place one mesh many times, or say that its images are large.
+struct Limits {
+    std::size_t triangles = 20'000'000;
+    std::size_t materials = 2'000;
+    std::size_t pixels = 256'000'000;  ///< of all images
+};
+
 struct GlbFile {
     std::vector<Part> parts;             ///< in the order of the materials; what has none comes first
     std::vector<std::string> not_shown;  ///< sentences about what the file has and the parts have not
 };
 
-/// `content` is all of the file. Throws GltfError for what is no such file, what refers to other files, and for more
-/// than so many triangles.
-GlbFile read_glb(std::string_view content, std::size_t most_triangles);
+/// `content` is all of the file. Throws GltfError for what is no such file, what refers to other files, and what is
+/// beyond the limits.
+GlbFile read_glb(std::string_view content, const Limits& limits = {});
 
 }  // namespace phasetree::tracer::gltf

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec2.hpp>
@@ -39,6 +40,7 @@ class TextureImage {
         for (auto& p : image.pixels_) p = encoded(f(decoded(p)));
         return image;
     }
+    std::size_t pixels() const { return pixels_.size(); }
     /// Width over height.
     float aspect() const { return static_cast<float>(width_) / static_cast<float>(height_); }
 

@@ -8,18 +8,11 @@
 
 namespace phasetree::tracer {
 
-namespace {
-
-// A file of a few bytes may place one mesh many times, so its triangles need not be in the file.
-constexpr std::size_t most_triangles_of_glb = 20'000'000;
-
-}  // namespace
-
 MeshGroup GlbParameters::made() const {
     check_ending_of_mesh(file, ".glb");
     gltf::GlbFile read;
     try {
-        read = gltf::read_glb(read_text_file(file, most_bytes_of_mesh, "1 GiB"), most_triangles_of_glb);
+        read = gltf::read_glb(read_text_file(file, most_bytes_of_mesh, "1 GiB"));
     } catch (const gltf::GltfError& e) {
         throw ParameterError("file", fmt::format("{}: {}", file.string(), e.what()));
     }

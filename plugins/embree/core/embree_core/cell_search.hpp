@@ -28,8 +28,8 @@ struct SeenRay {
     }
 };
 
-/// The first crossing of a ray within a cell, from the ray's tnear to its tfar. Everything that traces an object through
-/// Embree comes here.
+/// The first crossing of a ray within a cell, from the ray's tnear to its tfar. Everything that traces an object
+/// through Embree comes here.
 inline std::optional<Crossing> search_cell(const InterfaceCells& cells, unsigned cell, const SeenRay& seen,
                                            const RTCRay& ray, std::optional<Phase> carried,
                                            const std::optional<LeavingHint>& leaving_hint, TraceCounters& counters) {
