@@ -337,6 +337,10 @@ TEST_CASE("what is no .glb file, or is more than is read, is said") {
     huge.add("VEC3", 5126, 3, huge.bytes.add(std::vector<float>(9, 1e30f)));
     CHECK(said(huge.file(one_node + meshes(R"("attributes": {"POSITION": 5})"))).find("beyond 10") !=
           std::string::npos);
+    Corner dark;
+    dark.add("VEC3", 5126, 3, dark.bytes.add(std::vector<float>(9, std::nanf(""))));
+    CHECK(said(dark.file(one_node + meshes(R"("attributes": {"POSITION": 0, "COLOR_0": 5})")))
+              .find("5 of \"accessors\" has something that is no number") == 0);
     CHECK(
         said(
             glb(R"("bufferViews": [{"buffer": 1, "byteLength": 4}], "accessors": [{"bufferView": 0, "componentType": 5126,

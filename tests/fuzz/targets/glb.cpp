@@ -22,6 +22,10 @@ void run_glb(Bytes input) {
                 for (int i = 0; i < 3; ++i) promised(triangle[i] < vertices, "a triangle's corners exist");
             for (const glm::vec3& v : part.mesh.vertices)
                 promised(glm::all(glm::lessThanEqual(glm::abs(v), glm::vec3(1.1e15f))), "places are those of a scene");
+            for (const glm::vec3& c : part.colors.values)
+                promised(
+                    glm::all(glm::greaterThanEqual(c, glm::vec3(0))) && glm::all(glm::lessThanEqual(c, glm::vec3(1))),
+                    "colours are fractions");
             promised(!is_clear(part.material), "meshes are opaque");
         }
     } catch (const tracer::gltf::GltfError&) {

@@ -106,8 +106,9 @@ class Reader {
             const double length = glm::length(n);
             part.normals.values.push_back(length > 0 && std::isfinite(length) ? glm::vec3(n / length) : glm::vec3(0));
             const glm::dvec3 uv(texture ? row<2>(*texture, i) : glm::dvec2(0), 1);
-            part.texture.values.push_back(finite(glm::dvec2(glm::dmat3(begun.coordinates.transform) * uv), positions));
-            if (colors) part.colors.values.push_back(glm::vec3(glm::clamp(row<3>(*colors, i), 0.0, 1.0)));
+            part.texture.values.push_back(
+                finite(glm::dvec2(glm::dmat3(begun.coordinates.transform) * uv), texture ? *texture : positions));
+            if (colors) part.colors.values.push_back(glm::clamp(finite(row<3>(*colors, i), *colors), 0.0f, 1.0f));
         }
         add_triangles(primitive, mode, positions, first, part);
     }
