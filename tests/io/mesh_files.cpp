@@ -242,6 +242,12 @@ TEST_CASE("what is wrong in a file is said with its place, and nothing of it is 
     text = binary_ply(false);
     text.pop_back();
     CHECK(files.said("a.ply", text) == "a.ply: the file ends too early (row 4 of its faces)");
+    // A second list of vertices has no normals, which the first has.
+    CHECK(files.said("a.ply",
+                     "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float "
+                     "z\nproperty float nx\nproperty float ny\nproperty float nz\nelement vertex 2\nproperty float "
+                     "x\nproperty float y\nproperty float z\nend_header\n0 0 0 0 0 1\n1 0 0\n0 1 0\n") ==
+          "a.ply: its header has two elements \"vertex\"");
     CHECK(files.said("a.stl", "no solid") ==
           "a.stl: is no STL file: it is neither as long as its number of triangles says nor a text that begins with "
           "\"solid\"");

@@ -1,4 +1,7 @@
 // The vertices and faces of a PLY file, and what it says of them.
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <initializer_list>
@@ -45,6 +48,7 @@ class PlyReader {
 
     MeshFile read() {
         for (const Ply::Element& element : ply_.elements()) {
+            if (element.name == "vertex" || element.name == "face") refuse_second(element);
             if (element.name == "vertex")
                 read_vertices(element);
             else if (element.name == "face")
@@ -72,6 +76,13 @@ class PlyReader {
     float as_float(const Ply::Element& element, double value) const {
         if (!(std::abs(value) <= std::numeric_limits<float>::max())) ply_.fail(element, "a number is too large");
         return static_cast<float>(value);
+    }
+
+    // Another list of the same name may lack what the first has, and then not all vertices would have it.
+    void refuse_second(const Ply::Element& element) const {
+        const auto is_same = [&](const Ply::Element& other) { return other.name == element.name; };
+        if (std::ranges::count_if(ply_.elements(), is_same) > 1)
+            throw SceneError(path_.string(), fmt::format("its header has two elements \"{}\"", element.name));
     }
 
     void read_vertices(const Ply::Element& element) {
