@@ -82,7 +82,7 @@ TEST_CASE("files that hold no balls are refused, with the line or the row") {
     CHECK(said_of(files, "a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n") ==
           "its vertices have no column \"y\"; they need x, y and z");
     CHECK(said_of(files, "a.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" + header + "1 2 3 0 0\n") ==
-          "a radius is not positive (row 1 of its elements)");
+          "a radius is not positive (row 1 of its vertices)");
     CHECK(said_of(files, "a.ply", "ply\nformat ascii 1.0\nend_header\n") ==
           "has no vertices, which would be the balls");
     CHECK(said_of(files, "a.obj", "v 1 2 3\n") == "has no balls: its name must end with .ply or .csv");

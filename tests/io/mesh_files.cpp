@@ -120,6 +120,14 @@ TEST_CASE("what files say of the corners of triangles") {
     const MeshFile odd = read("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5\nvn -nan(ind) 0 1\nf 1/1/1 2/1/1 3/1/1\n");
     CHECK(corner(odd.texture, odd, 0, 0) == glm::vec2(0.5f, 0));
     CHECK(corner(odd.normals, odd, 0, 0) == glm::vec3(0, 0, 1));
+    // Lines go on behind a backslash and end at a comment; what is too small for a float is 0.
+    const MeshFile joined = read("a.obj", "v 0 0 1e-50\nv 1 0 0\nv 0 1 0\nf 1 2 \\\n3 # the only one\n");
+    CHECK(joined.mesh.triangles == std::vector<glm::uvec3>{{0, 1, 2}});
+    CHECK(joined.mesh.vertices[0].z == 0);
+    // A face without normals has some of length 0 if another has some.
+    const MeshFile flat = read("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 1 0\nf 1 2 3\nf 1//1 2//1 3//1\n");
+    CHECK(corner(flat.normals, flat, 0, 1) == glm::vec3(0));
+    CHECK(corner(flat.normals, flat, 1, 1) == glm::vec3(0, 1, 0));
     // What one face lacks, none has; a weight behind coordinates is no colour.
     const MeshFile lacking = read("a.obj", "v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\nvt 0 0\nf 1/1 2/1 3/1\nf 1 2 3/1\n");
     CHECK(lacking.texture.empty());
@@ -148,6 +156,23 @@ TEST_CASE("what files say of the corners of triangles") {
         CHECK(corner(wedges.texture, wedges, 1, i) == glm::vec2(wedges.mesh.vertices[wedges.mesh.triangles[1][i]]));
     CHECK(corner(wedges.texture, wedges, 2, 0) == glm::vec2(0, 0.5f));
     CHECK(read("a.stl", word_stl()).normals.empty());
+}
+
+TEST_CASE("numbers of PLY files that are none matter only where they are wanted") {
+    const std::string head =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty float "
+        "quality\nproperty float nx\nproperty float ny\nproperty float nz\nelement face 1\nproperty list uchar int "
+        "vertex_indices\nend_header\n";
+    const auto with = [&](const std::string& first) {
+        return head + first + "\n1 0 0 -nan(ind) 0 0 1\n0 1 0 inf 0 0 1\n3 0 1 2\n";
+    };
+    const MeshFile mesh = read_mesh_file("a.ply", with("0 0 0 nan nan 0 1"), 100);
+    CHECK(mesh.normals.values[0] == glm::vec3(0));
+    CHECK(mesh.normals.values[1] == glm::vec3(0, 0, 1));
+    const WrittenFiles files(read_mesh);
+    CHECK(files.said("a.ply", with("0 nan 0 0 0 0 1")) == "a.ply: its y is no number (row 1 of its vertices)");
+    CHECK(files.said("a.ply", with("0 x 0 0 0 0 1")) ==
+          "a.ply: there is something other than a number (row 1 of its vertices)");
 }
 
 TEST_CASE("faces that are not convex become triangles within them") {
@@ -216,6 +241,10 @@ TEST_CASE("faces of very many corners take little time, and are whole") {
     }
     CHECK(read_mesh_file("a.obj", comb + of_comb, 1'000'000).mesh.triangles.size() == 998);
     CHECK(read_mesh_file("a.obj", round + of_round, 1'000'000).mesh.triangles.size() == 99'998);
+    std::string endless = "v 0 0 0\nf";
+    for (int i = 0; i <= 1'000'000; ++i) endless += " 1";
+    CHECK_THROWS_WITH_AS((void)read_mesh_file("a.obj", endless, 10'000'000),
+                         "a.obj: a face has more than a million corners (line 2)", SceneError);
     CHECK_THROWS_WITH_AS((void)read_mesh_file("a.obj", round + of_round, 0),
                          "a.obj: there are more triangles than 0 million", SceneError);
 }
@@ -238,7 +267,8 @@ TEST_CASE("what is wrong in a file is said with its place, and nothing of it is 
           "a.ply: a face names a vertex that does not exist (row 4 of its faces)");
     CHECK(files.said("a.ply",
                      "ply\nformat ascii 1.0\nelement vertex 1\nproperty double x\nproperty float y\nproperty float "
-                     "z\nend_header\n1e300 0 0\n") == "a.ply: a number is too large (row 1 of its elements)");
+                     "z\nend_header\n1e300 0 0\n") ==
+          "a.ply: a number is missing, or is too large (row 1 of its vertices)");
     text = binary_ply(false);
     text.pop_back();
     CHECK(files.said("a.ply", text) == "a.ply: the file ends too early (row 4 of its faces)");

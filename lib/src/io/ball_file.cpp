@@ -82,11 +82,8 @@ BallList read_ball_ply(const std::filesystem::path& path, std::string_view conte
         BallBuilder builder(indices[radius].has_value(), indices[phase].has_value());
         std::array<double, ball_columns.size()> columns{};
         ply.for_each_row(e, [&](const Ply::Row& row) {
-            for (std::size_t i = 0; i < indices.size(); ++i) {
-                if (!indices[i]) continue;
-                if (row[*indices[i]].size() != 1) ply.fail(e, fmt::format("its {} is not one number", ball_columns[i]));
-                columns[i] = row[*indices[i]][0];
-            }
+            for (std::size_t i = 0; i < indices.size(); ++i)
+                if (indices[i]) columns[i] = ply.number(e, row, *indices[i]);
             if (const std::string_view wrong = builder.add(columns); !wrong.empty()) ply.fail(e, wrong);
         });
         ply.finish();

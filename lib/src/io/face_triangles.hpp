@@ -12,6 +12,8 @@
 
 namespace phasetree::io {
 
+/// Readers refuse faces of more corners.
+inline constexpr std::size_t most_corners_of_face = 1'000'000;
 /// Faces of more corners than this that are not convex become fans about their first corner, which may fold over.
 inline constexpr std::size_t most_corners_to_clip = 1024;
 

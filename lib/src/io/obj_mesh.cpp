@@ -2,6 +2,7 @@
 // f.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -34,6 +35,9 @@ std::array<std::string_view, 3> parts_of(std::string_view corner) {
     return parts;
 }
 
+// In place of the indices of normals, of a face that has none.
+constexpr std::uint32_t no_normal = 0xFFFFFFFF;
+
 class ObjReader {
   public:
     ObjReader(const std::filesystem::path& path, std::string_view content, std::size_t most_triangles)
@@ -55,7 +59,7 @@ class ObjReader {
         }
         place.finished(words_.offset());
         drop_unless_complete(file_.texture, file_.mesh);
-        drop_unless_complete(file_.normals, file_.mesh);
+        fill_normals();
         if (file_.colors.values.size() != file_.mesh.vertices.size()) file_.colors = {};
         return std::move(file_);
     }
@@ -91,9 +95,30 @@ class ObjReader {
         file_.colors.values.push_back(color);
     }
 
+    // The next corner of a face; empty at its end. A backslash at a line's end continues it, # begins a comment.
+    std::string_view next_corner() {
+        std::string_view word = words_.word();
+        while (word == "\\" && words_.next_line()) word = words_.word();
+        return word.starts_with('#') ? std::string_view() : word;
+    }
+
+    // Faces without normals get normals of length 0 if others have some. If none has any, there are none.
+    void fill_normals() {
+        std::vector<glm::uvec3>& faces = file_.normals.triangles;
+        const auto has_none = [](const glm::uvec3& t) { return t.x == no_normal; };
+        if (std::ranges::all_of(faces, has_none)) {
+            file_.normals = {};
+        } else {
+            const auto zero = static_cast<std::uint32_t>(file_.normals.values.size());
+            file_.normals.values.emplace_back(0.0f);
+            std::ranges::replace_if(faces, has_none, glm::uvec3(zero));
+        }
+    }
+
     void add_face() {
         vertices_.clear(), textures_.clear(), normals_.clear(), places_.clear();
-        for (std::string_view word; !(word = words_.word()).empty();) {
+        for (std::string_view word; !(word = next_corner()).empty();) {
+            if (vertices_.size() == most_corners_of_face) fail("a face has more than a million corners");
             const auto [vertex, texture, normal] = parts_of(word);
             const auto index = index_of(vertex, file_.mesh.vertices.size());
             if (!index) fail("a face names a vertex that does not exist");
@@ -110,7 +135,10 @@ class ObjReader {
         for (const glm::uvec3& corners : face_triangles(places_)) {
             add(file_.mesh.triangles, corners, vertices_);
             if (textures_.size() == vertices_.size()) add(file_.texture.triangles, corners, textures_);
-            if (normals_.size() == vertices_.size()) add(file_.normals.triangles, corners, normals_);
+            if (normals_.size() == vertices_.size())
+                add(file_.normals.triangles, corners, normals_);
+            else
+                file_.normals.triangles.emplace_back(no_normal);
         }
         check_triangles(path_, file_.mesh, most_triangles_);
     }

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "phasetree/io/error.hpp"
 
@@ -28,6 +30,7 @@ constexpr std::array<NamedType, 8> types{{{"char", "int8", 1},
                                           {"float", "float32", 4},
                                           {"double", "float64", 8}}};
 constexpr std::size_t most_properties = 1000;
+constexpr double longest_list = 1 << 25;
 
 std::optional<Ply::Type> type_of(std::string_view name) {
     const auto found =
@@ -86,8 +89,10 @@ void Ply::fail(std::string_view what) const {
     throw SceneError(path_.string(), fmt::format("{} (line {})", what, words_.number()));
 }
 void Ply::fail(const Element& element, std::string_view what) const {
-    throw SceneError(path_.string(),
-                     fmt::format("{} (row {} of its {})", what, row_, element.name == "face" ? "faces" : "elements"));
+    throw SceneError(path_.string(), fmt::format("{} (row {} of its {})", what, row_,
+                                                 element.name == "face"     ? "faces"
+                                                 : element.name == "vertex" ? "vertices"
+                                                                            : "elements"));
 }
 
 void Ply::read_header() {
@@ -158,9 +163,13 @@ double Ply::read(const Element& element, Type type) {
     if (format_ == Format::words) {
         const std::string_view word = words_.word_of_any_line();
         if (word.empty()) fail(element, "the file ends too early");
-        const auto number = number_of<double>(word);
-        if (!number) fail(element, "there is something other than a number");
-        return *number;
+        if (const auto number = number_of<double>(word)) return *number;
+        // Words such as nan, inf and -nan(ind), which programs write; any other is a fault.
+        const std::size_t letters = word.find_first_not_of("+-");
+        const bool is_none = letters != word.npos && (word[letters] == 'n' || word[letters] == 'N' ||
+                                                      word[letters] == 'i' || word[letters] == 'I');
+        if (!is_none) fail(element, "there is something other than a number");
+        return std::numeric_limits<double>::quiet_NaN();
     }
     const std::size_t count = bytes_of(type);
     if (rest_.size() < count) fail(element, "the file ends too early");
@@ -168,9 +177,14 @@ double Ply::read(const Element& element, Type type) {
     std::copy_n(rest_.begin(), count, bytes.begin());
     if (format_ == Format::big_endian) std::reverse(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(count));
     rest_.remove_prefix(count);
-    const double number = as_number(bytes, type);
-    if (!std::isfinite(number)) fail(element, "there is something other than a number");
-    return number;
+    return as_number(bytes, type);
+}
+
+double Ply::number(const Element& element, const Row& row, std::size_t property) const {
+    const std::vector<double>& values = row[property];
+    if (values.size() != 1) fail(element, fmt::format("its {} is not one number", element.properties[property].name));
+    if (!std::isfinite(values[0])) fail(element, fmt::format("its {} is no number", element.properties[property].name));
+    return values[0];
 }
 
 void Ply::read_row(const Element& element, Row& row) {
@@ -180,7 +194,7 @@ void Ply::read_row(const Element& element, Row& row) {
         std::uint64_t count = 1;
         if (p.count) {
             const double length = read(element, *p.count);
-            if (!(length >= 0 && length <= 4294967295.0)) fail(element, "a list has an impossible length");
+            if (!(length >= 0 && length <= longest_list)) fail(element, "a list has an impossible length");
             count = static_cast<std::uint64_t>(length);
         }
         for (; count > 0; --count) row[i].push_back(read(element, p.type));

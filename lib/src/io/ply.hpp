@@ -30,7 +30,7 @@ class Ply {
         /// The number of a property; nothing if there is none of that name.
         std::optional<std::size_t> find(std::string_view property) const;
     };
-    /// What a row has of a property: one number, or those of a list.
+    /// What a row has of a property: one number, or those of a list. What is no number in the file is NaN.
     using Row = std::vector<std::vector<double>>;
 
     /// Reads the header, and checks that the file is long enough for what it claims.
@@ -49,6 +49,8 @@ class Ply {
     }
     /// To be called when all elements that are wanted have been asked for.
     void finish() { place_.finished(content_.size()); }
+    /// The one number that the row which was read last has of a property; an error if it has a list, or no number.
+    double number(const Element&, const Row&, std::size_t property) const;
     /// An error at the row that was read last.
     [[noreturn]] void fail(const Element&, std::string_view what) const;
 

@@ -65,16 +65,25 @@ class PlyReader {
     glm::vec<static_cast<int>(count), float> numbers(const Ply::Element& element, const Ply::Row& row,
                                                      const Columns<count>& columns) const {
         glm::vec<static_cast<int>(count), float> p;
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::vector<double>& value = row[columns[i]];
-            if (value.size() != 1) ply_.fail(element, "what should be one number is a list");
-            p[static_cast<int>(i)] = as_float(element, value[0]);
-        }
+        for (std::size_t i = 0; i < count; ++i)
+            p[static_cast<int>(i)] = as_float(element, ply_.number(element, row, columns[i]));
         return p;
     }
 
+    // Programs write normals that are no numbers where faces have no area.
+    static glm::vec3 normal_or_zero(const Ply::Row& row, const Columns<3>& columns) {
+        glm::vec3 n(0);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::vector<double>& value = row[columns[i]];
+            if (value.size() != 1 || !(std::abs(value[0]) <= std::numeric_limits<float>::max())) return glm::vec3(0);
+            n[static_cast<int>(i)] = static_cast<float>(value[0]);
+        }
+        return n;
+    }
+
     float as_float(const Ply::Element& element, double value) const {
-        if (!(std::abs(value) <= std::numeric_limits<float>::max())) ply_.fail(element, "a number is too large");
+        if (!(std::abs(value) <= std::numeric_limits<float>::max()))
+            ply_.fail(element, "a number is missing, or is too large");
         return static_cast<float>(value);
     }
 
@@ -96,7 +105,7 @@ class PlyReader {
             white[i] = static_cast<float>(largest_of(element.properties[(*color)[static_cast<std::size_t>(i)]].type));
         ply_.for_each_row(element, [&](const Ply::Row& row) {
             file_.mesh.vertices.push_back(numbers(element, row, *place));
-            if (normal) file_.normals.values.push_back(numbers(element, row, *normal));
+            if (normal) file_.normals.values.push_back(normal_or_zero(row, *normal));
             if (texture) file_.texture.values.push_back(numbers(element, row, *texture));
             if (color) file_.colors.values.push_back(numbers(element, row, *color) / white);
         });
@@ -113,6 +122,7 @@ class PlyReader {
         ply_.for_each_row(element, [&](const Ply::Row& row) {
             const std::vector<double>& corners = row[*list];
             if (corners.size() < 3) ply_.fail(element, "a face needs three vertices");
+            if (corners.size() > most_corners_of_face) ply_.fail(element, "a face has more than a million corners");
             places.clear();
             for (const double c : corners) {
                 if (!(c >= 0 && c < static_cast<double>(file_.mesh.vertices.size())))

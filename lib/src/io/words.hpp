@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <string_view>
+#include <type_traits>
 
 namespace phasetree::io {
 
@@ -55,7 +56,13 @@ std::optional<Number> number_of(std::string_view word) {
     if (word.starts_with('+')) word.remove_prefix(1);
     Number value{};
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+    if (end != word.data() + word.size()) return std::nullopt;
+    if constexpr (std::is_same_v<Number, float>)
+        // What is too small for a float is a double all the same, and then 0; what is too large is not finite.
+        if (error == std::errc::result_out_of_range)
+            if (const auto wider = number_of<double>(word))
+                return std::abs(*wider) < 1 ? std::optional<Number>(static_cast<Number>(*wider)) : std::nullopt;
+    if (error != std::errc()) return std::nullopt;
     if constexpr (std::is_floating_point_v<Number>)
         if (!std::isfinite(value)) return std::nullopt;
     return value;

@@ -27,10 +27,10 @@ struct AtCorners {
     }
 };
 
-/// What a file says of a mesh. Normals, texture coordinates and colours are there only if all triangles have them.
+/// What a file says of a mesh. Texture coordinates and colours are there only if all triangles have them.
 struct MeshFile {
     TriangleMesh mesh;
-    AtCorners<glm::vec3> normals;  ///< as the file has them: of any length
+    AtCorners<glm::vec3> normals;  ///< as the file has them: of any length, which is 0 where it has none
     AtCorners<glm::vec2> texture;  ///< (0, 0) is the lower left corner of an image, (1, 1) the upper right one
     AtCorners<glm::vec3> colors;   ///< red, green and blue from 0 to 1, encoded as sRGB
 };
