@@ -172,8 +172,8 @@ TEST_CASE("what was exported can stand beside another object, as a mesh of each 
         const Outcome o = shell.run({"check", "with_mesh.json"});
         CHECK(o.code == 0);
         // Of all formats .glb alone says that the glass is clear.
-        CHECK(o.err == (format == "glb" ? "warning: a.glb: \"glass\" is clear, and is left out: meshes are opaque, and "
-                                          "what is clear belongs into the tree\n"
+        CHECK(o.err == (format == "glb" ? "warning: a.glb: \"glass\" is clear, and is left out: meshes are opaque; "
+                                          "model it as a clear phase in \"tree\"\n"
                                         : ""));
     }
 }

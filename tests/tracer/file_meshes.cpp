@@ -107,8 +107,12 @@ TEST_CASE("a file of another kind, or of none, is refused with a hint") {
         }
         return std::string();
     };
-    CHECK(said("obj", "scan.PLY") == "the name of the file must end with .obj; of scan.PLY is the mesh \"ply\"");
+    CHECK(said("obj", "scan.PLY") == "the name of the file must end with .obj; for scan.PLY use the mesh \"ply\"");
     CHECK(said("ply", "scan.txt") == "the name of the file must end with .ply");
+    CHECK(
+        said("glb", "room.gltf") ==
+        "the name of the file must end with .glb; a .gltf file has its parts in files of their own, so save it as glTF "
+        "Binary, .glb");
     CHECK(said("stl", "none.stl") == "there is no file none.stl");
 }
 

@@ -2718,7 +2718,7 @@ class textures:
         """
     @staticmethod
     def mesh_image(file: str | PathLike[str], repeat: Sequence[float] | np.ndarray | None = ...) -> Texture:
-        r"""An image on a mesh by the texture coordinates that its file has (OBJ: vt).
+        r"""An image on a mesh by the texture coordinates that its file has.
 
         file: An image of any format that OpenImageIO reads, at most 4096 × 4096 pixels. (name of a file)
         repeat: How often the image stands side by side, and one above the other. ([x, y]; default [1, 1])
@@ -2950,10 +2950,10 @@ class meshes:
         """
     @staticmethod
     def glb(file: str | PathLike[str], material: Material | None = ..., scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ...) -> Mesh:
-        r"""All triangles of a glTF file in its binary form (.glb, of at most 1 GiB), with its materials, images and colours of vertices: a room that was made elsewhere. glTF has y up, which becomes z. What is clear in the file is left out, because meshes are opaque.
+        r"""The triangles of a glTF file in its binary form (.glb, of at most 1 GiB), with its materials, images and colours of vertices: a room that was made elsewhere. glTF has y up, which becomes z. What is clear in the file is left out, because meshes are opaque. There may be 20 million triangles, of which those of a mesh count at each place where it is, 2,000 materials, and images in PNG or JPEG, of at most 4096 × 4096 pixels each and 256 million in all.
 
         file: The file, which holds its images, too. (name of a file)
-        material: What all of it is made of, in place of the file's materials. (opaque material; default none)
+        material: What all of it is made of, clear parts too, in place of the file's materials. (opaque material; default none)
         scale: A factor of its size. (number; positive; default 1)
         rotate_z: Angle by which it is turned about the z axis, anticlockwise from above. (number in degrees; default 0)
         translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])

@@ -19,7 +19,7 @@ std::size_t columns_of(const Item& accessor) {
     const std::string type = accessor.text("type");
     for (const auto& [name, columns] : {std::pair("SCALAR", 1), {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}})
         if (type == name) return static_cast<std::size_t>(columns);
-    accessor.fail("has a type that is none of vertices");
+    accessor.fail("has a \"type\" other than SCALAR, VEC2, VEC3 and VEC4");
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ Accessor::Accessor(const Document& document, std::size_t index, const Item& from
                                        {Type::uint32, 4},
                                        {Type::float32, 4}})
         if (type == static_cast<std::size_t>(known)) type_ = known, size = static_cast<std::size_t>(bytes);
-    if (size == 0) fail("has numbers of a type that there is not");
+    if (size == 0) fail("has an unknown \"componentType\"");
     is_normalised_ = item_.flag("normalized");
     const auto view = item_.index("bufferView");
     if (!view) fail("has no bytes in the file");

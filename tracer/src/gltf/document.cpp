@@ -17,13 +17,34 @@ static_assert(std::endian::native == std::endian::little, "numbers of .glb files
 constexpr std::uint32_t json_chunk = 0x4E4F534A, bytes_chunk = 0x004E4942;
 
 constexpr std::size_t most_bytes = std::size_t{64} << 20;
-constexpr int deepest = 64;
+constexpr std::size_t deepest = 64;
 
-// The extensions without which files can be read all the same, or that are read. A file that requires others is
-// refused.
-constexpr std::array<std::string_view, 5> known_extensions{"KHR_texture_transform", "KHR_materials_emissive_strength",
-                                                           "KHR_materials_ior", "KHR_materials_unlit",
-                                                           "KHR_mesh_quantization"};
+// What files may require: what is read, and what changes how a surface looks but not where it is. A file that requires
+// another extension is refused, by its name if it is one of those that programs write.
+constexpr std::array<std::string_view, 3> known_extensions{"KHR_texture_transform", "KHR_mesh_quantization",
+                                                           "KHR_lights_punctual"};
+constexpr std::string_view known_beginning = "KHR_materials_";
+constexpr std::array<std::string_view, 5> unread_extensions{"KHR_draco_mesh_compression", "EXT_meshopt_compression",
+                                                            "KHR_texture_basisu", "EXT_texture_webp",
+                                                            "EXT_mesh_gpu_instancing"};
+
+// How deep the brackets of a JSON text are within each other, those in strings aside.
+std::size_t depth_of(std::string_view text) {
+    std::size_t depth = 0, most = 0;
+    bool is_in_string = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '"') is_in_string = !is_in_string;
+        if (is_in_string) {
+            i += c == '\\' ? 1 : 0;  // what is behind a backslash ends no string
+        } else if (c == '{' || c == '[') {
+            most = std::max(most, ++depth);
+        } else if (depth > 0 && (c == '}' || c == ']')) {
+            --depth;
+        }
+    }
+    return most;
+}
 
 std::uint32_t number_at(std::string_view content, std::size_t at) {
     if (content.size() < at + 4) throw GltfError("the file ends too early");
@@ -70,7 +91,7 @@ std::vector<Item> Item::items(std::string_view key) const {
 }
 
 std::size_t Item::index_of(const Json& json, std::string_view key) const {
-    // Files hold no more than 4 GB, so greater numbers count nothing.
+    // Files hold no more than 4 GB, so no valid index or count is larger.
     if (!json.is_number_unsigned() || json.get<std::uint64_t>() > 0xFFFFFFFF)
         fail(fmt::format("should have a whole number \"{}\"", key));
     return json.get<std::size_t>();
@@ -143,7 +164,7 @@ std::vector<std::string> Item::keys() const {
 
 Document::Document(std::string_view content) {
     if (content.starts_with("{") || content.starts_with("\xEF\xBB\xBF{"))
-        throw GltfError("it is glTF in words, whose other parts are files of their own; save it as one file, .glb");
+        throw GltfError("it is a .gltf file, whose parts are files of their own; save it as glTF Binary, .glb");
     if (!content.starts_with("glTF")) throw GltfError("it is no .glb file: it does not begin with \"glTF\"");
     if (number_at(content, 4) != 2) throw GltfError("it is not of version 2 of glTF");
     content = content.substr(0, number_at(content, 8));
@@ -152,9 +173,9 @@ Document::Document(std::string_view content) {
     const std::string_view text = next_chunk(content, type);
     if (type != json_chunk) throw GltfError("it does not begin with a document");
     if (text.size() > most_bytes) throw GltfError("its document is larger than 64 MiB");
-    // A document that is deep takes much memory for each bracket.
-    const auto is_kept = [](int depth, Json::parse_event_t, const Json&) { return depth <= deepest; };
-    json_ = Json::parse(text, is_kept, false);
+    // Each bracket takes much memory while another is within it.
+    if (depth_of(text) > deepest) throw GltfError(fmt::format("its document is deeper than {} brackets", deepest));
+    json_ = Json::parse(text, nullptr, false);
     if (!json_.is_object()) throw GltfError("its document is not JSON");
     if (content.size() >= 8) {
         const std::string_view chunk = next_chunk(content, type);
@@ -166,11 +187,14 @@ Document::Document(std::string_view content) {
 void Document::check_extensions() const {
     const auto required = json_.find("extensionsRequired");
     if (required == json_.end() || !required->is_array()) return;
-    for (const Json& name : *required)
-        if (!name.is_string() || std::ranges::find(known_extensions, name.get<std::string>()) == known_extensions.end())
-            throw GltfError(fmt::format(
-                "it needs an extension of glTF that this program does not know{}; save it without",
-                name.is_string() && name.get<std::string>().find("draco") != std::string::npos ? ", compression" : ""));
+    for (const Json& json : *required) {
+        const std::string name = json.is_string() ? json.get<std::string>() : std::string();
+        if (name.starts_with(known_beginning) || std::ranges::find(known_extensions, name) != known_extensions.end())
+            continue;
+        const bool has_name = std::ranges::find(unread_extensions, name) != unread_extensions.end();
+        throw GltfError(fmt::format("it requires {}, which this program does not read; save it without",
+                                    has_name ? name : "an extension of glTF"));
+    }
 }
 
 std::size_t Document::count(const char* list) const {

@@ -70,7 +70,7 @@ class Document {
     std::size_t count(const char* list) const;
     /// An element of such a list. `from` refers to it.
     Item element(const char* list, std::size_t index, const Item& from) const;
-    /// The bytes of an element of "bufferViews", without gaps between rows in mind.
+    /// All bytes of an element of "bufferViews", whatever its "byteStride" is.
     std::string_view view(std::size_t index, const Item& from) const;
 
   private:

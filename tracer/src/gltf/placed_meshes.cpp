@@ -18,7 +18,7 @@ glm::dmat4 placement_of(const Item& node) {
     if (const auto q = node.numbers("rotation", 4)) {
         // x, y, z, w; glm has w first.
         const glm::dquat rotation((*q)[3], (*q)[0], (*q)[1], (*q)[2]);
-        if (!(glm::length(rotation) > 0)) node.fail("has a rotation of nothing");
+        if (!(glm::length(rotation) > 0)) node.fail("has a rotation of length 0");
         m = m * glm::mat4_cast(glm::normalize(rotation));
     }
     return glm::scale(m, glm::dvec3(node.vec3("scale", glm::vec3(1))));
@@ -33,29 +33,31 @@ std::vector<PlacedMesh> placed_meshes(const Document& document) {
     const Item scene = document.element("scenes", root.index("scene").value_or(0), root);
 
     struct Next {
-        std::size_t node;
-        Item from;
+        Item node;
         glm::dmat4 placement;
     };
     std::vector<Next> next;
-    const auto add = [&](const Item& parent, std::string_view list, const glm::dmat4& placement) {
-        const std::vector<std::size_t> children = parent.indices(list);
-        for (auto child = children.rbegin(); child != children.rend(); ++child)
-            next.push_back({*child, parent, placement});
-    };
-    add(scene, "nodes", glm::dmat4(1));
     // Nodes are trees, so each is met once. Without that a small file could hold endlessly many.
     std::vector<bool> is_met(document.count("nodes"), false);
+    const auto add = [&](const Item& parent, std::string_view list, const glm::dmat4& placement) {
+        const std::vector<std::size_t> children = parent.indices(list);
+        for (auto child = children.rbegin(); child != children.rend(); ++child) {
+            const Item node = document.element("nodes", *child, parent);
+            if (is_met[*child]) node.fail("is at two places of the tree of nodes");
+            is_met[*child] = true;
+            next.push_back({node, placement});
+        }
+    };
+    add(scene, "nodes", glm::dmat4(1));
     while (!next.empty()) {
         const Next n = std::move(next.back());
         next.pop_back();
-        const Item node = document.element("nodes", n.node, n.from);
-        if (is_met[n.node]) node.fail("is at two places of the tree of nodes");
-        is_met[n.node] = true;
+        const Item& node = n.node;
         const glm::dmat4 placement = n.placement * placement_of(node);
         if (const auto mesh = node.index("mesh")) {
             (void)document.element("meshes", *mesh, node);
-            placed.push_back({*mesh, placement});
+            const bool is_skinned = node.has("skin");
+            placed.push_back({*mesh, is_skinned ? glm::dmat4(1) : placement, is_skinned});
         }
         add(node, "children", placement);
     }

@@ -11,6 +11,8 @@
 #include <optional>
 #include <set>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "gltf/accessor.hpp"
 #include "gltf/material.hpp"
@@ -28,25 +30,37 @@ glm::dmat3 cofactors(const glm::dmat3& m) {
     return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }
 
+std::optional<Accessor> attribute(const Document& document, const Item& attributes, const std::string& name,
+                                  const Accessor& positions, std::size_t least_columns) {
+    std::optional<Accessor> found;
+    if (!attributes.has(name)) return found;
+    found.emplace(document, attributes.needed_index(name), attributes);
+    if (found->rows() != positions.rows()) found->fail("has not as many rows as the positions");
+    if (found->columns() < least_columns) found->fail("has rows of too few numbers");
+    return found;
+}
+
 class Reader {
   public:
-    Reader(std::string_view content, const Limits& limits)
-        : document_(content), materials_(document_, limits.pixels), limits_(limits) {}
+    Reader(std::string_view content, ReadMaterials materials, const Limits& limits)
+        : document_(content),
+          materials_(document_, limits.pixels),
+          has_materials_(materials == ReadMaterials::all),
+          limits_(limits) {}
 
     GlbFile read() {
+        say_what_is_passed_over();
         for (const PlacedMesh& placed : placed_meshes(document_)) {
             const Item mesh = document_.element("meshes", placed.mesh, document_.root());
+            if (placed.is_skinned) say("has meshes with skins, which are not bent by them");
+            if (mesh.has("weights")) say("has morph targets, which are not applied");
             for (const Item& primitive : mesh.items("primitives")) add(primitive, placed.placement);
         }
-        for (auto& [key, begun] : parts_) {
-            Part& part = begun.part;
-            if (part.mesh.triangles.empty()) continue;
-            const auto is_zero = [](const glm::vec3& n) { return n == glm::vec3(0); };
-            if (std::ranges::all_of(part.normals.values, is_zero)) part.normals = {};
-            // Where there are images, what has no coordinates has the corner of the image everywhere.
-            if (begun.lacks_texture && !begun.has_images) part.texture = {};
-            file_.parts.push_back(std::move(part));
-        }
+        for (auto& [key, begun] : parts_) finish(key, begun);
+        if (file_.parts.empty())
+            throw GltfError(is_clear_.empty() ? "it has no triangles in its scene"
+                                              : "all of it is clear, and meshes are opaque; give it a \"material\", or "
+                                                "model it as a clear phase in \"tree\"");
         return std::move(file_);
     }
 
@@ -59,100 +73,147 @@ class Reader {
     };
 
     struct Begun {
-        Part part;
-        Coordinates coordinates;
+        Part part{};
+        Coordinates coordinates{};
+        std::optional<glm::vec3> reflectance{};  // of a metal
         bool has_images = false;
         bool lacks_texture = false;  // whether some of it has no texture coordinates
     };
 
+    // Where a primitive's vertices come from, and where they go.
+    struct Source {
+        Accessor positions;
+        std::optional<Accessor> normals, texture, colors, indices;
+        glm::dmat4 placement;
+        glm::dmat3 of_normals;
+        std::size_t mode;
+    };
+
+    void say_what_is_passed_over() {
+        const auto extensions = document_.root().item("extensions");
+        if (extensions && extensions->has("KHR_lights_punctual"))
+            say("has lights, which are not read; they go into \"lights\"");
+        if (document_.count("animations") > 0) say("has animations, which are not read; all stands still");
+    }
+
     void add(const Item& primitive, const glm::dmat4& placement) {
+        if (++primitives_ > limits_.primitives)
+            throw GltfError(fmt::format("there are more primitives than {}", limits_.primitives));
         const std::size_t mode = primitive.index("mode").value_or(triangles);
-        if (mode < triangles) return say("points and lines are not shown");
-        if (mode > fan) primitive.fail("has a mode that there is not");
+        if (mode < triangles) return say("has points or lines, which are not shown");
+        if (mode > fan) primitive.fail("has an unknown \"mode\"");
         const auto attributes = primitive.item("attributes");
         if (!attributes || !attributes->has("POSITION")) primitive.fail("has no positions");
-        const Accessor positions(document_, attributes->needed_index("POSITION"), *attributes);
+        Accessor positions(document_, attributes->needed_index("POSITION"), *attributes);
         if (positions.columns() != 3) positions.fail("has positions that are not of three numbers");
 
-        const Key key{primitive.index("material"), attributes->has("COLOR_0")};
+        const Key key{has_materials_ ? primitive.index("material") : std::nullopt, attributes->has("COLOR_0")};
         if (is_clear_.contains(key.material)) return;
         if (!parts_.contains(key) && !begin(key, primitive)) return;
-        // Nodes may place one mesh as often as there are nodes.
-        vertices_ += positions.rows();
-        if (vertices_ > 3 * limits_.triangles)
-            throw GltfError(fmt::format("there are more vertices than {} million", 3 * limits_.triangles / 1'000'000));
         Begun& begun = parts_.at(key);
-        Part& part = begun.part;
-        const auto first = static_cast<std::uint32_t>(part.mesh.vertices.size());
-        for (std::size_t i = 0; i < positions.rows(); ++i)
-            part.mesh.vertices.push_back(
-                finite(glm::dvec3(placement * glm::dvec4(row<3>(positions, i), 1)), positions));
-
-        const auto attribute = [&](const std::string& name, std::size_t least_columns) {
-            std::optional<Accessor> found;
-            if (!attributes->has(name)) return found;
-            found.emplace(document_, attributes->needed_index(name), *attributes);
-            if (found->rows() != positions.rows()) found->fail("has not as many rows as the positions");
-            if (found->columns() < least_columns) found->fail("has rows of too few numbers");
-            return found;
+        const auto of = [&](const std::string& name, std::size_t columns) {
+            return attribute(document_, *attributes, name, positions, columns);
         };
-        const glm::dmat3 turn = cofactors(glm::dmat3(placement));
-        const auto normals = attribute("NORMAL", 3);
-        const auto texture = attribute(fmt::format("TEXCOORD_{}", begun.coordinates.set), 2);
-        begun.lacks_texture = begun.lacks_texture || !texture;
-        const auto colors = attribute("COLOR_0", 3);
-        for (std::size_t i = 0; i < positions.rows(); ++i) {
-            const glm::dvec3 n = normals ? turn * row<3>(*normals, i) : glm::dvec3(0);
-            const double length = glm::length(n);
-            part.normals.values.push_back(length > 0 && std::isfinite(length) ? glm::vec3(n / length) : glm::vec3(0));
-            const glm::dvec3 uv(texture ? row<2>(*texture, i) : glm::dvec2(0), 1);
-            part.texture.values.push_back(
-                finite(glm::dvec2(glm::dmat3(begun.coordinates.transform) * uv), texture ? *texture : positions));
-            if (colors) part.colors.values.push_back(glm::clamp(finite(row<3>(*colors, i), *colors), 0.0f, 1.0f));
-        }
-        add_triangles(primitive, mode, positions, first, part);
+        Source source{positions,
+                      of("NORMAL", 3),
+                      of(fmt::format("TEXCOORD_{}", begun.coordinates.set), 2),
+                      of("COLOR_0", 3),
+                      std::nullopt,
+                      placement,
+                      cofactors(glm::dmat3(placement)),
+                      mode};
+        if (primitive.has("indices")) source.indices.emplace(document_, primitive.needed_index("indices"), primitive);
+        if (!source.texture && begun.has_images && !begun.lacks_texture)
+            say(fmt::format("\"{}\" has images, and somewhere no coordinates for them", begun.part.name));
+        begun.lacks_texture = begun.lacks_texture || !source.texture;
+        add_triangles(primitive, source, begun);
     }
 
     // False if the material is clear.
     bool begin(const Key& key, const Item& primitive) {
         if (parts_.size() + is_clear_.size() >= limits_.materials)
             throw GltfError(fmt::format("there are more materials than {}", limits_.materials));
+        if (!has_materials_) {
+            parts_[key].part.name = "all";
+            return true;
+        }
         NamedMaterial made = materials_.make(key.material, key.by_vertices, primitive);
         for (const std::string& sentence : made.not_shown) say(fmt::format("\"{}\" {}", made.name, sentence));
         if (made.is_clear) {
             say(fmt::format(
-                "\"{}\" is clear, and is left out: meshes are opaque, and what is clear belongs into the tree",
+                "\"{}\" is clear, and is left out: meshes are opaque; model it as a clear phase in \"tree\"",
                 made.name));
             is_clear_.insert(key.material);
             return false;
         }
-        parts_[key] = {.part = {std::move(made.name), std::move(made.material), {}, {}, {}, {}},
+        parts_[key] = {.part = {.name = std::move(made.name), .material = std::move(made.material)},
                        .coordinates = made.coordinates.value_or(Coordinates()),
+                       .reflectance = made.reflectance,
                        .has_images = made.coordinates.has_value()};
         return true;
     }
 
-    void add_triangles(const Item& primitive, std::size_t mode, const Accessor& positions, std::uint32_t first,
-                       Part& part) {
-        std::optional<Accessor> indices;
-        if (primitive.has("indices")) indices.emplace(document_, primitive.needed_index("indices"), primitive);
-        const std::size_t corners = indices ? indices->rows() : positions.rows();
-        const std::size_t count = mode == triangles ? corners / 3 : corners - std::min<std::size_t>(corners, 2);
+    void finish(const Key& key, Begun& begun) {
+        Part& part = begun.part;
+        if (part.mesh.triangles.empty()) return;
+        const auto is_zero = [](const glm::vec3& n) { return n == glm::vec3(0); };
+        if (std::ranges::all_of(part.normals.values, is_zero)) part.normals = {};
+        // Where there are images, what has no coordinates has the corner of the image everywhere.
+        if (begun.lacks_texture && !begun.has_images) part.texture = {};
+        if (begun.reflectance && key.by_vertices) {
+            glm::dvec3 sum(0);
+            for (const glm::vec3& c : part.colors.values) sum += glm::dvec3(c);
+            const Conductor tinted =
+                metal_of(*begun.reflectance * glm::vec3(sum / static_cast<double>(part.colors.values.size())));
+            Conductor& metal = std::get<Conductor>(part.material);
+            metal.eta = tinted.eta;
+            metal.k = tinted.k;
+        }
+        const std::string name = part.name;
+        for (int same = 2; !names_.insert(part.name).second; ++same) part.name = fmt::format("{} {}", name, same);
+        file_.parts.push_back(std::move(part));
+    }
+
+    void add_triangles(const Item& primitive, const Source& source, Begun& begun) {
+        const std::size_t corners = source.indices ? source.indices->rows() : source.positions.rows();
+        const std::size_t count = source.mode == triangles ? corners / 3 : corners - std::min<std::size_t>(corners, 2);
         triangles_ += count;
         if (triangles_ > limits_.triangles)
             throw GltfError(fmt::format("there are more triangles than {} million", limits_.triangles / 1'000'000));
+        ++turn_;
+        if (numbers_.size() < source.positions.rows()) numbers_.resize(source.positions.rows());
+        // Only vertices that triangles have are taken: primitives may share one list of positions.
         const auto vertex = [&](std::size_t corner) {
-            const std::size_t i = indices ? indices->index(corner) : corner;
-            if (i >= positions.rows()) primitive.fail("has a triangle with a vertex that there is not");
-            return first + static_cast<std::uint32_t>(i);
+            const std::size_t i = source.indices ? source.indices->index(corner) : corner;
+            if (i >= source.positions.rows()) primitive.fail("has an index beyond its vertices");
+            if (numbers_[i].turn != turn_) {
+                numbers_[i] = {turn_, static_cast<std::uint32_t>(begun.part.mesh.vertices.size())};
+                add_vertex(i, source, begun);
+            }
+            return numbers_[i].number;
         };
         for (std::size_t i = 0; i < count; ++i) {
             // Every second triangle of a strip is the other way round.
-            const std::array<std::size_t, 3> of = mode == triangles ? std::array{3 * i, 3 * i + 1, 3 * i + 2}
-                                                  : mode == fan     ? std::array{i + 1, i + 2, std::size_t{0}}
-                                                                    : std::array{i, i + 1 + i % 2, i + 2 - i % 2};
-            part.mesh.triangles.emplace_back(vertex(of[0]), vertex(of[1]), vertex(of[2]));
+            const std::array<std::size_t, 3> of = source.mode == triangles ? std::array{3 * i, 3 * i + 1, 3 * i + 2}
+                                                  : source.mode == fan     ? std::array{i + 1, i + 2, std::size_t{0}}
+                                                                       : std::array{i, i + 1 + i % 2, i + 2 - i % 2};
+            const std::uint32_t a = vertex(of[0]), b = vertex(of[1]), c = vertex(of[2]);
+            begun.part.mesh.triangles.emplace_back(a, b, c);
         }
+    }
+
+    static void add_vertex(std::size_t i, const Source& source, Begun& begun) {
+        Part& part = begun.part;
+        part.mesh.vertices.push_back(
+            finite(glm::dvec3(source.placement * glm::dvec4(row<3>(source.positions, i), 1)), source.positions));
+        const glm::dvec3 n = source.normals ? source.of_normals * row<3>(*source.normals, i) : glm::dvec3(0);
+        const double length = glm::length(n);
+        part.normals.values.push_back(length > 0 && std::isfinite(length) ? glm::vec3(n / length) : glm::vec3(0));
+        const glm::dvec3 uv(source.texture ? row<2>(*source.texture, i) : glm::dvec2(0), 1);
+        part.texture.values.push_back(finite(glm::dvec2(glm::dmat3(begun.coordinates.transform) * uv),
+                                             source.texture ? *source.texture : source.positions));
+        if (source.colors)
+            part.colors.values.push_back(glm::clamp(finite(row<3>(*source.colors, i), *source.colors), 0.0f, 1.0f));
     }
 
     template <int count>
@@ -173,20 +234,28 @@ class Reader {
         if (said_.insert(sentence).second) file_.not_shown.push_back(sentence);
     }
 
+    // The number that a vertex of the file has in its part, if it has one since that turn.
+    struct Number {
+        std::uint32_t turn = 0, number = 0;
+    };
+
     Document document_;
     Materials materials_;
+    bool has_materials_;
     Limits limits_;
-    std::size_t vertices_ = 0, triangles_ = 0;
+    std::size_t triangles_ = 0, primitives_ = 0;
+    std::uint32_t turn_ = 0;       // of the primitive that is read
+    std::vector<Number> numbers_;  // of the vertices of the primitive that is read
     std::map<Key, Begun> parts_;
     std::set<std::optional<std::size_t>> is_clear_;
-    std::set<std::string> said_;
+    std::set<std::string> said_, names_;
     GlbFile file_;
 };
 
 }  // namespace
 
-GlbFile read_glb(std::string_view content, const Limits& limits) {
-    return Reader(content, limits).read();
+GlbFile read_glb(std::string_view content, ReadMaterials materials, const Limits& limits) {
+    return Reader(content, materials, limits).read();
 }
 
 }  // namespace phasetree::tracer::gltf

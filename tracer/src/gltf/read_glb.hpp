@@ -1,4 +1,4 @@
-// All triangles of a .glb file, with their materials.
+// The triangles of a .glb file, with their materials.
 #pragma once
 
 #include <cstddef>
@@ -14,28 +14,32 @@ namespace phasetree::tracer::gltf {
 
 /// The triangles of one material, in glTF's space, of which y is up, in metres.
 struct Part {
-    std::string name;  ///< of the material
-    Material material;
-    TriangleMesh mesh;
-    AtCorners<glm::vec3> normals;  ///< of any length, or 0 where the file has none; empty if it has none at all
-    AtCorners<glm::vec2> texture;  ///< (0, 0) is the lower left corner of an image
-    AtCorners<glm::vec3> colors;   ///< linear Rec.709
+    std::string name{};  ///< of the material, unlike that of any other part
+    Material material{};
+    TriangleMesh mesh{};
+    AtCorners<glm::vec3> normals{};  ///< of length 1, or 0 where the file has none; empty if it has none at all
+    AtCorners<glm::vec2> texture{};  ///< (0, 0) is the lower left corner of an image
+    AtCorners<glm::vec3> colors{};   ///< linear Rec.709
 };
 
 /// How much a file may have: a small one may place one mesh many times, or say that its images are large.
 struct Limits {
-    std::size_t triangles = 20'000'000;
-    std::size_t materials = 2'000;
-    std::size_t pixels = 256'000'000;  ///< of all images
+    std::size_t triangles = 20'000'000;  ///< a mesh counts at each place where it is
+    std::size_t primitives = 5'000'000;  ///< which are glTF's parts of meshes; they count in the same way
+    std::size_t materials = 2'000;       ///< that triangles have
+    std::size_t pixels = 256'000'000;    ///< of all images
 };
+
+/// With `none` all triangles are of one part, clear ones too, and neither materials nor images are looked at.
+enum class ReadMaterials { all, none };
 
 struct GlbFile {
     std::vector<Part> parts;             ///< in the order of the materials; what has none comes first
     std::vector<std::string> not_shown;  ///< sentences about what the file has and the parts have not
 };
 
-/// `content` is all of the file. Throws GltfError for what is no such file, what refers to other files, and what is
-/// beyond the limits.
-GlbFile read_glb(std::string_view content, const Limits& limits = {});
+/// `content` is all of the file. Throws GltfError for what is no such file, what refers to other files, what has no
+/// triangles to be shown, and what is beyond the limits.
+GlbFile read_glb(std::string_view content, ReadMaterials materials = ReadMaterials::all, const Limits& limits = {});
 
 }  // namespace phasetree::tracer::gltf

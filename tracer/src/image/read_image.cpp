@@ -64,6 +64,14 @@ void read_values(OIIO::ImageInput& input, int channels, std::uintmax_t file_byte
     place.finished(file_bytes);
 }
 
+// OpenImageIO multiplies colours by the alpha beside them, encoded as they are, unless it is told not to. Alpha is not
+// used here, and an image's colours are those that its file has.
+OIIO::ImageSpec as_stored() {
+    OIIO::ImageSpec configuration;
+    configuration.attribute("oiio:UnassociatedAlpha", 1);
+    return configuration;
+}
+
 using Begin = std::function<int(const ImageHeader&)>;
 using Add = std::function<void(std::span<const float>)>;
 
@@ -87,7 +95,8 @@ void read(const std::filesystem::path& path, const Begin& begin, const Add& add)
     if (const auto kind = decoded_when_opened(path))
         throw std::runtime_error("it is " + std::string(*kind) +
                                  ", whose size is not known before it is decoded; save it as OpenEXR, PNG or TIFF");
-    const auto input = OIIO::ImageInput::open(path.string());
+    const OIIO::ImageSpec configuration = as_stored();
+    const auto input = OIIO::ImageInput::open(path.string(), &configuration);
     if (!input) throw std::runtime_error(OIIO::geterror());
     read(*input, std::filesystem::file_size(path), begin, add);
 }
@@ -96,7 +105,10 @@ void read(std::string_view bytes, const Begin& begin, const Add& add) {
     const bool is_png = bytes.starts_with("\x89PNG"), is_jpeg = bytes.starts_with("\xff\xd8");
     if (!is_png && !is_jpeg) throw std::runtime_error("it is neither PNG nor JPEG");
     OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes.data()), bytes.size());  // it only reads them
-    const auto input = OIIO::ImageInput::open(is_png ? "in memory.png" : "in memory.jpg", nullptr, &memory);
+    OIIO::ImageSpec configuration = as_stored();
+    OIIO::Filesystem::IOProxy* const from = &memory;
+    configuration.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &from);
+    const auto input = OIIO::ImageInput::open(is_png ? "in memory.png" : "in memory.jpg", &configuration, &memory);
     if (!input) throw std::runtime_error(OIIO::geterror());
     read(*input, bytes.size(), begin, add);
 }

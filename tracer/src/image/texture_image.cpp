@@ -38,14 +38,17 @@ glm::vec3 TextureImage::decoded(const Pixel& p) {
     return glm::vec3(p[0], p[1], p[2]) / most;
 }
 
-TextureImage::Pixel TextureImage::encoded(const glm::vec3& color) {
-    return {stored(color.x), stored(color.y), stored(color.z)};
-}
-
 glm::vec2 TextureImage::range(int channel) const {
     const auto at = [&](const Pixel& p) { return p[static_cast<std::size_t>(channel)]; };
     const auto [low, high] = std::ranges::minmax_element(pixels_, {}, at);
     return {decoded(*low)[channel], decoded(*high)[channel]};
+}
+
+float TextureImage::share_above(float value) const {
+    const auto is_above = [&](const Pixel& p) {
+        return static_cast<float>(std::max({p[0], p[1], p[2]})) / most >= value;
+    };
+    return static_cast<float>(std::ranges::count_if(pixels_, is_above)) / static_cast<float>(pixels_.size());
 }
 
 glm::vec3 TextureImage::mean() const {

@@ -33,13 +33,8 @@ class TextureImage {
     glm::vec2 range(int channel) const;
     /// The mean of all pixels.
     glm::vec3 mean() const;
-    /// The same image with f(colour) in place of each pixel's colour; f gives values in [0, 1].
-    template <class F>
-    TextureImage changed(F&& f) const {
-        TextureImage image = *this;
-        for (auto& p : image.pixels_) p = encoded(f(decoded(p)));
-        return image;
-    }
+    /// The part of all pixels that have a channel of at least this value.
+    float share_above(float value) const;
     std::size_t pixels() const { return pixels_.size(); }
     /// Width over height.
     float aspect() const { return static_cast<float>(width_) / static_cast<float>(height_); }
@@ -48,7 +43,6 @@ class TextureImage {
     using Pixel = std::array<std::uint16_t, 3>;
 
     static glm::vec3 decoded(const Pixel&);
-    static Pixel encoded(const glm::vec3&);
     glm::vec3 pixel(int column, int row) const;
 
     int width_, height_;

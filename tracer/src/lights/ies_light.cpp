@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "parameters/text_file.hpp"
+#include "parameters/named_file.hpp"
 
 namespace phasetree::tracer {
 
@@ -43,7 +43,7 @@ glm::vec3 IesLight::intensity(const glm::vec3& away) const {
 IesLight IesLightParameters::made() const {
     if (!(glm::length(target - position) > 0))
         throw ParameterError("target", "\"target\" is where the light itself is");
-    const std::string text = read_text_file(file, std::uintmax_t{1} << 20, "1 MiB");
+    const std::string text = read_whole_file(file, std::uintmax_t{1} << 20, "1 MiB");
     try {
         return IesLight(position, target, turn_degrees, std::make_shared<const IesProfile>(text), color * intensity);
     } catch (const std::runtime_error& e) {

@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "image/srgb.hpp"
-#include "parameters/text_file.hpp"
+#include "parameters/named_file.hpp"
 #include "phasetree/io/error.hpp"
 #include "scene/mesh_kinds.hpp"
 #include "scene/mesh_placement.hpp"
@@ -63,7 +63,7 @@ Mesh MeshFileParameters::read(std::string_view ending) const {
     check_ending_of_mesh(file, ending);
     MeshFile read;
     try {
-        read = read_mesh_file(file, read_text_file(file, most_bytes_of_mesh, "1 GiB"), most_triangles);
+        read = read_mesh_file(file, read_whole_file(file, most_bytes_of_mesh, "1 GiB"), most_triangles);
     } catch (const SceneError& e) {
         throw ParameterError("file", e.what());
     }

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "gltf/read_glb.hpp"
-#include "parameters/text_file.hpp"
+#include "parameters/named_file.hpp"
 #include "scene/mesh_kinds.hpp"
 #include "scene/mesh_placement.hpp"
 
@@ -12,12 +12,11 @@ MeshGroup GlbParameters::made() const {
     check_ending_of_mesh(file, ".glb");
     gltf::GlbFile read;
     try {
-        read = gltf::read_glb(read_text_file(file, most_bytes_of_mesh, "1 GiB"));
+        read = gltf::read_glb(read_whole_file(file, most_bytes_of_mesh, "1 GiB"),
+                              material ? gltf::ReadMaterials::none : gltf::ReadMaterials::all);
     } catch (const gltf::GltfError& e) {
         throw ParameterError("file", fmt::format("{}: {}", file.string(), e.what()));
     }
-    if (read.parts.empty())
-        throw ParameterError("file", fmt::format("{} has no triangles that are opaque", file.string()));
     MeshGroup group;
     for (gltf::Part& part : read.parts) {
         Mesh mesh{.vertices = std::move(part.mesh.vertices),
@@ -30,9 +29,8 @@ MeshGroup GlbParameters::made() const {
         MeshPlacement(scale, rotate_z_degrees, translate, true).apply(mesh, file);
         group.meshes.push_back(std::move(mesh));
     }
-    if (!material)
-        for (const std::string& sentence : read.not_shown)
-            group.not_shown.push_back(fmt::format("{}: {}", file.string(), sentence));
+    for (const std::string& sentence : read.not_shown)
+        group.not_shown.push_back(fmt::format("{}: {}", file.string(), sentence));
     return group;
 }
 

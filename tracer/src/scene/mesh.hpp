@@ -18,8 +18,8 @@ struct Mesh {
     AtCorners<glm::vec2> uv{};       // texture coordinates, by which images can be laid on it
     AtCorners<glm::vec3> colors{};   // linear Rec.709, each channel in [0, 1]
     Material material{};
-    // Its kind, with a number behind it from the second of a kind on: "floor", "obj 2". Behind that is the material's
-    // name, if the file of the mesh has several: "glb wood".
+    // Its kind, with a number behind it from the second of a kind on: "floor", "obj 2". Behind that of a part of a .glb
+    // file is the name of its material: "glb wood".
     std::string name{};
 };
 

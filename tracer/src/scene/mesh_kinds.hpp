@@ -1,5 +1,5 @@
 // The kinds of meshes as a scene file says them: one list, from which the reader, the reference and the schema follow.
-// made() is the mesh but for its material.
+// made() is the mesh, or a group of meshes from one file.
 #pragma once
 
 #include <filesystem>
@@ -87,11 +87,13 @@ struct StlParameters : MeshFileParameters {
 };
 
 struct GlbParameters {
-    static constexpr KindInfo info{"glb",
-                                   "All triangles of a glTF file in its binary form (.glb, of at most 1 GiB), with its "
-                                   "materials, images and colours of vertices: a room that was made elsewhere. glTF "
-                                   "has y up, which becomes z. What is clear in the file is left out, because meshes "
-                                   "are opaque."};
+    static constexpr KindInfo info{
+        "glb",
+        "The triangles of a glTF file in its binary form (.glb, of at most 1 GiB), with its materials, images and "
+        "colours of vertices: a room that was made elsewhere. glTF has y up, which becomes z. What is clear in the "
+        "file is left out, because meshes are opaque. There may be 20 million triangles, of which those of a mesh "
+        "count at each place where it is, 2,000 materials, and images in PNG or JPEG, of at most 4096 × 4096 pixels "
+        "each and 256 million in all."};
 
     std::optional<Material> material{};
     std::filesystem::path file{};
@@ -103,7 +105,8 @@ struct GlbParameters {
     static void parameters(V&& v) {
         using P = GlbParameters;
         v(&P::material,
-          Parameter{"material", "", "What all of it is made of, in place of the file's materials.", limits::any, true});
+          Parameter{"material", "", "What all of it is made of, clear parts too, in place of the file's materials.",
+                    limits::any, true});
         v(&P::file, Parameter{"file", "", "The file, which holds its images, too."});
         placement_parameters<P>(v);
     }

@@ -14,12 +14,13 @@ namespace {
 void check_textures(const Mesh& mesh) {
     if (mesh.uv.empty() &&
         (has_texture<MeshImageTexture>(mesh.material) || has_texture<MeshImageNumber>(mesh.material)))
-        throw ParameterError("material",
-                             "\"mesh_image\" needs texture coordinates, which not all faces of this mesh "
-                             "have; \"image\" needs none");
+        throw ParameterError("material", fmt::format("\"mesh_image\" needs texture coordinates, which not all faces of "
+                                                     "\"{}\" have; \"image\" needs none",
+                                                     mesh.name));
     if (mesh.colors.empty() && has_texture<VertexColorTexture>(mesh.material))
-        throw ParameterError("material",
-                             "the texture \"vertex_color\" needs colours, which not all vertices of this mesh have");
+        throw ParameterError(
+            "material", fmt::format("the texture \"vertex_color\" needs colours, which not all vertices of \"{}\" have",
+                                    mesh.name));
 }
 
 MeshGroup group_of(MeshGroup group, const std::string& name) {

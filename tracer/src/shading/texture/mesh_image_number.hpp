@@ -40,16 +40,22 @@ struct MeshImageNumber {
 
     // A mesh without coordinates is refused where the scene is read.
     float at(const TexturePoint& p) const {
-        return number_of(image->at((p.mesh ? p.mesh->uv : glm::vec2(0.0f)) * repeat).x);
+        return number_of(image->at((p.mesh ? p.mesh->uv : glm::vec2(0.0f)) * repeat)[channel]);
     }
     // Of an image that is not read yet it is taken that it has both black and white.
     float least() const { return std::min(number_of(of_image.x), number_of(of_image.y)); }
     float greatest() const { return std::max(number_of(of_image.x), number_of(of_image.y)); }
 
     glm::vec2 of_image{0.0f, 1.0f};  // the range of the image's values, once it is prepared
+    // Scene files name neither of these: glTF keeps roughness in an image's second channel, and squares it.
+    int channel = 0;
+    bool is_squared = false;
 
   private:
-    float number_of(float value) const { return (1 - value) * range.x + value * range.y; }
+    float number_of(float value) const {
+        const float number = (1 - value) * range.x + value * range.y;
+        return is_squared ? number * number : number;
+    }
 };
 
 }  // namespace phasetree::tracer

@@ -1,4 +1,4 @@
-#include "parameters/text_file.hpp"
+#include "parameters/named_file.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 namespace phasetree::tracer {
 
-std::string read_text_file(const std::filesystem::path& path, std::uintmax_t most_bytes, std::string_view limit) {
+std::string read_whole_file(const std::filesystem::path& path, std::uintmax_t most_bytes, std::string_view limit) {
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored))
         throw ParameterError("file", fmt::format("there is no file {}", path.string()));

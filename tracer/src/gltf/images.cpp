@@ -1,0 +1,74 @@
+#include "gltf/images.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+namespace phasetree::tracer::gltf {
+
+namespace {
+
+constexpr std::size_t repeat = 10497;  // the number that glTF has for it, from OpenGL
+constexpr float as_good_as_black = 0.01f;
+
+bool repeats(const Document& document, const Item& source) {
+    const auto number = source.index("sampler");
+    if (!number) return true;
+    const Item sampler = document.element("samplers", *number, source);
+    return sampler.index("wrapS").value_or(repeat) == repeat && sampler.index("wrapT").value_or(repeat) == repeat;
+}
+
+}  // namespace
+
+// glTF's coordinates have (0, 0) at the upper left corner of an image, and v grows downwards. KHR_texture_transform
+// scales them, then turns them counter-clockwise as such axes show it, then moves them. (The matrix in its
+// specification turns the other way; issue 1563 of KhronosGroup/glTF says so, and programs agree with that.)
+Coordinates coordinates_of(const Item& texture) {
+    Coordinates c;
+    c.set = texture.index("texCoord").value_or(0);
+    const auto extensions = texture.item("extensions");
+    const auto t = extensions ? extensions->item("KHR_texture_transform") : std::nullopt;
+    if (!t) return c;
+    c.set = t->index("texCoord").value_or(c.set);
+    const auto offset = t->numbers("offset", 2), scale = t->numbers("scale", 2);
+    const float angle = t->number("rotation", 0), cosine = std::cos(angle), sine = std::sin(angle);
+    glm::mat3 transform(1);
+    if (scale) transform = glm::mat3(glm::vec3((*scale)[0], 0, 0), glm::vec3(0, (*scale)[1], 0), glm::vec3(0, 0, 1));
+    transform = glm::mat3(glm::vec3(cosine, -sine, 0), glm::vec3(sine, cosine, 0), glm::vec3(0, 0, 1)) * transform;
+    if (offset) transform[2] += glm::vec3((*offset)[0], (*offset)[1], 0);
+    c.transform = Coordinates::from_upper_left() * transform;
+    return c;
+}
+
+ReadImage Images::read(const Item& texture, ImageMeaning meaning) {
+    const Item source = document_.element("textures", texture.needed_index("index"), texture);
+    const auto number = source.index("source");
+    if (!number) source.fail("has no image that this program reads; images are PNG or JPEG");
+    ReadImage& read = images_[{*number, meaning}];
+    if (!read.image) {
+        const Item item = document_.element("images", *number, source);
+        const auto view = item.index("bufferView");
+        if (!view) item.fail("is in another file; save all in one file, .glb");
+        try {
+            read.image = std::make_shared<const TextureImage>(
+                texture_image_in_memory(document_.view(*view, item), fmt::format("image {}", *number), meaning));
+        } catch (const std::runtime_error& e) {
+            throw GltfError(e.what());
+        }
+        if (read.image->pixels() > pixels_left_)
+            throw GltfError(
+                fmt::format("its images have more than {} million pixels in all", most_pixels_ / 1'000'000));
+        pixels_left_ -= read.image->pixels();
+        read.mean = read.image->mean();
+        read.green = read.image->range(1);
+        read.blue = read.image->range(2);
+        read.shining = read.image->share_above(as_good_as_black);
+    }
+    ReadImage found = read;
+    found.repeats = repeats(document_, source);
+    return found;
+}
+
+}  // namespace phasetree::tracer::gltf
