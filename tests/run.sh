@@ -62,7 +62,7 @@ fuzz_one() {
     # PngReadCallback. OpenVDB 10 loses a node for each file that does. The fuzzer would stop at the first such file, so leaks are
     # not looked for where images and volumes are read.
     local leaks=1
-    case $target in glb | image | volume) leaks=0 ;; esac
+    case $target in gltf | image | volume) leaks=0 ;; esac
     # On a busy machine an input may take long by the clock.
     ASAN_OPTIONS=detect_leaks=$leaks UBSAN_OPTIONS=print_stacktrace=1 "$root/build/fuzz/tests/fuzz/fuzz" "--target=$target" \
         -max_total_time=$((60 * minutes)) -max_len="$longest" -timeout=120 -rss_limit_mb=4096 \

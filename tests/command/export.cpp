@@ -166,8 +166,8 @@ TEST_CASE("what was exported can stand beside another object, as a mesh of each 
         CAPTURE(format);
         CHECK(shell.run({"export", "scene.json", "-o", "a." + format, "--spacing", "0.2"}).code == 0);
         SceneText with_mesh;
-        with_mesh.rest += R"(, "meshes": [{")" + format + R"(": {"file": "a.)" + format + "\"" +
-                          (format == "glb" ? "}}]" : R"(, "material": {"diffuse": {"color": [1, 1, 1]}}}}])");
+        with_mesh.rest += R"(, "meshes": [{")" + (format == "glb" ? "gltf" : format) + R"(": {"file": "a.)" + format +
+                          "\"" + (format == "glb" ? "}}]" : R"(, "material": {"diffuse": {"color": [1, 1, 1]}}}}])");
         write_text(shell.directory / "with_mesh.json", with_mesh.text());
         const Outcome o = shell.run({"check", "with_mesh.json"});
         CHECK(o.code == 0);

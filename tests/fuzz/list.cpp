@@ -13,7 +13,7 @@ constexpr Target list[] = {
     {"calls", Inputs::bytes, 1024, 10000, "", run_calls},
     {"color_config", Inputs::lines, 16384, 500, "tracer/color", run_color_config},
     {"font", Inputs::bytes, 4096, 2000, "", run_font},
-    {"glb", Inputs::bytes, 8192, 5000, "", run_glb},
+    {"gltf", Inputs::bytes, 8192, 5000, "", run_gltf},
     {"image", Inputs::bytes, 16384, 500, "", run_image},
     {"lines", Inputs::lines, 1024, 10000, "", run_lines},
     {"mesh", Inputs::bytes, 4096, 5000, "", run_mesh},

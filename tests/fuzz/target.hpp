@@ -46,7 +46,7 @@ void run_balls(Bytes);
 void run_calls(Bytes);
 void run_color_config(Bytes);
 void run_font(Bytes);
-void run_glb(Bytes);
+void run_gltf(Bytes);
 void run_image(Bytes);
 void run_lines(Bytes);
 void run_mesh(Bytes);

@@ -109,10 +109,9 @@ TEST_CASE("a file of another kind, or of none, is refused with a hint") {
     };
     CHECK(said("obj", "scan.PLY") == "the name of the file must end with .obj; for scan.PLY use the mesh \"ply\"");
     CHECK(said("ply", "scan.txt") == "the name of the file must end with .ply");
-    CHECK(
-        said("glb", "room.gltf") ==
-        "the name of the file must end with .glb; a .gltf file has its parts in files of their own, so save it as glTF "
-        "Binary, .glb");
+    CHECK(said("obj", "room.gltf") == "the name of the file must end with .obj; for room.gltf use the mesh \"gltf\"");
+    CHECK(said("gltf", "room.obj") ==
+          "the name of the file must end with .gltf or .glb; for room.obj use the mesh \"obj\"");
     CHECK(said("stl", "none.stl") == "there is no file none.stl");
 }
 

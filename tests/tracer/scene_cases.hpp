@@ -144,9 +144,14 @@ inline void tell(std::vector<float>& told, const tracer::Material& material) {
                 tell(told, m.film ? m.film->thickness : tracer::Number(-1.0f));
                 told.push_back(m.film ? m.film->ior : 0);
             }
-            if constexpr (requires { m.bump; }) {
-                told.push_back(m.bump ? m.bump->height : 0);
-                if (m.bump) tell(told, m.bump->texture);
+            if constexpr (requires { m.perturbation; }) {
+                const auto* bump = m.perturbation ? std::get_if<tracer::Bump>(&*m.perturbation) : nullptr;
+                told.push_back(bump ? bump->height : 0);
+                if (bump) tell(told, bump->texture);
+                if (const auto* map = normal_map_of(material)) {
+                    told.push_back(map->repeat.x), told.push_back(map->repeat.y), told.push_back(map->strength);
+                    told.push_back(map->green_down), tell(told, map->image->mean());
+                }
             }
             if constexpr (requires { m.grain; }) {
                 tell(told, m.grain ? m.grain->axis : glm::vec3(0));
@@ -206,6 +211,8 @@ inline void tell_meshes(const Document& document, std::vector<float>& told) {
         for (const glm::vec3& v : mesh.normals.values) tell(told, v);
         for (const glm::uvec3& t : mesh.triangles) tell(told, glm::vec3(t));
         tell(told, mesh.material);
+        tell(told, mesh.opacity ? mesh.opacity->number : tracer::Number(-1.0f));
+        told.push_back(mesh.opacity ? mesh.opacity->cutoff.value_or(-1) : -1);
     }
 }
 
@@ -311,6 +318,8 @@ inline std::vector<Case> cases() {
     all.push_back({"Numbers", "per_copy", R"("ramp": [[0, 0], [1, 0.5]])",
                    scene + R"(coated": {"color": [1, 1, 1], "roughness": {"per_copy": )", "}}}}",
                    tell_material_of_scene});
+    all.push_back({"Maps of normals", "normal_map", R"("file": "sky.hdr")",
+                   scene + R"(diffuse": {"color": [1, 1, 1], "normal_map": )", "}}}", tell_material_of_scene});
     const auto light = [&](const std::string& name, const std::string& needed) {
         all.push_back({"Lights", name, needed, "{\"lights\": [{\"" + name + "\": ", "}]}", tell_lights});
     };
@@ -328,11 +337,17 @@ inline std::vector<Case> cases() {
     all.push_back({"Lights", "portal", R"("centre": [0, 0, 3], "target": [0, 0, 0], "width": 9, "height": 4)",
                    R"({"lights": [{"constant": {}}, {"portal": )", "}]}", tell_lights});
     const auto mesh = [&](const std::string& name, const std::string& needed) {
-        all.push_back({"Meshes", name, R"("material": {"diffuse": {"color": [0.5, 0.5, 0.5]}})" + needed,
-                       "[{\"" + name + "\": ", "}]", tell_meshes});
+        const std::string members = R"("material": {"diffuse": {"color": [0.5, 0.5, 0.5]}})" + needed;
+        all.push_back({"Meshes",
+                       name,
+                       members,
+                       "[{\"" + name + "\": ",
+                       "}]",
+                       tell_meshes,
+                       {{"opacity_cutoff", members + R"(, "opacity": 0.25)"}}});
     };
     for (const char* const format : {"obj", "ply", "stl"}) mesh(format, fmt::format(", \"file\": \"mesh.{}\"", format));
-    all.push_back({"Meshes", "glb", R"("file": "mesh.glb")", "[{\"glb\": ", "}]", tell_meshes});
+    all.push_back({"Meshes", "gltf", R"("file": "mesh.glb")", "[{\"gltf\": ", "}]", tell_meshes});
     mesh("floor", "");
     mesh("backdrop", "");
     const std::string camera = R"("position": [0, -5, 0], "look_at": [0, 0, 0])";

@@ -69,7 +69,7 @@ Value properties_of(const Case& c) {
     const std::map<std::string, std::string> definitions{
         {"Materials", "material"}, {"Textures", "texture"}, {"Numbers", "number_texture"}, {"Lights", "light"},
         {"Meshes", "mesh"},        {"Cameras", "camera"},   {"Transforms", "transform"}};
-    if (c.chapter == "Image") return *schema().definition(c.name).find("properties");
+    if (c.chapter == "Image" || c.chapter == "Maps of normals") return *schema().definition(c.name).find("properties");
     Value kinds = schema().definition(definitions.at(c.chapter));
     if (c.chapter == "Transforms") kinds = (*kinds.find("anyOf"))[0];
     if (c.chapter == "Textures" || c.chapter == "Cameras") kinds = (*kinds.find("anyOf"))[1];
@@ -192,7 +192,10 @@ TEST_CASE("every key changes what is read") {
                                                     {"absorption_spectrum", "[[450, 0], [650, 3]]"},
                                                     {"reflectance", "[[500, 0.25]]"},
                                                     {"caustics", "true"},
-                                                    {"guiding", "true"}};
+                                                    {"guiding", "true"},
+                                                    {"green_down", "true"},
+                                                    {"channel", "\"green\""},
+                                                    {"normal_map", R"({"file": "sky.hdr"})"}};
     for (const Case& c : cases()) {
         CAPTURE(c.name);
         for (const Value property : properties_of(c)) {

@@ -28,6 +28,10 @@ class Number:
     kind: str
     def parameters(self) -> dict[str, Any]: ...
 
+class NormalMap:
+    kind: str
+    def parameters(self) -> dict[str, Any]: ...
+
 class Light:
     kind: str
     def parameters(self) -> dict[str, Any]: ...
@@ -2537,16 +2541,17 @@ class materials:
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
         """
     @staticmethod
-    def diffuse(color: Sequence[float] | str | Texture, roughness: float | Number | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ...) -> Material:
+    def diffuse(color: Sequence[float] | str | Texture, roughness: float | Number | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
         r"""Paper, plaster, clay: reflects alike in all directions.
 
         color: Reflectance. (colour or texture)
         roughness: How rough it is: 0 is Lambert's law, 1 clay or the moon, whose rim is as bright as its middle. (number or field; at least 0 and at most 1; default 0)
         bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45° to 55°. (colour or texture; default none)
         bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
+        normal_map: In place of a bump: an image of normals, on a mesh that has texture coordinates. (normal map; default none)
         """
     @staticmethod
-    def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold", "iron", "nickel", "silver", "titanium", "tungsten", "aluminum"] | None = ..., eta: Sequence[float] | np.ndarray | None = ..., k: Sequence[float] | np.ndarray | None = ..., roughness: float | Number | None = ..., grain_along: Sequence[float] | np.ndarray | None = ..., grain_around: Sequence[float] | np.ndarray | None = ..., grain_through: Sequence[float] | np.ndarray | None = ..., grain_aspect: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ...) -> Material:
+    def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold", "iron", "nickel", "silver", "titanium", "tungsten", "aluminum"] | None = ..., eta: Sequence[float] | np.ndarray | None = ..., k: Sequence[float] | np.ndarray | None = ..., roughness: float | Number | None = ..., grain_along: Sequence[float] | np.ndarray | None = ..., grain_around: Sequence[float] | np.ndarray | None = ..., grain_through: Sequence[float] | np.ndarray | None = ..., grain_aspect: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
         r"""Metal: one of the measured ones, or with a complex index η + ik of one's own.
 
         metal: A measured metal. (`"aluminium"`, `"brass"`, `"chromium"`, `"copper"`, `"gold"`, `"iron"`, `"nickel"`, `"silver"`, `"titanium"`, `"tungsten"`, `"aluminum"`; default none)
@@ -2561,9 +2566,10 @@ class materials:
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
         bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45° to 55°. (colour or texture; default none)
         bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
+        normal_map: In place of a bump: an image of normals, on a mesh that has texture coordinates. (normal map; default none)
         """
     @staticmethod
-    def coated(color: Sequence[float] | str | Texture, ior: float | None = ..., roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ...) -> Material:
+    def coated(color: Sequence[float] | str | Texture, ior: float | None = ..., roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
         r"""Varnished or glazed: a clear coat over a diffuse base.
 
         color: Reflectance of the base. (colour or texture)
@@ -2573,6 +2579,7 @@ class materials:
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
         bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45° to 55°. (colour or texture; default none)
         bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
+        normal_map: In place of a bump: an image of normals, on a mesh that has texture coordinates. (normal map; default none)
         """
     @staticmethod
     def glowing(light: Sequence[float] | str | Texture | None = ..., radiance: float | None = ..., color: Sequence[float] | str | Texture | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., group: str | Expression | None = ...) -> Material:
@@ -2612,16 +2619,17 @@ def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
     """
 
-def diffuse(color: Sequence[float] | str | Texture, roughness: float | Number | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ...) -> Material:
+def diffuse(color: Sequence[float] | str | Texture, roughness: float | Number | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
     r"""Paper, plaster, clay: reflects alike in all directions.
 
     color: Reflectance. (colour or texture)
     roughness: How rough it is: 0 is Lambert's law, 1 clay or the moon, whose rim is as bright as its middle. (number or field; at least 0 and at most 1; default 0)
     bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45° to 55°. (colour or texture; default none)
     bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
+    normal_map: In place of a bump: an image of normals, on a mesh that has texture coordinates. (normal map; default none)
     """
 
-def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold", "iron", "nickel", "silver", "titanium", "tungsten", "aluminum"] | None = ..., eta: Sequence[float] | np.ndarray | None = ..., k: Sequence[float] | np.ndarray | None = ..., roughness: float | Number | None = ..., grain_along: Sequence[float] | np.ndarray | None = ..., grain_around: Sequence[float] | np.ndarray | None = ..., grain_through: Sequence[float] | np.ndarray | None = ..., grain_aspect: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ...) -> Material:
+def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold", "iron", "nickel", "silver", "titanium", "tungsten", "aluminum"] | None = ..., eta: Sequence[float] | np.ndarray | None = ..., k: Sequence[float] | np.ndarray | None = ..., roughness: float | Number | None = ..., grain_along: Sequence[float] | np.ndarray | None = ..., grain_around: Sequence[float] | np.ndarray | None = ..., grain_through: Sequence[float] | np.ndarray | None = ..., grain_aspect: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
     r"""Metal: one of the measured ones, or with a complex index η + ik of one's own.
 
     metal: A measured metal. (`"aluminium"`, `"brass"`, `"chromium"`, `"copper"`, `"gold"`, `"iron"`, `"nickel"`, `"silver"`, `"titanium"`, `"tungsten"`, `"aluminum"`; default none)
@@ -2636,9 +2644,10 @@ def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold",
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
     bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45° to 55°. (colour or texture; default none)
     bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
+    normal_map: In place of a bump: an image of normals, on a mesh that has texture coordinates. (normal map; default none)
     """
 
-def coated(color: Sequence[float] | str | Texture, ior: float | None = ..., roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ...) -> Material:
+def coated(color: Sequence[float] | str | Texture, ior: float | None = ..., roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
     r"""Varnished or glazed: a clear coat over a diffuse base.
 
     color: Reflectance of the base. (colour or texture)
@@ -2648,6 +2657,7 @@ def coated(color: Sequence[float] | str | Texture, ior: float | None = ..., roug
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
     bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45° to 55°. (colour or texture; default none)
     bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
+    normal_map: In place of a bump: an image of normals, on a mesh that has texture coordinates. (normal map; default none)
     """
 
 def glowing(light: Sequence[float] | str | Texture | None = ..., radiance: float | None = ..., color: Sequence[float] | str | Texture | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., group: str | Expression | None = ...) -> Material:
@@ -2752,10 +2762,11 @@ class numbers:
         ramp: Values of the field and the number at each, between which it is interpolated. (list of [number, number] in m)
         """
     @staticmethod
-    def mesh_image(file: str | PathLike[str], repeat: Sequence[float] | np.ndarray | None = ..., range: Sequence[float] | np.ndarray | None = ...) -> Number:
+    def mesh_image(file: str | PathLike[str], channel: Literal["red", "green", "blue", "alpha"] | None = ..., repeat: Sequence[float] | np.ndarray | None = ..., range: Sequence[float] | np.ndarray | None = ...) -> Number:
         r"""A number for each place of an image on a mesh, by the texture coordinates that its file has.
 
-        file: An image, of which the first channel counts, as the file stores it: integers are not taken to be encoded as colours are. (name of a file)
+        file: An image, of which one channel counts, as the file stores it: integers are not taken to be encoded as colours are. (name of a file)
+        channel: Which one; grey images have one in all three. (`"red"`, `"green"`, `"blue"`, `"alpha"`; default "red")
         repeat: How often the image stands side by side, and one above the other. ([x, y]; default [1, 1])
         range: The numbers where the image is black and where it is white. ([x, y]; default [0, 1])
         """
@@ -2766,6 +2777,15 @@ class numbers:
         ramp: Numbers from 0 to 1, and the value of a copy that has that random number; between them it is interpolated. (list of [number, number])
         seed: Another seed gives each copy another value; parameters with the same seed vary together. (whole number; zero or more; default 0)
         """
+
+def normal_map(file: str | PathLike[str], repeat: Sequence[float] | np.ndarray | None = ..., strength: float | None = ..., green_down: bool | None = ...) -> NormalMap:
+    r"""An image of normals on a mesh, by the texture coordinates that its file has: red is to the right of the image, green up, and blue out of the surface.
+
+    file: An image of at most 4096 × 4096 pixels, whose numbers count as the file stores them: 0 stands for −1, and 1 (255 of 255) for 1. (name of a file)
+    repeat: How often the image stands side by side, and one above the other. ([x, y]; default [1, 1])
+    strength: A factor of red and green: 0 is smooth, and 2 twice as steep. (number; at least 0 and at most 100; default 1)
+    green_down: Whether green is down in the image, as DirectX has it, and not up as in OpenGL. (true or false; default false)
+    """
 
 class lights:
     @staticmethod
@@ -2913,7 +2933,7 @@ class lights:
 
 class meshes:
     @staticmethod
-    def obj(material: Material, file: str | PathLike[str], scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ..., y_up: bool | None = ..., smooth: bool | None = ...) -> Mesh:
+    def obj(material: Material, file: str | PathLike[str], scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ..., opacity: float | Number | None = ..., opacity_cutoff: float | None = ..., y_up: bool | None = ..., smooth: bool | None = ...) -> Mesh:
         r"""The faces of a Wavefront OBJ file, of at most 1 GiB, with its normals, texture coordinates and colours of vertices; its materials are not read. Faces are made larger or smaller first, then turned, then moved.
 
         material: What it is made of. (opaque material)
@@ -2921,11 +2941,13 @@ class meshes:
         scale: A factor of its size. (number; positive; default 1)
         rotate_z: Angle by which it is turned about the z axis, anticlockwise from above. (number in degrees; default 0)
         translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])
+        opacity: How opaque it is: 0 is a hole. In between, light goes through by the rest, as through a fine net. (number or field; at least 0 and at most 1; default none)
+        opacity_cutoff: With an opacity: below this it is a hole, and else opaque, so that edges are sharp. (number; at least 0 and at most 1; default none)
         y_up: Whether y is up in the file, and not z. (true or false; default false)
         smooth: Whether it is shaded as if it were smooth: by the normals that its file has, or else by the mean of those of the faces around each vertex. (true or false; default true)
         """
     @staticmethod
-    def ply(material: Material, file: str | PathLike[str], scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ..., y_up: bool | None = ..., smooth: bool | None = ...) -> Mesh:
+    def ply(material: Material, file: str | PathLike[str], scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ..., opacity: float | Number | None = ..., opacity_cutoff: float | None = ..., y_up: bool | None = ..., smooth: bool | None = ...) -> Mesh:
         r"""The faces of a PLY file, such as a scan, of at most 1 GiB, with its normals, texture coordinates and colours of vertices. It is placed as obj is.
 
         material: What it is made of. (opaque material)
@@ -2933,11 +2955,13 @@ class meshes:
         scale: A factor of its size. (number; positive; default 1)
         rotate_z: Angle by which it is turned about the z axis, anticlockwise from above. (number in degrees; default 0)
         translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])
+        opacity: How opaque it is: 0 is a hole. In between, light goes through by the rest, as through a fine net. (number or field; at least 0 and at most 1; default none)
+        opacity_cutoff: With an opacity: below this it is a hole, and else opaque, so that edges are sharp. (number; at least 0 and at most 1; default none)
         y_up: Whether y is up in the file, and not z. (true or false; default false)
         smooth: Whether it is shaded as if it were smooth: by the normals that its file has, or else by the mean of those of the faces around each vertex. (true or false; default true)
         """
     @staticmethod
-    def stl(material: Material, file: str | PathLike[str], scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ..., y_up: bool | None = ..., smooth: bool | None = ...) -> Mesh:
+    def stl(material: Material, file: str | PathLike[str], scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ..., opacity: float | Number | None = ..., opacity_cutoff: float | None = ..., y_up: bool | None = ..., smooth: bool | None = ...) -> Mesh:
         r"""The triangles of an STL file of at most 1 GiB. It is placed as obj is.
 
         material: What it is made of. (opaque material)
@@ -2945,29 +2969,33 @@ class meshes:
         scale: A factor of its size. (number; positive; default 1)
         rotate_z: Angle by which it is turned about the z axis, anticlockwise from above. (number in degrees; default 0)
         translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])
+        opacity: How opaque it is: 0 is a hole. In between, light goes through by the rest, as through a fine net. (number or field; at least 0 and at most 1; default none)
+        opacity_cutoff: With an opacity: below this it is a hole, and else opaque, so that edges are sharp. (number; at least 0 and at most 1; default none)
         y_up: Whether y is up in the file, and not z. (true or false; default false)
         smooth: Whether it is shaded as if it were smooth: by the normals that its file has, or else by the mean of those of the faces around each vertex. (true or false; default true)
         """
     @staticmethod
-    def glb(file: str | PathLike[str], material: Material | None = ..., scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ...) -> Mesh:
-        r"""The triangles of a glTF file in its binary form (.glb, of at most 1 GiB), with its materials, images and colours of vertices: a room that was made elsewhere. glTF has y up, which becomes z. What is clear in the file is left out, because meshes are opaque. There may be 20 million triangles, of which those of a mesh count at each place where it is, 2,000 materials, and images in PNG or JPEG, of at most 4096 × 4096 pixels each and 256 million in all.
+    def gltf(file: str | PathLike[str], material: Material | None = ..., scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ...) -> Mesh:
+        r"""The triangles of a glTF 2.0 file (.glb, or .gltf with files in its folder and in folders within it), with its materials, images, maps of normals, opacity and colours of vertices: a room that was made elsewhere. glTF has y up, which becomes z. Skins are bent by their joints as the file has them. What is clear in the file is left out, because meshes are opaque. There may be 20 million triangles, of which those of a mesh count at each place where it is, 2,000 materials, and images in PNG or JPEG, of at most 4096 × 4096 pixels each and 256 million in all; each file may have 1 GiB.
 
-        file: The file, which holds its images, too. (name of a file)
+        file: The file. (name of a file)
         material: What all of it is made of, clear parts too, in place of the file's materials. (opaque material; default none)
         scale: A factor of its size. (number; positive; default 1)
         rotate_z: Angle by which it is turned about the z axis, anticlockwise from above. (number in degrees; default 0)
         translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])
         """
     @staticmethod
-    def floor(material: Material, height: float | None = ..., size: float | None = ...) -> Mesh:
+    def floor(material: Material, height: float | None = ..., size: float | None = ..., opacity: float | Number | None = ..., opacity_cutoff: float | None = ...) -> Mesh:
         r"""A horizontal square about the z axis.
 
         material: What it is made of. (opaque material)
         height: Its z. (number in m; at least -1e15 and at most 1e15; default 0)
         size: Length of its edges. (number in m; more than 0 and at most 1e15; default 1000)
+        opacity: How opaque it is: 0 is a hole. In between, light goes through by the rest, as through a fine net. (number or field; at least 0 and at most 1; default none)
+        opacity_cutoff: With an opacity: below this it is a hole, and else opaque, so that edges are sharp. (number; at least 0 and at most 1; default none)
         """
     @staticmethod
-    def backdrop(material: Material, height: float | None = ..., distance: float | None = ..., radius: float | None = ..., width: float | None = ..., front: float | None = ..., wall: float | None = ...) -> Mesh:
+    def backdrop(material: Material, height: float | None = ..., distance: float | None = ..., radius: float | None = ..., width: float | None = ..., front: float | None = ..., wall: float | None = ..., opacity: float | Number | None = ..., opacity_cutoff: float | None = ...) -> Mesh:
         r"""A photographer's sweep: a floor that curves up into a wall behind, without an edge.
 
         material: What it is made of. (opaque material)
@@ -2977,6 +3005,8 @@ class meshes:
         width: Length along x. (number in m; more than 0 and at most 1e15; default 100)
         front: The floor begins at y = −front. (number in m; more than 0 and at most 1e15; default 50)
         wall: Height of the wall above the curve. (number in m; more than 0 and at most 1e15; default 50)
+        opacity: How opaque it is: 0 is a hole. In between, light goes through by the rest, as through a fine net. (number or field; at least 0 and at most 1; default none)
+        opacity_cutoff: With an opacity: below this it is a hole, and else opaque, so that edges are sharp. (number; at least 0 and at most 1; default none)
         """
 
 class cameras:

@@ -1,4 +1,5 @@
-"""What a scene has beside its object: materials, textures, numbers, lights, meshes, cameras and the image's settings."""
+"""What a scene has beside its object: materials, textures, numbers, maps of normals, lights, meshes, cameras and the
+image's settings."""
 
 from __future__ import annotations
 
@@ -11,6 +12,7 @@ _CHECKED_AS = {
     "Materials": ("material", lambda text: text),
     "Textures": ("material", lambda text: {"diffuse": {"color": text}}),
     "Numbers": ("material", lambda text: {"clear": {"ior": 1, "film_thickness": text}}),
+    "Maps of normals": ("material", lambda text: {"diffuse": {"color": [1, 1, 1], "normal_map": text}}),
     "Lights": ("lights", lambda text: {"lights": [text]}),
     "Meshes": ("meshes", lambda text: [text]),
     "Cameras": ("camera", lambda text: text),
@@ -19,7 +21,8 @@ _CHECKED_AS = {
 
 
 class Part:
-    """A material, texture, number, light, mesh, camera, or the image's settings: a kind and its parameters, checked."""
+    """A material, texture, number, map of normals, light, mesh, camera, or the image's settings: a kind and its
+    parameters, checked."""
 
     __slots__ = ("_text", "chapter", "kind")
 
@@ -32,12 +35,12 @@ class Part:
         raise AttributeError(f"a {self.kind} cannot be changed; make another one")
 
     def written(self):
-        """As JSON has it."""
-        return json.loads(self._text)
+        """As JSON has it: {kind: parameters}, or the parameters alone where there is one kind only."""
+        return self.parameters() if self.chapter == "Maps of normals" else json.loads(self._text)
 
     def parameters(self):
         """What was said of it."""
-        return self.written()[self.kind]
+        return json.loads(self._text)[self.kind]
 
     def __eq__(self, other):
         return isinstance(other, Part) and (self.chapter, self._text) == (other.chapter, other._text)
@@ -89,6 +92,7 @@ meshes = _module("Meshes: what stands beside the object.", _chapters["Meshes"])
 cameras = _module("Cameras.", _chapters["Cameras"])
 image = _function(_chapters["Image"][0])
 image.__name__ = image.__qualname__ = "image"
+normal_map = _function(_chapters["Maps of normals"][0])
 
 
 def part_of(chapter, value):

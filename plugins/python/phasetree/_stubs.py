@@ -28,6 +28,7 @@ _TYPES = {
     "list of [number, number]": "Sequence[Sequence[float]] | np.ndarray",
     "list of [number, colour or texture]": "Sequence[Sequence[float | str | Sequence[float] | Texture]]",
     "opaque material": "Material",
+    "normal map": "NormalMap",
     "list of fields": "Field | Expression | Sequence[Field | Expression]",
     "list of objects": "Object | Sequence[Object]",
 }
@@ -35,6 +36,7 @@ _CLASSES = {
     "Materials": "Material",
     "Textures": "Texture",
     "Numbers": "Number",
+    "Maps of normals": "NormalMap",
     "Lights": "Light",
     "Meshes": "Mesh",
     "Cameras": "Camera",
@@ -180,8 +182,8 @@ def text():
     for name, function in _trees.functions.items():
         out += _overloads(name, function) + "\n"
     for title, kinds in _parts.kinds.items():
-        if title == "Image":
-            out += _function("image", kinds[0], _CLASSES[title]) + "\n"
+        if title in ("Image", "Maps of normals"):
+            out += _function(kinds[0].name if title != "Image" else "image", kinds[0], _CLASSES[title]) + "\n"
             continue
         out += f"class {title.lower()}:\n"
         for kind in kinds:

@@ -17,9 +17,9 @@ Number at(std::string_view bytes, std::size_t offset) {
 
 std::size_t columns_of(const Item& accessor) {
     const std::string type = accessor.text("type");
-    for (const auto& [name, columns] : {std::pair("SCALAR", 1), {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}})
+    for (const auto& [name, columns] : {std::pair("SCALAR", 1), {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}})
         if (type == name) return static_cast<std::size_t>(columns);
-    accessor.fail("has a \"type\" other than SCALAR, VEC2, VEC3 and VEC4");
+    accessor.fail("has a \"type\" other than SCALAR, VEC2, VEC3, VEC4 and MAT4");
 }
 
 }  // namespace
@@ -43,7 +43,9 @@ Accessor::Accessor(const Document& document, std::size_t index, const Item& from
     if (!view) fail("has no bytes in the file");
     bytes_ = document.view(*view, item_);
     const std::size_t offset = item_.index("byteOffset").value_or(0), row = size * columns_;
-    stride_ = document.element("bufferViews", *view, item_).index("byteStride").value_or(row);
+    // 0 is what programs write that mean none.
+    const std::size_t stride = document.element("bufferViews", *view, item_).index("byteStride").value_or(0);
+    stride_ = stride == 0 ? row : stride;
     if (stride_ < row) fail("has rows that overlap");
     if (offset > bytes_.size()) fail("is beyond the end of its bytes");
     bytes_.remove_prefix(offset);

@@ -1,4 +1,5 @@
-// An accessor of glTF: rows of one to four numbers each, which lie at equal distances in the bytes of the file.
+// An accessor of glTF: rows of one to four numbers each, or of 16 of a matrix, which lie at equal distances in the
+// bytes of the file.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +18,7 @@ class Accessor {
     std::size_t rows() const { return rows_; }
     std::size_t columns() const { return columns_; }
     bool is_normalised() const { return is_normalised_; }
-    /// Integers are divided by the largest number of their type if they are meant so.
+    /// Integers of an accessor that is `normalized` are divided by the largest number of their type.
     double number(std::size_t row, std::size_t column) const;
     /// Of rows of one whole number.
     std::uint32_t index(std::size_t row) const;

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace phasetree::tracer::gltf {
 
@@ -18,15 +19,16 @@ constexpr std::uint32_t json_chunk = 0x4E4F534A, bytes_chunk = 0x004E4942;
 
 constexpr std::size_t most_bytes = std::size_t{64} << 20;
 constexpr std::size_t deepest = 64;
+constexpr std::size_t most_bytes_of_buffers = std::size_t{1} << 30;
 
 // What files may require: what is read, and what changes how a surface looks but not where it is. A file that requires
 // another extension is refused, by its name if it is one of those that programs write.
-constexpr std::array<std::string_view, 3> known_extensions{"KHR_texture_transform", "KHR_mesh_quantization",
-                                                           "KHR_lights_punctual"};
+constexpr std::array<std::string_view, 4> known_extensions{"KHR_texture_transform", "KHR_mesh_quantization",
+                                                           "KHR_lights_punctual", "EXT_mesh_gpu_instancing"};
 constexpr std::string_view known_beginning = "KHR_materials_";
 constexpr std::array<std::string_view, 5> unread_extensions{"KHR_draco_mesh_compression", "EXT_meshopt_compression",
-                                                            "KHR_texture_basisu", "EXT_texture_webp",
-                                                            "EXT_mesh_gpu_instancing"};
+                                                            "KHR_meshopt_compression", "KHR_texture_basisu",
+                                                            "EXT_texture_webp"};
 
 // How deep the brackets of a JSON text are within each other, those in strings aside.
 std::size_t depth_of(std::string_view text) {
@@ -66,7 +68,7 @@ std::string_view next_chunk(std::string_view& content, std::uint32_t& type) {
 }  // namespace
 
 void Item::fail(std::string_view what) const {
-    throw GltfError(fmt::format("{} {}", place_, what));
+    throw GltfError(fmt::format("{} {}", place_.empty() ? "the file" : place_, what));
 }
 
 const Json* Item::find(std::string_view key) const {
@@ -78,7 +80,7 @@ const Json* Item::find(std::string_view key) const {
 std::optional<Item> Item::item(std::string_view key) const {
     const Json* found = find(key);
     if (!found) return std::nullopt;
-    return Item(*found, fmt::format("\"{}\" of {}", key, place_));
+    return Item(*found, fmt::format("{}{}{}", place_, place_.empty() ? "" : ".", key));
 }
 
 std::vector<Item> Item::items(std::string_view key) const {
@@ -86,7 +88,8 @@ std::vector<Item> Item::items(std::string_view key) const {
     const Json* list = find(key);
     if (!list) return all;
     if (!list->is_array()) fail(fmt::format("should have a list \"{}\"", key));
-    for (const Json& json : *list) all.emplace_back(json, fmt::format("\"{}\" {} of {}", key, all.size(), place_));
+    for (const Json& json : *list)
+        all.emplace_back(json, fmt::format("{}{}{}[{}]", place_, place_.empty() ? "" : ".", key, all.size()));
     return all;
 }
 
@@ -126,7 +129,8 @@ std::optional<std::vector<float>> Item::numbers(std::string_view key, std::size_
     for (const Json& json : *list) {
         const double value = json.is_number() ? json.get<double>() : std::nan("");
         // A coordinate of a scene is at most 10¹⁵, and squares of these are floats.
-        if (!(std::abs(value) <= 1e15)) fail(fmt::format("has something else than a number in \"{}\"", key));
+        if (!(std::abs(value) <= 1e15))
+            fail(fmt::format("should have numbers in \"{}\", each at most 10¹⁵ in magnitude", key));
         all.push_back(static_cast<float>(value));
     }
     return all;
@@ -155,6 +159,11 @@ bool Item::flag(std::string_view key) const {
     return found && found->is_boolean() && found->get<bool>();
 }
 
+std::size_t Item::count(std::string_view key) const {
+    const Json* list = find(key);
+    return list && list->is_array() ? list->size() : 0;
+}
+
 std::vector<std::string> Item::keys() const {
     std::vector<std::string> all;
     if (json_->is_object())
@@ -162,26 +171,41 @@ std::vector<std::string> Item::keys() const {
     return all;
 }
 
-Document::Document(std::string_view content) {
-    if (content.starts_with("{") || content.starts_with("\xEF\xBB\xBF{"))
-        throw GltfError("it is a .gltf file, whose parts are files of their own; save it as glTF Binary, .glb");
-    if (!content.starts_with("glTF")) throw GltfError("it is no .glb file: it does not begin with \"glTF\"");
-    if (number_at(content, 4) != 2) throw GltfError("it is not of version 2 of glTF");
-    content = content.substr(0, number_at(content, 8));
-    content.remove_prefix(std::min<std::size_t>(12, content.size()));
-    std::uint32_t type = 0;
-    const std::string_view text = next_chunk(content, type);
-    if (type != json_chunk) throw GltfError("it does not begin with a document");
+Document::Document(std::string_view content, ReadFile read_file) : read_file_(std::move(read_file)) {
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    std::string_view text = content;
+    if (content.starts_with("glTF")) {
+        if (number_at(content, 4) != 2) throw GltfError("it is not of version 2 of glTF");
+        content = content.substr(0, number_at(content, 8));
+        content.remove_prefix(std::min<std::size_t>(12, content.size()));
+        std::uint32_t type = 0;
+        text = next_chunk(content, type);
+        if (type != json_chunk) throw GltfError("it does not begin with a document");
+        if (content.size() >= 8) {
+            const std::string_view chunk = next_chunk(content, type);
+            if (type == bytes_chunk) bytes_ = chunk;
+        }
+    } else if (text.starts_with(byte_order_mark)) {
+        text.remove_prefix(byte_order_mark.size());
+    }
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    if (first == std::string_view::npos || text[first] != '{')
+        throw GltfError("it is no glTF file: it begins neither with \"glTF\" nor with a document");
     if (text.size() > most_bytes) throw GltfError("its document is larger than 64 MiB");
-    // Each bracket takes much memory while another is within it.
+    // Each level costs memory in the parser.
     if (depth_of(text) > deepest) throw GltfError(fmt::format("its document is deeper than {} brackets", deepest));
     json_ = Json::parse(text, nullptr, false);
-    if (!json_.is_object()) throw GltfError("its document is not JSON");
-    if (content.size() >= 8) {
-        const std::string_view chunk = next_chunk(content, type);
-        if (type == bytes_chunk) bytes_ = chunk;
-    }
+    if (!json_.is_object()) throw GltfError("its document is not JSON in UTF-8");
+    check_version();
     check_extensions();
+    read_buffers();
+}
+
+void Document::check_version() const {
+    const auto asset = root().item("asset");
+    const std::string version = asset ? asset->text("version") : "", least = asset ? asset->text("minVersion") : "";
+    if (!version.starts_with("2.") || (!least.empty() && least != "2.0"))
+        throw GltfError("it is not of version 2.0 of glTF");
 }
 
 void Document::check_extensions() const {
@@ -203,18 +227,55 @@ std::size_t Document::count(const char* list) const {
 }
 
 Item Document::element(const char* list, std::size_t index, const Item& from) const {
-    if (index >= count(list)) from.fail(fmt::format("refers to {} of \"{}\", which has {}", index, list, count(list)));
-    return {json_[list][index], fmt::format("{} of \"{}\"", index, list)};
+    if (index >= count(list)) from.fail(fmt::format("refers to {}[{}], but there are {}", list, index, count(list)));
+    return {json_[list][index], fmt::format("{}[{}]", list, index)};
+}
+
+std::string Document::bytes_of(const Item& named) const {
+    try {
+        return bytes_of_uri(named.text("uri"), read_file_);
+    } catch (const GltfError& e) {
+        named.fail(e.what());
+    }
+}
+
+void Document::read_buffers() {
+    buffers_.resize(count("buffers"));
+    std::size_t left = most_bytes_of_buffers;
+    for (std::size_t i = 0; i < buffers_.size(); ++i) {
+        const Item buffer = element("buffers", i, root());
+        if (!buffer.has("uri")) continue;
+        buffers_[i] = bytes_of(buffer);
+        if (buffers_[i].size() > left) throw GltfError("its buffers are larger than 1 GiB in all");
+        left -= buffers_[i].size();
+    }
 }
 
 std::string_view Document::view(std::size_t index, const Item& from) const {
     const Item view = element("bufferViews", index, from);
-    const std::size_t buffer = view.needed_index("buffer");
-    if (buffer != 0 || element("buffers", buffer, view).has("uri"))
-        view.fail("is in another file; save all in one file, .glb");
+    const std::size_t number = view.needed_index("buffer");
+    const Item buffer = element("buffers", number, view);
+    const bool is_named = buffer.has("uri");
+    if (!is_named && number != 0) buffer.fail("has no bytes");
+    const std::string_view bytes = is_named ? std::string_view(buffers_[number]) : bytes_;
     const std::size_t offset = view.index("byteOffset").value_or(0), length = view.needed_index("byteLength");
-    if (offset > bytes_.size() || length > bytes_.size() - offset) view.fail("is beyond the end of the file");
-    return bytes_.substr(offset, length);
+    if (offset > bytes.size() || length > bytes.size() - offset) view.fail("is beyond the end of its buffer");
+    return bytes.substr(offset, length);
+}
+
+std::string Document::image(const Item& image) const {
+    if (const auto number = image.index("bufferView")) return std::string(view(*number, image));
+    if (!image.has("uri")) image.fail("has no bytes");
+    return bytes_of(image);
+}
+
+std::vector<std::string> Document::files() const {
+    std::vector<std::string> files;
+    for (const char* list : {"buffers", "images"})
+        for (const Item& item : root().items(list))
+            if (std::string path = item.has("uri") ? path_of_uri(item.text("uri")) : ""; !path.empty())
+                files.push_back(std::move(path));
+    return files;
 }
 
 }  // namespace phasetree::tracer::gltf

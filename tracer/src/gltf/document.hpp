@@ -1,4 +1,5 @@
-// A glTF 2.0 file in its binary form, .glb: a JSON document, and bytes behind it to which the document refers.
+// A glTF 2.0 file: a JSON document, and bytes to which it refers. In the binary form, .glb, they stand behind it in
+// the same file; else, in .gltf, they are files beside it, or are written into the document.
 //
 // What the document says is never believed: each number that is asked for has the type and the bounds that glTF gives
 // it, or GltfError says what is wrong. Messages tell the place in the document and quote nothing else of the file.
@@ -14,6 +15,9 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "gltf/uri.hpp"
 
 namespace phasetree::tracer::gltf {
 
@@ -25,7 +29,7 @@ class GltfError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// An object of the document, such as {"mesh": 3}, with its place in the document for messages.
+/// An object of the document, such as {"mesh": 3}, with its place in the document, such as nodes[2], for messages.
 class Item {
   public:
     Item(const Json& json, std::string place) : json_(&json), place_(std::move(place)) {}
@@ -47,6 +51,8 @@ class Item {
     /// A text; empty if there is none.
     std::string text(std::string_view key) const;
     bool flag(std::string_view key) const;
+    /// How many elements the list has that is called so.
+    std::size_t count(std::string_view key) const;
     /// The names of the members.
     std::vector<std::string> keys() const;
 
@@ -57,27 +63,37 @@ class Item {
     std::size_t index_of(const Json&, std::string_view key) const;
 
     const Json* json_;
-    std::string place_;
+    std::string place_;  ///< empty of all the file
 };
 
 class Document {
   public:
-    /// `content` is all of the file, which must outlive the document.
-    explicit Document(std::string_view content);
+    /// `content` is all of the file, which must outlive the document. Files that it names are asked for by `read_file`:
+    /// those of buffers at once, those of images by image(). Without it a file that names others is refused.
+    explicit Document(std::string_view content, ReadFile read_file = {});
 
-    Item root() const { return {json_, "the file"}; }
+    Item root() const { return {json_, ""}; }
     /// How many elements one of the document's lists has, such as "meshes".
     std::size_t count(const char* list) const;
     /// An element of such a list. `from` refers to it.
     Item element(const char* list, std::size_t index, const Item& from) const;
     /// All bytes of an element of "bufferViews", whatever its "byteStride" is.
     std::string_view view(std::size_t index, const Item& from) const;
+    /// All bytes of an element of "images".
+    std::string image(const Item& image) const;
+    /// The paths of all files that the document names, from its folder.
+    std::vector<std::string> files() const;
 
   private:
+    void check_version() const;
     void check_extensions() const;
+    void read_buffers();
+    std::string bytes_of(const Item& named) const;
 
     Json json_;
-    std::string_view bytes_;
+    ReadFile read_file_;
+    std::string_view bytes_;            // of a .glb file
+    std::vector<std::string> buffers_;  // of those that are named by a URI
 };
 
 }  // namespace phasetree::tracer::gltf

@@ -11,7 +11,7 @@ namespace phasetree::tracer::gltf {
 namespace {
 
 constexpr std::size_t repeat = 10497;  // the number that glTF has for it, from OpenGL
-constexpr float as_good_as_black = 0.01f;
+constexpr float faintest = 0.01f;
 
 bool repeats(const Document& document, const Item& source) {
     const auto number = source.index("sampler");
@@ -42,19 +42,23 @@ Coordinates coordinates_of(const Item& texture) {
     return c;
 }
 
-ReadImage Images::read(const Item& texture, ImageMeaning meaning) {
+std::optional<ReadImage> Images::read(const Item& texture, ImageMeaning meaning) {
     const Item source = document_.element("textures", texture.needed_index("index"), texture);
     const auto number = source.index("source");
-    if (!number) source.fail("has no image that this program reads; images are PNG or JPEG");
+    if (!number) return std::nullopt;
     ReadImage& read = images_[{*number, meaning}];
+    if (read.is_missing) return std::nullopt;
     if (!read.image) {
         const Item item = document_.element("images", *number, source);
-        const auto view = item.index("bufferView");
-        if (!view) item.fail("is in another file; save all in one file, .glb");
+        const std::string bytes = document_.image(item);
         try {
             read.image = std::make_shared<const TextureImage>(
-                texture_image_in_memory(document_.view(*view, item), fmt::format("image {}", *number), meaning));
+                texture_image_in_memory(bytes, fmt::format("images[{}]", *number), meaning));
         } catch (const std::runtime_error& e) {
+            if (meaning == ImageMeaning::alpha) {
+                read.is_missing = true;
+                return std::nullopt;
+            }
             throw GltfError(e.what());
         }
         if (read.image->pixels() > pixels_left_)
@@ -64,7 +68,7 @@ ReadImage Images::read(const Item& texture, ImageMeaning meaning) {
         read.mean = read.image->mean();
         read.green = read.image->range(1);
         read.blue = read.image->range(2);
-        read.shining = read.image->share_above(as_good_as_black);
+        read.lit_share = read.image->share_above(faintest);
     }
     ReadImage found = read;
     found.repeats = repeats(document_, source);

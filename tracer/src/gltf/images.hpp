@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "gltf/document.hpp"
@@ -30,11 +31,12 @@ Coordinates coordinates_of(const Item& texture);
 
 struct ReadImage {
     std::shared_ptr<const TextureImage> image;
-    glm::vec3 mean{0};    ///< of all pixels
-    glm::vec2 green{0};   ///< the least and the greatest value of the second channel
-    glm::vec2 blue{0};    ///< and of the third
-    float shining = 0;    ///< the part of the pixels that are not as good as black
-    bool repeats = true;  ///< whether the file, too, repeats it beyond its edges
+    glm::vec3 mean{0};        ///< of all pixels
+    glm::vec2 green{0};       ///< the least and the greatest value of the second channel
+    glm::vec2 blue{0};        ///< and of the third
+    float lit_share = 0;      ///< the part of the pixels of which a channel is at least 0.01, linear
+    bool is_missing = false;  ///< then there is nothing else: alpha was wanted, and there is none
+    bool repeats = true;      ///< whether the file, too, repeats it beyond its edges
 };
 
 class Images {
@@ -43,8 +45,10 @@ class Images {
     Images(const Document& document, std::size_t most_pixels)
         : document_(document), most_pixels_(most_pixels), pixels_left_(most_pixels) {}
 
-    /// The image of a material's reference to a texture. Throws GltfError.
-    ReadImage read(const Item& texture, ImageMeaning meaning);
+    /// The image of a material's reference to a texture; nothing if the texture has none that can be read, or none with
+    /// alpha where that is wanted. Throws GltfError. An image that is wanted with two meanings is read twice, and
+    /// counts twice.
+    std::optional<ReadImage> read(const Item& texture, ImageMeaning meaning);
 
   private:
     const Document& document_;

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "shading/bsdf/coating_albedo.hpp"
@@ -41,13 +44,13 @@ float largest(const glm::vec3& v) {
     return std::max({v.x, v.y, v.z});
 }
 
-bool is_clear(const Item& material, const Item& pbr) {
-    const auto extensions = material.item("extensions");
-    if (const auto t = extensions ? extensions->item("KHR_materials_transmission") : std::nullopt)
-        if (t->number("transmissionFactor", 0) > 0.5f) return true;
-    const auto color = pbr.numbers("baseColorFactor", 4);
-    return material.text("alphaMode") == "BLEND" && color && (*color)[3] < 0.5f;
-}
+// Extensions whose meaning is taken, here or in document.cpp.
+constexpr std::array<std::string_view, 4> read_extensions{"KHR_materials_transmission", "KHR_materials_ior",
+                                                          "KHR_materials_emissive_strength",
+                                                          "KHR_materials_pbrSpecularGlossiness"};
+
+// What shines less than this is shown as what it is made of.
+constexpr float faintest_radiance = 0.01f;
 
 }  // namespace
 
@@ -56,87 +59,199 @@ Conductor metal_of(const glm::vec3& reflectance) {
     return {.eta = glm::vec3(1), .k = 2.0f * glm::sqrt(r / (1.0f - r))};
 }
 
-ReadImage Materials::image(const Item& texture, ImageMeaning meaning, NamedMaterial& of) {
-    const Coordinates coordinates = coordinates_of(texture);
-    if (!of.coordinates)
-        of.coordinates = coordinates;
-    else if (!(*of.coordinates == coordinates))
-        of.not_shown.push_back("uses several sets or transforms of coordinates; the first is used for all images");
-    const ReadImage read = images_.read(texture, meaning);
-    if (!read.repeats) of.not_shown.push_back("has an image that does not repeat in the file; here it does");
-    return read;
-}
+// What a material's maker knows while it is at work.
+class Materials::Maker {
+  public:
+    Maker(Images& images, const Item& item, NamedMaterial& made) : images_(images), item_(item), made_(made) {}
+
+    void make(bool by_vertices) {
+        const auto given = item_.item("pbrMetallicRoughness");
+        static const Json none = Json::object();
+        const Item pbr = given.value_or(Item(none, "the default material"));
+        if (is_clear()) {
+            made_.is_clear = true;
+            return;
+        }
+        say_what_is_not_read();
+        if (!given && extension("KHR_materials_pbrSpecularGlossiness"))
+            lost("says its colour by specular and glossiness, which is not read; here it is a white metal");
+        read_color(pbr, by_vertices);
+        read_opacity(pbr);
+        read_roughness(pbr);
+        const std::optional<NormalMap> normals = normal_map();
+        if (!shines(normals.has_value()))
+            made_.material = metallic_ >= 0.5f ? Material(metal(by_vertices, normals)) : Material(coated(normals));
+    }
+
+  private:
+    void lost(std::string sentence) { made_.not_shown.push_back(std::move(sentence)); }
+
+    std::optional<Item> extension(std::string_view name) const {
+        const auto extensions = item_.item("extensions");
+        return extensions ? extensions->item(name) : std::nullopt;
+    }
+
+    // An image for what is one number or one colour of a material here, such as how much of it is metal.
+    std::optional<ReadImage> image(const std::optional<Item>& texture, ImageMeaning meaning) {
+        if (!texture) return std::nullopt;
+        const auto read = images_.read(*texture, meaning);
+        if (!read && meaning != ImageMeaning::alpha)
+            lost("has an image of a kind that is not read, which is ignored; PNG and JPEG are read");
+        return read;
+    }
+    // An image that is laid on meshes. All of a material lie by the same coordinates.
+    void lay(const Item& texture, const ReadImage& image) {
+        const Coordinates coordinates = coordinates_of(texture);
+        if (!made_.coordinates)
+            made_.coordinates = coordinates;
+        else if (!(*made_.coordinates == coordinates))
+            lost("uses several sets or transforms of coordinates; the first is used for all images");
+        if (!image.repeats) lost("has an image that does not repeat in the file; here it does");
+    }
+
+    bool is_clear() {
+        const auto transmission = extension("KHR_materials_transmission");
+        if (!transmission) return false;
+        float part = transmission->number("transmissionFactor", 0);
+        if (part > 0)
+            if (const auto read = image(transmission->item("transmissionTexture"), ImageMeaning::numbers))
+                part *= read->mean.x;
+        if (part >= 0.5f) return true;
+        if (part > 0) lost("lets some light through in the file; here it lets none");
+        return false;
+    }
+
+    void say_what_is_not_read() {
+        if (const auto extensions = item_.item("extensions"))
+            for (const std::string& key : extensions->keys())
+                // Messages quote nothing of files but what is known to be a name.
+                if (is_name(key) && std::ranges::find(read_extensions, key) == read_extensions.end())
+                    lost(fmt::format("has {}, which is not read", key));
+        if (item_.has("occlusionTexture")) return;  // darkness that is baked; here light is traced
+    }
+    static bool is_name(const std::string& key) {
+        return key.size() <= 60 && key.starts_with("KHR_materials_") &&
+               std::ranges::all_of(key, [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
+    }
+
+    void read_color(const Item& pbr, bool by_vertices) {
+        color_.by_vertices = by_vertices;
+        if (const auto factor = pbr.numbers("baseColorFactor", 4))
+            mean_color_ = color_.factor = fraction({(*factor)[0], (*factor)[1], (*factor)[2]});
+        const auto texture = pbr.item("baseColorTexture");
+        if (const auto read = image(texture, ImageMeaning::colors)) {
+            color_.image = read->image;
+            color_read_ = *read;
+            mean_color_ *= read->mean;
+        }
+    }
+    void read_opacity(const Item& pbr) {
+        const std::string mode = item_.text("alphaMode");
+        if (mode != "MASK" && mode != "BLEND") return;
+        const auto factor = pbr.numbers("baseColorFactor", 4);
+        const float alpha = factor ? std::clamp((*factor)[3], 0.0f, 1.0f) : 1.0f;
+        Opacity opacity{.number = alpha};
+        const auto texture = pbr.item("baseColorTexture");
+        const auto read = image(texture, ImageMeaning::alpha);
+        if (read) {
+            opacity.number =
+                MeshImageNumber{.range = {0, alpha}, .image = read->image, .of_image = read->image->range(0)};
+            lay(*texture, *read);
+        }
+        if (mode == "MASK") opacity.cutoff = std::clamp(item_.number("alphaCutoff", 0.5f), 0.0f, 1.0f);
+        if (least_of(opacity.number) < opacity.cutoff.value_or(1)) made_.opacity = opacity;
+    }
+
+    void read_roughness(const Item& pbr) {
+        metallic_ = std::clamp(pbr.number("metallicFactor", 1), 0.0f, 1.0f);
+        const float roughness = std::clamp(pbr.number("roughnessFactor", 1), 0.0f, 1.0f);
+        alpha_ = roughness * roughness;
+        const auto texture = pbr.item("metallicRoughnessTexture");
+        const auto read = image(texture, ImageMeaning::numbers);
+        if (read) {
+            if (metallic_ * (read->blue.y - read->blue.x) > 0.5f)
+                lost(metallic_ * read->mean.z >= 0.5f ? "is partly a metal; here all of it is"
+                                                      : "is partly a metal; here none of it is");
+            metallic_ *= read->mean.z;
+        }
+        // Of a metal's colour the mean alone is used.
+        if (color_.image && metallic_ < 0.5f) lay(*pbr.item("baseColorTexture"), color_read_);
+        if (read) {
+            lay(*texture, *read);
+            alpha_ = MeshImageNumber{.range = {0, roughness},
+                                     .image = read->image,
+                                     .of_image = read->green,
+                                     .channel = 1,
+                                     .is_squared = true};
+        }
+    }
+
+    std::optional<NormalMap> normal_map() {
+        const auto texture = item_.item("normalTexture");
+        const auto read = image(texture, ImageMeaning::numbers);
+        if (!read) return std::nullopt;
+        lay(*texture, *read);
+        return NormalMap{.strength = std::clamp(texture->number("scale", 1), 0.0f, 100.0f), .image = read->image};
+    }
+
+    bool shines(bool has_normals) {
+        const glm::vec3 emissive = item_.vec3("emissiveFactor", glm::vec3(0));
+        const auto strength = extension("KHR_materials_emissive_strength");
+        const float radiance = largest(emissive) * (strength ? strength->number("emissiveStrength", 1) : 1.0f);
+        if (!(radiance > 0)) return false;
+        if (radiance < faintest_radiance) {
+            lost("shines a little in the file; here it is dark");
+            return false;
+        }
+        TintedMeshImage light{.factor = fraction(emissive / largest(emissive))};
+        const auto texture = item_.item("emissiveTexture");
+        if (const auto read = image(texture, ImageMeaning::colors)) {
+            if (read->lit_share < 0.5f) {
+                if (read->lit_share > 0) lost("shines in some places; here it is dark");
+                return false;
+            }
+            light.image = read->image;
+            lay(*texture, *read);
+        }
+        if (has_normals) lost("shines and has a map of normals, which is ignored");
+        made_.material = Glowing{.light = light, .radiance = radiance, .color = color_};
+        return true;
+    }
+
+    Conductor metal(bool by_vertices, const std::optional<NormalMap>& normals) {
+        made_.reflectance = mean_color_;
+        Conductor metal = metal_of(mean_color_);
+        metal.roughness = alpha_;
+        metal.perturbation = normals;
+        if (color_.image || by_vertices) lost("is a metal of several colours; here it has their mean");
+        return metal;
+    }
+
+    Coated coated(const std::optional<NormalMap>& normals) {
+        const auto of_glass = extension("KHR_materials_ior");
+        // 0 is glTF's word for a surface whose reflection other extensions say.
+        const float wanted = of_glass ? of_glass->number("ior", 1.5f) : 1.5f;
+        const float ior = wanted > 0 ? std::clamp(wanted, 1.01f, 4.0f) : 1.5f;
+        color_.internal_reflectance = CoatingAlbedo(ior, 0.0f).at(0.0f).internal().x;
+        return {.color = color_, .ior = ior, .roughness = alpha_, .perturbation = normals};
+    }
+
+    Images& images_;
+    const Item& item_;
+    NamedMaterial& made_;
+    TintedMeshImage color_;
+    ReadImage color_read_;
+    glm::vec3 mean_color_{1};
+    float metallic_ = 1;
+    Number alpha_ = 1.0f;  // of GGX
+};
 
 NamedMaterial Materials::make(const std::optional<std::size_t>& index, bool by_vertices, const Item& from) {
     static const Json none = Json::object();
     NamedMaterial made;
     const Item item = index ? document_.element("materials", *index, from) : Item(none, "the default material");
     made.name = index ? name_of(item, *index) : "without material";
-    const auto given = item.item("pbrMetallicRoughness");
-    const Item pbr = given.value_or(Item(none, "the default material"));
-    made.is_clear = is_clear(item, pbr);
-    if (made.is_clear) return made;
-    const auto extensions = item.item("extensions");
-    const auto extension = [&](std::string_view name) { return extensions ? extensions->item(name) : std::nullopt; };
-    const auto lost = [&](const char* sentence) { made.not_shown.emplace_back(sentence); };
-    if (item.text("alphaMode") == "MASK" || item.text("alphaMode") == "BLEND")
-        lost("is partly transparent in the file; here it is opaque everywhere");
-    if (item.has("normalTexture")) lost("has a normal map, which is ignored");
-    if (!given && extension("KHR_materials_pbrSpecularGlossiness"))
-        lost("says its colour by specular and glossiness, which is not read; here it is a white metal");
-
-    TintedMeshImage color{.by_vertices = by_vertices};
-    glm::vec3 mean_color(1);
-    if (const auto factor = pbr.numbers("baseColorFactor", 4))
-        mean_color = color.factor = fraction({(*factor)[0], (*factor)[1], (*factor)[2]});
-    if (const auto texture = pbr.item("baseColorTexture")) {
-        const ReadImage read = image(*texture, ImageMeaning::colors, made);
-        color.image = read.image;
-        mean_color *= read.mean;
-    }
-
-    float metallic = std::clamp(pbr.number("metallicFactor", 1), 0.0f, 1.0f);
-    const float roughness = std::clamp(pbr.number("roughnessFactor", 1), 0.0f, 1.0f);
-    Number alpha = roughness * roughness;
-    if (const auto texture = pbr.item("metallicRoughnessTexture")) {
-        const ReadImage read = image(*texture, ImageMeaning::numbers, made);
-        alpha = MeshImageNumber{
-            .range = {0, roughness}, .image = read.image, .of_image = read.green, .channel = 1, .is_squared = true};
-        if (metallic * (read.blue.y - read.blue.x) > 0.5f)
-            lost(metallic * read.mean.z >= 0.5f ? "is partly a metal; here all of it is"
-                                                : "is partly a metal; here none of it is");
-        metallic *= read.mean.z;
-    }
-
-    const glm::vec3 emissive = item.vec3("emissiveFactor", glm::vec3(0));
-    const auto strength = extension("KHR_materials_emissive_strength");
-    const float radiance = largest(emissive) * (strength ? strength->number("emissiveStrength", 1) : 1.0f);
-    TintedMeshImage light;
-    bool shines = radiance > 0;
-    if (const auto texture = shines ? item.item("emissiveTexture") : std::nullopt) {
-        const ReadImage read = image(*texture, ImageMeaning::colors, made);
-        light.image = read.image;
-        shines = read.shining >= 0.5f;
-        if (!shines && read.shining > 0) lost("shines in some places; here it is dark");
-    }
-
-    if (shines) {
-        light.factor = fraction(emissive / largest(emissive));
-        made.material = Glowing{.light = light, .radiance = radiance, .color = color};
-    } else if (metallic >= 0.5f) {
-        made.reflectance = mean_color;
-        Conductor metal = metal_of(mean_color);
-        metal.roughness = alpha;
-        made.material = metal;
-        if (color.image || by_vertices) lost("is a metal of several colours; here it has their mean");
-    } else {
-        const auto of_glass = extension("KHR_materials_ior");
-        // 0 is glTF's word for a surface whose reflection other extensions say.
-        const float wanted = of_glass ? of_glass->number("ior", 1.5f) : 1.5f;
-        const float ior = wanted > 0 ? std::clamp(wanted, 1.01f, 4.0f) : 1.5f;
-        color.internal_reflectance = CoatingAlbedo(ior, 0.0f).at(0.0f).internal().x;
-        made.material = Coated{.color = color, .ior = ior, .roughness = alpha};
-    }
+    Maker(images_, item, made).make(by_vertices);
     return made;
 }
 

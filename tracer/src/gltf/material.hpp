@@ -1,7 +1,7 @@
 // The materials of a glTF file as ours.
 //
-// glTF mixes two surfaces by a number, `metallic`: a diffuse one under a clear coat, and a metal. Ours are one of the
-// two, by which there is more of in the mean.
+// glTF mixes two surfaces by a number, `metallic`: a diffuse one under a clear coat, and a metal. Here a material is
+// the one or the other: the metal if the mean of `metallic` is at least a half.
 //   * The dielectric is a `coated` material, whose coat has the index 1.5, or that of KHR_materials_ior, and whose base
 //     is as bright as makes it look as glTF's colour under the coat (texture/tinted_mesh_image.hpp). α of GGX is the
 //     square of glTF's roughness, as glTF has it, too.
@@ -10,8 +10,9 @@
 //     for conductors of a given reflectance). It has one colour, the mean of its image and of its vertices' colours.
 //   * What emits light is `glowing`, and reflects the rest diffusely, whatever its roughness; but if an image says that
 //     most of it emits none, as of lamps on a machine, it is a surface like others, and dark.
-// Clear materials (KHR_materials_transmission, or blended with an opacity below a half) have no counterpart: meshes are
-// opaque. Their triangles are left out, to be modelled as a clear phase of the tree.
+//   * Where the alpha of its colour counts, meshes have holes, or let light through by the rest (shading/opacity.hpp).
+// Clear materials (a KHR_materials_transmission of a half and more) have no counterpart: meshes are opaque. Their
+// triangles are left out, to be modelled as a clear phase of the tree.
 #pragma once
 
 #include <cstddef>
@@ -23,6 +24,7 @@
 #include "gltf/document.hpp"
 #include "gltf/images.hpp"
 #include "shading/material.hpp"
+#include "shading/opacity.hpp"
 
 namespace phasetree::tracer::gltf {
 
@@ -30,6 +32,7 @@ struct NamedMaterial {
     std::string name;
     bool is_clear = false;  ///< then there is nothing else
     Material material{};
+    std::optional<Opacity> opacity{};          ///< none is opaque everywhere
     std::optional<Coordinates> coordinates{};  ///< there are none without images
     std::optional<glm::vec3> reflectance{};    ///< of a metal at normal incidence
     std::vector<std::string> not_shown{};      ///< sentences about what is lost
@@ -49,8 +52,7 @@ class Materials {
     NamedMaterial make(const std::optional<std::size_t>& index, bool by_vertices, const Item& from);
 
   private:
-    // What is common to all images of a material: they lie by the same coordinates.
-    ReadImage image(const Item& texture, ImageMeaning meaning, NamedMaterial& of);
+    class Maker;
 
     const Document& document_;
     Images images_;

@@ -1,8 +1,14 @@
 #include "gltf/placed_meshes.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <map>
+#include <optional>
 #include <utility>
+
+#include "gltf/accessor.hpp"
 
 namespace phasetree::tracer::gltf {
 
@@ -24,44 +30,142 @@ glm::dmat4 placement_of(const Item& node) {
     return glm::scale(m, glm::dvec3(node.vec3("scale", glm::vec3(1))));
 }
 
-}  // namespace
+// A matrix for each instance of a node (EXT_mesh_gpu_instancing), or one that changes nothing.
+class Instances {
+  public:
+    Instances(const Document& document, const Item& node) {
+        const auto extensions = node.item("extensions");
+        const auto instancing = extensions ? extensions->item("EXT_mesh_gpu_instancing") : std::nullopt;
+        const auto attributes = instancing ? instancing->item("attributes") : std::nullopt;
+        if (!attributes) return;
+        const auto find = [&](const char* name, std::size_t columns) {
+            std::optional<Accessor> found;
+            if (!attributes->has(name)) return found;
+            found.emplace(document, attributes->needed_index(name), *attributes);
+            if (found->columns() != columns) found->fail("has rows of another length than instances have");
+            if (count_ && *count_ != found->rows()) found->fail("has not as many rows as the others of the instances");
+            count_ = found->rows();
+            return found;
+        };
+        translations_ = find("TRANSLATION", 3);
+        rotations_ = find("ROTATION", 4);
+        scales_ = find("SCALE", 3);
+    }
 
-std::vector<PlacedMesh> placed_meshes(const Document& document) {
-    const Item root = document.root();
-    std::vector<PlacedMesh> placed;
-    if (document.count("scenes") == 0) return placed;
-    const Item scene = document.element("scenes", root.index("scene").value_or(0), root);
+    std::size_t count() const { return count_.value_or(1); }
+    glm::dmat4 placement(std::size_t i) const {
+        const auto of = [&](const std::optional<Accessor>& numbers, std::size_t column, double otherwise) {
+            const double value = numbers ? numbers->number(i, column) : otherwise;
+            if (!(std::abs(value) <= 1e15)) numbers->fail("has something that is no number, or is beyond 10¹⁵");
+            return value;
+        };
+        const auto vector = [&](const std::optional<Accessor>& numbers, double otherwise) {
+            return glm::dvec3(of(numbers, 0, otherwise), of(numbers, 1, otherwise), of(numbers, 2, otherwise));
+        };
+        glm::dmat4 m = glm::translate(glm::dmat4(1), vector(translations_, 0));
+        const glm::dquat rotation(of(rotations_, 3, 1), of(rotations_, 0, 0), of(rotations_, 1, 0),
+                                  of(rotations_, 2, 0));
+        if (glm::length(rotation) > 0) m = m * glm::mat4_cast(glm::normalize(rotation));
+        return glm::scale(m, vector(scales_, 1));
+    }
 
+  private:
+    std::optional<Accessor> translations_, rotations_, scales_;
+    std::optional<std::size_t> count_;
+};
+
+class Scene {
+  public:
+    Scene(const Document& document, std::size_t most)
+        : document_(document), most_(most), placements_(document.count("nodes")) {}
+
+    std::vector<PlacedMesh> read() {
+        const Item root = document_.root();
+        if (document_.count("scenes") == 0) return {};
+        add_nodes(document_.element("scenes", root.index("scene").value_or(0), root), "nodes", glm::dmat4(1));
+        while (!next_.empty()) {
+            const Next n = std::move(next_.back());
+            next_.pop_back();
+            const glm::dmat4 placement = n.placement * placement_of(n.node);
+            placements_[n.number] = placement;
+            if (const auto mesh = n.node.index("mesh")) add_mesh(*mesh, n.node, placement);
+            add_nodes(n.node, "children", placement);
+        }
+        // A joint may come after the mesh.
+        for (const auto& [placed, node] : with_skins_) placed_[placed].joints = joints(node.needed_index("skin"), node);
+        return std::move(placed_);
+    }
+
+  private:
     struct Next {
+        std::size_t number;
         Item node;
         glm::dmat4 placement;
     };
-    std::vector<Next> next;
-    // Nodes are trees, so each is met once. Without that a small file could hold endlessly many.
-    std::vector<bool> is_met(document.count("nodes"), false);
-    const auto add = [&](const Item& parent, std::string_view list, const glm::dmat4& placement) {
+
+    void add_nodes(const Item& parent, std::string_view list, const glm::dmat4& placement) {
         const std::vector<std::size_t> children = parent.indices(list);
         for (auto child = children.rbegin(); child != children.rend(); ++child) {
-            const Item node = document.element("nodes", *child, parent);
-            if (is_met[*child]) node.fail("is at two places of the tree of nodes");
-            is_met[*child] = true;
-            next.push_back({node, placement});
+            const Item node = document_.element("nodes", *child, parent);
+            // Nodes are trees, so each is met once. Without that a small file could hold endlessly many.
+            if (placements_[*child]) node.fail("is at two places of the tree of nodes");
+            placements_[*child] = placement;
+            next_.push_back({*child, node, placement});
         }
-    };
-    add(scene, "nodes", glm::dmat4(1));
-    while (!next.empty()) {
-        const Next n = std::move(next.back());
-        next.pop_back();
-        const Item& node = n.node;
-        const glm::dmat4 placement = n.placement * placement_of(node);
-        if (const auto mesh = node.index("mesh")) {
-            (void)document.element("meshes", *mesh, node);
-            const bool is_skinned = node.has("skin");
-            placed.push_back({*mesh, is_skinned ? glm::dmat4(1) : placement, is_skinned});
-        }
-        add(node, "children", placement);
     }
-    return placed;
+
+    void add_mesh(std::size_t mesh, const Item& node, const glm::dmat4& placement) {
+        const Item item = document_.element("meshes", mesh, node);
+        const bool is_morphed = has_weights(node.has("weights") ? node : item);
+        const Instances instances(document_, node);
+        for (std::size_t i = 0; i < instances.count(); ++i) {
+            if (placed_.size() == most_) throw GltfError("it has too many meshes");
+            if (node.has("skin")) with_skins_.emplace_back(placed_.size(), node);
+            placed_.push_back({mesh, placement * instances.placement(i), nullptr, is_morphed});
+        }
+    }
+
+    static bool has_weights(const Item& item) {
+        const auto weights = item.numbers("weights", item.count("weights"));
+        return weights && std::ranges::any_of(*weights, [](float w) { return w != 0.0f; });
+    }
+
+    std::shared_ptr<const Joints> joints(std::size_t skin, const Item& node) {
+        std::shared_ptr<const Joints>& known = joints_[skin];
+        if (known) return known;
+        const Item item = document_.element("skins", skin, node);
+        std::optional<Accessor> inverses;
+        if (item.has("inverseBindMatrices"))
+            inverses.emplace(document_, item.needed_index("inverseBindMatrices"), item);
+        Joints joints;
+        for (const std::size_t joint : item.indices("joints")) {
+            if (joint >= placements_.size() || !placements_[joint]) item.fail("has a joint that is not in the scene");
+            joints.push_back(*placements_[joint] * (inverses ? matrix(*inverses, joints.size()) : glm::dmat4(1)));
+        }
+        return known = std::make_shared<const Joints>(std::move(joints));
+    }
+
+    static glm::dmat4 matrix(const Accessor& accessor, std::size_t row) {
+        if (accessor.columns() != 16) accessor.fail("has no matrices");
+        if (row >= accessor.rows()) accessor.fail("has less matrices than there are joints");
+        glm::dmat4 m;
+        for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = accessor.number(row, static_cast<std::size_t>(i));
+        return m;
+    }
+
+    const Document& document_;
+    std::size_t most_;
+    std::vector<std::optional<glm::dmat4>> placements_;  // of the nodes that were met
+    std::vector<Next> next_;
+    std::vector<PlacedMesh> placed_;
+    std::vector<std::pair<std::size_t, Item>> with_skins_;
+    std::map<std::size_t, std::shared_ptr<const Joints>> joints_;
+};
+
+}  // namespace
+
+std::vector<PlacedMesh> placed_meshes(const Document& document, std::size_t most) {
+    return Scene(document, most).read();
 }
 
 }  // namespace phasetree::tracer::gltf

@@ -3,20 +3,27 @@
 
 #include <cstddef>
 #include <glm/mat4x4.hpp>
+#include <memory>
 #include <vector>
 
 #include "gltf/document.hpp"
 
 namespace phasetree::tracer::gltf {
 
+/// For each joint of a skin the matrix from the space of the mesh to that of the file. A vertex goes to where the mean
+/// of these matrices takes it, weighted by its own weights: linear blend skinning.
+using Joints = std::vector<glm::dmat4>;
+
 struct PlacedMesh {
     std::size_t mesh = 0;  ///< its number in "meshes"
     glm::dmat4 placement{1};
-    bool is_skinned = false;  ///< then it is where its skin is at rest, and no node moves it
+    std::shared_ptr<const Joints>
+        joints{};             ///< of a mesh with a skin, whose vertices have joints; its placement is not used
+    bool is_morphed = false;  ///< whether the node has weights of morph targets that are not 0
 };
 
-/// All of the file's scene, or of the first one if it names none, in the order of its nodes. Animations, the joints of
-/// skins and the weights of morph targets are passed over. Throws GltfError.
-std::vector<PlacedMesh> placed_meshes(const Document&);
+/// All of the file's scene, or of the first one if it names none, in the order of its nodes, each in the pose that its
+/// nodes have without animations. Throws GltfError, also for more than `most` of them.
+std::vector<PlacedMesh> placed_meshes(const Document&, std::size_t most);
 
 }  // namespace phasetree::tracer::gltf

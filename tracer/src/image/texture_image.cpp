@@ -80,12 +80,13 @@ class TakenImage {
         if (read.width > largest_texture_image || read.height > largest_texture_image)
             throw std::runtime_error(fmt::format("it is larger than {0} × {0}", largest_texture_image));
         header_ = read;
+        if (meaning_ == ImageMeaning::alpha && read.channels % 2 != 0) throw std::runtime_error("it has no alpha");
         return static_cast<int>(channels());
     }
     void add(std::span<const float> values) {
         for (std::size_t i = 0; i + channels() <= values.size(); i += channels()) {
-            const std::uint16_t first = linear(values[i]);
-            if (channels() == 1)
+            const std::uint16_t first = linear(values[meaning_ == ImageMeaning::alpha ? i + channels() - 1 : i]);
+            if (channels() == 1 || meaning_ == ImageMeaning::alpha)
                 pixels_.push_back({first, first, first});
             else
                 pixels_.push_back({first, linear(values[i + 1]), linear(values[i + 2])});
@@ -94,7 +95,10 @@ class TakenImage {
     TextureImage image() && { return {header_.width, header_.height, std::move(pixels_)}; }
 
   private:
-    std::size_t channels() const { return header_.channels < 3 ? 1 : 3; }
+    std::size_t channels() const {
+        if (meaning_ == ImageMeaning::alpha) return header_.channels < 4 ? 2 : 4;
+        return header_.channels < 3 ? 1 : 3;
+    }
     std::uint16_t linear(float v) const {
         const bool is_encoded = meaning_ == ImageMeaning::colors && !header_.is_floating_point;
         return stored(is_encoded ? linear_from_srgb(v) : v);

@@ -3,7 +3,7 @@
 // Pixels are linear Rec.709 in [0, 1], interpolated bilinearly between their centres. Files that store integers, such
 // as PNG and JPEG, are taken to be sRGB-encoded and decoded before anything is interpolated, floating-point ones to be
 // linear as they are; grey is grey. They are kept in sixteen bits a channel. Images of numbers that are no colours,
-// such as a roughness, are taken as they are stored.
+// such as a roughness or the alpha beside colours, are taken as they are stored.
 #pragma once
 
 #include <array>
@@ -54,7 +54,11 @@ inline constexpr Parameter image_file_parameter{
     "file", "", "An image of any format that OpenImageIO reads, at most 4096 × 4096 pixels."};
 
 /// What an image's integers mean; floating-point numbers mean themselves.
-enum class ImageMeaning { colors, numbers };
+enum class ImageMeaning {
+    colors,
+    numbers,
+    alpha,  ///< the alpha beside the colours, as numbers in all three channels; an image without is refused
+};
 
 /// Throws ParameterError of "file".
 std::shared_ptr<const TextureImage> load_texture_image(const std::filesystem::path& file,

@@ -60,7 +60,7 @@ Mesh MeshFileParameters::read(std::string_view ending) const {
     const auto fail = [&](std::string_view what) {
         return ParameterError("file", fmt::format("{} {}", file.string(), what));
     };
-    check_ending_of_mesh(file, ending);
+    check_ending_of_mesh(file, {ending});
     MeshFile read;
     try {
         read = read_mesh_file(file, read_whole_file(file, most_bytes_of_mesh, "1 GiB"), most_triangles);
@@ -69,7 +69,7 @@ Mesh MeshFileParameters::read(std::string_view ending) const {
     }
     if (read.mesh.triangles.empty()) throw fail("has no faces");
 
-    Mesh mesh{.material = material};
+    Mesh mesh{.opacity = opacity(), .material = material};
     mesh.vertices = std::move(read.mesh.vertices);
     mesh.triangles = std::move(read.mesh.triangles);
     if (smooth) mesh.normals = std::move(read.normals);

@@ -36,7 +36,7 @@ void put_file(Checksum& sum, const std::filesystem::path& path) {
 
 void put_string(Checksum& sum, const Document& document, Value value) {
     put(sum, value.string());
-    if (const auto path = named_file(document, value)) put_file(sum, *path);
+    for (const std::filesystem::path& path : named_files(document, value)) put_file(sum, path);
 }
 
 void put_value(Checksum& sum, const Document& document, Value value) {

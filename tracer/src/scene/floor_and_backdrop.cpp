@@ -8,7 +8,7 @@ namespace phasetree::tracer {
 Mesh FloorParameters::made() const {
     const float z = height;
     const float half = 0.5f * size;
-    Mesh mesh{.material = material};
+    Mesh mesh{.opacity = opacity(), .material = material};
     mesh.vertices = {{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}};
     mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
     return mesh;
@@ -26,7 +26,7 @@ Mesh BackdropParameters::made() const {
         profile.push_back({glm::vec2(distance - radius, z + radius) - radius * n, n});
     }
     profile.push_back({{distance, z + radius + wall}, {-1, 0}});
-    Mesh mesh{.material = material};
+    Mesh mesh{.opacity = opacity(), .material = material};
     for (const auto& [p, n] : profile) {
         for (const float x : {-half, half}) {
             mesh.vertices.emplace_back(x, p.x, p.y);

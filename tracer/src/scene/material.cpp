@@ -24,7 +24,11 @@ std::vector<std::string_view> names_of_glasses() {
     return names;
 }
 
-std::optional<Bump> BumpParameters::bump() const {
+std::optional<NormalPerturbation> PerturbationParameters::perturbation() const {
+    if (bump_texture && normal_map)
+        throw ParameterError("normal_map", "normals are turned by a \"bump\" or a \"normal_map\"; give one of the two",
+                             ParameterError::Place::key);
+    if (normal_map) return *normal_map;
     if (bump_texture && !bump_height) throw ParameterError("bump", "\"bump\" needs a \"bump_height\"");
     if (bump_height && !bump_texture)
         throw ParameterError("bump_height", "\"bump_height\" is that of a \"bump\", which is missing",
@@ -89,12 +93,12 @@ Conductor ConductorParameters::made() const {
                              ParameterError::Place::key);
     if (metal) {
         const Metal found = find_metal(*metal).value();
-        return {found.eta, found.k, roughness, film(), found.spectrum, bump(), grain(roughness)};
+        return {found.eta, found.k, roughness, film(), found.spectrum, perturbation(), grain(roughness)};
     }
     if (!eta && !k) throw std::invalid_argument("the conductor material needs a \"metal\", or \"eta\" and \"k\"");
     if (!eta) throw ParameterError("eta", "is missing");
     if (!k) throw ParameterError("k", "is missing");
-    return {*eta, *k, roughness, film(), {}, bump(), grain(roughness)};
+    return {*eta, *k, roughness, film(), {}, perturbation(), grain(roughness)};
 }
 
 Material read_material(const Document& document, Value value) {

@@ -41,13 +41,14 @@ struct FilmParameters {
     }
 };
 
-// What opaque materials have of bumps on their surface.
-struct BumpParameters {
+// What opaque materials have that turns the normals of their surface.
+struct PerturbationParameters {
     std::optional<Texture> bump_texture{};
     std::optional<float> bump_height{};
+    std::optional<NormalMap> normal_map{};
 
     template <class P, class V>
-    static void bump_parameters(V&& v) {
+    static void perturbation_parameters(V&& v) {
         v(&P::bump_texture,
           Parameter{"bump", "",
                     "A texture whose bright places look as if they stood out of the surface: it turns the surface's "
@@ -56,9 +57,12 @@ struct BumpParameters {
         v(&P::bump_height,
           Parameter{"bump_height", "m", "With a bump: how much higher white is than black; lower, if it is negative.",
                     Limits{.low = -farthest, .high = farthest}, true});
+        v(&P::normal_map, Parameter{"normal_map", "",
+                                    "In place of a bump: an image of normals, on a mesh that has texture coordinates.",
+                                    limits::any, true});
     }
-    /// Throws ParameterError if there is one of the two alone.
-    std::optional<Bump> bump() const;
+    /// Throws ParameterError for what does not fit together.
+    std::optional<NormalPerturbation> perturbation() const;
 };
 
 struct ClearParameters : FilmParameters {
@@ -159,7 +163,7 @@ struct ClearParameters : FilmParameters {
     Clear made() const;
 };
 
-struct DiffuseParameters : BumpParameters {
+struct DiffuseParameters : PerturbationParameters {
     static constexpr KindInfo info{"diffuse", "Paper, plaster, clay: reflects alike in all directions."};
 
     Texture color{};
@@ -173,9 +177,9 @@ struct DiffuseParameters : BumpParameters {
           Parameter{"roughness", "",
                     "How rough it is: 0 is Lambert's law, 1 clay or the moon, whose rim is as bright as its middle.",
                     limits::fraction, true});
-        bump_parameters<P>(v);
+        perturbation_parameters<P>(v);
     }
-    Diffuse made() const { return {color, roughness, bump()}; }
+    Diffuse made() const { return {color, roughness, perturbation()}; }
 };
 
 std::vector<std::string_view> names_of_metals();
@@ -212,7 +216,7 @@ struct GrainParameters {
     std::optional<Grain> grain(const Number& roughness) const;
 };
 
-struct ConductorParameters : FilmParameters, BumpParameters, GrainParameters {
+struct ConductorParameters : FilmParameters, PerturbationParameters, GrainParameters {
     static constexpr KindInfo info{"conductor",
                                    "Metal: one of the measured ones, or with a complex index η + ik of one's own."};
 
@@ -232,12 +236,12 @@ struct ConductorParameters : FilmParameters, BumpParameters, GrainParameters {
         v(&P::roughness, roughness_parameter);
         grain_parameters<P>(v);
         film_parameters<P>(v);
-        bump_parameters<P>(v);
+        perturbation_parameters<P>(v);
     }
     Conductor made() const;
 };
 
-struct CoatedParameters : FilmParameters, BumpParameters {
+struct CoatedParameters : FilmParameters, PerturbationParameters {
     static constexpr KindInfo info{"coated", "Varnished or glazed: a clear coat over a diffuse base."};
 
     Texture color{};
@@ -251,9 +255,9 @@ struct CoatedParameters : FilmParameters, BumpParameters {
         v(&P::ior, Parameter{"ior", "", "Refractive index of the coat.", Limits{.low = 1, .high = 4}, true});
         v(&P::roughness, roughness_parameter);
         film_parameters<P>(v);
-        bump_parameters<P>(v);
+        perturbation_parameters<P>(v);
     }
-    Coated made() const { return {color, ior, roughness, film(), bump()}; }
+    Coated made() const { return {color, ior, roughness, film(), perturbation()}; }
 };
 
 struct GlowingParameters {

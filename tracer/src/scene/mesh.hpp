@@ -1,22 +1,26 @@
-// Triangles beside the object, of one opaque material.
+// Triangles beside the object, of one opaque material; they may have holes.
 #pragma once
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "phasetree/io/mesh.hpp"
 #include "shading/material.hpp"
+#include "shading/opacity.hpp"
 
 namespace phasetree::tracer {
 
 struct Mesh {
     std::vector<glm::vec3> vertices{};
     std::vector<glm::uvec3> triangles{};
-    AtCorners<glm::vec3> normals{};  // of length 1, or 0 where there is none; with them the shading is smooth
-    AtCorners<glm::vec2> uv{};       // texture coordinates, by which images can be laid on it
-    AtCorners<glm::vec3> colors{};   // linear Rec.709, each channel in [0, 1]
+    AtCorners<glm::vec3> normals{};    // of length 1, or 0 where there is none; with them the shading is smooth
+    AtCorners<glm::vec2> uv{};         // texture coordinates, by which images can be laid on it
+    AtCorners<glm::vec3> colors{};     // linear Rec.709, each channel in [0, 1]
+    AtCorners<glm::vec4> tangents{};   // mesh_tangents.hpp; only where the material has a map of normals
+    std::optional<Opacity> opacity{};  // none is opaque everywhere
     Material material{};
     // Its kind, with a number behind it from the second of a kind on: "floor", "obj 2". Behind that of a part of a .glb
     // file is the name of its material: "glb wood".

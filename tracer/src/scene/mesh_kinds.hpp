@@ -16,6 +16,26 @@ namespace phasetree::tracer {
 
 inline constexpr Parameter mesh_material_parameter{"material", "", "What it is made of."};
 
+// What meshes that are of one material have of holes.
+struct OpacityParameters {
+    std::optional<Number> opacity_number{};
+    std::optional<float> opacity_cutoff{};
+
+    template <class P, class V>
+    static void opacity_parameters(V&& v) {
+        v(&P::opacity_number,
+          Parameter{"opacity", "",
+                    "How opaque it is: 0 is a hole. In between, light goes through by the rest, as through a fine net.",
+                    limits::fraction, true});
+        v(&P::opacity_cutoff,
+          Parameter{"opacity_cutoff", "",
+                    "With an opacity: below this it is a hole, and else opaque, so that edges are sharp.",
+                    limits::fraction, true});
+    }
+    /// Throws ParameterError for a cutoff alone.
+    std::optional<Opacity> opacity() const;
+};
+
 // Where a mesh from a file goes.
 template <class P, class V>
 void placement_parameters(V&& v) {
@@ -27,7 +47,7 @@ void placement_parameters(V&& v) {
 }
 
 // What meshes from files of one mesh have.
-struct MeshFileParameters {
+struct MeshFileParameters : OpacityParameters {
     Material material{};
     std::filesystem::path file{};
     float scale = 1.0f;
@@ -41,6 +61,7 @@ struct MeshFileParameters {
         v(&P::material, mesh_material_parameter);
         v(&P::file, Parameter{"file", "", "The file."});
         placement_parameters<P>(v);
+        opacity_parameters<P>(v);
         v(&P::y_up, Parameter{"y_up", "", "Whether y is up in the file, and not z.", limits::any, true});
         v(&P::smooth, Parameter{"smooth", "",
                                 "Whether it is shaded as if it were smooth: by the normals that its file has, or else "
@@ -86,14 +107,15 @@ struct StlParameters : MeshFileParameters {
     Mesh made() const { return read(".stl"); }
 };
 
-struct GlbParameters {
+struct GltfParameters {
     static constexpr KindInfo info{
-        "glb",
-        "The triangles of a glTF file in its binary form (.glb, of at most 1 GiB), with its materials, images and "
-        "colours of vertices: a room that was made elsewhere. glTF has y up, which becomes z. What is clear in the "
-        "file is left out, because meshes are opaque. There may be 20 million triangles, of which those of a mesh "
-        "count at each place where it is, 2,000 materials, and images in PNG or JPEG, of at most 4096 × 4096 pixels "
-        "each and 256 million in all."};
+        "gltf",
+        "The triangles of a glTF 2.0 file (.glb, or .gltf with files in its folder and in folders within it), with its "
+        "materials, images, maps of normals, opacity and colours of vertices: a room that was made elsewhere. glTF has "
+        "y up, which becomes z. Skins are bent by their joints as the file has them. What is clear in the file is left "
+        "out, because meshes are opaque. There may be 20 million triangles, of which those of a mesh count at each "
+        "place where it is, 2,000 materials, and images in PNG or JPEG, of at most 4096 × 4096 pixels each and 256 "
+        "million in all; each file may have 1 GiB."};
 
     std::optional<Material> material{};
     std::filesystem::path file{};
@@ -103,18 +125,18 @@ struct GlbParameters {
 
     template <class V>
     static void parameters(V&& v) {
-        using P = GlbParameters;
+        using P = GltfParameters;
         v(&P::material,
           Parameter{"material", "", "What all of it is made of, clear parts too, in place of the file's materials.",
                     limits::any, true});
-        v(&P::file, Parameter{"file", "", "The file, which holds its images, too."});
+        v(&P::file, Parameter{"file", "", "The file."});
         placement_parameters<P>(v);
     }
     MeshGroup made() const;
 };
 
 // A square on the plane z = height.
-struct FloorParameters {
+struct FloorParameters : OpacityParameters {
     static constexpr KindInfo info{"floor", "A horizontal square about the z axis."};
 
     Material material{};
@@ -127,12 +149,13 @@ struct FloorParameters {
         v(&P::material, mesh_material_parameter);
         v(&P::height, Parameter{"height", "m", "Its z.", coordinate, true});
         v(&P::size, Parameter{"size", "m", "Length of its edges.", extent, true});
+        opacity_parameters<P>(v);
     }
     Mesh made() const;
 };
 
 // A photographer's sweep: a floor at z = height that curves up into a wall at y = distance, without an edge.
-struct BackdropParameters {
+struct BackdropParameters : OpacityParameters {
     static constexpr KindInfo info{
         "backdrop", "A photographer's sweep: a floor that curves up into a wall behind, without an edge."};
 
@@ -154,11 +177,12 @@ struct BackdropParameters {
         v(&P::width, Parameter{"width", "m", "Length along x.", extent, true});
         v(&P::front, Parameter{"front", "m", "The floor begins at y = −front.", extent, true});
         v(&P::wall, Parameter{"wall", "m", "Height of the wall above the curve.", extent, true});
+        opacity_parameters<P>(v);
     }
     Mesh made() const;
 };
 
 using MeshKinds =
-    TypeList<ObjParameters, PlyParameters, StlParameters, GlbParameters, FloorParameters, BackdropParameters>;
+    TypeList<ObjParameters, PlyParameters, StlParameters, GltfParameters, FloorParameters, BackdropParameters>;
 
 }  // namespace phasetree::tracer

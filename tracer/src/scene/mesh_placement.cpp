@@ -1,22 +1,22 @@
 #include "scene/mesh_placement.hpp"
 
 #include <algorithm>
-#include <array>
 #include <string>
+#include <utility>
 
 namespace phasetree::tracer {
 
-void check_ending_of_mesh(const std::filesystem::path& file, std::string_view ending) {
+void check_ending_of_mesh(const std::filesystem::path& file, std::initializer_list<std::string_view> endings) {
     std::string found = file.extension().string();
     std::ranges::transform(found, found.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-    if (found == ending) return;
-    constexpr std::array<std::string_view, 4> known{".obj", ".ply", ".stl", ".glb"};
+    if (std::ranges::find(endings, found) != endings.end()) return;
+    std::string wanted;
+    for (const std::string_view ending : endings) wanted += fmt::format("{}{}", wanted.empty() ? "" : " or ", ending);
     std::string hint;
-    if (found == ".gltf")
-        hint = "; a .gltf file has its parts in files of their own, so save it as glTF Binary, .glb";
-    else if (std::ranges::find(known, found) != known.end())
-        hint = fmt::format("; for {} use the mesh \"{}\"", file.string(), found.substr(1));
-    throw ParameterError("file", fmt::format("the name of the file must end with {}{}", ending, hint));
+    for (const auto& [ending, kind] :
+         {std::pair(".obj", "obj"), {".ply", "ply"}, {".stl", "stl"}, {".glb", "gltf"}, {".gltf", "gltf"}})
+        if (found == ending) hint = fmt::format("; for {} use the mesh \"{}\"", file.string(), kind);
+    throw ParameterError("file", fmt::format("the name of the file must end with {}{}", wanted, hint));
 }
 
 }  // namespace phasetree::tracer

@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <glm/trigonometric.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <initializer_list>
 #include <string_view>
 
 #include "parameters/world_limits.hpp"
@@ -19,8 +21,8 @@ namespace phasetree::tracer {
 
 inline constexpr std::uintmax_t most_bytes_of_mesh = std::uintmax_t{1} << 30;
 
-/// Throws ParameterError of "file" unless the name of the file has that ending, such as ".obj", in any case.
-void check_ending_of_mesh(const std::filesystem::path& file, std::string_view ending);
+/// Throws ParameterError of "file" unless the name of the file has one of these endings, such as ".obj", in any case.
+void check_ending_of_mesh(const std::filesystem::path& file, std::initializer_list<std::string_view> endings);
 
 class MeshPlacement {
   public:
@@ -45,6 +47,7 @@ class MeshPlacement {
                         "file", fmt::format("{} has a coordinate that is no number or beyond 10¹⁵", file.string()));
         }
         for (glm::vec3& n : mesh.normals.values) n = turned(n);
+        for (glm::vec4& t : mesh.tangents.values) t = glm::vec4(turned(glm::vec3(t)), t.w);
     }
 
   private:

@@ -5,9 +5,18 @@
 
 #include "phasetree/io/read_kind.hpp"
 #include "scene/mesh_kinds.hpp"
+#include "scene/mesh_tangents.hpp"
 #include "scene/read_parts.hpp"
 
 namespace phasetree::tracer {
+
+std::optional<Opacity> OpacityParameters::opacity() const {
+    if (!opacity_number && opacity_cutoff)
+        throw ParameterError("opacity_cutoff", "\"opacity_cutoff\" is that of an \"opacity\", which is missing",
+                             ParameterError::Place::key);
+    if (!opacity_number) return std::nullopt;
+    return Opacity{*opacity_number, opacity_cutoff};
+}
 
 namespace {
 
@@ -17,6 +26,16 @@ void check_textures(const Mesh& mesh) {
         throw ParameterError("material", fmt::format("\"mesh_image\" needs texture coordinates, which not all faces of "
                                                      "\"{}\" have; \"image\" needs none",
                                                      mesh.name));
+    if (mesh.uv.empty() && mesh.opacity && has_kind<MeshImageNumber>(mesh.opacity->number))
+        throw ParameterError(
+            "opacity",
+            fmt::format("\"mesh_image\" needs texture coordinates, which not all faces of \"{}\" have", mesh.name));
+    if (mesh.uv.empty() && normal_map_of(mesh.material))
+        throw ParameterError(
+            "material",
+            fmt::format("a \"normal_map\" needs texture coordinates, which not all faces of \"{}\" have; a \"bump\" by "
+                        "a texture of another kind needs none",
+                        mesh.name));
     if (mesh.colors.empty() && has_texture<VertexColorTexture>(mesh.material))
         throw ParameterError(
             "material", fmt::format("the texture \"vertex_color\" needs colours, which not all vertices of \"{}\" have",
@@ -48,7 +67,10 @@ MeshGroup read_meshes(const Document& document, Value list) {
             MeshGroup group =
                 read_kind<Kind>(document, member, fmt::format("the {}", Kind::info.name), [&](const Kind& kind) {
                     MeshGroup made = group_of(kind.made(), name);
-                    for (const Mesh& mesh : made.meshes) check_textures(mesh);
+                    for (Mesh& mesh : made.meshes) {
+                        check_textures(mesh);
+                        if (normal_map_of(mesh.material) && mesh.tangents.empty()) mesh.tangents = tangents_of(mesh);
+                    }
                     return made;
                 });
             std::ranges::move(group.meshes, std::back_inserter(all.meshes));

@@ -1,27 +1,14 @@
 #include "scene/named_files.hpp"
 
+#include <optional>
 #include <system_error>
 
+#include "scene/gltf_files.hpp"
 #include "scene/placed.hpp"
 
 namespace phasetree::tracer {
 
 namespace {
-
-std::uint64_t bytes_named_in(const Document& document, Value value) {
-    std::uint64_t bytes = 0;
-    if (value.kind() == Kind::string) {
-        std::error_code problem;
-        const auto path = named_file(document, value);
-        const std::uintmax_t size = path ? std::filesystem::file_size(*path, problem) : 0;
-        return problem ? 0 : size;
-    }
-    if (value.kind() == Kind::array || value.kind() == Kind::object)
-        for (const Value member : value) bytes += bytes_named_in(document, member);
-    return bytes;
-}
-
-}  // namespace
 
 std::optional<std::filesystem::path> named_file(const Document& document, Value string) {
     if (string.string().empty()) return std::nullopt;
@@ -32,6 +19,33 @@ std::optional<std::filesystem::path> named_file(const Document& document, Value 
     } catch (const SceneError&) {  // not within the folder that files must lie in, so none that is read
     }
     return std::nullopt;
+}
+
+std::uint64_t bytes_named_in(const Document& document, Value value) {
+    std::uint64_t bytes = 0;
+    if (value.kind() == Kind::string) {
+        for (const std::filesystem::path& path : named_files(document, value)) {
+            std::error_code problem;
+            const std::uintmax_t size = std::filesystem::file_size(path, problem);
+            bytes += problem ? 0 : size;
+        }
+        return bytes;
+    }
+    if (value.kind() == Kind::array || value.kind() == Kind::object)
+        for (const Value member : value) bytes += bytes_named_in(document, member);
+    return bytes;
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> named_files(const Document& document, Value string) {
+    std::vector<std::filesystem::path> files;
+    if (const auto path = named_file(document, string)) {
+        files.push_back(*path);
+        if (path->extension() == ".gltf")
+            for (std::filesystem::path& file : files_of_gltf(*path)) files.push_back(std::move(file));
+    }
+    return files;
 }
 
 void each_document(const Document& document, const std::function<void(const Document&)>& f) {

@@ -4,15 +4,16 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <optional>
+#include <vector>
 
 #include "phasetree/io/document.hpp"
 
 namespace phasetree::tracer {
 
-/// The regular file that a string names, if there is one. Which strings name files only their readers know: one that
-/// is a file's name by chance counts, too. No file that lies outside of the folder that files must lie in is asked for.
-std::optional<std::filesystem::path> named_file(const Document& document, Value string);
+/// The regular file that a string names, if there is one, and those that it names itself. Which strings name files only
+/// their readers know: one that is a file's name by chance counts, too. No file that lies outside of the folder that
+/// files must lie in is asked for.
+std::vector<std::filesystem::path> named_files(const Document& document, Value string);
 
 /// Calls f with each document from which a scene takes an object, after `document` itself. Throws SceneError for one
 /// that cannot be read.

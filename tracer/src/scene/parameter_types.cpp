@@ -182,6 +182,16 @@ ValueType NumberType::describe(const Parameter& p) {
             schema_of_either(ParameterType<float, Parameter>::describe(p).schema, schema_reference("number_texture"))};
 }
 
+using NormalMapType = ParameterType<tracer::NormalMap, Parameter>;
+
+tracer::NormalMap NormalMapType::read(const Document& document, Value value, std::string_view, const Parameter&) {
+    return read_kind<tracer::NormalMap>(document, value, "the normal map", prepared<tracer::NormalMap>);
+}
+
+ValueType NormalMapType::describe(const Parameter&) {
+    return {"normal map", schema_reference("normal_map")};
+}
+
 using FieldType = ParameterType<Field, Parameter>;
 
 Field FieldType::read(const Document& document, Value value, std::string_view, const Parameter&) {

@@ -81,6 +81,14 @@ struct ParameterType<tracer::Number, Parameter> {
     }
 };
 
+// The image is read.
+template <>
+struct ParameterType<tracer::NormalMap, Parameter> {
+    static tracer::NormalMap read(const Document&, Value, std::string_view what, const Parameter&);
+    static ValueType describe(const Parameter&);
+    static std::string written(const tracer::NormalMap&) { return "none"; }
+};
+
 // Not a clear one: meshes have no inside.
 template <>
 struct ParameterType<tracer::Material, Parameter> {

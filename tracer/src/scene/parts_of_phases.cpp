@@ -46,7 +46,7 @@ struct EightPoints {
 
 // No point of the box is farther than this from its centre. The margin keeps rounding from losing a surface that passes
 // through a corner.
-float farthest(const Bounds& box) {
+float circumradius(const Bounds& box) {
     return 1.001f * 0.5f * box.diagonal();
 }
 
@@ -90,7 +90,7 @@ class PhaseFinder {
     void add_eighths(const Bounds& box, Phase phase, Counts counts, std::vector<Bounds>& kept) {
         const std::array<Bounds, 8> parts = eighths(box);
         const BatchOfFloats distance = distances(EightPoints(box), phase);
-        const float radius = farthest(parts.front());
+        const float radius = circumradius(parts.front());
         for (std::size_t i = 0; i < parts.size(); ++i)
             if (distance[i] <= radius && (counts == Counts::inside_too || distance[i] >= -radius))
                 kept.push_back(parts[i]);
@@ -120,7 +120,7 @@ class Brightness {
         for (const Bounds& eighth : eighths(box)) {
             const EightPoints at(eighth);
             const BatchOfFloats distance = finder_.distances(at, phase_);
-            const float radius = farthest(eighths(eighth).front());
+            const float radius = circumradius(eighths(eighth).front());
             for (std::size_t i = 0; i < batch_size; ++i) {
                 if (!(std::abs(distance[i]) <= radius)) continue;
                 ++near_surface;

@@ -66,6 +66,9 @@ Material read_phase_material(const Document& document, Value phase) {
                              "coordinates; use \"image\"");
     if (has_texture<VertexColorTexture>(material))
         throw document.error(phase, "the texture \"vertex_color\" is for meshes, because phases have no vertices");
+    if (normal_map_of(material))
+        throw document.error(
+            phase, "a \"normal_map\" is for meshes, because phases have no texture coordinates; use a \"bump\"");
     return material;
 }
 

@@ -7,6 +7,7 @@
 #include "scene/material_kinds.hpp"
 #include "scene/mesh_kinds.hpp"
 #include "scene/object_kinds.hpp"
+#include "shading/normal_map.hpp"
 
 namespace phasetree::tracer {
 
@@ -63,6 +64,9 @@ std::vector<Chapter> scene_chapters() {
     chapters.push_back({"Numbers",
                         "A material's roughness, and the thickness of a film on it, may be another at each point.",
                         pages_of(NumberTextures())});
+    chapters.push_back({"Maps of normals",
+                        "An opaque material of a mesh may have one, `\"normal_map\": {parameters}`.",
+                        {page_of<NormalMap>()}});
     chapters.push_back({"Lights", "Radiances have no unit. Those of all lights and the exposure belong together.",
                         pages_of(LightKinds())});
     chapters.push_back({"Meshes", "What stands beside the object. Meshes are opaque.", pages_of(MeshKinds())});
@@ -92,6 +96,7 @@ std::string scene_json_schema() {
         {"colour", colour_type(limits::non_negative).schema},
         {"texture", schema_of_either(colour_type(limits::fraction).schema, schema_of_one(pages_of(NamedTextures())))},
         {"number_texture", schema_of_one(pages_of(NumberTextures()))},
+        {"normal_map", schema_of(page_of<NormalMap>())},
         {"material", schema_of_one(pages_of(MaterialKinds()))},
         {"opaque_material", schema_of_one(pages_of_opaque(MaterialKinds()))},
         {"light", schema_of_one(pages_of(LightKinds()))},

@@ -120,8 +120,8 @@ Interface Interface::between(const Material& from, const Material& to, SharedSur
         return Interface(DiffuseOptics{std::make_shared<const Texture>(ConstantTexture{glm::vec3(0.0f)})});
     return std::visit(
         [&](const auto& material) {
-            if constexpr (requires { material.bump; })
-                return Interface(optics_of(*clear, material, shared), material.bump);
+            if constexpr (requires { material.perturbation; })
+                return Interface(optics_of(*clear, material, shared), material.perturbation);
             else
                 return Interface(optics_of(*clear, material, shared));
         },

@@ -35,8 +35,8 @@ class Interface {
     /// them.
     Bsdf at(const TexturePoint& point, const Wavelengths* wavelengths = nullptr) const&;
     Bsdf at(const TexturePoint& point, const Wavelengths* wavelengths = nullptr) && = delete;
-    /// The bumps of the surface, if it has any.
-    const Bump* bump() const { return bump_ ? &*bump_ : nullptr; }
+    /// What turns the normals of the surface, if anything does.
+    const NormalPerturbation* perturbation() const { return perturbation_ ? &*perturbation_ : nullptr; }
     /// The grain of its surface, if it has any: then local x of a BSDF is along it.
     const Grain* grain() const;
     /// Whether it refracts light of different wavelengths differently.
@@ -87,11 +87,11 @@ class Interface {
     using Optics = std::variant<ClearOptics, MetalOptics, DiffuseOptics, CoatedOptics, GlowingOptics>;
 
   private:
-    explicit Interface(Optics optics, std::optional<Bump> bump = std::nullopt)
-        : optics_(std::move(optics)), bump_(std::move(bump)) {}
+    explicit Interface(Optics optics, std::optional<NormalPerturbation> perturbation = std::nullopt)
+        : optics_(std::move(optics)), perturbation_(std::move(perturbation)) {}
 
     Optics optics_;
-    std::optional<Bump> bump_;
+    std::optional<NormalPerturbation> perturbation_;
 };
 
 /// The interfaces of every ordered pair of materials, built once.

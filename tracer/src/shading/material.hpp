@@ -14,9 +14,9 @@
 #include <variant>
 
 #include "media/medium.hpp"
-#include "shading/bump.hpp"
 #include "shading/grain.hpp"
 #include "shading/metals.hpp"
+#include "shading/normal_perturbation.hpp"
 #include "shading/roughness.hpp"
 #include "shading/texture/number.hpp"
 #include "shading/texture/texture.hpp"
@@ -48,7 +48,7 @@ struct Clear {
 struct Diffuse {
     Texture color = ConstantTexture{};
     Number roughness = 0.0f;  ///< bsdf/rough_diffuse.hpp; not that of GGX
-    std::optional<Bump> bump{};
+    std::optional<NormalPerturbation> perturbation{};
 };
 
 /// Metal, with the complex index against vacuum; metals.hpp has measured ones.
@@ -58,7 +58,7 @@ struct Conductor {
     Number roughness = 0.0f;
     std::optional<SurfaceFilm> film{};
     std::span<const MetalPoint> spectrum{};  ///< of a measured one, for light of wavelengths; it stays where it is
-    std::optional<Bump> bump{};
+    std::optional<NormalPerturbation> perturbation{};
     std::optional<Grain> grain{};  ///< then `roughness` is that across it
 };
 
@@ -68,7 +68,7 @@ struct Coated {
     float ior = 1.5f;  ///< of the coat, against vacuum
     Number roughness = 0.0f;
     std::optional<SurfaceFilm> film{};
-    std::optional<Bump> bump{};
+    std::optional<NormalPerturbation> perturbation{};
 };
 
 /// What shines by itself: embers, lava, a filament, a screen. Its surface sends the radiance `radiance` · `light` to
@@ -94,12 +94,27 @@ bool has_texture(const Material& material) {
     return std::visit(
         [](const auto& kind) {
             bool has = false;
-            if constexpr (requires { kind.bump; }) has = has || (kind.bump && has_kind<Wanted>(kind.bump->texture));
+            if constexpr (requires { kind.perturbation; }) {
+                const Bump* bump = kind.perturbation ? std::get_if<Bump>(&*kind.perturbation) : nullptr;
+                has = has || (bump && has_kind<Wanted>(bump->texture));
+            }
             if constexpr (requires { kind.light; }) has = has || has_kind<Wanted>(kind.light);
             if constexpr (requires { kind.color; }) has = has || has_kind<Wanted>(kind.color);
             if constexpr (requires { kind.roughness; }) has = has || has_kind<Wanted>(kind.roughness);
             if constexpr (requires { kind.film; }) has = has || (kind.film && has_kind<Wanted>(kind.film->thickness));
             return has;
+        },
+        material);
+}
+
+/// Its map of normals, if it has one.
+inline const NormalMap* normal_map_of(const Material& material) {
+    return std::visit(
+        [](const auto& kind) -> const NormalMap* {
+            if constexpr (requires { kind.perturbation; })
+                return kind.perturbation ? std::get_if<NormalMap>(&*kind.perturbation) : nullptr;
+            else
+                return nullptr;
         },
         material);
 }

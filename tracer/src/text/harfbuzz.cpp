@@ -22,7 +22,7 @@ constexpr std::uintmax_t most_bytes_of_font = std::uintmax_t{64} << 20;
 constexpr std::size_t most_bytes_of_text = 10'000;
 // HarfBuzz reckons in whole numbers. Of a variable font the outlines lie between those of its grid.
 constexpr int parts_of_unit = 16;
-constexpr float farthest = 1000;  // ems; no letter is that large
+constexpr float farthest_of_letter = 1000;  // ems; no letter is that large
 
 template <auto destroy>
 struct Destroy {
@@ -136,7 +136,7 @@ class Typesetter {
         pen.close();
         for (const TextOutlines::Contour& contour : pen.contours)
             for (const glm::vec2& p : contour)
-                if (!(std::abs(p.x) < farthest && std::abs(p.y) < farthest))
+                if (!(std::abs(p.x) < farthest_of_letter && std::abs(p.y) < farthest_of_letter))
                     throw std::runtime_error("one of its letters is larger than a thousand of its ems");
         if (!pen.contours.empty()) line.letters.push_back({line.width, line.places, std::move(pen.contours)});
         line.width += ems_ * static_cast<float>(position.x_advance);

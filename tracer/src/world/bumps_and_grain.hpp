@@ -28,9 +28,9 @@ struct FromCopyToScene {
 template <class Space>
 void add_bumps_and_grain(Surface& surface, const glm::vec3& ray_direction, const Space& space) {
     const Interface& optics = surface.optics.get();
-    if (const Bump* bump = optics.bump())
-        surface.normal =
-            turned_to_ray(space.normal(bump->normal_at(surface.place)), surface.geometric_normal, ray_direction);
+    if (const NormalPerturbation* perturbation = optics.perturbation())
+        surface.normal = turned_to_ray(space.normal(perturbed_normal(*perturbation, surface.place)),
+                                       surface.geometric_normal, ray_direction);
     if (const Grain* grain = optics.grain()) surface.along_grain = space.direction(grain->direction_at(surface.place));
 }
 

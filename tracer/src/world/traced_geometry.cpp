@@ -11,6 +11,8 @@
 #include "phasetree/cells/file.hpp"
 #include "world/bumps_and_grain.hpp"
 #include "world/kept_cells.hpp"
+#include "world/mesh_holes.hpp"
+#include "world/mesh_place.hpp"
 
 namespace phasetree::tracer {
 
@@ -67,6 +69,7 @@ void attach(RTCScene embree, RTCDevice device, const Mesh& mesh, unsigned id) {
                                               mesh.triangles.size());
     std::memcpy(vertices, mesh.vertices.data(), mesh.vertices.size() * sizeof(glm::vec3));
     std::memcpy(triangles, mesh.triangles.data(), mesh.triangles.size() * sizeof(glm::uvec3));
+    if (mesh.opacity) leave_holes(geometry, mesh);
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(embree, geometry, id);
     rtcReleaseGeometry(geometry);
@@ -79,42 +82,6 @@ std::vector<Interface> interfaces_of(std::span<const Mesh> meshes, std::span<con
     for (const Mesh& mesh : meshes)
         for (const Material& from : phases) interfaces.push_back(Interface::between(from, mesh.material, shared));
     return interfaces;
-}
-
-// Two vectors in the plane of a triangle with the sides `a` and `b`: the first has the product 1 with a and 0 with b,
-// the second 0 with a and 1 with b. A function that is linear in the triangle, and grows by α along a and by β along b,
-// has the gradient of α times the first and β times the second.
-glm::mat2x3 dual_basis(const glm::vec3& a, const glm::vec3& b) {
-    const float aa = glm::dot(a, a), ab = glm::dot(a, b), bb = glm::dot(b, b), determinant = aa * bb - ab * ab;
-    if (!(determinant > 0.0f)) return glm::mat2x3(0.0f);
-    return {(bb * a - ab * b) / determinant, (aa * b - ab * a) / determinant};
-}
-
-// A column for each number of T: its gradient in the plane of a triangle.
-template <int count>
-glm::mat<count, 3, float> gradients_of(const glm::vec<count, float>& along_a, const glm::vec<count, float>& along_b,
-                                       const glm::mat2x3& dual) {
-    glm::mat<count, 3, float> gradients;
-    for (int i = 0; i < count; ++i) gradients[i] = along_a[i] * dual[0] + along_b[i] * dual[1];
-    return gradients;
-}
-
-std::optional<MeshCoordinates> coordinates_at(const Mesh& mesh, const RTCRayHit& hit) {
-    if (mesh.uv.empty() && mesh.colors.empty()) return std::nullopt;
-    const unsigned triangle = hit.hit.primID;
-    const glm::uvec3& t = mesh.triangles[triangle];
-    const glm::vec3& p = mesh.vertices[t.x];
-    const glm::mat2x3 dual = dual_basis(mesh.vertices[t.y] - p, mesh.vertices[t.z] - p);
-    MeshCoordinates coordinates;
-    const auto fill = [&](const auto& corners, auto& value, auto& gradients) {
-        if (corners.empty()) return;
-        const auto corner = [&](int i) { return corners.at(mesh.triangles, triangle, i); };
-        value = at_barycentric(mesh, corners, triangle, hit.hit.u, hit.hit.v);
-        gradients = gradients_of(corner(1) - corner(0), corner(2) - corner(0), dual);
-    };
-    fill(mesh.uv, coordinates.uv, coordinates.gradients);
-    fill(mesh.colors, coordinates.color, coordinates.color_gradients);
-    return coordinates;
 }
 
 }  // namespace
@@ -250,22 +217,23 @@ Surface TracedGeometry::surface_of_object(const Ray& ray, const embree::Query& q
 Surface TracedGeometry::surface_of_mesh(const Ray& ray, const RTCRayHit& hit) const {
     const std::size_t index = hit.hit.geomID - first_mesh_id;
     const Mesh& mesh = scene_.meshes[index];
-    const glm::uvec3& t = mesh.triangles[hit.hit.primID];
-    const float u = hit.hit.u, v = hit.hit.v;
-    // The point by the triangle's own coordinates is exact to an ulp of those, however far the ray has come.
-    const glm::vec3 p = (1 - u - v) * mesh.vertices[t.x] + u * mesh.vertices[t.y] + v * mesh.vertices[t.z];
+    const MeshPlace met{mesh, hit.hit.primID, hit.hit.u, hit.hit.v};
+    const glm::vec3 p = met.point();
     glm::vec3 flat = glm::normalize(glm::vec3(hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z));
-    if (glm::dot(flat, ray.direction) > 0) flat = -flat;
+    bool is_behind = glm::dot(flat, ray.direction) > 0;
+    if (is_behind) flat = -flat;
     glm::vec3 shading = flat;
     if (!mesh.normals.empty()) {
-        glm::vec3 n = glm::normalize(at_barycentric(mesh, mesh.normals, hit.hit.primID, u, v));
-        if (glm::dot(n, flat) < 0) n = -n;
+        glm::vec3 n = glm::normalize(met.mean(mesh.normals));
+        is_behind = glm::dot(n, flat) < 0;
+        if (is_behind) n = -n;
         // Where the ray grazes, the shading normal may face away from it, and the flat one is kept.
         if (glm::dot(n, ray.direction) < 0) shading = n;
     }
     const float largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), 1.0f});
     const glm::vec3 origin = p + flat * std::max(surface_epsilon_, relative_surface_epsilon * largest);
-    const TexturePoint place(origin, shading, coordinates_at(mesh, hit));
+    TexturePoint place(origin, shading, met.coordinates());
+    if (!mesh.tangents.empty() && place.mesh) met.add_tangents(*place.mesh, shading, is_behind);
     const Interface& optics = mesh_interfaces_[index * scene_.materials.size() + ray.phase.index];
     Surface surface{.distance = hit.ray.tfar,
                     .normal = shading,

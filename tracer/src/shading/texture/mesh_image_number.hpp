@@ -5,6 +5,9 @@
 #include <filesystem>
 #include <glm/vec2.hpp>
 #include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "image/texture_image.hpp"
 #include "phasetree/io/kind.hpp"
@@ -17,7 +20,10 @@ struct MeshImageNumber {
                                    "A number for each place of an image on a mesh, by the texture coordinates that its "
                                    "file has."};
 
+    static std::vector<std::string_view> names_of_channels() { return {"red", "green", "blue", "alpha"}; }
+
     std::filesystem::path file{};
+    std::string channel_name{"red"};
     glm::vec2 repeat{1.0f};
     glm::vec2 range{0.0f, 1.0f};
     std::shared_ptr<const TextureImage> image{};  // once it is prepared
@@ -26,16 +32,21 @@ struct MeshImageNumber {
     static void parameters(V&& v) {
         using P = MeshImageNumber;
         v(&P::file, Parameter{"file", "",
-                              "An image, of which the first channel counts, as the file stores it: integers are not "
-                              "taken to be encoded as colours are."});
+                              "An image, of which one channel counts, as the file stores it: integers are not taken to "
+                              "be encoded as colours are."});
+        v(&P::channel_name,
+          ChoiceParameter{{"channel", "", "Which one; grey images have one in all three.", limits::any, true},
+                          names_of_channels});
         v(&P::repeat, Parameter{"repeat", "", "How often the image stands side by side, and one above the other.",
                                 limits::any, true});
         v(&P::range,
           Parameter{"range", "", "The numbers where the image is black and where it is white.", limits::any, true});
     }
     void prepare() {
-        image = load_texture_image(file, ImageMeaning::numbers);
-        of_image = image->range(0);
+        const bool is_alpha = channel_name == "alpha";
+        image = load_texture_image(file, is_alpha ? ImageMeaning::alpha : ImageMeaning::numbers);
+        channel = channel_name == "green" ? 1 : channel_name == "blue" ? 2 : 0;
+        of_image = image->range(channel);
     }
 
     // A mesh without coordinates is refused where the scene is read.
@@ -47,9 +58,8 @@ struct MeshImageNumber {
     float greatest() const { return std::max(number_of(of_image.x), number_of(of_image.y)); }
 
     glm::vec2 of_image{0.0f, 1.0f};  // the range of the image's values, once it is prepared
-    // Scene files name neither of these: glTF keeps roughness in an image's second channel, and squares it.
-    int channel = 0;
-    bool is_squared = false;
+    int channel = 0;                 // of the image, from its name
+    bool is_squared = false;         // of glTF's roughness; scene files do not say it
 
   private:
     float number_of(float value) const {

@@ -16,6 +16,9 @@ struct MeshCoordinates {
     glm::mat2x3 gradients{0.0f};        ///< ∇u and ∇v
     glm::vec3 color{1.0f};              ///< linear Rec.709
     glm::mat3x3 color_gradients{0.0f};  ///< ∇ of red, of green and of blue
+    /// The direction in which u grows and that in which v does, of unit length and perpendicular to the normal and to
+    /// each other; 0 if the mesh has no tangents. On a mesh that is seen from behind, both are turned round.
+    glm::vec3 tangent{0.0f}, bitangent{0.0f};
 };
 
 struct TexturePoint {

@@ -1,12 +1,12 @@
-// .glb files, by the path tracer's reading of them.
+// glTF files, by the path tracer's reading of them; files that they name have a few bytes.
 #include <glm/glm.hpp>
 
 #include "fuzz/target.hpp"
-#include "gltf/read_glb.hpp"
+#include "gltf/read_gltf.hpp"
 
 namespace phasetree::fuzz {
 
-void run_glb(Bytes input) {
+void run_gltf(Bytes input) {
     constexpr std::size_t most_triangles = 100'000;
     const tracer::gltf::Limits limits{
         .triangles = most_triangles, .primitives = 10'000, .materials = 100, .pixels = 10'000'000};
@@ -14,8 +14,13 @@ void run_glb(Bytes input) {
     // The last bit of a file is of its images, or of no meaning.
     const auto materials = !content.empty() && content.back() % 2 != 0 ? tracer::gltf::ReadMaterials::none
                                                                        : tracer::gltf::ReadMaterials::all;
+    const auto files = [](const std::string& path) {
+        promised(("/" + path + "/").find("/../") == std::string::npos && !path.starts_with('/'),
+                 "files are in the document's folder");
+        return std::string(64, '\0');
+    };
     try {
-        for (const tracer::gltf::Part& part : tracer::gltf::read_glb(content, materials, limits).parts) {
+        for (const tracer::gltf::Part& part : tracer::gltf::read_gltf(content, materials, limits, files).parts) {
             promised(!part.mesh.triangles.empty() && part.mesh.triangles.size() <= most_triangles,
                      "there are triangles, and no more than are wanted");
             const std::size_t vertices = part.mesh.vertices.size();
@@ -31,6 +36,10 @@ void run_glb(Bytes input) {
                     glm::all(glm::greaterThanEqual(c, glm::vec3(0))) && glm::all(glm::lessThanEqual(c, glm::vec3(1))),
                     "colours are fractions");
             promised(!is_clear(part.material), "meshes are opaque");
+            promised(part.tangents.empty() || part.tangents.values.size() == vertices, "each vertex has a tangent");
+            const tracer::TexturePoint place({0, 0, 0}, {0, 0, 1}, tracer::MeshCoordinates{.uv = {0.3f, 0.7f}});
+            const float opacity = part.opacity ? part.opacity->at(place) : 1.0f;
+            promised(opacity >= 0 && opacity <= 1, "an opacity is a fraction");
         }
     } catch (const tracer::gltf::GltfError&) {
     }

@@ -1,7 +1,8 @@
-// The triangles of a .glb file, with their materials.
+// The triangles of a glTF file, with their materials.
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "gltf/document.hpp"
 #include "phasetree/io/mesh.hpp"
 #include "shading/material.hpp"
+#include "shading/opacity.hpp"
 
 namespace phasetree::tracer::gltf {
 
@@ -16,10 +18,13 @@ namespace phasetree::tracer::gltf {
 struct Part {
     std::string name{};  ///< of the material, unlike that of any other part
     Material material{};
+    std::optional<Opacity> opacity{};  ///< none is opaque everywhere
     TriangleMesh mesh{};
     AtCorners<glm::vec3> normals{};  ///< of length 1, or 0 where the file has none; empty if it has none at all
     AtCorners<glm::vec2> texture{};  ///< (0, 0) is the lower left corner of an image
     AtCorners<glm::vec3> colors{};   ///< linear Rec.709
+    /// Those of the file for a material with a map of normals (scene/mesh_tangents.hpp), if it has them for all of it.
+    AtCorners<glm::vec4> tangents{};
 };
 
 /// How much a file may have: a small one may place one mesh many times, or say that its images are large.
@@ -30,16 +35,18 @@ struct Limits {
     std::size_t pixels = 256'000'000;    ///< of all images
 };
 
-/// With `none` all triangles are of one part, clear ones too, and neither materials nor images are looked at.
+/// With `none` all triangles are of one part, clear ones too, and neither materials nor images are looked at. What has
+/// no colours of vertices is white if other triangles of its part have some.
 enum class ReadMaterials { all, none };
 
-struct GlbFile {
+struct GltfFile {
     std::vector<Part> parts;             ///< in the order of the materials; what has none comes first
     std::vector<std::string> not_shown;  ///< sentences about what the file has and the parts have not
 };
 
-/// `content` is all of the file. Throws GltfError for what is no such file, what refers to other files, what has no
-/// triangles to be shown, and what is beyond the limits.
-GlbFile read_glb(std::string_view content, ReadMaterials materials = ReadMaterials::all, const Limits& limits = {});
+/// `content` is all of the file, .glb or .gltf; files that it names are read by `read_file`. Throws GltfError for what
+/// is no such file, what has no triangles to be shown, and what is beyond the limits, and whatever `read_file` throws.
+GltfFile read_gltf(std::string_view content, ReadMaterials materials = ReadMaterials::all, const Limits& limits = {},
+                   const ReadFile& read_file = {});
 
 }  // namespace phasetree::tracer::gltf

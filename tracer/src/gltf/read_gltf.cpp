@@ -1,4 +1,4 @@
-#include "gltf/read_glb.hpp"
+#include "gltf/read_gltf.hpp"
 
 #include <fmt/format.h>
 
@@ -42,25 +42,30 @@ std::optional<Accessor> attribute(const Document& document, const Item& attribut
 
 class Reader {
   public:
-    Reader(std::string_view content, ReadMaterials materials, const Limits& limits)
-        : document_(content),
+    Reader(std::string_view content, ReadMaterials materials, const Limits& limits, const ReadFile& read_file)
+        : document_(content, read_file),
           materials_(document_, limits.pixels),
           has_materials_(materials == ReadMaterials::all),
           limits_(limits) {}
 
-    GlbFile read() {
+    GltfFile read() {
         say_what_is_passed_over();
-        for (const PlacedMesh& placed : placed_meshes(document_)) {
+        for (const PlacedMesh& placed : placed_meshes(document_, limits_.primitives)) {
             const Item mesh = document_.element("meshes", placed.mesh, document_.root());
-            if (placed.is_skinned) say("has meshes with skins, which are not bent by them");
-            if (mesh.has("weights")) say("has morph targets, which are not applied");
-            for (const Item& primitive : mesh.items("primitives")) add(primitive, placed.placement);
+            primitives_ += mesh.count("primitives");
+            if (primitives_ > limits_.primitives)
+                throw GltfError(fmt::format("there are more primitives than {}", limits_.primitives));
+            for (const Item& primitive : mesh.items("primitives")) {
+                if (placed.is_morphed && primitive.has("targets")) say("has morph targets, which are not applied");
+                add(primitive, placed);
+            }
         }
         for (auto& [key, begun] : parts_) finish(key, begun);
         if (file_.parts.empty())
-            throw GltfError(is_clear_.empty() ? "it has no triangles in its scene"
-                                              : "all of it is clear, and meshes are opaque; give it a \"material\", or "
-                                                "model it as a clear phase in \"tree\"");
+            throw GltfError(is_clear_.empty() || has_empty_
+                                ? "it has no triangles in its scene"
+                                : "all of it is clear, and meshes are opaque; give it a \"material\", or "
+                                  "model it as a clear phase in \"tree\"");
         return std::move(file_);
     }
 
@@ -72,20 +77,20 @@ class Reader {
         auto operator<=>(const Key&) const = default;
     };
 
-    struct Begun {
+    struct PartBeingRead {
         Part part{};
         Coordinates coordinates{};
         std::optional<glm::vec3> reflectance{};  // of a metal
         bool has_images = false;
-        bool lacks_texture = false;  // whether some of it has no texture coordinates
+        bool lacks_texture = false;   // whether some of it has no texture coordinates
+        bool lacks_tangents = false;  // … or no tangents, or such as do not belong to the coordinates
     };
 
     // Where a primitive's vertices come from, and where they go.
     struct Source {
         Accessor positions;
-        std::optional<Accessor> normals, texture, colors, indices;
-        glm::dmat4 placement;
-        glm::dmat3 of_normals;
+        std::optional<Accessor> normals, texture, colors, tangents, joints, weights, indices;
+        PlacedMesh placed;
         std::size_t mode;
     };
 
@@ -96,9 +101,7 @@ class Reader {
         if (document_.count("animations") > 0) say("has animations, which are not read; all stands still");
     }
 
-    void add(const Item& primitive, const glm::dmat4& placement) {
-        if (++primitives_ > limits_.primitives)
-            throw GltfError(fmt::format("there are more primitives than {}", limits_.primitives));
+    void add(const Item& primitive, const PlacedMesh& placed) {
         const std::size_t mode = primitive.index("mode").value_or(triangles);
         if (mode < triangles) return say("has points or lines, which are not shown");
         if (mode > fan) primitive.fail("has an unknown \"mode\"");
@@ -107,10 +110,11 @@ class Reader {
         Accessor positions(document_, attributes->needed_index("POSITION"), *attributes);
         if (positions.columns() != 3) positions.fail("has positions that are not of three numbers");
 
-        const Key key{has_materials_ ? primitive.index("material") : std::nullopt, attributes->has("COLOR_0")};
+        const Key key{has_materials_ ? primitive.index("material") : std::nullopt,
+                      has_materials_ && attributes->has("COLOR_0")};
         if (is_clear_.contains(key.material)) return;
         if (!parts_.contains(key) && !begin(key, primitive)) return;
-        Begun& begun = parts_.at(key);
+        PartBeingRead& begun = parts_.at(key);
         const auto of = [&](const std::string& name, std::size_t columns) {
             return attribute(document_, *attributes, name, positions, columns);
         };
@@ -118,10 +122,14 @@ class Reader {
                       of("NORMAL", 3),
                       of(fmt::format("TEXCOORD_{}", begun.coordinates.set), 2),
                       of("COLOR_0", 3),
+                      of("TANGENT", 4),
+                      placed.joints ? of("JOINTS_0", 4) : std::nullopt,
+                      placed.joints ? of("WEIGHTS_0", 4) : std::nullopt,
                       std::nullopt,
-                      placement,
-                      cofactors(glm::dmat3(placement)),
+                      placed,
                       mode};
+        if (source.joints && attributes->has("JOINTS_1")) say("has vertices with more than four joints; four count");
+        begun.lacks_tangents = begun.lacks_tangents || !source.tangents;
         if (primitive.has("indices")) source.indices.emplace(document_, primitive.needed_index("indices"), primitive);
         if (!source.texture && begun.has_images && !begun.lacks_texture)
             say(fmt::format("\"{}\" has images, and somewhere no coordinates for them", begun.part.name));
@@ -146,19 +154,29 @@ class Reader {
             is_clear_.insert(key.material);
             return false;
         }
-        parts_[key] = {.part = {.name = std::move(made.name), .material = std::move(made.material)},
+        const bool has_map = normal_map_of(made.material) != nullptr;
+        parts_[key] = {.part = {.name = std::move(made.name),
+                                .material = std::move(made.material),
+                                .opacity = std::move(made.opacity)},
                        .coordinates = made.coordinates.value_or(Coordinates()),
                        .reflectance = made.reflectance,
-                       .has_images = made.coordinates.has_value()};
+                       .has_images = made.coordinates.has_value(),
+                       // The file's tangents are those of its own coordinates, and only a map of normals needs them.
+                       .lacks_tangents = !has_map || made.coordinates != Coordinates()};
         return true;
     }
 
-    void finish(const Key& key, Begun& begun) {
+    void finish(const Key& key, PartBeingRead& begun) {
         Part& part = begun.part;
-        if (part.mesh.triangles.empty()) return;
+        if (part.mesh.triangles.empty()) {
+            has_empty_ = true;
+            return;
+        }
         const auto is_zero = [](const glm::vec3& n) { return n == glm::vec3(0); };
         if (std::ranges::all_of(part.normals.values, is_zero)) part.normals = {};
-        // Where there are images, what has no coordinates has the corner of the image everywhere.
+        if (!part.colors.empty()) part.colors.values.resize(part.mesh.vertices.size(), glm::vec3(1));
+        if (begun.lacks_tangents) part.tangents = {};
+        // Where there are images, triangles without coordinates have (0, 0) at all corners, so one pixel of the image.
         if (begun.lacks_texture && !begun.has_images) part.texture = {};
         if (begun.reflectance && key.by_vertices) {
             glm::dvec3 sum(0);
@@ -174,20 +192,20 @@ class Reader {
         file_.parts.push_back(std::move(part));
     }
 
-    void add_triangles(const Item& primitive, const Source& source, Begun& begun) {
+    void add_triangles(const Item& primitive, const Source& source, PartBeingRead& begun) {
         const std::size_t corners = source.indices ? source.indices->rows() : source.positions.rows();
         const std::size_t count = source.mode == triangles ? corners / 3 : corners - std::min<std::size_t>(corners, 2);
         triangles_ += count;
         if (triangles_ > limits_.triangles)
             throw GltfError(fmt::format("there are more triangles than {} million", limits_.triangles / 1'000'000));
-        ++turn_;
+        ++primitive_number_;
         if (numbers_.size() < source.positions.rows()) numbers_.resize(source.positions.rows());
         // Only vertices that triangles have are taken: primitives may share one list of positions.
         const auto vertex = [&](std::size_t corner) {
             const std::size_t i = source.indices ? source.indices->index(corner) : corner;
             if (i >= source.positions.rows()) primitive.fail("has an index beyond its vertices");
-            if (numbers_[i].turn != turn_) {
-                numbers_[i] = {turn_, static_cast<std::uint32_t>(begun.part.mesh.vertices.size())};
+            if (numbers_[i].primitive != primitive_number_) {
+                numbers_[i] = {primitive_number_, static_cast<std::uint32_t>(begun.part.mesh.vertices.size())};
                 add_vertex(i, source, begun);
             }
             return numbers_[i].number;
@@ -202,18 +220,48 @@ class Reader {
         }
     }
 
-    static void add_vertex(std::size_t i, const Source& source, Begun& begun) {
+    static void add_vertex(std::size_t i, const Source& source, PartBeingRead& begun) {
         Part& part = begun.part;
+        const glm::dmat4 placement = placement_of_vertex(i, source);
         part.mesh.vertices.push_back(
-            finite(glm::dvec3(source.placement * glm::dvec4(row<3>(source.positions, i), 1)), source.positions));
-        const glm::dvec3 n = source.normals ? source.of_normals * row<3>(*source.normals, i) : glm::dvec3(0);
-        const double length = glm::length(n);
-        part.normals.values.push_back(length > 0 && std::isfinite(length) ? glm::vec3(n / length) : glm::vec3(0));
+            finite(glm::dvec3(placement * glm::dvec4(row<3>(source.positions, i), 1)), source.positions));
+        part.normals.values.push_back(
+            source.normals ? unit(cofactors(glm::dmat3(placement)) * row<3>(*source.normals, i)) : glm::vec3(0));
         const glm::dvec3 uv(source.texture ? row<2>(*source.texture, i) : glm::dvec2(0), 1);
         part.texture.values.push_back(finite(glm::dvec2(glm::dmat3(begun.coordinates.transform) * uv),
                                              source.texture ? *source.texture : source.positions));
-        if (source.colors)
+        if (source.colors) {
+            // What came before without colours is white.
+            part.colors.values.resize(part.mesh.vertices.size() - 1, glm::vec3(1));
             part.colors.values.push_back(glm::clamp(finite(row<3>(*source.colors, i), *source.colors), 0.0f, 1.0f));
+        }
+        if (begun.lacks_tangents) return;
+        const glm::dvec4 tangent = row<4>(*source.tangents, i);
+        part.tangents.values.emplace_back(unit(glm::dmat3(placement) * glm::dvec3(tangent)),
+                                          std::copysign(1.0f, static_cast<float>(tangent.w)));
+    }
+
+    // Of a vertex with joints the mean of their matrices (Joints).
+    static glm::dmat4 placement_of_vertex(std::size_t i, const Source& source) {
+        if (!source.joints || !source.weights) return source.placed.placement;
+        glm::dmat4 sum(0);
+        double weights = 0;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const double joint = source.joints->number(i, k), weight = source.weights->number(i, k);
+            if (weight == 0) continue;
+            if (!(weight > 0 && weight <= 1e6)) source.weights->fail("has a weight that is negative or no number");
+            if (!(joint < static_cast<double>(source.placed.joints->size())))
+                source.joints->fail("names a joint that its skin has not");
+            sum += weight * (*source.placed.joints)[static_cast<std::size_t>(std::max(joint, 0.0))];
+            weights += weight;
+        }
+        return weights > 0 ? sum / weights : source.placed.placement;
+    }
+
+    // 0 for what has no length, or is no number.
+    static glm::vec3 unit(const glm::dvec3& v) {
+        const double length = glm::length(v);
+        return length > 0 && std::isfinite(length) ? glm::vec3(v / length) : glm::vec3(0);
     }
 
     template <int count>
@@ -234,9 +282,9 @@ class Reader {
         if (said_.insert(sentence).second) file_.not_shown.push_back(sentence);
     }
 
-    // The number that a vertex of the file has in its part, if it has one since that turn.
-    struct Number {
-        std::uint32_t turn = 0, number = 0;
+    // The number that a vertex of the file has in its part, if it has one since that primitive was begun.
+    struct VertexInPart {
+        std::uint32_t primitive = 0, number = 0;
     };
 
     Document document_;
@@ -244,18 +292,19 @@ class Reader {
     bool has_materials_;
     Limits limits_;
     std::size_t triangles_ = 0, primitives_ = 0;
-    std::uint32_t turn_ = 0;       // of the primitive that is read
-    std::vector<Number> numbers_;  // of the vertices of the primitive that is read
-    std::map<Key, Begun> parts_;
+    std::uint32_t primitive_number_ = 0;  // of the primitive that is read
+    std::vector<VertexInPart> numbers_;   // of the vertices of the primitive that is read
+    std::map<Key, PartBeingRead> parts_;
     std::set<std::optional<std::size_t>> is_clear_;
+    bool has_empty_ = false;  // whether something opaque has no triangles
     std::set<std::string> said_, names_;
-    GlbFile file_;
+    GltfFile file_;
 };
 
 }  // namespace
 
-GlbFile read_glb(std::string_view content, ReadMaterials materials, const Limits& limits) {
-    return Reader(content, materials, limits).read();
+GltfFile read_gltf(std::string_view content, ReadMaterials materials, const Limits& limits, const ReadFile& read_file) {
+    return Reader(content, materials, limits, read_file).read();
 }
 
 }  // namespace phasetree::tracer::gltf

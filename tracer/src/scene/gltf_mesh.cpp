@@ -1,0 +1,76 @@
+// Meshes from glTF files, one for each material that the file has.
+#include <fmt/format.h>
+
+#include <system_error>
+
+#include "gltf/read_gltf.hpp"
+#include "parameters/named_file.hpp"
+#include "scene/gltf_files.hpp"
+#include "scene/mesh_kinds.hpp"
+#include "scene/mesh_placement.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+constexpr std::string_view most = "1 GiB";
+
+}  // namespace
+
+// A link could lead out of the folder, and so out of the one that all files of a scene must lie in.
+std::filesystem::path file_of_gltf(const std::filesystem::path& gltf, const std::string& name) {
+    const std::filesystem::path folder = gltf.has_parent_path() ? gltf.parent_path() : ".";
+    std::error_code problem;
+    const std::filesystem::path real = std::filesystem::canonical(folder / name, problem);
+    if (problem) return folder / name;  // there is none, which its reader says
+    const std::filesystem::path within = std::filesystem::canonical(folder, problem);
+    const auto [end, rest] = std::mismatch(within.begin(), within.end(), real.begin(), real.end());
+    if (problem || end != within.end())
+        throw ParameterError("file", fmt::format("{} names {}, which leads out of its folder", gltf.string(), name));
+    return folder / name;
+}
+
+std::vector<std::filesystem::path> files_of_gltf(const std::filesystem::path& gltf) {
+    std::vector<std::filesystem::path> files;
+    try {
+        const std::string content = read_whole_file(gltf, most_bytes_of_mesh, most);
+        // Buffers need not be read to know what they are called.
+        const gltf::Document document(content, [](const std::string&) { return std::string(); });
+        for (const std::string& name : document.files()) files.push_back(file_of_gltf(gltf, name));
+    } catch (const std::runtime_error&) {  // which whoever reads the mesh finds, too
+    }
+    return files;
+}
+
+MeshGroup GltfParameters::made() const {
+    check_ending_of_mesh(file, {".gltf", ".glb"});
+    gltf::GltfFile read;
+    try {
+        read = gltf::read_gltf(read_whole_file(file, most_bytes_of_mesh, most),
+                               material ? gltf::ReadMaterials::none : gltf::ReadMaterials::all, {},
+                               [&](const std::string& name) {
+                                   return read_whole_file(file_of_gltf(file, name), most_bytes_of_mesh, most);
+                               });
+    } catch (const gltf::GltfError& e) {
+        throw ParameterError("file", fmt::format("{}: {}", file.string(), e.what()));
+    }
+    MeshGroup group;
+    for (gltf::Part& part : read.parts) {
+        Mesh mesh{.vertices = std::move(part.mesh.vertices),
+                  .triangles = std::move(part.mesh.triangles),
+                  .normals = std::move(part.normals),
+                  .uv = std::move(part.texture),
+                  .colors = std::move(part.colors),
+                  .tangents = std::move(part.tangents),
+                  .opacity = std::move(part.opacity),
+                  .material = material.value_or(part.material),
+                  .name = std::move(part.name)};
+        MeshPlacement(scale, rotate_z_degrees, translate, true).apply(mesh, file);
+        group.meshes.push_back(std::move(mesh));
+    }
+    for (const std::string& sentence : read.not_shown)
+        group.not_shown.push_back(fmt::format("{}: {}", file.string(), sentence));
+    return group;
+}
+
+}  // namespace phasetree::tracer
