@@ -1,9 +1,9 @@
 #include "io/face_triangles.hpp"
 
 #include <algorithm>
+#include <array>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
-#include <numeric>
 #include <utility>
 
 namespace phasetree::io {
@@ -17,7 +17,7 @@ double area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
 
 // The corners on that plane of two axes on which the face is largest, counter-clockwise.
 std::vector<glm::dvec2> flattened(std::span<const glm::vec3> corners) {
-    // Newell's normal, which any corner that is off the plane, or on a line with its neighbours, hardly changes.
+    // Newell's normal: a sum over all sides, so a corner slightly off the plane, or three in a line, do no harm.
     glm::dvec3 normal(0);
     for (std::size_t i = 0; i < corners.size(); ++i)
         normal += glm::cross(glm::dvec3(corners[i]), glm::dvec3(corners[(i + 1) % corners.size()]));
@@ -44,44 +44,85 @@ bool is_convex(const std::vector<glm::dvec2>& p) {
     return turns <= 1;
 }
 
-// Ears are found after a few corners in most faces, which takes about n² comparisons for all of n corners, but there
-// are faces for which it takes n³. After so many times n² any corner is cut off.
+// Ears are found after a few corners in most faces, but there are faces for which it takes about n³ comparisons for all
+// of n corners. After so many times n² any corner is cut off.
 constexpr std::size_t most_comparisons = 16;
+// So many comparisons for each corner do not count for the file: ordinary faces need fewer.
+constexpr std::size_t free_comparisons = 16;
 
 class Ears {
   public:
     explicit Ears(std::vector<glm::dvec2> corners)
-        : at_(std::move(corners)), left_(at_.size()), budget_(most_comparisons * at_.size() * at_.size()) {
-        std::iota(left_.begin(), left_.end(), 0u);
+        : at_(std::move(corners)), next_(at_.size()), previous_(at_.size()), place_in_dents_(at_.size(), none) {
+        const std::uint32_t n = size();
+        for (std::uint32_t i = 0; i < n; ++i) {
+            next_[i] = (i + 1) % n;
+            previous_[i] = (i + n - 1) % n;
+        }
+        for (std::uint32_t i = 0; i < n; ++i) note(i);
     }
 
     std::vector<glm::uvec3> clip_all() {
+        const std::size_t most = most_comparisons * at_.size() * at_.size();
         std::vector<glm::uvec3> triangles;
-        std::size_t i = 0;
-        while (left_.size() > 3) {
+        triangles.reserve(at_.size() - 2);
+        std::uint32_t i = 0;
+        for (std::uint32_t left = size(); left > 3; --left) {
             // A face that crosses itself may have no ear; any corner is cut off then.
-            std::size_t tried = 0;
-            while (tried < left_.size() && budget_ > 0 && !is_ear(i)) {
-                i = next(i);
-                ++tried;
-            }
-            triangles.emplace_back(left_[previous(i)], left_[i], left_[next(i)]);
-            left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(i));
-            i %= left_.size();
+            for (std::uint32_t tried = 0; tried < left && comparisons_ < most && !is_ear(i); ++tried) i = next_[i];
+            triangles.emplace_back(previous_[i], i, next_[i]);
+            i = cut(i);
         }
-        triangles.emplace_back(left_[0], left_[1], left_[2]);
+        // From the first corner of the face that is left.
+        std::array<std::uint32_t, 3> last{i, next_[i], previous_[i]};
+        std::ranges::sort(last);
+        triangles.emplace_back(last[0], last[1], last[2]);
         return triangles;
     }
+    std::size_t comparisons() const { return comparisons_; }
 
   private:
-    std::size_t next(std::size_t i) const { return (i + 1) % left_.size(); }
-    std::size_t previous(std::size_t i) const { return (i + left_.size() - 1) % left_.size(); }
+    static constexpr std::uint32_t none = 0xFFFFFFFF;
 
-    bool is_ear(std::size_t i) {
-        budget_ -= std::min(budget_, left_.size());
-        const glm::dvec2 &a = at_[left_[previous(i)]], &b = at_[left_[i]], &c = at_[left_[next(i)]];
-        if (!(area(a, b, c) > 0)) return false;
-        for (const std::uint32_t other : left_) {
+    std::uint32_t size() const { return static_cast<std::uint32_t>(at_.size()); }
+
+    bool is_dent(std::uint32_t i) const { return !(area(at_[previous_[i]], at_[i], at_[next_[i]]) > 0); }
+    // Enters a corner among the dents, or takes it from them.
+    void note(std::uint32_t i) {
+        const bool is_now = is_dent(i);
+        if (is_now == (place_in_dents_[i] != none)) return;
+        if (is_now) {
+            place_in_dents_[i] = static_cast<std::uint32_t>(dents_.size());
+            dents_.push_back(i);
+        } else {
+            take_from_dents(i);
+        }
+    }
+    void take_from_dents(std::uint32_t i) {
+        const std::uint32_t place = place_in_dents_[i], last = dents_.back();
+        dents_[place] = last;
+        place_in_dents_[last] = place;
+        place_in_dents_[i] = none;
+        dents_.pop_back();
+    }
+    // Cuts off a corner, and returns the next one.
+    std::uint32_t cut(std::uint32_t i) {
+        if (place_in_dents_[i] != none) take_from_dents(i);
+        next_[previous_[i]] = next_[i];
+        previous_[next_[i]] = previous_[i];
+        note(previous_[i]);
+        note(next_[i]);
+        return next_[i];
+    }
+
+    bool is_ear(std::uint32_t i) {
+        ++comparisons_;
+        if (place_in_dents_[i] != none) return false;
+        const glm::dvec2 &a = at_[previous_[i]], &b = at_[i], &c = at_[next_[i]];
+        // Of the corners within the triangle, if there are some, one is a dent: that farthest from the side from a to
+        // c.
+        for (const std::uint32_t other : dents_) {
+            ++comparisons_;
             const glm::dvec2& p = at_[other];
             if (p == a || p == b || p == c) continue;
             if (area(a, b, p) >= 0 && area(b, c, p) >= 0 && area(c, a, p) >= 0) return false;
@@ -90,17 +131,28 @@ class Ears {
     }
 
     std::vector<glm::dvec2> at_;
-    std::vector<std::uint32_t> left_;  // the corners that are not cut off yet
-    std::size_t budget_;
+    // Of the corners that are not cut off yet: their neighbours, and those at which the face does not bulge outwards.
+    std::vector<std::uint32_t> next_, previous_, dents_;
+    std::vector<std::uint32_t> place_in_dents_;  // of each corner, or none
+    std::size_t comparisons_ = 0;
 };
 
 }  // namespace
 
-std::vector<glm::uvec3> face_triangles(std::span<const glm::vec3> corners) {
-    if (corners.size() == 3) return {{0, 1, 2}};
+std::optional<std::vector<glm::uvec3>> FaceDivider::triangles(std::span<const glm::vec3> corners) {
+    using Triangles = std::vector<glm::uvec3>;
+    if (corners.size() == 3) return Triangles{{0, 1, 2}};
     std::vector<glm::dvec2> flat = flattened(corners);
-    if (corners.size() <= most_corners_to_clip && !is_convex(flat)) return Ears(std::move(flat)).clip_all();
-    std::vector<glm::uvec3> fan;
+    if (corners.size() <= most_corners_to_clip && !is_convex(flat)) {
+        Ears ears(std::move(flat));
+        Triangles clipped = ears.clip_all();
+        const std::size_t free = free_comparisons * corners.size();
+        const std::size_t counted = ears.comparisons() - std::min(ears.comparisons(), free);
+        if (counted > comparisons_left_) return std::nullopt;
+        comparisons_left_ -= counted;
+        return clipped;
+    }
+    Triangles fan;
     fan.reserve(corners.size() - 2);
     for (std::uint32_t i = 2; i < corners.size(); ++i) fan.emplace_back(0, i - 1, i);
     return fan;

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,8 +18,23 @@ inline constexpr std::size_t most_corners_of_face = 1'000'000;
 /// Faces of more corners than this that are not convex become fans about their first corner, which may fold over.
 inline constexpr std::size_t most_corners_to_clip = 1024;
 
-/// Returns the triangles of a face with at least three corners, all in its sense. Their corners are numbers of corners
-/// of the face, from 0. The face is taken for flat. A convex one becomes a fan about its first corner.
-std::vector<glm::uvec3> face_triangles(std::span<const glm::vec3> corners);
+/// Divides the faces of a file. It makes so many comparisons of a corner with an ear, beyond those that ordinary faces
+/// need; as many as the default take a few seconds.
+class FaceDivider {
+  public:
+    static constexpr const char* takes_too_long =
+        "its faces of many corners take too long to divide into triangles; divide them in the program that made the "
+        "file";
+
+    explicit FaceDivider(std::size_t comparisons = 1'000'000'000) : comparisons_left_(comparisons) {}
+
+    /// Returns the triangles of a face with at least three corners, all in its sense. Their corners are numbers of
+    /// corners of the face, from 0. The face is taken for flat. A convex one becomes a fan about its first corner.
+    /// Nothing if the faces so far have taken too many comparisons.
+    std::optional<std::vector<glm::uvec3>> triangles(std::span<const glm::vec3> corners);
+
+  private:
+    std::size_t comparisons_left_;
+};
 
 }  // namespace phasetree::io

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <optional>
 
+#include "io/absent_vertices.hpp"
 #include "io/face_triangles.hpp"
 #include "io/mesh_file.hpp"
 #include "io/words.hpp"
@@ -38,10 +41,13 @@ std::array<std::string_view, 3> parts_of(std::string_view corner) {
 // In place of the indices of normals, of a face that has none.
 constexpr std::uint32_t no_normal = 0xFFFFFFFF;
 
+// In place of the colour of a vertex that has none: no file has this number.
+const glm::vec3 no_color(std::numeric_limits<float>::quiet_NaN());
+
 class ObjReader {
   public:
     ObjReader(const std::filesystem::path& path, std::string_view content, std::size_t most_triangles)
-        : path_(path), words_(content), most_triangles_(most_triangles) {}
+        : path_(path), words_(content, Words::Rules::obj), most_triangles_(most_triangles) {}
 
     MeshFile read() {
         support::ReadingPlace place;
@@ -51,16 +57,17 @@ class ObjReader {
             if (kind == "v")
                 add_vertex();
             else if (kind == "vt")
-                file_.texture.values.push_back(numbers_or_zero<2>());
+                file_.texture.values.push_back(numbers_or_zero<2>(1, "a vt line needs a number"));
             else if (kind == "vn")
-                file_.normals.values.push_back(numbers_or_zero<3>());
+                file_.normals.values.push_back(numbers_or_zero<3>(3, "a vn line needs three numbers"));
             else if (kind == "f")
                 add_face();
         }
         place.finished(words_.offset());
+        absent_.place(file_.mesh);
         drop_unless_complete(file_.texture, file_.mesh);
         fill_normals();
-        if (file_.colors.values.size() != file_.mesh.vertices.size()) file_.colors = {};
+        fill_colors();
         return std::move(file_);
     }
 
@@ -69,22 +76,27 @@ class ObjReader {
         throw SceneError(path_.string(), fmt::format("{} (line {})", what, words_.number()));
     }
 
-    // Programs write normals that are no numbers where faces have no area, and coordinates of one number.
+    // Programs write normals that are no numbers where faces have no area, and coordinates of one number. But so many
+    // words must be there, as a short line would cost more memory than it has bytes.
     template <int count>
-    glm::vec<count, float> numbers_or_zero() {
+    glm::vec<count, float> numbers_or_zero(int least_words, std::string_view otherwise) {
         glm::vec<count, float> p;
-        for (int i = 0; i < count; ++i) p[i] = number_of<float>(words_.word()).value_or(0.0f);
+        for (int i = 0; i < count; ++i) {
+            const std::string_view word = words_.word();
+            if (i < least_words && word.empty()) fail(otherwise);
+            p[i] = number_of<float>(word).value_or(0.0f);
+        }
         return p;
     }
 
     void add_vertex() {
         glm::vec3 p;
         for (int i = 0; i < 3; ++i) {
-            const auto number = number_of<float>(words_.word());
+            const auto number = number_or_nan<float>(words_.word());
             if (!number) fail("a vertex needs three numbers");
             p[i] = *number;
         }
-        file_.mesh.vertices.push_back(p);
+        absent_.add(file_.mesh, p);
         // Behind the coordinates there may be a weight, or a colour.
         glm::vec3 color;
         for (int i = 0; i < 3; ++i) {
@@ -92,32 +104,42 @@ class ObjReader {
             if (!number) return;
             color[i] = *number;
         }
+        file_.colors.values.resize(file_.mesh.vertices.size() - 1, no_color);
         file_.colors.values.push_back(color);
-    }
-
-    // The next corner of a face; empty at its end. A backslash at a line's end continues it, # begins a comment.
-    std::string_view next_corner() {
-        std::string_view word = words_.word();
-        while (word == "\\" && words_.next_line()) word = words_.word();
-        return word.starts_with('#') ? std::string_view() : word;
     }
 
     // Faces without normals get normals of length 0 if others have some. If none has any, there are none.
     void fill_normals() {
         std::vector<glm::uvec3>& faces = file_.normals.triangles;
-        const auto has_none = [](const glm::uvec3& t) { return t.x == no_normal; };
-        if (std::ranges::all_of(faces, has_none)) {
+        if (faces.empty()) {
             file_.normals = {};
-        } else {
-            const auto zero = static_cast<std::uint32_t>(file_.normals.values.size());
-            file_.normals.values.emplace_back(0.0f);
-            std::ranges::replace_if(faces, has_none, glm::uvec3(zero));
+            return;
         }
+        faces.resize(file_.mesh.triangles.size(), glm::uvec3(no_normal));
+        const auto has_none = [](const glm::uvec3& t) { return t.x == no_normal; };
+        const auto zero = static_cast<std::uint32_t>(file_.normals.values.size());
+        file_.normals.values.emplace_back(0.0f);
+        std::ranges::replace_if(faces, has_none, glm::uvec3(zero));
     }
 
-    void add_face() {
+    // There are colours only if all triangles have them. Other vertices may lack theirs.
+    void fill_colors() {
+        std::vector<glm::vec3>& colors = file_.colors.values;
+        if (colors.empty()) return;
+        colors.resize(file_.mesh.vertices.size(), no_color);
+        const auto has_none = [&](std::uint32_t vertex) { return std::isnan(colors[vertex].x); };
+        const auto lacks_one = [&](const glm::uvec3& t) { return has_none(t.x) || has_none(t.y) || has_none(t.z); };
+        if (std::ranges::any_of(file_.mesh.triangles, lacks_one))
+            file_.colors = {};
+        else
+            std::ranges::replace_if(
+                colors, [](const glm::vec3& c) { return std::isnan(c.x); }, glm::vec3(0));
+    }
+
+    // Reads the corners of a face; false if there are too few for a triangle. Programs write such, of loose edges.
+    bool read_corners() {
         vertices_.clear(), textures_.clear(), normals_.clear(), places_.clear();
-        for (std::string_view word; !(word = next_corner()).empty();) {
+        for (std::string_view word; !(word = words_.word()).empty();) {
             if (vertices_.size() == most_corners_of_face) fail("a face has more than a million corners");
             const auto [vertex, texture, normal] = parts_of(word);
             const auto index = index_of(vertex, file_.mesh.vertices.size());
@@ -127,18 +149,26 @@ class ObjReader {
             if (const auto t = index_of(texture, file_.texture.values.size())) textures_.push_back(*t);
             if (const auto n = index_of(normal, file_.normals.values.size())) normals_.push_back(*n);
         }
-        if (vertices_.size() < 3) fail("a face needs three vertices");
+        if (vertices_.size() < 3) return false;
+        if (std::ranges::any_of(vertices_, [&](std::uint32_t v) { return absent_.contain(v); }))
+            fail(AbsentVertices::used);
+        return true;
+    }
+
+    void add_face() {
+        if (!read_corners()) return;
         const auto add = [](std::vector<glm::uvec3>& to, const glm::uvec3& corners,
                             const std::vector<std::uint32_t>& from) {
             to.emplace_back(from[corners.x], from[corners.y], from[corners.z]);
         };
-        for (const glm::uvec3& corners : face_triangles(places_)) {
+        const auto triangles = divider_.triangles(places_);
+        if (!triangles) fail(FaceDivider::takes_too_long);
+        const bool has_normals = normals_.size() == vertices_.size();
+        if (has_normals) file_.normals.triangles.resize(file_.mesh.triangles.size(), glm::uvec3(no_normal));
+        for (const glm::uvec3& corners : *triangles) {
             add(file_.mesh.triangles, corners, vertices_);
             if (textures_.size() == vertices_.size()) add(file_.texture.triangles, corners, textures_);
-            if (normals_.size() == vertices_.size())
-                add(file_.normals.triangles, corners, normals_);
-            else
-                file_.normals.triangles.emplace_back(no_normal);
+            if (has_normals) add(file_.normals.triangles, corners, normals_);
         }
         check_triangles(path_, file_.mesh, most_triangles_);
     }
@@ -147,6 +177,8 @@ class ObjReader {
     Words words_;
     std::size_t most_triangles_;
     MeshFile file_;
+    AbsentVertices absent_;
+    FaceDivider divider_;
     // Of the corners of a face.
     std::vector<std::uint32_t> vertices_, textures_, normals_;
     std::vector<glm::vec3> places_;

@@ -163,13 +163,9 @@ double Ply::read(const Element& element, Type type) {
     if (format_ == Format::words) {
         const std::string_view word = words_.word_of_any_line();
         if (word.empty()) fail(element, "the file ends too early");
-        if (const auto number = number_of<double>(word)) return *number;
-        // Words such as nan, inf and -nan(ind), which programs write; any other is a fault.
-        const std::size_t letters = word.find_first_not_of("+-");
-        const bool is_none = letters != word.npos && (word[letters] == 'n' || word[letters] == 'N' ||
-                                                      word[letters] == 'i' || word[letters] == 'I');
-        if (!is_none) fail(element, "there is something other than a number");
-        return std::numeric_limits<double>::quiet_NaN();
+        const auto number = number_or_nan<double>(word);
+        if (!number) fail(element, "there is something other than a number");
+        return *number;
     }
     const std::size_t count = bytes_of(type);
     if (rest_.size() < count) fail(element, "the file ends too early");

@@ -7,7 +7,9 @@
 #include <initializer_list>
 #include <limits>
 #include <optional>
+#include <utility>
 
+#include "io/absent_vertices.hpp"
 #include "io/face_triangles.hpp"
 #include "io/mesh_file.hpp"
 #include "io/ply.hpp"
@@ -57,6 +59,7 @@ class PlyReader {
                 ply_.for_each_row(element, [](const Ply::Row&) {});
         }
         ply_.finish();
+        absent_.place(file_.mesh);
         return std::move(file_);
     }
 
@@ -67,6 +70,18 @@ class PlyReader {
         glm::vec<static_cast<int>(count), float> p;
         for (std::size_t i = 0; i < count; ++i)
             p[static_cast<int>(i)] = as_float(element, ply_.number(element, row, columns[i]));
+        return p;
+    }
+
+    // A coordinate that is no number, or too large, is NaN.
+    glm::vec3 place_or_none(const Ply::Element& element, const Ply::Row& row, const Columns<3>& columns) const {
+        glm::vec3 p;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::vector<double>& value = row[columns[i]];
+            if (value.size() != 1) ply_.fail(element, "a coordinate is not one number");
+            const bool is_float = std::abs(value[0]) <= std::numeric_limits<float>::max();
+            p[static_cast<int>(i)] = is_float ? static_cast<float>(value[0]) : std::numeric_limits<float>::quiet_NaN();
+        }
         return p;
     }
 
@@ -104,7 +119,7 @@ class PlyReader {
         for (int i = 0; color && i < 3; ++i)
             white[i] = static_cast<float>(largest_of(element.properties[(*color)[static_cast<std::size_t>(i)]].type));
         ply_.for_each_row(element, [&](const Ply::Row& row) {
-            file_.mesh.vertices.push_back(numbers(element, row, *place));
+            absent_.add(file_.mesh, place_or_none(element, row, *place));
             if (normal) file_.normals.values.push_back(normal_or_zero(row, *normal));
             if (texture) file_.texture.values.push_back(numbers(element, row, *texture));
             if (color) file_.colors.values.push_back(numbers(element, row, *color) / white);
@@ -116,39 +131,55 @@ class PlyReader {
             element.find("vertex_indices") ? element.find("vertex_indices") : element.find("vertex_index");
         const auto texture = element.find("texcoord");
         if (!list) throw SceneError(path_.string(), "its faces have no vertex_indices");
-        // Those of the faces' corners are finer than those of the vertices.
-        if (texture) file_.texture = {};
+        // Those of the faces' corners are finer than those of the vertices, which count if no face has a list.
+        AtCorners<glm::vec2> of_vertices;
+        if (texture) of_vertices = std::exchange(file_.texture, {});
         std::vector<glm::vec3> places;
         ply_.for_each_row(element, [&](const Ply::Row& row) {
             const std::vector<double>& corners = row[*list];
-            if (corners.size() < 3) ply_.fail(element, "a face needs three vertices");
-            if (corners.size() > most_corners_of_face) ply_.fail(element, "a face has more than a million corners");
-            places.clear();
-            for (const double c : corners) {
-                if (!(c >= 0 && c < static_cast<double>(file_.mesh.vertices.size())))
-                    ply_.fail(element, "a face names a vertex that does not exist");
-                places.push_back(file_.mesh.vertices[static_cast<std::size_t>(c)]);
-            }
+            if (corners.size() < 3) return;  // a loose vertex or edge
+            read_places(element, corners, places);
             const auto first = static_cast<std::uint32_t>(file_.texture.values.size());
             const bool has_texture = texture && row[*texture].size() == 2 * corners.size();
             if (has_texture)
                 for (std::size_t i = 0; i < corners.size(); ++i)
                     file_.texture.values.emplace_back(as_float(element, row[*texture][2 * i]),
                                                       as_float(element, row[*texture][2 * i + 1]));
+            const auto triangles = divider_.triangles(places);
+            if (!triangles) ply_.fail(element, FaceDivider::takes_too_long);
             const auto at = [&](std::uint32_t i) { return static_cast<std::uint32_t>(corners[i]); };
-            for (const glm::uvec3& t : face_triangles(places)) {
+            for (const glm::uvec3& t : *triangles) {
                 file_.mesh.triangles.emplace_back(at(t.x), at(t.y), at(t.z));
                 if (has_texture) file_.texture.triangles.push_back(first + t);
             }
             check_triangles(path_, file_.mesh, most_triangles_);
         });
-        if (texture) drop_unless_complete(file_.texture, file_.mesh);
+        if (!texture) return;
+        if (file_.texture.empty())
+            file_.texture = std::move(of_vertices);
+        else
+            drop_unless_complete(file_.texture, file_.mesh);
+    }
+
+    // Where the corners of a face are.
+    void read_places(const Ply::Element& element, const std::vector<double>& corners,
+                     std::vector<glm::vec3>& places) const {
+        if (corners.size() > most_corners_of_face) ply_.fail(element, "a face has more than a million corners");
+        places.clear();
+        for (const double c : corners) {
+            if (!(c >= 0 && c < static_cast<double>(file_.mesh.vertices.size())))
+                ply_.fail(element, "a face names a vertex that does not exist");
+            if (absent_.contain(static_cast<std::uint32_t>(c))) ply_.fail(element, AbsentVertices::used);
+            places.push_back(file_.mesh.vertices[static_cast<std::size_t>(c)]);
+        }
     }
 
     const std::filesystem::path& path_;
     Ply ply_;
     std::size_t most_triangles_;
     MeshFile file_;
+    AbsentVertices absent_;
+    FaceDivider divider_;
 };
 
 }  // namespace

@@ -3,33 +3,49 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <type_traits>
 
 namespace phasetree::io {
 
-/// The words of a text, separated by blanks, one line after the other.
+/// The words of a text, separated by blanks, one line after the other. Lines end with a line feed, a carriage return,
+/// or both. A byte order mark before the text is passed over.
 class Words {
   public:
-    explicit Words(std::string_view text) : text_(text) {}
+    enum class Rules {
+        plain,
+        obj  ///< a backslash at the end of a line continues it in the next one, # begins a comment
+    };
+
+    explicit Words(std::string_view text, Rules rules = Rules::plain)
+        : text_(text), rules_(rules), at_(text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0) {}
 
     /// Goes to the next line; false if there is none.
     bool next_line() {
         if (at_ > text_.size()) return false;
-        const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+        const std::size_t end = std::min(find('\n', feed_), find('\r', return_));
         line_ = text_.substr(at_, end - at_);
-        at_ = end + 1;
+        at_ = end + (text_.substr(end).starts_with("\r\n") ? 2 : 1);
         ++number_;
+        goes_on_ = rules_ == Rules::obj && take_backslash();
         return true;
     }
     /// The next word of the line; empty at its end.
     std::string_view word() {
-        const std::size_t first = std::min(line_.find_first_not_of(blanks), line_.size());
-        const std::size_t end = std::min(line_.find_first_of(blanks, first), line_.size());
-        const std::string_view found = line_.substr(first, end - first);
-        line_.remove_prefix(end);
-        return found;
+        for (;;) {
+            const std::size_t first = std::min(line_.find_first_not_of(blanks), line_.size());
+            const std::size_t end = std::min(line_.find_first_of(blanks, first), line_.size());
+            const std::string_view found = line_.substr(first, end - first);
+            line_.remove_prefix(end);
+            if (rules_ == Rules::obj && found.starts_with('#')) {
+                pass_line();
+                return {};
+            }
+            if (!found.empty() || !goes_on_ || !next_line()) return found;
+        }
     }
     /// The next word of this line or of one of those that follow; empty at the end of the text.
     std::string_view word_of_any_line() {
@@ -38,16 +54,38 @@ class Words {
             if (!next_line()) return {};
         }
     }
+    /// Passes over what is left of the line.
+    void pass_line() {
+        line_ = {};
+        goes_on_ = false;
+    }
     /// Of the line, from 1.
     std::size_t number() const { return number_; }
     /// Where in the text the line after this one begins, or the text's end.
     std::size_t offset() const { return std::min(at_, text_.size()); }
 
   private:
-    static constexpr std::string_view blanks = " \t\r\v\f";
+    static constexpr std::string_view blanks = " \t\r\v\f", byte_order_mark = "\xef\xbb\xbf";
+
+    // Where the next such character is, or the text's end. It is kept, so that a text without any is searched once.
+    std::size_t find(char c, std::size_t& kept) const {
+        if (kept == unknown || kept < at_) kept = std::min(text_.find(c, at_), text_.size());
+        return kept;
+    }
+    bool take_backslash() {
+        const std::size_t last = line_.find_last_not_of(blanks);
+        if (last == line_.npos || line_[last] != '\\') return false;
+        line_ = line_.substr(0, last);
+        return true;
+    }
+
+    static constexpr std::size_t unknown = std::string_view::npos;
 
     std::string_view text_, line_;
+    Rules rules_;
     std::size_t at_ = 0, number_ = 0;
+    std::size_t feed_ = unknown, return_ = unknown;  // the next line feed and carriage return
+    bool goes_on_ = false;
 };
 
 /// A whole word as a number; nothing if it is none, or one that is not finite.
@@ -66,6 +104,22 @@ std::optional<Number> number_of(std::string_view word) {
     if constexpr (std::is_floating_point_v<Number>)
         if (!std::isfinite(value)) return std::nullopt;
     return value;
+}
+
+/// As number_of, but NaN for what programs write in place of a number that is none or too large: nan, -inf, 1e999,
+/// -1.#IND.
+template <class Number>
+std::optional<Number> number_or_nan(std::string_view word) {
+    if (const auto number = number_of<Number>(word)) return number;
+    word.remove_prefix(std::min(word.find_first_not_of("+-"), word.size()));
+    double value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    const bool is_too_large =
+        end == word.data() + word.size() &&
+        (error == std::errc::result_out_of_range || value > static_cast<double>(std::numeric_limits<Number>::max()));
+    const bool is_none = !word.empty() && std::string_view("nNiI").find(word[0]) != word.npos;
+    if (!is_too_large && !is_none && !word.starts_with("1.#")) return std::nullopt;
+    return std::numeric_limits<Number>::quiet_NaN();
 }
 
 }  // namespace phasetree::io
