@@ -293,6 +293,12 @@ TEST_CASE("what is wrong in a file is said with its place, and nothing of it is 
     CHECK(files.said("a.stl", "solid\nvertex 1 2\n") == "a.stl: a vertex needs three numbers (line 2)");
     CHECK(files.said("a.stl", "solid\nvertex 1 2 3\nendfacet\n") ==
           "a.stl: a facet has less than three vertices (line 3)");
+    CHECK(files.said("a.stl", "solid\nvertex 1 2\n3 vertex 1 2\nvertex") ==
+          "a.stl: a vertex needs three numbers (line 3)");
+    CHECK(files.said("a.stl", "solid\nvertex 1 2 3 vertex 1 2 3 vertex 1 2 3\nVERTEX 1 2 3 endfacet\n") ==
+          "a.stl: a facet has more than three vertices (line 3)");
+    CHECK(files.said("a.stl", "solid\nvertex 1 2 1e39\n") ==
+          "a.stl: a vertex has a coordinate that is no number, or is too large (line 2)");
     // A line of vn costs 12 bytes of memory.
     CHECK(files.said("a.obj", "v 0 0 0\nvn\n") == "a.obj: a vn line needs three numbers (line 2)");
     CHECK(files.said("a.obj", "v 0 0 0\nvn nan 0 # none\n") == "a.obj: a vn line needs three numbers (line 2)");
@@ -329,6 +335,7 @@ TEST_CASE("a byte order mark hides nothing, and lines may end with a carriage re
     check_tetrahedron(read_mesh_file("a.obj", mark + obj.substr(obj.find("v ")), 100).mesh);
     check_tetrahedron(read_mesh_file("a.ply", mark + word_ply, 100).mesh);
     check_tetrahedron(read_mesh_file("a.ply", mark + binary_ply(true), 100).mesh);
+    check_tetrahedron(read_mesh_file("a.stl", mark + word_stl(), 100).mesh);
     const auto returned = [](std::string text) {
         std::ranges::replace(text, '\n', '\r');
         return text;
@@ -362,6 +369,11 @@ TEST_CASE("loose edges are no faces, and vertices that no face has may be anythi
         CHECK(file.mesh.vertices[0] == glm::vec3(2));
         CHECK(files.said("a.ply", ply(none, "3 1 2 0\n")) == "a.ply: " + absent + " (row 5 of its faces)");
     }
+    std::string stl = binary_stl();
+    const float infinite = std::numeric_limits<float>::infinity();
+    std::memcpy(stl.data() + 84 + 50 + 12, &infinite, 4);
+    CHECK(files.said("a.stl", stl) ==
+          "a.stl: a vertex has a coordinate that is no number, or is too large (triangle 2)");
 }
 
 TEST_CASE("colours and texture coordinates are there if all triangles have them") {
@@ -387,6 +399,58 @@ TEST_CASE("colours and texture coordinates are there if all triangles have them"
     CHECK(empty.texture.at(empty.mesh.triangles, 0, 0) == glm::vec2(0.5f, 0.25f));
     CHECK(empty.texture.at(empty.mesh.triangles, 1, 1) == glm::vec2(0, 1));
     CHECK(ply("3 0 1 2 0\n3 0 2 1 6 0 0 1 1 0 0\n").texture.empty());
+}
+
+TEST_CASE("STL files of words may have any white space and any case") {
+    const auto read = [](const std::string& content) { return read_mesh_file("a.stl", content, 100).mesh; };
+    const auto changed = [](auto&& change) {
+        std::string text = word_stl();
+        std::ranges::transform(text, text.begin(), change);
+        return text;
+    };
+    const auto upper = [](char c) { return c >= 'a' && c <= 'z' ? char(c - 32) : c; };
+    check_tetrahedron(read(changed([](char c) { return c == '\n' ? ' ' : c; })));  // all on one line
+    check_tetrahedron(read(changed([](char c) { return c == ' ' ? '\n' : c; })));  // each word on its own
+    check_tetrahedron(read(changed([](char c) { return c == '\n' ? '\r' : c; })));
+    check_tetrahedron(read(changed(upper)));
+    check_tetrahedron(read("\n  " + word_stl()));
+    // Names of all words, and one solid behind the other on each line.
+    std::string text = word_stl();
+    check_tetrahedron(read(text.replace(6, 4, "facet vertex 1 outer loop endfacet")));
+    check_tetrahedron(read("solid nothing\nendsolid vertex endfacet\n" + word_stl()));
+    const std::string line = changed([](char c) { return c == '\n' ? ' ' : c; });
+    CHECK(read(line + "\n" + line + line).triangles.size() == 12);
+    // Two words that stand on one line in some files.
+    const std::string facet =
+        "solid a facet normal 0 0 1\nouter loop vertex 0 0 0\nvertex 1 0 0 vertex\n0 1 0 endloop "
+        "endfacet\nendsolid";
+    CHECK(read(facet).triangles.size() == 1);
+    CHECK(read(facet).vertices[1] == glm::vec3(1, 0, 0));
+}
+
+TEST_CASE("binary STL files may have bytes behind their triangles, and any header") {
+    const auto read = [](const std::string& content) { return read_mesh_file("a.stl", content, 100).mesh; };
+    const auto with_header = [](std::string header) {
+        header.resize(80);
+        return header + binary_stl().substr(80);
+    };
+    for (const std::string header : {"solid", "made by hand", "solid facet normal 0 0 0\n", "SOLID\r\nvertex"})
+        for (const std::string& more : {std::string(), std::string(37, '\0'), std::string("facet")})
+            check_tetrahedron(read(with_header(header) + more));
+    // Numbers without any byte that text has not, and a text whose number of triangles would be small.
+    std::string letters = std::string("solid") + std::string(75, ' ') + bytes(std::uint32_t{1}) + std::string(50, 'A');
+    CHECK(read(letters + "behind").triangles.size() == 1);
+    const std::string name(80 - 6, 'n');
+    CHECK(read("solid " + name + bytes(std::uint32_t{1}) +
+               "\nfacet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 "
+               "vertex 0 1 0\nendfacet\n")
+              .vertices[1] == glm::vec3(1, 0, 0));
+    const std::string no_stl =
+        "a.stl: is no STL file: it is neither as long as its number of triangles says nor a text that begins with "
+        "\"solid\"";
+    const WrittenFiles files(read_mesh);
+    CHECK(files.said("a.stl", with_header("solid").substr(0, 283)) == no_stl);
+    CHECK(files.said("a.stl", with_header("made by hand").substr(0, 283)) == no_stl);
 }
 
 TEST_CASE("faces that are slow to divide cost a file what is left for it, and ordinary ones nothing") {

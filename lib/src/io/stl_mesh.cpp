@@ -1,8 +1,11 @@
 // STL files, of numbers and of words.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "io/mesh_file.hpp"
 #include "io/words.hpp"
@@ -16,13 +19,44 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "numbers of STL files are little-endian");
 
 constexpr std::size_t header_bytes = 80, head_bytes = header_bytes + 4, triangle_bytes = 50, normal_bytes = 12;
+constexpr const char* no_point = "a vertex has a coordinate that is no number, or is too large";
 
-// A binary file is as long as the number of triangles says that it has; also one whose header begins with "solid".
-bool is_binary(std::string_view content) {
-    if (content.size() < head_bytes) return false;
+bool is_word(std::string_view word, std::string_view lower_case) {
+    return std::ranges::equal(word, lower_case, {}, [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+}
+
+bool begins_with_solid(std::string_view content) {
+    const std::string_view first = Words(content).word_of_any_line();
+    return is_word(first.substr(0, 5), "solid");
+}
+
+// Whether the first kilobyte behind the head has a character that text has not.
+bool has_control_characters(std::string_view content) {
+    const auto is_control = [](unsigned char c) { return c < ' ' && (c < '\t' || c > '\r'); };
+    return content.size() > head_bytes && std::ranges::any_of(content.substr(head_bytes, 1024), is_control);
+}
+bool has_facet(std::string_view content) {
+    Words words(content);
+    for (std::string_view word; !(word = words.word_of_any_line()).empty();)
+        if (is_word(word, "facet") || is_word(word, "endfacet")) return true;
+    return false;
+}
+
+std::uint32_t claimed_triangles(std::string_view content) {
     std::uint32_t count;
     std::memcpy(&count, content.data() + header_bytes, sizeof count);
-    return content.size() == head_bytes + std::uint64_t{count} * triangle_bytes;
+    return count;
+}
+
+// A binary file is at least as long as its number of triangles says. Programs write headers that begin with "solid",
+// and bytes behind the triangles. No text is taken for one: four characters of a text are a number of more than a
+// hundred million triangles, and those that are control characters are not in texts of STL files.
+bool is_binary(std::string_view content) {
+    if (content.size() < head_bytes) return false;
+    const std::uint64_t count = claimed_triangles(content);
+    if (content.size() < head_bytes + count * triangle_bytes) return false;
+    if (!begins_with_solid(content)) return count > 0 || content.size() == head_bytes;
+    return count > 0 && (has_control_characters(content) || !has_facet(content.substr(head_bytes)));
 }
 
 void add_triangle(TriangleMesh& mesh, const glm::vec3 (&corners)[3]) {
@@ -31,59 +65,108 @@ void add_triangle(TriangleMesh& mesh, const glm::vec3 (&corners)[3]) {
     mesh.triangles.push_back({first, first + 1, first + 2});
 }
 
-TriangleMesh read_binary(std::string_view content) {
+TriangleMesh read_binary(const std::filesystem::path& path, std::string_view content) {
     TriangleMesh mesh;
     support::ReadingPlace place;
-    for (std::size_t at = head_bytes; at < content.size(); at += triangle_bytes) {
+    const std::uint32_t count = claimed_triangles(content);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t at = head_bytes + i * triangle_bytes;
         place.reached(at);
         glm::vec3 corners[3];
         std::memcpy(corners, content.data() + at + normal_bytes, sizeof corners);
+        for (const glm::vec3& p : corners)
+            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+                throw SceneError(path.string(), fmt::format("{} (triangle {})", no_point, i + 1));
         add_triangle(mesh, corners);
     }
     place.finished(content.size());
     return mesh;
 }
 
-TriangleMesh read_text(const std::filesystem::path& path, std::string_view content) {
-    TriangleMesh mesh;
-    Words words(content);
-    const auto fail = [&](std::string_view what) {
-        return SceneError(path.string(), fmt::format("{} (line {})", what, words.number()));
-    };
-    glm::vec3 corners[3];
-    std::size_t count = 0;
-    support::ReadingPlace place;
-    while (words.next_line()) {
-        place.reached(words.offset());
-        const std::string_view kind = words.word();
-        if (kind == "vertex") {
-            if (count == 3) throw fail("a facet has more than three vertices");
-            for (int i = 0; i < 3; ++i) {
-                const auto number = number_of<float>(words.word());
-                if (!number) throw fail("a vertex needs three numbers");
-                corners[count][i] = *number;
-            }
-            ++count;
-        } else if (kind == "endfacet") {
-            if (count != 3) throw fail("a facet has less than three vertices");
-            add_triangle(mesh, corners);
-            count = 0;
+/// STL files of words, which may stand on any lines, in upper or lower case.
+class TextReader {
+  public:
+    TextReader(const std::filesystem::path& path, std::string_view content) : path_(path), words_(content) {}
+
+    TriangleMesh read() {
+        (void)words_.word_of_any_line();  // solid
+        pass_name();
+        for (std::string_view word; !(word = words_.word_of_any_line()).empty(); place_.reached(words_.offset())) {
+            if (is_word(word, "vertex"))
+                read_vertex();
+            else if (is_word(word, "endfacet"))
+                end_facet();
+            else if (is_word(word, "solid") || is_word(word, "endsolid"))
+                pass_name();
         }
+        if (count_ != 0) fail("the file ends within a facet", words_.number());
+        place_.finished(words_.offset());
+        return std::move(mesh_);
     }
-    if (count != 0) throw fail("the file ends within a facet");
-    place.finished(content.size());
-    return mesh;
-}
+
+  private:
+    [[noreturn]] void fail(std::string_view what, std::size_t line) const {
+        throw SceneError(path_.string(), fmt::format("{} (line {})", what, line));
+    }
+
+    // Passes over the name behind "solid" or "endsolid": what is left of the line, of which any words may be a name.
+    // But if a whole facet begins in it, as in files without ends of lines, the name ends before that.
+    void pass_name() {
+        Words ahead = words_;
+        for (std::string_view word; !(word = ahead.word()).empty();) {
+            if (!is_word(word, "facet")) continue;
+            if (!begins_facet(ahead)) continue;
+            words_ = ahead;
+            return;
+        }
+        words_.pass_line();
+    }
+    // Whether behind "facet" a line goes on with its normal and the beginning of its vertices.
+    static bool begins_facet(Words words) {
+        if (!is_word(words.word(), "normal")) return false;
+        for (int i = 0; i < 3; ++i)
+            if (!number_or_nan<float>(words.word())) return false;
+        return is_word(words.word(), "outer") && is_word(words.word(), "loop") && is_word(words.word(), "vertex");
+    }
+
+    void read_vertex() {
+        const std::size_t line = words_.number();
+        if (count_ == 3) fail("a facet has more than three vertices", line);
+        for (int i = 0; i < 3; ++i) {
+            const auto number = number_or_nan<float>(words_.word_of_any_line());
+            if (!number) fail("a vertex needs three numbers", line);
+            if (std::isnan(*number)) fail(no_point, line);
+            corners_[count_][i] = *number;
+        }
+        ++count_;
+    }
+    void end_facet() {
+        if (count_ != 3) fail("a facet has less than three vertices", words_.number());
+        add_triangle(mesh_, corners_);
+        count_ = 0;
+    }
+
+    const std::filesystem::path& path_;
+    Words words_;
+    support::ReadingPlace place_;
+    TriangleMesh mesh_;
+    glm::vec3 corners_[3];
+    std::size_t count_ = 0;  // of corners so far
+};
 
 }  // namespace
 
 MeshFile read_stl(const std::filesystem::path& path, std::string_view content) {
-    if (is_binary(content)) return {read_binary(content), {}, {}, {}};
-    if (!content.starts_with("solid"))
+    if (is_binary(content)) return {read_binary(path, content), {}, {}, {}};
+    TriangleMesh mesh;
+    const bool is_text = begins_with_solid(content);
+    if (is_text) mesh = TextReader(path, content).read();
+    // A binary file may begin with "solid", and end too early.
+    if (!is_text || (mesh.triangles.empty() && has_control_characters(content)))
         throw SceneError(path.string(),
                          "is no STL file: it is neither as long as its number of triangles says nor a text "
                          "that begins with \"solid\"");
-    return {read_text(path, content), {}, {}, {}};
+    return {std::move(mesh), {}, {}, {}};
 }
 
 }  // namespace phasetree::io
