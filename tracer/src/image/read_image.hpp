@@ -2,8 +2,10 @@
 // PNG, JPEG, …).
 //
 // A file's header may claim any size. So memory is taken as rows are decoded, and a file that ends early costs no more
-// than what it holds; a PNG file that is too short for what it claims is refused at once, because the decoder takes all
-// of an interlaced one's memory beforehand, and WebP, HEIF and JPEG 2000 are not read, because opening decodes them.
+// than what it holds. Where the decoder takes all of the memory beforehand, the file must be long enough for what it
+// claims: a PNG file, which may be interlaced, and a JPEG file, which may be progressive; of the latter the markers are
+// read first, so that who wants the image can refuse its size. WebP, HEIF and JPEG 2000 are not read, because opening
+// decodes them. A PNG or JPEG file that is cut off is refused.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +24,7 @@ struct ImageHeader {
     int bits = 0;  // of a value in the file
 };
 
-// `begin` gets the header before anything is decoded, and returns how many of the channels to read; it throws
+// `begin` gets the header before anything is decoded, once, and returns how many of the channels to read; it throws
 // std::runtime_error for an image that is not wanted. `add` gets the values of some rows at a time, the top ones first;
 // integers of any width are 0 to 1. Whatever is wrong with the file is std::runtime_error "cannot use the <what>
 // "<path>": …".
