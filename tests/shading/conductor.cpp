@@ -73,7 +73,7 @@ TEST_CASE("rough conductor: what single scattering loses at normal incidence is 
             expected += alpha2 / ((alpha2 + t) * (alpha2 + t)) * masking / steps;
         }
         CAPTURE(alpha);
-        const double lost = static_cast<double>(surface.multiple(alpha, 0.0f).losses.at(1.0f).x);
+        const double lost = static_cast<double>(surface.multiple(alpha, {}).losses.at(1.0f).x);
         CHECK(1.0 - lost == doctest::Approx(expected).epsilon(3e-4));
     }
 }
@@ -90,6 +90,29 @@ TEST_CASE("smooth conductor: mirror direction, Fresnel weight") {
     CHECK(sample->pdf == 1.0f);
     CHECK(sample->weight == tracer::fresnel_conductor(wo.z, silver.eta, silver.k));
     CHECK(bsdf.is_delta());
+}
+
+TEST_CASE("a metal of a reflectance is that of the index which has it, in air and in water, smooth and rough") {
+    const glm::vec3 color(0.9f, 0.5f, 0.03f);
+    const glm::vec3 k = tracer::k_of_reflectance(color);
+    CHECK(glm::length(tracer::fresnel_conductor(1.0f, glm::vec3(1.0f), k) - color) < 1e-6f);
+    for (const float ior : {1.0f, 1.33f}) {
+        const ValueRange roughness{0.2f, 0.6f};
+        const ConductorSurface by_index(ior, glm::vec3(1.0f), k, roughness);
+        const ConductorSurface by_color = ConductorSurface::of_reflectance(ior, roughness);
+        for (const float cosine : {0.05f, 0.4f, 1.0f}) {
+            const glm::vec3 f = by_color.fresnel(cosine, {.reflectance = color});
+            CHECK(glm::length(f - by_index.fresnel(cosine, {})) < 1e-6f);
+        }
+        const glm::vec3 expected = by_index.multiple(0.4f, {}).reflected;
+        const glm::vec3 found = by_color.multiple(0.4f, {.reflectance = color}).reflected;
+        CHECK(glm::length(found - expected) < 1e-4f);
+        CHECK(glm::length(1.01f * found - expected) > 1e-3f);
+    }
+    // What reflects all light, or none, has its limit.
+    const ConductorSurface white = ConductorSurface::of_reflectance(1.0f, ValueRange{0.5f, 0.5f});
+    CHECK(white.multiple(0.5f, {.reflectance = glm::vec3(1.0f)}).reflected.x == doctest::Approx(1).epsilon(1e-3));
+    CHECK(white.multiple(0.5f, {.reflectance = glm::vec3(0.0f)}).reflected.x == 0.0f);
 }
 
 TEST_CASE("metals: known colours at normal incidence") {

@@ -31,7 +31,7 @@ TEST_CASE("metals of one roughness share what they lose, and each grain has its 
     const auto lost = [&](float eta, float roughness, float aspect) {
         const auto surface = surfaces.conductor(1, glm::vec3(eta), glm::vec3(3), ValueRange{roughness, roughness},
                                                 std::nullopt, {}, aspect);
-        return std::pair(surface, surface->multiple(roughness, 0).losses.at(glm::vec3(0.6f, 0.0f, 0.8f)).x);
+        return std::pair(surface, surface->multiple(roughness, {}).losses.at(glm::vec3(0.6f, 0.0f, 0.8f)).x);
     };
     const auto [gold, by_gold] = lost(0.2f, 0.5f, 1);
     const auto [iron, by_iron] = lost(2.9f, 0.5f, 1);

@@ -34,10 +34,25 @@ TEST_CASE("glTF's materials as ours") {
     CHECK(gold.name == "material 0");
     const Conductor& metal = std::get<Conductor>(gold.material);
     CHECK(std::get<float>(metal.roughness) == doctest::Approx(0.09f));
-    // The vertices are red, green and blue, a third of white in the mean.
-    const glm::vec3 reflected = fresnel_conductor(1, metal.eta, metal.k);
-    CHECK(is_near(reflected, {0.3f, 0.2f, 0.2f / 3}));
-    CHECK_FALSE(is_near(1.01f * reflected, {0.3f, 0.2f, 0.2f / 3}));
+    REQUIRE(metal.reflectance);
+    CHECK(is_near(color_at(*metal.reflectance, place), {0.45f, 0.6f, 0.2f}));
+    CHECK_FALSE(is_near(1.01f * color_at(*metal.reflectance, place), {0.45f, 0.6f, 0.2f}));
+    // Without colours of vertices, and without images, it is the same everywhere.
+    const gltf::GltfFile silver =
+        read(Corner().file(one_node + meshes(R"("attributes": {"POSITION": 0}, "material": 0)") +
+                           R"(, "materials": [{"pbrMetallicRoughness":
+        {"baseColorFactor": [0.9, 0.6, 0.2, 1]}}])"));
+    const Conductor& one_color = std::get<Conductor>(silver.parts.at(0).material);
+    CHECK_FALSE(one_color.reflectance);
+    const glm::vec3 reflected = fresnel_conductor(1, one_color.eta, one_color.k);
+    CHECK(is_near(reflected, {0.9f, 0.6f, 0.2f}));
+    CHECK_FALSE(is_near(1.01f * reflected, {0.9f, 0.6f, 0.2f}));
+    // What is half a metal is a mixture.
+    const gltf::Part half = part_of(R"({"pbrMetallicRoughness": {"metallicFactor": 0.3}})");
+    const Mix& mix = std::get<Mix>(half.material);
+    CHECK(std::get<float>(mix.amount) == 0.3f);
+    CHECK(std::holds_alternative<Coated>(mix.of->first));
+    CHECK(std::holds_alternative<Conductor>(mix.of->second));
     // glTF's own material is a metal, white and rough.
     CHECK(
         std::holds_alternative<Conductor>(read(Corner().file(one_node + meshes(all_attributes))).parts.at(0).material));
@@ -207,7 +222,7 @@ TEST_CASE("images lie as glTF lays them, also moved, turned and stretched") {
 
 TEST_CASE("an image of roughness and metal: green is the roughness, blue how much is metal") {
     Corner corner;
-    const std::size_t view = corner.add_view(png({0, 128, 255, 0, 255, 255, 0, 0, 255, 0, 64, 255}));
+    const std::size_t view = corner.add_view(png({0, 128, 255, 0, 255, 0, 0, 0, 255, 0, 64, 255}));
     const std::string rest =
         R"(, "textures": [{"source": 0}], "images": [{"bufferView": )" + std::to_string(view) + "}]";
     const auto material = [&](const std::string& more) {
@@ -215,7 +230,14 @@ TEST_CASE("an image of roughness and metal: green is the roughness, blue how muc
                        rest)
             .material;
     };
-    const Conductor metal = std::get<Conductor>(material(""));
+    const Mix mix = std::get<Mix>(material(""));
+    const Conductor metal = std::get<Conductor>(mix.of->second);
+    const auto amount = [&](const Mix& of, const glm::vec2& uv) {
+        return number_at(of.amount, TexturePoint({0, 0, 0}, {0, 0, 1}, MeshCoordinates{.uv = uv}));
+    };
+    CHECK(amount(mix, {0.25f, 0.75f}) == 1);
+    CHECK(amount(mix, {0.75f, 0.75f}) == 0);
+    CHECK(amount(std::get<Mix>(material(R"(, "metallicFactor": 0.4)")), {0.25f, 0.25f}) == doctest::Approx(0.4));
     const auto roughness = [&](const glm::vec2& uv) {
         return number_at(metal.roughness, TexturePoint({0, 0, 0}, {0, 0, 1}, MeshCoordinates{.uv = uv}));
     };
@@ -225,8 +247,7 @@ TEST_CASE("an image of roughness and metal: green is the roughness, blue how muc
     CHECK(roughness({0.75f, 0.25f}) == doctest::Approx(std::pow(64 / 255.0, 2)).epsilon(1e-3));
     CHECK(least_of(metal.roughness) == 0);
     CHECK(greatest_of(metal.roughness) == 1);
-    CHECK(std::holds_alternative<Coated>(material(R"(, "metallicFactor": 0.4)")));
-    CHECK(std::holds_alternative<Conductor>(material(R"(, "metallicFactor": 0.6)")));
+    CHECK(std::holds_alternative<Coated>(material(R"(, "metallicFactor": 0)")));
 }
 
 TEST_CASE("images of colours beside alpha are as they are stored") {

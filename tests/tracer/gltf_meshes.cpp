@@ -94,9 +94,7 @@ TEST_CASE(
         R"("scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "weights": [0]}], "meshes": [{"weights": [1],
            "primitives": [{)" +
         all_attributes + R"(, "targets": [{}]}]}])"));
-    CHECK(at_rest.not_shown ==
-          std::vector<std::string>{"\"without material\" is a metal of several colours; here it has "
-                                   "their mean"});
+    CHECK(at_rest.not_shown.empty());
 }
 
 TEST_CASE("a skin is bent by its joints") {

@@ -158,6 +158,11 @@ inline void tell(std::vector<float>& told, const tracer::Material& material) {
                 tell(told, m.grain && m.grain->through ? *m.grain->through : glm::vec3(-1));
                 told.push_back(m.grain ? m.grain->aspect : 1);
             }
+            if constexpr (requires { m.amount; }) {
+                tell(told, m.amount);
+                tell(told, m.of->first);
+                tell(told, m.of->second);
+            }
             if constexpr (requires { m.color; }) tell(told, m.color);
             if constexpr (requires { m.light; }) {
                 tell(told, m.light);
@@ -168,6 +173,7 @@ inline void tell(std::vector<float>& told, const tracer::Material& material) {
             if constexpr (requires { m.eta; }) {
                 tell(told, m.eta);
                 tell(told, m.k);
+                if (m.reflectance) tell(told, *m.reflectance);
             }
         },
         material);
@@ -282,6 +288,7 @@ inline std::vector<Case> cases_of_materials() {
              bumped(R"("metal": "gold")",
                     {{"eta", index},
                      {"k", index},
+                     {"reflectance", R"("reflectance": [0.1, 0.2, 0.3])"},
                      {"film_ior", R"("metal": "gold", "film_thickness": 300)"},
                      {"grain_along", R"("metal": "gold", "roughness": 0.3)"},
                      {"grain_around", R"("metal": "gold", "roughness": 0.3)"},
@@ -291,6 +298,7 @@ inline std::vector<Case> cases_of_materials() {
         "coated", R"("color": [0.1, 0.2, 0.3])",
         bumped(R"("color": [0.1, 0.2, 0.3])", {{"film_ior", R"("color": [0.1, 0.2, 0.3], "film_thickness": 300)"}}));
     material("glowing", "");
+    material("mix", R"("first": {"diffuse": {"color": [0.1, 0.2, 0.3]}}, "second": {"diffuse": {"color": [1, 1, 1]}})");
     return all;
 }
 

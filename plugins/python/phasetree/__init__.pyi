@@ -2551,12 +2551,13 @@ class materials:
         normal_map: In place of a bump: an image of normals, on a mesh that has texture coordinates. (normal map; default none)
         """
     @staticmethod
-    def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold", "iron", "nickel", "silver", "titanium", "tungsten", "aluminum"] | None = ..., eta: Sequence[float] | np.ndarray | None = ..., k: Sequence[float] | np.ndarray | None = ..., roughness: float | Number | None = ..., grain_along: Sequence[float] | np.ndarray | None = ..., grain_around: Sequence[float] | np.ndarray | None = ..., grain_through: Sequence[float] | np.ndarray | None = ..., grain_aspect: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
-        r"""Metal: one of the measured ones, or with a complex index η + ik of one's own.
+    def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold", "iron", "nickel", "silver", "titanium", "tungsten", "aluminum"] | None = ..., eta: Sequence[float] | np.ndarray | None = ..., k: Sequence[float] | np.ndarray | None = ..., reflectance: Sequence[float] | str | Texture | None = ..., roughness: float | Number | None = ..., grain_along: Sequence[float] | np.ndarray | None = ..., grain_around: Sequence[float] | np.ndarray | None = ..., grain_through: Sequence[float] | np.ndarray | None = ..., grain_aspect: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
+        r"""Metal: one of the measured ones, with a complex index η + ik of one's own, or of a reflectance, which may be a texture.
 
         metal: A measured metal. (`"aluminium"`, `"brass"`, `"chromium"`, `"copper"`, `"gold"`, `"iron"`, `"nickel"`, `"silver"`, `"titanium"`, `"tungsten"`, `"aluminum"`; default none)
-        eta: η for red, green and blue; needed unless a metal is named. ([r, g, b]; positive; default none)
-        k: k for red, green and blue; needed unless a metal is named. ([r, g, b]; zero or more; default none)
+        eta: η for red, green and blue, in place of a measured metal. ([r, g, b]; positive; default none)
+        k: k for red, green and blue; needed with η. ([r, g, b]; zero or more; default none)
+        reflectance: In place of both: the colour of light that falls on it at a right angle and is reflected; more is at others. Such a metal has no film. (colour or texture; default none)
         roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
         grain_along: Brushed metal: the direction of its strokes, in the object's own space, or the scene's, of a mesh; moves within a tree do not turn it. It is projected onto the surface; where the surface is perpendicular to it strokes run any way. The roughness, which must not be 0, is that across them. ([x, y, z], not all zero; default none)
         grain_around: In place of it, of metal that was turned on a lathe: the direction of the axis around which the strokes run. ([x, y, z], not all zero; default none)
@@ -2590,6 +2591,14 @@ class materials:
         color: Reflectance; black without it. (colour or texture; default none)
         spectrum: How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the light's own colour only the brightness counts then. Without "spectral" it is the colour of that spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
+        """
+    @staticmethod
+    def mix(first: Material, second: Material, amount: float | Number | None = ...) -> Material:
+        r"""One of two materials at each place: iron and rust, paint and the metal under it. Neither is clear or glowing.
+
+        first: The one where the amount is 0. (opaque material)
+        second: The one where the amount is 1. (opaque material)
+        amount: How much of the second; between 0 and 1 both are there, as finely mixed as can be. (number or field; at least 0 and at most 1; default 0.5)
         """
 
 def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused_silica", "sapphire", "sf11", "water"] | None = ..., abbe_number: float | None = ..., absorption: Sequence[float] | np.ndarray | None = ..., absorption_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., emission: Sequence[float] | np.ndarray | None = ..., emission_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
@@ -2629,12 +2638,13 @@ def diffuse(color: Sequence[float] | str | Texture, roughness: float | Number | 
     normal_map: In place of a bump: an image of normals, on a mesh that has texture coordinates. (normal map; default none)
     """
 
-def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold", "iron", "nickel", "silver", "titanium", "tungsten", "aluminum"] | None = ..., eta: Sequence[float] | np.ndarray | None = ..., k: Sequence[float] | np.ndarray | None = ..., roughness: float | Number | None = ..., grain_along: Sequence[float] | np.ndarray | None = ..., grain_around: Sequence[float] | np.ndarray | None = ..., grain_through: Sequence[float] | np.ndarray | None = ..., grain_aspect: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
-    r"""Metal: one of the measured ones, or with a complex index η + ik of one's own.
+def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold", "iron", "nickel", "silver", "titanium", "tungsten", "aluminum"] | None = ..., eta: Sequence[float] | np.ndarray | None = ..., k: Sequence[float] | np.ndarray | None = ..., reflectance: Sequence[float] | str | Texture | None = ..., roughness: float | Number | None = ..., grain_along: Sequence[float] | np.ndarray | None = ..., grain_around: Sequence[float] | np.ndarray | None = ..., grain_through: Sequence[float] | np.ndarray | None = ..., grain_aspect: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
+    r"""Metal: one of the measured ones, with a complex index η + ik of one's own, or of a reflectance, which may be a texture.
 
     metal: A measured metal. (`"aluminium"`, `"brass"`, `"chromium"`, `"copper"`, `"gold"`, `"iron"`, `"nickel"`, `"silver"`, `"titanium"`, `"tungsten"`, `"aluminum"`; default none)
-    eta: η for red, green and blue; needed unless a metal is named. ([r, g, b]; positive; default none)
-    k: k for red, green and blue; needed unless a metal is named. ([r, g, b]; zero or more; default none)
+    eta: η for red, green and blue, in place of a measured metal. ([r, g, b]; positive; default none)
+    k: k for red, green and blue; needed with η. ([r, g, b]; zero or more; default none)
+    reflectance: In place of both: the colour of light that falls on it at a right angle and is reflected; more is at others. Such a metal has no film. (colour or texture; default none)
     roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
     grain_along: Brushed metal: the direction of its strokes, in the object's own space, or the scene's, of a mesh; moves within a tree do not turn it. It is projected onto the surface; where the surface is perpendicular to it strokes run any way. The roughness, which must not be 0, is that across them. ([x, y, z], not all zero; default none)
     grain_around: In place of it, of metal that was turned on a lathe: the direction of the axis around which the strokes run. ([x, y, z], not all zero; default none)
@@ -2668,6 +2678,14 @@ def glowing(light: Sequence[float] | str | Texture | None = ..., radiance: float
     color: Reflectance; black without it. (colour or texture; default none)
     spectrum: How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the light's own colour only the brightness counts then. Without "spectral" it is the colour of that spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
     group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
+    """
+
+def mix(first: Material, second: Material, amount: float | Number | None = ...) -> Material:
+    r"""One of two materials at each place: iron and rust, paint and the metal under it. Neither is clear or glowing.
+
+    first: The one where the amount is 0. (opaque material)
+    second: The one where the amount is 1. (opaque material)
+    amount: How much of the second; between 0 and 1 both are there, as finely mixed as can be. (number or field; at least 0 and at most 1; default 0.5)
     """
 
 class textures:

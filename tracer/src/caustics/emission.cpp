@@ -28,7 +28,7 @@ constexpr double even_part = 0.1;
 // Whether photons go on where they meet it.
 bool sends_light_on(const Material& material) {
     if (const Clear* clear = std::get_if<Clear>(&material)) return clear->ior != 1.0f;
-    return std::holds_alternative<Conductor>(material);
+    return has_metal(material);
 }
 
 glm::vec3 position_of(const AnyPointLight& any) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "shading/bsdf/coating_albedo.hpp"
+#include "shading/fresnel.hpp"
 
 namespace phasetree::tracer::gltf {
 
@@ -52,12 +53,10 @@ constexpr std::array<std::string_view, 4> read_extensions{"KHR_materials_transmi
 // What shines less than this is shown as what it is made of.
 constexpr float faintest_radiance = 0.01f;
 
-}  // namespace
+// What is a metal to this part everywhere is one.
+constexpr float all_but = 0.99f;
 
-Conductor metal_of(const glm::vec3& reflectance) {
-    const glm::vec3 r = glm::min(reflectance, glm::vec3(0.9999f));
-    return {.eta = glm::vec3(1), .k = 2.0f * glm::sqrt(r / (1.0f - r))};
-}
+}  // namespace
 
 // What a material's maker knows while it is at work.
 class Materials::Maker {
@@ -79,8 +78,13 @@ class Materials::Maker {
         read_opacity(pbr);
         read_roughness(pbr);
         const std::optional<NormalMap> normals = normal_map();
-        if (!shines(normals.has_value()))
-            made_.material = metallic_ >= 0.5f ? Material(metal(by_vertices, normals)) : Material(coated(normals));
+        if (shines(normals.has_value())) return;
+        if (least_of(metallic_) > all_but)
+            made_.material = metal(normals);
+        else if (greatest_of(metallic_) < 1 - all_but)
+            made_.material = coated(normals);
+        else
+            made_.material = Mix{std::make_shared<const Mixture>(Mixture{coated(normals), metal(normals)}), metallic_};
     }
 
   private:
@@ -137,12 +141,11 @@ class Materials::Maker {
     void read_color(const Item& pbr, bool by_vertices) {
         color_.by_vertices = by_vertices;
         if (const auto factor = pbr.numbers("baseColorFactor", 4))
-            mean_color_ = color_.factor = fraction({(*factor)[0], (*factor)[1], (*factor)[2]});
+            color_.factor = fraction({(*factor)[0], (*factor)[1], (*factor)[2]});
         const auto texture = pbr.item("baseColorTexture");
         if (const auto read = image(texture, ImageMeaning::colors)) {
             color_.image = read->image;
-            color_read_ = *read;
-            mean_color_ *= read->mean;
+            lay(*texture, *read);
         }
     }
     void read_opacity(const Item& pbr) {
@@ -163,21 +166,15 @@ class Materials::Maker {
     }
 
     void read_roughness(const Item& pbr) {
-        metallic_ = std::clamp(pbr.number("metallicFactor", 1), 0.0f, 1.0f);
+        const float metallic = std::clamp(pbr.number("metallicFactor", 1), 0.0f, 1.0f);
+        metallic_ = metallic;
         const float roughness = std::clamp(pbr.number("roughnessFactor", 1), 0.0f, 1.0f);
         alpha_ = roughness * roughness;
         const auto texture = pbr.item("metallicRoughnessTexture");
-        const auto read = image(texture, ImageMeaning::numbers);
-        if (read) {
-            if (metallic_ * (read->blue.y - read->blue.x) > 0.5f)
-                lost(metallic_ * read->mean.z >= 0.5f ? "is partly a metal; here all of it is"
-                                                      : "is partly a metal; here none of it is");
-            metallic_ *= read->mean.z;
-        }
-        // Of a metal's colour the mean alone is used.
-        if (color_.image && metallic_ < 0.5f) lay(*pbr.item("baseColorTexture"), color_read_);
-        if (read) {
+        if (const auto read = image(texture, ImageMeaning::numbers)) {
             lay(*texture, *read);
+            metallic_ =
+                MeshImageNumber{.range = {0, metallic}, .image = read->image, .of_image = read->blue, .channel = 2};
             alpha_ = MeshImageNumber{.range = {0, roughness},
                                      .image = read->image,
                                      .of_image = read->green,
@@ -218,31 +215,28 @@ class Materials::Maker {
         return true;
     }
 
-    Conductor metal(bool by_vertices, const std::optional<NormalMap>& normals) {
-        made_.reflectance = mean_color_;
-        Conductor metal = metal_of(mean_color_);
-        metal.roughness = alpha_;
-        metal.perturbation = normals;
-        if (color_.image || by_vertices) lost("is a metal of several colours; here it has their mean");
+    Conductor metal(const std::optional<NormalMap>& normals) const {
+        Conductor metal{
+            .eta = glm::vec3(1), .k = k_of_reflectance(color_.factor), .roughness = alpha_, .perturbation = normals};
+        if (color_.image || color_.by_vertices) metal.reflectance = color_;
         return metal;
     }
 
-    Coated coated(const std::optional<NormalMap>& normals) {
+    Coated coated(const std::optional<NormalMap>& normals) const {
         const auto of_glass = extension("KHR_materials_ior");
         // 0 is glTF's word for a surface whose reflection other extensions say.
         const float wanted = of_glass ? of_glass->number("ior", 1.5f) : 1.5f;
         const float ior = wanted > 0 ? std::clamp(wanted, 1.01f, 4.0f) : 1.5f;
-        color_.internal_reflectance = CoatingAlbedo(ior, 0.0f).at(0.0f).internal().x;
-        return {.color = color_, .ior = ior, .roughness = alpha_, .perturbation = normals};
+        TintedMeshImage base = color_;
+        base.internal_reflectance = CoatingAlbedo(ior, 0.0f).at(0.0f).internal().x;
+        return {.color = base, .ior = ior, .roughness = alpha_, .perturbation = normals};
     }
 
     Images& images_;
     const Item& item_;
     NamedMaterial& made_;
     TintedMeshImage color_;
-    ReadImage color_read_;
-    glm::vec3 mean_color_{1};
-    float metallic_ = 1;
+    Number metallic_ = 1.0f;
     Number alpha_ = 1.0f;  // of GGX
 };
 

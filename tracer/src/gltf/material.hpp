@@ -1,13 +1,11 @@
 // The materials of a glTF file as ours.
 //
-// glTF mixes two surfaces by a number, `metallic`: a diffuse one under a clear coat, and a metal. Here a material is
-// the one or the other: the metal if the mean of `metallic` is at least a half.
+// glTF mixes two surfaces by a number, `metallic`: a diffuse one under a clear coat, and a metal. Where the number is
+// neither 0 nor 1 everywhere, ours is a `mix` of the two by that number.
 //   * The dielectric is a `coated` material, whose coat has the index 1.5, or that of KHR_materials_ior, and whose base
 //     is as bright as makes it look as glTF's colour under the coat (texture/tinted_mesh_image.hpp). α of GGX is the
 //     square of glTF's roughness, as glTF has it, too.
-//   * The metal is a conductor of the complex index 1 + ik, with k² = 4 r / (1 − r) for the reflectance r at normal
-//     incidence, which glTF's colour is (Pharr, Jakob & Humphreys, *Physically Based Rendering*, 4th edition, has this
-//     for conductors of a given reflectance). It has one colour, the mean of its image and of its vertices' colours.
+//   * The metal is a conductor whose reflectance at normal incidence is glTF's colour.
 //   * What emits light is `glowing`, and reflects the rest diffusely, whatever its roughness; but if an image says that
 //     most of it emits none, as of lamps on a machine, it is a surface like others, and dark.
 //   * Where the alpha of its colour counts, meshes have holes, or let light through by the rest (shading/opacity.hpp).
@@ -34,12 +32,8 @@ struct NamedMaterial {
     Material material{};
     std::optional<Opacity> opacity{};          ///< none is opaque everywhere
     std::optional<Coordinates> coordinates{};  ///< there are none without images
-    std::optional<glm::vec3> reflectance{};    ///< of a metal at normal incidence
     std::vector<std::string> not_shown{};      ///< sentences about what is lost
 };
-
-/// A polished metal of that reflectance at normal incidence.
-Conductor metal_of(const glm::vec3& reflectance);
 
 class Materials {
   public:

@@ -60,7 +60,7 @@ class Reader {
                 add(primitive, placed);
             }
         }
-        for (auto& [key, begun] : parts_) finish(key, begun);
+        for (auto& [key, begun] : parts_) finish(begun);
         if (file_.parts.empty())
             throw GltfError(is_clear_.empty() || has_empty_
                                 ? "it has no triangles in its scene"
@@ -80,7 +80,6 @@ class Reader {
     struct PartBeingRead {
         Part part{};
         Coordinates coordinates{};
-        std::optional<glm::vec3> reflectance{};  // of a metal
         bool has_images = false;
         bool lacks_texture = false;   // whether some of it has no texture coordinates
         bool lacks_tangents = false;  // … or no tangents, or such as do not belong to the coordinates
@@ -159,14 +158,13 @@ class Reader {
                                 .material = std::move(made.material),
                                 .opacity = std::move(made.opacity)},
                        .coordinates = made.coordinates.value_or(Coordinates()),
-                       .reflectance = made.reflectance,
                        .has_images = made.coordinates.has_value(),
                        // The file's tangents are those of its own coordinates, and only a map of normals needs them.
                        .lacks_tangents = !has_map || made.coordinates != Coordinates()};
         return true;
     }
 
-    void finish(const Key& key, PartBeingRead& begun) {
+    void finish(PartBeingRead& begun) {
         Part& part = begun.part;
         if (part.mesh.triangles.empty()) {
             has_empty_ = true;
@@ -178,15 +176,6 @@ class Reader {
         if (begun.lacks_tangents) part.tangents = {};
         // Where there are images, triangles without coordinates have (0, 0) at all corners, so one pixel of the image.
         if (begun.lacks_texture && !begun.has_images) part.texture = {};
-        if (begun.reflectance && key.by_vertices) {
-            glm::dvec3 sum(0);
-            for (const glm::vec3& c : part.colors.values) sum += glm::dvec3(c);
-            const Conductor tinted =
-                metal_of(*begun.reflectance * glm::vec3(sum / static_cast<double>(part.colors.values.size())));
-            Conductor& metal = std::get<Conductor>(part.material);
-            metal.eta = tinted.eta;
-            metal.k = tinted.k;
-        }
         const std::string name = part.name;
         for (int same = 2; !names_.insert(part.name).second; ++same) part.name = fmt::format("{} {}", name, same);
         file_.parts.push_back(std::move(part));

@@ -73,7 +73,11 @@ Look look_of(const std::string& name, const Material& material, const Bounds& bo
                 show(m.interior, 0.5f * bounds.diagonal(), look);
             } else if constexpr (requires { m.eta; }) {
                 look.kind = Look::metal;
-                look.color = reflectance(m);
+                look.color = m.reflectance ? mean(*m.reflectance, bounds) : reflectance(m);
+            } else if constexpr (requires { m.amount; }) {
+                // Pages show one material: the one that there is more of in the middle of the object.
+                const bool is_second = number_at(m.amount, TexturePoint(bounds.centre())) >= 0.5f;
+                look = look_of(name, is_second ? m.of->second : m.of->first, bounds);
             } else if constexpr (requires { m.light; }) {
                 show_light(m.radiance * light_of(mean(m.light, bounds), m.spectrum, nullptr), look);
             } else {

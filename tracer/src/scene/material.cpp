@@ -2,6 +2,7 @@
 
 #include <glm/geometric.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "phasetree/io/read_kind.hpp"
 #include "scene/material_kinds.hpp"
@@ -88,17 +89,38 @@ Clear ClearParameters::made() const {
 }
 
 Conductor ConductorParameters::made() const {
-    if (metal && (eta || k))
+    if (metal && (eta || k || reflectance))
         throw ParameterError("metal", "\"metal\" names \"eta\" and \"k\"; give either the one or the others",
                              ParameterError::Place::key);
     if (metal) {
         const Metal found = find_metal(*metal).value();
         return {found.eta, found.k, roughness, film(), found.spectrum, perturbation(), grain(roughness)};
     }
-    if (!eta && !k) throw std::invalid_argument("the conductor material needs a \"metal\", or \"eta\" and \"k\"");
+    if (reflectance) {
+        if (eta || k)
+            throw ParameterError("reflectance", "\"reflectance\" stands in place of \"eta\" and \"k\"; give either",
+                                 ParameterError::Place::key);
+        if (film_thickness)
+            throw ParameterError("film_thickness",
+                                 "a metal of a \"reflectance\" has no film; give it \"eta\" and \"k\"",
+                                 ParameterError::Place::key);
+        Conductor coloured{.roughness = roughness, .perturbation = perturbation(), .grain = grain(roughness)};
+        coloured.reflectance = reflectance;
+        return coloured;
+    }
+    if (!eta && !k)
+        throw std::invalid_argument(
+            "the conductor material needs a \"metal\", \"eta\" and \"k\", or a \"reflectance\"");
     if (!eta) throw ParameterError("eta", "is missing");
     if (!k) throw ParameterError("k", "is missing");
     return {*eta, *k, roughness, film(), {}, perturbation(), grain(roughness)};
+}
+
+Mix MixParameters::made() const {
+    for (const auto& [key, material] : {std::pair("first", &first), {"second", &second}})
+        if (std::holds_alternative<Glowing>(*material))
+            throw ParameterError(key, "what is mixed cannot glow: a light is found by where it is");
+    return {std::make_shared<const Mixture>(Mixture{first, second}), amount};
 }
 
 Material read_material(const Document& document, Value value) {

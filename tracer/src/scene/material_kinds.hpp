@@ -218,21 +218,26 @@ struct GrainParameters {
 
 struct ConductorParameters : FilmParameters, PerturbationParameters, GrainParameters {
     static constexpr KindInfo info{"conductor",
-                                   "Metal: one of the measured ones, or with a complex index η + ik of one's own."};
+                                   "Metal: one of the measured ones, with a complex index η + ik of one's own, or of a "
+                                   "reflectance, which may be a texture."};
 
     std::optional<std::string> metal{};
     std::optional<glm::vec3> eta{};
     std::optional<glm::vec3> k{};
+    std::optional<Texture> reflectance{};
     Number roughness = 0.0f;
 
     template <class V>
     static void parameters(V&& v) {
         using P = ConductorParameters;
         v(&P::metal, ChoiceParameter{{"metal", "", "A measured metal.", limits::any, true}, names_of_metals});
-        v(&P::eta, RgbParameter{{"eta", "", "η for red, green and blue; needed unless a metal is named.",
+        v(&P::eta, RgbParameter{{"eta", "", "η for red, green and blue, in place of a measured metal.",
                                  limits::positive, true}});
-        v(&P::k, RgbParameter{{"k", "", "k for red, green and blue; needed unless a metal is named.",
-                               limits::non_negative, true}});
+        v(&P::k, RgbParameter{{"k", "", "k for red, green and blue; needed with η.", limits::non_negative, true}});
+        v(&P::reflectance, Parameter{"reflectance", "",
+                                     "In place of both: the colour of light that falls on it at a right angle and is "
+                                     "reflected; more is at others. Such a metal has no film.",
+                                     limits::any, true});
         v(&P::roughness, roughness_parameter);
         grain_parameters<P>(v);
         film_parameters<P>(v);
@@ -284,8 +289,29 @@ struct GlowingParameters {
     Glowing made() const { return {light, radiance, color, spectrum, checked_group(group)}; }
 };
 
-using MaterialKinds =
-    TypeList<ClearParameters, DiffuseParameters, ConductorParameters, CoatedParameters, GlowingParameters>;
+struct MixParameters {
+    static constexpr KindInfo info{"mix",
+                                   "One of two materials at each place: iron and rust, paint and the metal under it. "
+                                   "Neither is clear or glowing."};
+
+    Material first{};
+    Material second{};
+    Number amount = 0.5f;
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = MixParameters;
+        v(&P::first, Parameter{"first", "", "The one where the amount is 0."});
+        v(&P::second, Parameter{"second", "", "The one where the amount is 1."});
+        v(&P::amount,
+          Parameter{"amount", "", "How much of the second; between 0 and 1 both are there, as finely mixed as can be.",
+                    limits::fraction, true});
+    }
+    Mix made() const;
+};
+
+using MaterialKinds = TypeList<ClearParameters, DiffuseParameters, ConductorParameters, CoatedParameters,
+                               GlowingParameters, MixParameters>;
 
 // Who adds a material and forgets the list is told here.
 template <class... Kinds, class... Materials>

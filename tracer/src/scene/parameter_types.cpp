@@ -207,8 +207,9 @@ using MaterialType = ParameterType<tracer::Material, Parameter>;
 tracer::Material MaterialType::read(const Document& document, Value value, std::string_view, const Parameter&) {
     tracer::Material material = tracer::read_material(document, value);
     if (is_clear(material))
-        throw document.error(value[0].key_offset(),
-                             "a mesh has no inside, so its material cannot be clear; make it a phase of the tree");
+        throw document.error(
+            value[0].key_offset(),
+            "a mesh and a mixture have no inside, so the material cannot be clear; make it a phase of the tree");
     return material;
 }
 

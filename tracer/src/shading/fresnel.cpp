@@ -41,4 +41,13 @@ glm::vec3 fresnel_conductor(float cos_theta, const glm::vec3& eta, const glm::ve
             fresnel_conductor(cos_theta, eta.z, k.z)};
 }
 
+float k_of_reflectance(float reflectance) {
+    const float r = std::clamp(reflectance, 0.0f, 0.9999f);
+    return 2.0f * std::sqrt(r / (1.0f - r));
+}
+
+glm::vec3 k_of_reflectance(const glm::vec3& r) {
+    return {k_of_reflectance(r.x), k_of_reflectance(r.y), k_of_reflectance(r.z)};
+}
+
 }  // namespace phasetree::tracer

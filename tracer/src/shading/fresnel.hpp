@@ -25,4 +25,9 @@ DielectricFresnel fresnel_dielectric(float cos_theta, float eta);
 float fresnel_conductor(float cos_theta, float eta, float k);
 glm::vec3 fresnel_conductor(float cos_theta, const glm::vec3& eta, const glm::vec3& k);
 
+/// k of the index 1 + ik, which reflects this part of the light at normal incidence: k² = 4 r / (1 − r). What reflects
+/// all of it has no such index, and is taken to reflect 0.9999.
+float k_of_reflectance(float reflectance);
+glm::vec3 k_of_reflectance(const glm::vec3& reflectance);
+
 }  // namespace phasetree::tracer

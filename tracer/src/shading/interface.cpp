@@ -1,7 +1,10 @@
 #include "shading/interface.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <stdexcept>
+
+#include "sampling/hash.hpp"
 
 namespace phasetree::tracer {
 
@@ -45,9 +48,14 @@ Interface::Optics optics_of(const Clear& from, const Clear& to, SharedSurfaces& 
 }
 
 Interface::Optics optics_of(const Clear& from, const Conductor& to, SharedSurfaces& shared) {
-    return Interface::MetalOptics{shared.conductor(from.ior, to.eta, to.k, rough_part(range_of(to.roughness)),
-                                                   film_of(to.film), to.spectrum, to.grain ? to.grain->aspect : 1.0f),
-                                  to.roughness, thickness_of(to.film), to.grain};
+    const auto roughness = rough_part(range_of(to.roughness));
+    const float aspect = to.grain ? to.grain->aspect : 1.0f;
+    if (to.reflectance)
+        return Interface::MetalOptics{shared.metal_of_reflectance(from.ior, roughness, aspect), to.roughness, 0.0f,
+                                      to.grain, std::make_shared<const Texture>(*to.reflectance)};
+    return Interface::MetalOptics{
+        shared.conductor(from.ior, to.eta, to.k, roughness, film_of(to.film), to.spectrum, aspect), to.roughness,
+        thickness_of(to.film), to.grain};
 }
 
 Interface::Optics optics_of(const Clear&, const Diffuse& to, SharedSurfaces&) {
@@ -70,9 +78,23 @@ Interface::Optics optics_of(const Clear& from, const Glowing& to, SharedSurfaces
                                     to.radiance * from.ior * from.ior, to.group_number};
 }
 
+Interface::Optics optics_of(const Clear& from, const Mix& to, SharedSurfaces& shared) {
+    const auto seen_from = [&](const Material& material) {
+        return std::make_shared<const Interface>(Interface::between(from, material, shared));
+    };
+    return Interface::MixedOptics{seen_from(to.of->first), seen_from(to.of->second), to.amount};
+}
+
 Bsdf dispersive_bsdf(const Interface::ClearOptics::Dispersive& sides, float hero) {
     const auto index = [&](const std::optional<Dispersion>& side, float ior) { return side ? side->index(hero) : ior; };
     return SmoothDielectricBsdf(index(sides.from, sides.from_ior), index(sides.to, sides.to_ior));
+}
+
+// The first of a mixture's two is there where this number is not less than the amount of the second. A mixture within a
+// mixture is of the next level, and has a number of its own.
+float threshold_at(const TexturePoint& p, std::uint32_t level) {
+    const auto bits = [](float f) { return std::bit_cast<std::uint32_t>(f); };
+    return hash_to_unit(hash(bits(p.position.x), bits(p.position.y), bits(p.position.z), p.copy, level));
 }
 
 // bsdf_of() gives the BSDF of each kind of optics at a place, for light of wavelengths or, without any, of colours.
@@ -88,10 +110,11 @@ Bsdf bsdf_of(const Interface::ClearOptics& optics, const TexturePoint& p, const 
 }
 
 Bsdf bsdf_of(const Interface::MetalOptics& optics, const TexturePoint& p, const Wavelengths* wavelengths) {
-    const float thickness = number_at(optics.thickness, p);
+    ConductorSurface::Place place{number_at(optics.thickness, p), wavelengths};
+    if (optics.reflectance) place.reflectance = color_at(*optics.reflectance, p, wavelengths);
     const float roughness = number_at(optics.roughness, p);
-    if (is_smooth(roughness)) return SmoothConductorBsdf(*optics.surface, thickness, wavelengths);
-    return RoughConductorBsdf(*optics.surface, std::min(roughness, 1.0f), thickness, wavelengths);
+    if (is_smooth(roughness)) return SmoothConductorBsdf(*optics.surface, place);
+    return RoughConductorBsdf(*optics.surface, std::min(roughness, 1.0f), place);
 }
 
 Bsdf bsdf_of(const Interface::DiffuseOptics& optics, const TexturePoint& p, const Wavelengths* wavelengths) {
@@ -113,6 +136,14 @@ Bsdf bsdf_of(const Interface::GlowingOptics& optics, const TexturePoint& p, cons
 }
 
 }  // namespace
+
+const Interface& Interface::chosen_at(const TexturePoint& point) const {
+    const Interface* chosen = this;
+    for (std::uint32_t level = 0; const auto* mixed = std::get_if<MixedOptics>(&chosen->optics_); ++level)
+        chosen =
+            threshold_at(point, level) < number_at(mixed->amount, point) ? mixed->second.get() : mixed->first.get();
+    return *chosen;
+}
 
 Interface Interface::between(const Material& from, const Material& to, SharedSurfaces& shared) {
     const Clear* clear = std::get_if<Clear>(&from);
@@ -149,7 +180,14 @@ std::optional<Interface::Emitted> Interface::emitted(const TexturePoint& point, 
 Bsdf Interface::at(const TexturePoint& point, const Wavelengths* wavelengths) const& {
     if (wavelengths && disperses())
         return dispersive_bsdf(*std::get<ClearOptics>(optics_).dispersive, wavelengths->hero());
-    return std::visit([&](const auto& optics) { return bsdf_of(optics, point, wavelengths); }, optics_);
+    return std::visit(
+        [&]<class Kind>(const Kind& optics) -> Bsdf {
+            if constexpr (std::is_same_v<Kind, MixedOptics>)
+                return chosen_at(point).at(point, wavelengths);
+            else
+                return bsdf_of(optics, point, wavelengths);
+        },
+        optics_);
 }
 
 InterfaceTable::InterfaceTable(std::span<const Material> materials, SharedSurfaces& shared) : count_(materials.size()) {

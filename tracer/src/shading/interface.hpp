@@ -3,6 +3,7 @@
 //   clear | clear     refraction and reflection with η_to/η_from, without any gap between the two
 //   clear | opaque    the opaque one's surface, seen through the clear one's index: metal and varnish reflect less in
 //                     water than in air
+//   clear | mixture   that of one of the two materials of the mixture, which is chosen for each place
 //   opaque | any      black: light does not travel in opaque materials, so no path comes from one
 //
 // An interface of two clear materials has one roughness, the greater of the two: a ground surface stays ground where
@@ -28,6 +29,11 @@ class Interface {
   public:
     /// `from` is the material the ray is in, `to` the one it meets. What surfaces share is made only once.
     static Interface between(const Material& from, const Material& to, SharedSurfaces& shared);
+
+    /// That of a mixture's two materials which is at a place; itself if it is of no mixture. Between 0 and 1 of the
+    /// second a number decides that is hashed from the place, so it is the same for all who ask for the place.
+    /// A surface has the optics that are chosen where it is met, because normals and grain are those of one of the two.
+    const Interface& chosen_at(const TexturePoint& point) const;
 
     /// The BSDF at a place, which is in the space textures are defined in, for light of these wavelengths or, without
     /// any, for red, green and blue. Where the interface disperses it refracts light of wavelengths as the hero, and
@@ -67,6 +73,7 @@ class Interface {
         Number roughness;
         Number thickness;
         std::optional<Grain> grain;
+        std::shared_ptr<const Texture> reflectance{};  ///< of a metal that has one in place of an index
     };
     struct DiffuseOptics {
         std::shared_ptr<const Texture> color;
@@ -84,7 +91,11 @@ class Interface {
         float radiance;  ///< where `light` is 1, in the index of the side it is seen from
         std::uint32_t group;
     };
-    using Optics = std::variant<ClearOptics, MetalOptics, DiffuseOptics, CoatedOptics, GlowingOptics>;
+    struct MixedOptics {
+        std::shared_ptr<const Interface> first, second;
+        Number amount;  ///< of the second
+    };
+    using Optics = std::variant<ClearOptics, MetalOptics, DiffuseOptics, CoatedOptics, GlowingOptics, MixedOptics>;
 
   private:
     explicit Interface(Optics optics, std::optional<NormalPerturbation> perturbation = std::nullopt)

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -59,7 +60,8 @@ struct Conductor {
     std::optional<SurfaceFilm> film{};
     std::span<const MetalPoint> spectrum{};  ///< of a measured one, for light of wavelengths; it stays where it is
     std::optional<NormalPerturbation> perturbation{};
-    std::optional<Grain> grain{};  ///< then `roughness` is that across it
+    std::optional<Grain> grain{};          ///< then `roughness` is that across it
+    std::optional<Texture> reflectance{};  ///< at normal incidence, in place of the index; then there is no film
 };
 
 /// A diffuse base under a clear coat: varnished or glazed.
@@ -84,8 +86,21 @@ struct Glowing {
     std::uint32_t group_number = 0;  ///< in Lights::groups()
 };
 
+struct Mixture;
+
+/// One of two materials at each place, neither clear nor glowing: paint and the metal under it, iron and rust. Where
+/// `amount` is between 0 and 1 both are there, as finely mixed as places can be told apart.
+struct Mix {
+    std::shared_ptr<const Mixture> of{};
+    Number amount = 0.5f;  ///< how much of the second
+};
+
 /// Every kind of material.
-using Material = std::variant<Clear, Diffuse, Conductor, Coated, Glowing>;
+using Material = std::variant<Clear, Diffuse, Conductor, Coated, Glowing, Mix>;
+
+struct Mixture {
+    Material first, second;
+};
 
 /// Whether one of its textures, or of its numbers that change from place to place, is of a kind, or has one of the kind
 /// in it.
@@ -94,12 +109,17 @@ bool has_texture(const Material& material) {
     return std::visit(
         [](const auto& kind) {
             bool has = false;
+            if constexpr (requires { kind.amount; })
+                has = has_kind<Wanted>(kind.amount) || has_texture<Wanted>(kind.of->first) ||
+                      has_texture<Wanted>(kind.of->second);
             if constexpr (requires { kind.perturbation; }) {
                 const Bump* bump = kind.perturbation ? std::get_if<Bump>(&*kind.perturbation) : nullptr;
                 has = has || (bump && has_kind<Wanted>(bump->texture));
             }
             if constexpr (requires { kind.light; }) has = has || has_kind<Wanted>(kind.light);
             if constexpr (requires { kind.color; }) has = has || has_kind<Wanted>(kind.color);
+            if constexpr (requires { kind.reflectance; })
+                has = has || (kind.reflectance && has_kind<Wanted>(*kind.reflectance));
             if constexpr (requires { kind.roughness; }) has = has || has_kind<Wanted>(kind.roughness);
             if constexpr (requires { kind.film; }) has = has || (kind.film && has_kind<Wanted>(kind.film->thickness));
             return has;
@@ -107,16 +127,26 @@ bool has_texture(const Material& material) {
         material);
 }
 
-/// Its map of normals, if it has one.
+/// Its map of normals, if it has one; of a mixture that of the first that has one.
 inline const NormalMap* normal_map_of(const Material& material) {
     return std::visit(
         [](const auto& kind) -> const NormalMap* {
-            if constexpr (requires { kind.perturbation; })
+            if constexpr (requires { kind.perturbation; }) {
                 return kind.perturbation ? std::get_if<NormalMap>(&*kind.perturbation) : nullptr;
-            else
+            } else if constexpr (requires { kind.of; }) {
+                const NormalMap* const first = normal_map_of(kind.of->first);
+                return first ? first : normal_map_of(kind.of->second);
+            } else {
                 return nullptr;
+            }
         },
         material);
+}
+
+/// Whether some of it is metal.
+inline bool has_metal(const Material& material) {
+    const Mix* const mix = std::get_if<Mix>(&material);
+    return mix ? has_metal(mix->of->first) || has_metal(mix->of->second) : std::holds_alternative<Conductor>(material);
 }
 
 inline Material vacuum() {

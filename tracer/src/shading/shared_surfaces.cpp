@@ -36,13 +36,24 @@ std::shared_ptr<const ConductorSurface> SharedSurfaces::conductor(float ior, con
                                                                   const std::optional<FilmOfSurface>& film,
                                                                   std::span<const MetalPoint> spectrum, float aspect) {
     return found_or_made(conductors_, Conductor{ior, eta, k, roughness, film, spectrum.data(), aspect}, [&] {
-        std::shared_ptr<const LossTables> losses;
-        if (roughness)
-            losses = found_or_made(metal_losses_, MetalLosses{*roughness, aspect},
-                                   [&] { return ConductorSurface::losses_of(*roughness, aspect); });
         return std::make_shared<const ConductorSurface>(ior, eta, k, roughness, film, spectrum, aspect,
-                                                        std::move(losses));
+                                                        losses(roughness, aspect));
     });
+}
+
+std::shared_ptr<const ConductorSurface> SharedSurfaces::metal_of_reflectance(float ior,
+                                                                             const std::optional<ValueRange>& roughness,
+                                                                             float aspect) {
+    return found_or_made(metals_of_reflectance_, MetalOfReflectance{ior, roughness, aspect}, [&] {
+        return std::make_shared<const ConductorSurface>(
+            ConductorSurface::of_reflectance(ior, roughness, aspect, losses(roughness, aspect)));
+    });
+}
+
+std::shared_ptr<const LossTables> SharedSurfaces::losses(const std::optional<ValueRange>& roughness, float aspect) {
+    if (!roughness) return nullptr;
+    return found_or_made(metal_losses_, MetalLosses{*roughness, aspect},
+                         [&] { return ConductorSurface::losses_of(*roughness, aspect); });
 }
 
 std::shared_ptr<const CoatingAlbedo> SharedSurfaces::coating(float ior_from, float ior_coat,
@@ -60,6 +71,7 @@ void SharedSurfaces::begin_scene() {
     };
     dielectrics_.clear();
     forget_unused(conductors_);
+    forget_unused(metals_of_reflectance_);
     forget_unused(metal_losses_);
     forget_unused(coatings_);
     films_.forget_unused();

@@ -27,6 +27,8 @@ class SharedSurfaces {
                                                       const std::optional<ValueRange>& roughness,
                                                       const std::optional<FilmOfSurface>& film,
                                                       std::span<const MetalPoint> spectrum, float aspect = 1.0f);
+    std::shared_ptr<const ConductorSurface> metal_of_reflectance(float ior, const std::optional<ValueRange>& roughness,
+                                                                 float aspect = 1.0f);
     std::shared_ptr<const CoatingAlbedo> coating(float ior_from, float ior_coat, const ValueRange& roughness,
                                                  const std::optional<FilmOfSurface>& film);
 
@@ -47,6 +49,12 @@ class SharedSurfaces {
         float aspect;
         bool operator==(const Conductor&) const = default;
     };
+    struct MetalOfReflectance {
+        float ior_from;
+        std::optional<ValueRange> roughness;
+        float aspect;
+        bool operator==(const MetalOfReflectance&) const = default;
+    };
     struct Coating {
         float ior_from, ior_coat;
         ValueRange roughness;
@@ -56,6 +64,8 @@ class SharedSurfaces {
     template <class Key, class Surface>
     using Made = std::vector<std::pair<Key, std::shared_ptr<const Surface>>>;
 
+    std::shared_ptr<const LossTables> losses(const std::optional<ValueRange>& roughness, float aspect);
+
     struct MetalLosses {
         ValueRange roughness;
         float aspect;
@@ -64,6 +74,7 @@ class SharedSurfaces {
 
     Made<Dielectric, DielectricSurface> dielectrics_;
     Made<Conductor, ConductorSurface> conductors_;
+    Made<MetalOfReflectance, ConductorSurface> metals_of_reflectance_;
     Made<MetalLosses, LossTables> metal_losses_;
     Made<Coating, CoatingAlbedo> coatings_;
     ThinFilms films_;

@@ -210,6 +210,7 @@ Surface TracedGeometry::surface_of_object(const Ray& ray, const embree::Query& q
                     .entered = c.to,
                     .place = {c.p_in, -normal.unit, std::nullopt}};
     if (is_clear(scene_.materials[c.to.index])) surface.far_side = {c.p_out, c.to};
+    surface.optics = surface.optics.get().chosen_at(surface.place);
     add_bumps_and_grain(surface, ray.direction, AlreadyInScene());
     return surface;
 }
@@ -240,7 +241,7 @@ Surface TracedGeometry::surface_of_mesh(const Ray& ray, const RTCRayHit& hit) co
                     .geometric_normal = flat,
                     .near_side = {origin, ray.phase, ray.in},
                     .far_side = std::nullopt,
-                    .optics = optics,
+                    .optics = optics.chosen_at(place),
                     .hint = {},
                     .object = first_mesh_ + static_cast<std::uint32_t>(index),
                     .entered = std::nullopt,

@@ -50,6 +50,9 @@ auto mean_over_cosine(const Fresnel& fresnel) {
 constexpr float first_nanometre = 380.0f, nanometre_step = 5.0f;
 constexpr int spectrum_nodes = 81;
 
+// Between so many reflectances F̄ is taken to be linear.
+constexpr int reflectance_nodes = 129;
+
 }  // namespace
 
 ConductorSurface::ConductorSurface(float ior, const glm::vec3& eta, const glm::vec3& k,
@@ -73,6 +76,24 @@ ConductorSurface::ConductorSurface(float ior, const glm::vec3& eta, const glm::v
     mean_reflectance_ = mean_over_cosine([&](float mu) { return fresnel_conductor(mu, eta_, k_); });
 }
 
+ConductorSurface ConductorSurface::of_reflectance(float ior, const std::optional<ValueRange>& roughness, float aspect,
+                                                  std::shared_ptr<const LossTables> losses) {
+    ConductorSurface surface(ior, glm::vec3(1.0f), glm::vec3(0.0f), roughness, {}, {}, aspect, std::move(losses));
+    if (!roughness) return surface;
+    for (int i = 0; i < reflectance_nodes; ++i) {
+        const float k = k_of_reflectance(static_cast<float>(i) / (reflectance_nodes - 1));
+        surface.mean_reflectances_.push_back(
+            mean_over_cosine([&](float mu) { return fresnel_conductor(mu, 1.0f / ior, k / ior); }));
+    }
+    return surface;
+}
+
+float ConductorSurface::mean_of_reflectance(float reflectance) const {
+    const float position = std::clamp(reflectance, 0.0f, 1.0f) * (reflectance_nodes - 1);
+    const auto below = std::min(static_cast<std::size_t>(position), std::size_t{reflectance_nodes - 2});
+    return glm::mix(mean_reflectances_[below], mean_reflectances_[below + 1], position - static_cast<float>(below));
+}
+
 std::shared_ptr<const LossTables> ConductorSurface::losses_of(const ValueRange& roughness, float aspect) {
     return std::make_shared<const LossTables>(
         roughness, [&](float alpha) { return loss_table_of(microfacets(alpha, aspect), aspect != 1.0f); });
@@ -92,7 +113,9 @@ ConductorSurface::AtWavelength ConductorSurface::at(float nanometres) const {
             glm::mix(a.mean_reflectance, b.mean_reflectance, part)};
 }
 
-glm::vec3 ConductorSurface::fresnel(float cos_theta, float thickness, const Wavelengths* wavelengths) const {
+glm::vec3 ConductorSurface::fresnel(float cos_theta, const Place& place) const {
+    const auto& [thickness, wavelengths, reflectance] = place;
+    if (reflectance) return fresnel_conductor(cos_theta, glm::vec3(1.0f / ior_), k_of_reflectance(*reflectance) / ior_);
     if (!has_spectrum_for(wavelengths))
         return for_light(film_ ? film_->reflectance(cos_theta, thickness) : fresnel_conductor(cos_theta, eta_, k_),
                          wavelengths);
@@ -106,11 +129,13 @@ glm::vec3 ConductorSurface::fresnel(float cos_theta, float thickness, const Wave
                  : fresnel_conductor(cos_theta, eta, k);
 }
 
-ConductorSurface::Multiple ConductorSurface::multiple(float roughness, float thickness,
-                                                      const Wavelengths* wavelengths) const {
+ConductorSurface::Multiple ConductorSurface::multiple(float roughness, const Place& place) const {
+    const auto& [thickness, wavelengths, reflectance] = place;
     const LossTables::At losses = losses_->at(roughness);
     glm::vec3 f = for_light(film_ ? film_->average(thickness) : mean_reflectance_, wavelengths);
-    if (!film_ && has_spectrum_for(wavelengths))
+    if (reflectance)
+        for (int i = 0; i < 3; ++i) f[i] = mean_of_reflectance((*reflectance)[i]);
+    else if (!film_ && has_spectrum_for(wavelengths))
         for (int i = 0; i < 3; ++i) f[i] = at(wavelengths->nanometres[i]).mean_reflectance;
     const float q = gets_away(roughness * std::sqrt(aspect_));
     return {losses, f * f * q / (1.0f - f * (1.0f - q))};

@@ -12,7 +12,12 @@
 // At wavelengths the index is that of the metal's spectrum, which is kept every few nanometres. What a film on a rough
 // metal makes of F̄ is taken from its colours there.
 //
-// Reference: Kulla & Conty 2017 (lost_energy.hpp), and for the square of F̄ Hill, A Multi-Faceted Exploration, 2018.
+// A metal may have a reflectance at normal incidence in place of an index, another at each place: at each wavelength
+// its index is 1 + ik then, with k² = 4 r / (1 − r), which has that reflectance against a vacuum. F̄ comes from a table
+// over r.
+//
+// Reference: Pharr, Jakob & Humphreys, Physically Based Rendering, 4th edition, 11.4 (k from a reflectance);
+// Kulla & Conty 2017 (lost_energy.hpp), and for the square of F̄ Hill, A Multi-Faceted Exploration, 2018.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -42,6 +47,10 @@ class ConductorSurface {
                      std::span<const MetalPoint> spectrum = {}, float aspect = 1.0f,
                      std::shared_ptr<const LossTables> losses = {});
 
+    /// A metal that has a reflectance at each place; without a film.
+    static ConductorSurface of_reflectance(float ior, const std::optional<ValueRange>& roughness = {},
+                                           float aspect = 1.0f, std::shared_ptr<const LossTables> losses = {});
+
     /// What a metal's microfacets lose, which surfaces of different metals may share; a surface that is given none
     /// makes its own.
     static std::shared_ptr<const LossTables> losses_of(const ValueRange& roughness, float aspect);
@@ -49,8 +58,15 @@ class ConductorSurface {
     /// Its microfacets at a place of that roughness; local x is along the grain.
     Ggx microfacets(float roughness) const { return microfacets(roughness, aspect_); }
 
+    /// What a metal is like at a place. `reflectance` is that of a metal that has one there, for the wavelengths if
+    /// there are some.
+    struct Place {
+        float thickness = 0.0f;  ///< of the film, in nanometres
+        const Wavelengths* wavelengths = nullptr;
+        std::optional<glm::vec3> reflectance{};
+    };
     /// For light of wavelengths, or for red, green and blue.
-    glm::vec3 fresnel(float cos_theta, float thickness, const Wavelengths* wavelengths = nullptr) const;
+    glm::vec3 fresnel(float cos_theta, const Place& place) const;
 
     /// Of the lobe after several scatterings at a place of that roughness: what single scattering loses, and the part
     /// of it that this metal gives back.
@@ -58,7 +74,7 @@ class ConductorSurface {
         LossTables::At losses;
         glm::vec3 reflected;
     };
-    Multiple multiple(float roughness, float thickness, const Wavelengths* wavelengths = nullptr) const;
+    Multiple multiple(float roughness, const Place& place) const;
 
   private:
     // The index relative to the medium in front, and F̄ without a film, at a wavelength.
@@ -69,13 +85,16 @@ class ConductorSurface {
     bool has_spectrum_for(const Wavelengths* wavelengths) const { return wavelengths && wavelengths->is_spectral; }
 
     static Ggx microfacets(float roughness, float aspect);
+    // F̄ of a metal of that reflectance.
+    float mean_of_reflectance(float reflectance) const;
 
     float ior_, aspect_;
     glm::vec3 eta_, k_;  ///< relative to the medium in front
     std::optional<ThinFilm> film_;
     std::shared_ptr<const LossTables> losses_;
-    glm::vec3 mean_reflectance_{0.0f};    ///< F̄ without a film
-    std::vector<AtWavelength> spectrum_;  ///< every few nanometres
+    glm::vec3 mean_reflectance_{0.0f};      ///< F̄ without a film
+    std::vector<AtWavelength> spectrum_;    ///< every few nanometres
+    std::vector<float> mean_reflectances_;  ///< F̄ over the reflectance from 0 to 1, of a rough metal that has one
 };
 
 }  // namespace phasetree::tracer

@@ -9,13 +9,12 @@
 
 namespace phasetree::tracer {
 
-RoughConductorBsdf::RoughConductorBsdf(const ConductorSurface& surface, float roughness, float thickness,
-                                       const Wavelengths* wavelengths)
+RoughConductorBsdf::RoughConductorBsdf(const ConductorSurface& surface, float roughness,
+                                       const ConductorSurface::Place& place)
     : surface_(&surface),
       ggx_(surface.microfacets(roughness)),
-      thickness_(thickness),
-      wavelengths_(wavelengths),
-      multiple_(surface.multiple(roughness, thickness, wavelengths)) {}
+      place_(place),
+      multiple_(surface.multiple(roughness, place)) {}
 
 RoughConductorBsdf::Scattered RoughConductorBsdf::scattered(const glm::vec3& wo, const glm::vec3& wi,
                                                             const glm::vec3& m) const {
@@ -24,7 +23,7 @@ RoughConductorBsdf::Scattered RoughConductorBsdf::scattered(const glm::vec3& wo,
     const float average = std::max(multiple_.losses.average().x, 1e-30f);
     const float once = 0.25f * ggx_.distribution(m) * ggx_.reflection_visibility(wo, wi) * wi.z;
     const float again = lost * multiple_.losses.at(wi).x / average * cosine_hemisphere_pdf(wi.z);
-    return {surface_->fresnel(cos_o, thickness_, wavelengths_) * once + multiple_.reflected * again,
+    return {surface_->fresnel(cos_o, place_) * once + multiple_.reflected * again,
             (1.0f - lost) * ggx_.visible_normal_pdf(wo, m) / (4.0f * cos_o) + lost * multiple_.losses.pdf(wi.z)};
 }
 

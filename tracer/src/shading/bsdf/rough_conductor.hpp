@@ -19,9 +19,8 @@ namespace phasetree::tracer {
 class RoughConductorBsdf {
   public:
     /// The surface is shared by all points of an interface and must outlive the BSDF; `roughness` is within its range,
-    /// and so is the thickness of its film in nanometres.
-    RoughConductorBsdf(const ConductorSurface& surface, float roughness, float thickness = 0.0f,
-                       const Wavelengths* wavelengths = nullptr);
+    /// and so is the thickness of its film.
+    RoughConductorBsdf(const ConductorSurface& surface, float roughness, const ConductorSurface::Place& place = {});
 
     std::optional<BsdfSample> sample(const glm::vec3& wo, float u_lobe, const glm::vec2& u) const;
     glm::vec3 evaluate(const glm::vec3& wo, const glm::vec3& wi) const;
@@ -40,8 +39,7 @@ class RoughConductorBsdf {
 
     const ConductorSurface* surface_;
     Ggx ggx_;
-    float thickness_;
-    const Wavelengths* wavelengths_;
+    ConductorSurface::Place place_;
     ConductorSurface::Multiple multiple_;
 };
 

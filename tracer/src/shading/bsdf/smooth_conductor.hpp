@@ -13,15 +13,14 @@ namespace phasetree::tracer {
 
 class SmoothConductorBsdf {
   public:
-    /// The surface is shared by all points of an interface and must outlive the BSDF; the thickness of its film is in
-    /// nanometres, and within the surface's range.
-    explicit SmoothConductorBsdf(const ConductorSurface& surface, float thickness = 0.0f,
-                                 const Wavelengths* wavelengths = nullptr)
-        : surface_(&surface), thickness_(thickness), wavelengths_(wavelengths) {}
+    /// The surface is shared by all points of an interface and must outlive the BSDF; the thickness of its film is
+    /// within the surface's range.
+    explicit SmoothConductorBsdf(const ConductorSurface& surface, const ConductorSurface::Place& place = {})
+        : surface_(&surface), place_(place) {}
 
     std::optional<BsdfSample> sample(const glm::vec3& wo, float /*u_lobe*/, const glm::vec2& /*u*/) const {
         if (!(wo.z > 0.0f)) return std::nullopt;
-        return BsdfSample{{-wo.x, -wo.y, wo.z}, surface_->fresnel(wo.z, thickness_, wavelengths_), 1.0f, true, false};
+        return BsdfSample{{-wo.x, -wo.y, wo.z}, surface_->fresnel(wo.z, place_), 1.0f, true, false};
     }
     glm::vec3 evaluate(const glm::vec3& /*wo*/, const glm::vec3& /*wi*/) const { return glm::vec3{0.0f}; }
     float pdf(const glm::vec3& /*wo*/, const glm::vec3& /*wi*/) const { return 0.0f; }
@@ -30,8 +29,7 @@ class SmoothConductorBsdf {
 
   private:
     const ConductorSurface* surface_;
-    float thickness_;
-    const Wavelengths* wavelengths_;
+    ConductorSurface::Place place_;
 };
 
 }  // namespace phasetree::tracer
